@@ -1,0 +1,29 @@
+"""What is said when input cannot be used, or can be used only with a reservation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from os import PathLike, fspath
+
+
+@dataclass
+class InputError(ValueError):
+    """Input that cannot be used; one line names the file, the place, what is wrong and the remedy.
+
+    Raised where the value enters. `place` is a line, column, face or option ("line 6", "face 12"), empty when the
+    whole file is meant; `remedy` may be empty when there is nothing the user could do differently.
+    """
+
+    file: str | PathLike[str]
+    place: str
+    what: str
+    remedy: str = ""
+
+    def __str__(self) -> str:
+        where = " ".join(part for part in (fspath(self.file), self.place) if part)
+        line = f"{where}: {self.what}" if where else self.what
+        return " ".join((f"{line}; {self.remedy}" if self.remedy else line).split())
+
+
+class InputWarning(UserWarning):
+    """Input that is used although something about it deserves a look; one line, continued afterwards."""

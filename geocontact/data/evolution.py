@@ -1,0 +1,109 @@
+"""Contact area over a motion: what the area analysis returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+MM = 1e3
+MM2 = 1e6
+
+
+@dataclass(frozen=True)
+class SideAreas:
+    """Area [m^2] of one surface over frames and thresholds with what is known of its error.
+
+    lower, upper
+        Certified: the true area of the triangulated surface lies between them.
+    error
+        Estimated error of `area` [m^2].
+    centroid
+        Area centroid in FIXED's frame [m]; NaN where the area is zero.
+    negative
+        Part on the negative side of the splitting plane [m^2].
+    """
+
+    area: Float[np.ndarray, "t k"]
+    lower: Float[np.ndarray, "t k"]
+    upper: Float[np.ndarray, "t k"]
+    error: Float[np.ndarray, "t k"]
+    centroid: Float[np.ndarray, "t k 3"]
+    negative: Float[np.ndarray, "t k"]
+
+
+@dataclass(frozen=True)
+class AreaEvolution:
+    """Contact of two rigid surfaces over a motion, SI units, FIXED's frame.
+
+    Parameters
+    ----------
+    time
+        Time of each frame [s].
+    thresholds
+        Largest signed distance that counts as contact [m].
+    fixed, moving
+        Areas of FIXED within the threshold of MOVING, and the other way round. They differ; always say which.
+    min_distance
+        Smallest distance between the whole surfaces, faces included [m]; negative where they overlap and a closed
+        body gives the sign, zero where they overlap and none does.
+    max_penetration_fixed
+        How deep FIXED's counted faces reach into MOVING [m]; NaN when MOVING is open.
+    signed
+        Which areas are signed: "both", "fixed", "moving" or "none".
+    medial_side
+        +1 or -1: side of the splitting plane that is medial; 0 without a split.
+    undecided
+        Points whose side the winding number could not decide, per frame; they count as outside.
+    """
+
+    time: Float[np.ndarray, " t"]
+    thresholds: tuple[float, ...]
+    fixed: SideAreas
+    moving: SideAreas
+    min_distance: Float[np.ndarray, " t"]
+    max_penetration_fixed: Float[np.ndarray, " t"]
+    signed: str
+    medial_side: int = 0
+    undecided: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))
+
+    @property
+    def medial(self) -> Float[np.ndarray, "t k"]:
+        """Medial part of FIXED's area [m^2]."""
+        return self.fixed.negative if self.medial_side < 0 else self.fixed.area - self.fixed.negative
+
+    @property
+    def lateral(self) -> Float[np.ndarray, "t k"]:
+        """Lateral part of FIXED's area [m^2]; medial and lateral add up to the whole."""
+        return self.fixed.area - self.medial
+
+    def table(self) -> pd.DataFrame:
+        """Frames outer, thresholds inner, lengths in mm and areas in mm^2 as the column names say."""
+        count, inner = self.fixed.area.shape
+
+        def per_frame(values: Float[np.ndarray, " t"]) -> Float[np.ndarray, " r"]:
+            return np.repeat(values, inner)
+
+        columns: dict[str, np.ndarray | list[str]] = {
+            "time [s]": per_frame(self.time),
+            "threshold [mm]": np.tile(np.asarray(self.thresholds) * MM, count),
+            "area_fixed [mm^2]": self.fixed.area.ravel() * MM2,
+            "area_moving [mm^2]": self.moving.area.ravel() * MM2,
+            "min_distance [mm]": per_frame(self.min_distance) * MM,
+            "max_penetration_fixed [mm]": per_frame(self.max_penetration_fixed) * MM,
+        }
+        for axis, name in enumerate("xyz"):
+            columns[f"centroid_{name} [mm]"] = self.fixed.centroid[:, :, axis].ravel() * MM
+        columns["area_fixed_lower [mm^2]"] = self.fixed.lower.ravel() * MM2
+        columns["area_fixed_upper [mm^2]"] = self.fixed.upper.ravel() * MM2
+        columns["signed"] = [self.signed] * (count * inner)
+        if self.medial_side:
+            columns["area_fixed_medial [mm^2]"] = self.medial.ravel() * MM2
+            columns["area_fixed_lateral [mm^2]"] = self.lateral.ravel() * MM2
+        columns["area_fixed_error [mm^2]"] = self.fixed.error.ravel() * MM2
+        columns["area_moving_lower [mm^2]"] = self.moving.lower.ravel() * MM2
+        columns["area_moving_upper [mm^2]"] = self.moving.upper.ravel() * MM2
+        columns["area_moving_error [mm^2]"] = self.moving.error.ravel() * MM2
+        return pd.DataFrame(columns)

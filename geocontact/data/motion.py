@@ -1,0 +1,53 @@
+"""Recorded or prescribed motion of one body in the frame of another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform
+
+
+@dataclass(frozen=True)
+class Signals:
+    """Columns of a table over time, SI units (rad, m, N) unless `units` says otherwise.
+
+    `units[c]` is "" where the file does not tell what column c is in.
+    """
+
+    time: Float[np.ndarray, " t"]
+    values: Float[np.ndarray, "t c"]
+    channels: tuple[str, ...]
+    units: tuple[str, ...]
+
+    def column(self, name: str) -> Float[np.ndarray, " t"]:
+        """Values of one channel; KeyError when there is none of that name."""
+        if name not in self.channels:
+            raise KeyError(name)
+        return np.asarray(self.values[:, self.channels.index(name)])
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Poses of MOVING in the frame of FIXED, one per time.
+
+    Parameters
+    ----------
+    time
+        Time of each frame [s], strictly increasing (normalised cycles keep their own scale; see `time_unit`).
+    poses
+        `X_FM`: maps points given in MOVING's frame into FIXED's frame; translation in m.
+    source
+        Where it came from, for the record ("gait.mot with joint knee_r of knee.osim").
+    time_unit
+        "s", or "%" where the file says that its cycle is normalised.
+    """
+
+    time: Float[np.ndarray, " t"]
+    poses: RigidTransform
+    source: str = ""
+    time_unit: str = "s"
+
+    def __len__(self) -> int:
+        return len(self.time)

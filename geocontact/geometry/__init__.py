@@ -1,0 +1,1 @@
+"""Shapes and how far apart they are; no forces here."""

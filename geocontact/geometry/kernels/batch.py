@@ -1,0 +1,99 @@
+"""Signed distances of many points to one tree, each up to a limit of its own."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.tree import STACK, nearest, side_of
+
+CHUNK = 32  # points that are dismissed together when none of them can be near
+
+
+@kernel
+def chunk_spheres(points, limit):  # type: ignore[no-untyped-def]
+    """Centre, radius and largest limit of every CHUNK consecutive points; shape (ceil(n / CHUNK), 5)."""
+    count = (len(points) + CHUNK - 1) // CHUNK
+    sphere = np.empty((count, 5))
+    for c in range(count):
+        first = c * CHUNK
+        last = min(first + CHUNK, len(points))
+        for k in range(3):
+            sphere[c, k] = 0.5 * (points[first:last, k].min() + points[first:last, k].max())
+        r2 = 0.0
+        for i in range(first, last):
+            d = points[i] - sphere[c, :3]
+            r2 = max(r2, d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
+        sphere[c, 3] = np.sqrt(r2)
+        sphere[c, 4] = limit[first:last].max()
+    return sphere
+
+
+@kernel
+def move(points, rotation, translation):  # type: ignore[no-untyped-def]
+    """R p + t for every point."""
+    out = np.empty_like(points)
+    for i in range(len(points)):
+        for k in range(3):
+            out[i, k] = (
+                rotation[k, 0] * points[i, 0]
+                + rotation[k, 1] * points[i, 1]
+                + rotation[k, 2] * points[i, 2]
+                + translation[k]
+            )
+    return out
+
+
+@kernel
+def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-untyped-def]
+    """Distance, side, slot and closest point of every point.
+
+    Beyond its limit a point has slot -1 and its limit as distance (the true distance is not smaller). side is 1
+    outside, -1 inside, 0 undecided; always 1 when not `signed`. `sphere` (from `chunk_spheres`, in the same frame)
+    lets whole chunks be dismissed.
+    """
+    n = len(points)
+    distance = np.empty(n)
+    side = np.ones(n, np.int8)
+    slot = np.full(n, -1)
+    closest = np.full((n, 3), np.nan)
+    nodes = np.empty(STACK, np.int64)
+    keys = np.empty(STACK)
+    for c in range(len(sphere)):
+        first = c * CHUNK
+        last = min(first + CHUNK, n)
+        x, y, z = sphere[c, 0], sphere[c, 1], sphere[c, 2]
+        reach = sphere[c, 3] + sphere[c, 4]
+        if last - first > 1 and nearest(tree, x, y, z, reach * reach, nodes, keys)[1] < 0:
+            far = _side(tree, x, y, z, signed, nodes, keys)
+            for i in range(first, last):
+                distance[i] = limit[i]
+                side[i] = far
+            continue
+        for i in range(first, last):
+            x, y, z = points[i, 0], points[i, 1], points[i, 2]
+            d2, s = nearest(tree, x, y, z, limit[i] * limit[i], nodes, keys)
+            slot[i] = s
+            if s < 0:
+                distance[i] = limit[i]
+                side[i] = _side(tree, x, y, z, signed, nodes, keys)
+                continue
+            distance[i] = np.sqrt(d2)
+            closest[i, 0], closest[i, 1], closest[i, 2], which = side_of(tree, s, x, y, z)
+            if signed:
+                side[i] = which
+    return distance, side, slot, closest
+
+
+@kernel
+def _side(tree, x, y, z, signed, nodes, keys):  # type: ignore[no-untyped-def]
+    box = tree.box[0]
+    if (
+        not signed
+        or not (box[0] < x < box[3])
+        or not (box[1] < y < box[4])
+        or not (box[2] < z < box[5])
+    ):
+        return 1
+    slot = nearest(tree, x, y, z, np.inf, nodes, keys)[1]
+    return side_of(tree, slot, x, y, z)[3]

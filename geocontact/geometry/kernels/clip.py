@@ -1,0 +1,90 @@
+"""Triangles cut where linear functions change sign: areas, first moments, and the share on one side of a plane."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.geometry.kernels.compile import kernel
+
+
+@kernel
+def fraction_below(f0, f1, f2):  # type: ignore[no-untyped-def]
+    """Share of a triangle's area where the linear function with corner values f is <= 0."""
+    below = (f0 <= 0.0) + (f1 <= 0.0) + (f2 <= 0.0)
+    if below == 0:
+        return 0.0
+    if below == 3:
+        return 1.0
+    if below == 1:
+        if f1 <= 0.0:
+            f0, f1, f2 = f1, f2, f0
+        elif f2 <= 0.0:
+            f0, f1, f2 = f2, f0, f1
+        return (f0 / (f0 - f1)) * (f0 / (f0 - f2))
+    if f1 > 0.0:
+        f0, f1, f2 = f1, f2, f0
+    elif f2 > 0.0:
+        f0, f1, f2 = f2, f0, f1
+    return 1.0 - (f0 / (f0 - f1)) * (f0 / (f0 - f2))
+
+
+@kernel
+def _cut(polygon, count, f, out):  # type: ignore[no-untyped-def]
+    """Part of a convex polygon in barycentric coordinates where b @ f <= 0; returns its corner count."""
+    kept = 0
+    for i in range(count):
+        a = polygon[i]
+        b = polygon[(i + 1) % count]
+        fa = a[0] * f[0] + a[1] * f[1] + a[2] * f[2]
+        fb = b[0] * f[0] + b[1] * f[1] + b[2] * f[2]
+        if fa <= 0.0:
+            out[kept] = a
+            kept += 1
+        if (fa <= 0.0) != (fb <= 0.0):
+            t = fa / (fa - fb)
+            for k in range(3):
+                out[kept, k] = a[k] + t * (b[k] - a[k])
+            kept += 1
+    return kept
+
+
+@kernel
+def _moments(polygon, count, out):  # type: ignore[no-untyped-def]
+    """Share of the triangle's area inside the polygon and the barycentric first moments (3,) of that share."""
+    share = 0.0
+    out[:] = 0.0
+    for i in range(1, count - 1):
+        a, b, c = polygon[0], polygon[i], polygon[i + 1]
+        part = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        share += part
+        for k in range(3):
+            out[k] += part * (a[k] + b[k] + c[k]) / 3.0
+    return share
+
+
+@kernel
+def clipped_parts(corner, value, across, area):  # type: ignore[no-untyped-def]
+    """Area, first moment and area on the negative side of each triangle's part where `value` <= 0.
+
+    corner (k, 3, 3), value (k, 3) linear in each triangle, across (k, 3) signed distance of the corners to a splitting
+    plane, area (k,). Returns part (k,), moment (k, 3) = integral of position, negative (k,).
+    """
+    k = len(corner)
+    part = np.zeros(k)
+    negative = np.zeros(k)
+    moment = np.zeros((k, 3))
+    whole = np.eye(3)
+    first = np.empty((4, 3))
+    second = np.empty((5, 3))
+    weight = np.empty(3)
+    for i in range(k):
+        count = _cut(whole, 3, value[i], first)
+        if count < 3:
+            continue
+        share = _moments(first, count, weight)
+        part[i] = share * area[i]
+        for j in range(3):
+            for m in range(3):
+                moment[i, m] += weight[j] * corner[i, j, m] * area[i]
+        negative[i] = _moments(second, _cut(first, count, across[i], second), weight) * area[i]
+    return part, moment, negative

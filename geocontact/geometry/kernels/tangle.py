@@ -1,0 +1,88 @@
+"""Faces of a surface that are pierced by edges of the same surface: there normals cannot tell inside from outside."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.tree import STACK
+
+SIDES = 3
+
+
+@kernel
+def pierced(tree, corner, faces):  # type: ignore[no-untyped-def]
+    """Marks faces that take part in a self-intersection, (m,) bool.
+
+    corner (m, 3, 3) positions, faces (m, 3) indices after merging coincident vertices. An edge is tested against every
+    face that shares no vertex with it; both the faces of the edge and the pierced face are marked.
+    """
+    marked = np.zeros(len(faces), np.bool_)
+    nodes = np.empty(STACK, np.int64)
+    for f in range(len(faces)):
+        for k in range(SIDES):
+            i, j = faces[f, k], faces[f, (k + 1) % 3]
+            if i < j:  # each edge once; its other face is marked through the shared vertices by the caller
+                _pierce(tree, corner, faces, f, k, (k + 1) % 3, nodes, marked)
+    return marked
+
+
+@kernel
+def _pierce(tree, corner, faces, f, k, l, nodes, marked):  # type: ignore[no-untyped-def]
+    p = corner[f, k]
+    q = corner[f, l]
+    lo = np.minimum(p, q)
+    hi = np.maximum(p, q)
+    nodes[0] = 0
+    waiting = 1
+    while waiting > 0:
+        waiting -= 1
+        node = nodes[waiting]
+        box = tree.box[node]
+        if (
+            box[0] > hi[0] or box[1] > hi[1] or box[2] > hi[2]
+            or box[3] < lo[0] or box[4] < lo[1] or box[5] < lo[2]
+        ):  # fmt: skip
+            continue
+        first, count = tree.meta[node, 0], tree.meta[node, 1]
+        if count == 0:
+            nodes[waiting] = first
+            nodes[waiting + 1] = first + 1
+            waiting += 2
+            continue
+        for slot in range(first, first + count):
+            g = tree.face[slot]
+            if _share(faces[g], faces[f, k], faces[f, l]):
+                continue
+            if _crosses(p, q, corner[g, 0], corner[g, 1], corner[g, 2]):
+                marked[f] = True
+                marked[g] = True
+
+
+@kernel
+def _share(face, i, j):  # type: ignore[no-untyped-def]
+    for k in range(SIDES):
+        if face[k] == i or face[k] == j:
+            return True
+    return False
+
+
+@kernel
+def _volume(a, b, c, d):  # type: ignore[no-untyped-def]
+    u, v, w = b - a, c - a, d - a
+    return (
+        u[0] * (v[1] * w[2] - v[2] * w[1])
+        + u[1] * (v[2] * w[0] - v[0] * w[2])
+        + u[2] * (v[0] * w[1] - v[1] * w[0])
+    )
+
+
+@kernel
+def _crosses(p, q, a, b, c):  # type: ignore[no-untyped-def]
+    """Whether segment pq passes through triangle abc (touching counts)."""
+    above = _volume(a, b, c, p)
+    below = _volume(a, b, c, q)
+    if (above > 0.0) == (below > 0.0):
+        return False
+    x, y, z = _volume(p, q, a, b), _volume(p, q, b, c), _volume(p, q, c, a)
+    return (x >= 0.0 and y >= 0.0 and z >= 0.0) or (x <= 0.0 and y <= 0.0 and z <= 0.0)

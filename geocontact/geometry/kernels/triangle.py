@@ -1,0 +1,170 @@
+"""Point to triangle in the triangle's own frame: right for degenerate and collinear triangles too.
+
+Each triangle is stored as 16 numbers: corner A (3), unit vectors u, v, n (9), L, cx, cy, shift. The longest edge AB lies
+along u with length L; C is at (cx, cy) with cy >= 0; n = u x v points to the outside. `shift` tells which corner of
+the face became A. Because AB is the longest edge the angles at A and B are acute, which leaves few cases. A collinear
+triangle has cy = 0 and is the segment AB, a point has L = 0. The frame is orthonormal even for needles, so distances
+are isometric to the last digit there as well.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.geometry.kernels.compile import kernel
+
+FLAT = 1e-13  # height of a triangle over its longest edge below which it is treated as a segment
+
+
+@kernel
+def triangle_frames(vertices, faces):  # type: ignore[no-untyped-def]
+    """Records of all faces, shape (m, 16)."""
+    records = np.zeros((len(faces), 16))
+    for i in range(len(faces)):
+        _frame(vertices, faces[i], records[i])
+    return records
+
+
+@kernel
+def _frame(vertices, face, out):  # type: ignore[no-untyped-def]
+    shift = 0
+    longest = -1.0
+    for k in range(3):
+        edge = vertices[face[(k + 1) % 3]] - vertices[face[k]]
+        length2 = edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2]
+        if length2 > longest:
+            longest = length2
+            shift = k
+    a = vertices[face[shift]]
+    ab = vertices[face[(shift + 1) % 3]] - a
+    ac = vertices[face[(shift + 2) % 3]] - a
+    length = np.sqrt(longest)
+    u = np.array([1.0, 0.0, 0.0])
+    if length > 0.0:
+        u = ab / length
+    cx = ac[0] * u[0] + ac[1] * u[1] + ac[2] * u[2]
+    v = ac - cx * u
+    cy = np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    if cy <= FLAT * length or length == 0.0:
+        cy = 0.0
+        k = 0
+        if abs(u[1]) < abs(u[k]):
+            k = 1
+        if abs(u[2]) < abs(u[k]):
+            k = 2
+        v = -u[k] * u
+        v[k] += 1.0
+        v /= np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    else:
+        v = v / cy
+        v = v - (v[0] * u[0] + v[1] * u[1] + v[2] * u[2]) * u
+        v /= np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    out[0:3] = a
+    out[3:6] = u
+    out[6:9] = v
+    out[9] = u[1] * v[2] - u[2] * v[1]
+    out[10] = u[2] * v[0] - u[0] * v[2]
+    out[11] = u[0] * v[1] - u[1] * v[0]
+    out[12] = length
+    out[13] = min(max(cx, 0.0), length)
+    out[14] = cy
+    out[15] = shift
+
+
+@kernel
+def squared_distance(r, px, py, pz, enough):  # type: ignore[no-untyped-def]
+    """Squared distance of a point to the triangle of record r; any value >= enough when it is not below `enough`."""
+    dx = px - r[0]
+    dy = py - r[1]
+    dz = pz - r[2]
+    z = dx * r[9] + dy * r[10] + dz * r[11]
+    z2 = z * z
+    if z2 >= enough:
+        return z2
+    x = dx * r[3] + dy * r[4] + dz * r[5]
+    y = dx * r[6] + dy * r[7] + dz * r[8]
+    length = r[12]
+    cx = r[13]
+    cy = r[14]
+    if y < 0.0 or cy == 0.0:
+        ex = min(x, 0.0) + max(x - length, 0.0)
+        return ex * ex + y * y + z2
+    left = x * cy - y * cx
+    right = (length - x) * cy - y * (length - cx)
+    if left >= 0.0 and right >= 0.0:
+        return z2
+    best = np.inf
+    if left < 0.0:
+        t = min(max((x * cx + y * cy) / (cx * cx + cy * cy), 0.0), 1.0)
+        ex = x - t * cx
+        ey = y - t * cy
+        best = ex * ex + ey * ey
+    if right < 0.0:
+        bx = cx - length
+        t = min(max(((x - length) * bx + y * cy) / (bx * bx + cy * cy), 0.0), 1.0)
+        ex = x - length - t * bx
+        ey = y - t * cy
+        best = min(best, ex * ex + ey * ey)
+    return best + z2
+
+
+@kernel
+def closest_point(r, px, py, pz):  # type: ignore[no-untyped-def]
+    """Closest point of the triangle and the feature it lies on.
+
+    Features: 0 interior, 1 edge AB, 2 edge AC, 3 edge BC, 4 corner A, 5 corner B, 6 corner C (letters of the record).
+    """
+    dx = px - r[0]
+    dy = py - r[1]
+    dz = pz - r[2]
+    x = dx * r[3] + dy * r[4] + dz * r[5]
+    y = dx * r[6] + dy * r[7] + dz * r[8]
+    length = r[12]
+    cx = r[13]
+    cy = r[14]
+    feature = 0
+    if y < 0.0 or cy == 0.0:
+        feature = 1
+        if x <= 0.0:
+            feature = 4
+        elif x >= length:
+            feature = 5
+        x = min(max(x, 0.0), length)
+        y = 0.0
+    else:
+        left = x * cy - y * cx
+        right = (length - x) * cy - y * (length - cx)
+        best = np.inf
+        qx = x
+        qy = y
+        if left < 0.0:
+            t = min(max((x * cx + y * cy) / (cx * cx + cy * cy), 0.0), 1.0)
+            qx = t * cx
+            qy = t * cy
+            best = (x - qx) ** 2 + (y - qy) ** 2
+            feature = 2
+            if t == 0.0:
+                feature = 4
+            elif t == 1.0:
+                feature = 6
+        if right < 0.0:
+            bx = cx - length
+            t = min(max(((x - length) * bx + y * cy) / (bx * bx + cy * cy), 0.0), 1.0)
+            sx = length + t * bx
+            sy = t * cy
+            if (x - sx) ** 2 + (y - sy) ** 2 < best:
+                qx = sx
+                qy = sy
+                feature = 3
+                if t == 0.0:
+                    feature = 5
+                elif t == 1.0:
+                    feature = 6
+        x = qx
+        y = qy
+    return (
+        r[0] + x * r[3] + y * r[6],
+        r[1] + x * r[4] + y * r[7],
+        r[2] + x * r[5] + y * r[8],
+        feature,
+    )

@@ -1,0 +1,101 @@
+"""Half-space, sphere and tube: shapes whose distance is a formula."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.geometry.proximity import Proximity, within
+
+Vector = tuple[float, float, float]
+
+
+def _unit(vector: Vector) -> Float[np.ndarray, " 3"]:
+    v = np.asarray(vector, float)
+    length = float(np.linalg.norm(v))
+    if not np.isfinite(length) or length == 0.0:
+        raise ValueError(f"direction {vector} has no length")
+    return v / length
+
+
+def _directions(offset: Float[np.ndarray, "n 3"], spare: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "n 3"]:
+    """Unit vectors along `offset`; `spare` where it vanishes and every direction is as good."""
+    length = np.linalg.norm(offset, axis=1, keepdims=True)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(length > 0.0, offset / length, spare)
+
+
+def _answer(
+    distance: Float[np.ndarray, " n"],
+    points: Float[np.ndarray, "n 3"],
+    normal: Float[np.ndarray, "n 3"],
+    limit: float,
+) -> Proximity:
+    face = np.full(len(points), -1, np.int64)
+    return within(limit, Proximity(distance, points - distance[:, None] * normal, normal, face))
+
+
+@dataclass(frozen=True)
+class HalfSpace:
+    """Everything below a plane: the ground, a flat plate.
+
+    point
+        Any point on the plane [m].
+    normal
+        Outward direction, of any length.
+    """
+
+    point: Vector = (0.0, 0.0, 0.0)
+    normal: Vector = (0.0, 1.0, 0.0)
+
+    def proximity(self, points: Float[np.ndarray, "n 3"], limit: float = np.inf) -> Proximity:
+        """Signed height above the plane; closest point is the foot of the perpendicular."""
+        n = _unit(self.normal)
+        distance = (points - np.asarray(self.point)) @ n
+        return _answer(distance, points, np.broadcast_to(n, points.shape).copy(), limit)
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """Solid ball: heel and toe spheres, femoral heads. centre and radius in m."""
+
+    centre: Vector
+    radius: float
+
+    def proximity(self, points: Float[np.ndarray, "n 3"], limit: float = np.inf) -> Proximity:
+        """|x - centre| - radius; at the very centre the normal is taken along x."""
+        offset = points - np.asarray(self.centre)
+        normal = _directions(offset, np.array([1.0, 0.0, 0.0]))
+        distance = np.linalg.norm(offset, axis=1) - self.radius
+        return _answer(distance, points, normal, limit)
+
+
+@dataclass(frozen=True)
+class Tube:
+    """Hollow round tube of infinite length; the *material* is outside the bore, so a point on the axis is `radius` away.
+
+    Sphere-in-tube contact: a sphere of radius r touches when its centre is closer than r to the wall. Distance is
+    positive in the bore and negative in the wall; the normal points to the axis.
+
+    point, direction
+        Axis: any point on it [m], direction of any length.
+    radius
+        Radius of the bore [m].
+    """
+
+    point: Vector
+    direction: Vector
+    radius: float
+
+    def proximity(self, points: Float[np.ndarray, "n 3"], limit: float = np.inf) -> Proximity:
+        """radius - distance from the axis; on the axis itself any radial direction is as good, one is taken."""
+        axis = _unit(self.direction)
+        offset = points - np.asarray(self.point)
+        radial = offset - (offset @ axis)[:, None] * axis
+        spare = np.eye(3)[int(np.argmin(np.abs(axis)))]
+        spare = spare - (spare @ axis) * axis
+        outward = _directions(radial, spare / np.linalg.norm(spare))
+        distance = self.radius - np.linalg.norm(radial, axis=1)
+        return _answer(distance, points, -outward, limit)

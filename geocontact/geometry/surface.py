@@ -1,0 +1,183 @@
+"""A triangle surface with its tree: built once, queried many times."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import igl
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from geocontact.data.mesh import Mesh
+from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
+from geocontact.geometry.kernels.tree import Tree, build_boxes
+from geocontact.geometry.kernels.triangle import triangle_frames
+from geocontact.geometry.proximity import Proximity
+from geocontact.geometry.pseudonormals import pseudonormals
+from geocontact.geometry.sides import normals_agree, resolve_sides, tangled
+from geocontact.geometry.topology import Topology, signed_volume, topology
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Triangle surface in its own frame; float64 throughout, held about its centre so that far offsets cost nothing.
+
+    Parameters
+    ----------
+    vertices
+        Vertex positions [m].
+    faces
+        Corner indices, counter-clockwise seen from outside. Degenerate faces count as the segment or point they are.
+    name
+        For messages and pictures.
+    assume_closed
+        Trust the caller that the surface bounds a body although its edges do not show it: sides then come from the
+        winding number, and points where it is undecided are reported.
+    """
+
+    vertices: Float[np.ndarray, "n 3"]
+    faces: Int[np.ndarray, "m 3"]
+    name: str = "surface"
+    assume_closed: bool = False
+
+    def __post_init__(self) -> None:
+        if len(self.faces) == 0:
+            raise ValueError(f"{self.name}: a surface needs at least one face")
+        if not np.isfinite(self.vertices).all():
+            raise ValueError(f"{self.name}: vertices must be finite")
+        if self.faces.min() < 0 or self.faces.max() >= len(self.vertices):
+            raise ValueError(f"{self.name}: a face names a vertex that is not there")
+
+    @classmethod
+    def of(cls, mesh: Mesh, assume_closed: bool = False) -> Surface:
+        """Surface of a mesh as read from a file."""
+        return cls(mesh.vertices, mesh.faces, mesh.name, assume_closed)
+
+    @cached_property
+    def topology(self) -> Topology:
+        """Shared, open and irregular edges."""
+        return topology(self.vertices, self.faces)
+
+    @cached_property
+    def closed(self) -> bool:
+        """Whether inside and outside exist, by the edges or by the caller's word."""
+        return self.topology.closed or self.assume_closed
+
+    @cached_property
+    def inside_out(self) -> bool:
+        """Whether the faces of a closed surface point inwards; sides are turned over then."""
+        return self.closed and signed_volume(self.vertices, self.faces) < 0.0
+
+    @cached_property
+    def centre(self) -> Float[np.ndarray, " 3"]:
+        """Middle of the bounding box of the faces [m]; the tree is held about it."""
+        used = self.vertices[self.faces.ravel()]
+        return np.asarray(0.5 * (used.min(axis=0) + used.max(axis=0)))
+
+    @cached_property
+    def local(self) -> Float[np.ndarray, "n 3"]:
+        """Vertices about the centre [m]."""
+        return self.vertices - self.centre
+
+    @cached_property
+    def corners(self) -> Float[np.ndarray, "m 3 3"]:
+        """Corner positions of each face about the centre [m]."""
+        return self.local[self.faces]
+
+    @cached_property
+    def face_area(self) -> Float[np.ndarray, " m"]:
+        """Area of each face [m^2]."""
+        c = self.corners
+        return np.asarray(0.5 * np.linalg.norm(np.cross(c[:, 1] - c[:, 0], c[:, 2] - c[:, 0]), axis=1))
+
+    @cached_property
+    def face_normal(self) -> Float[np.ndarray, "m 3"]:
+        """Unit normal of each face, zero where it has no area."""
+        records = triangle_frames(self.local, self.faces)
+        return np.where(records[:, 14:15] > 0.0, records[:, 9:12], 0.0) * (-1.0 if self.inside_out else 1.0)
+
+    @cached_property
+    def edge_length(self) -> Float[np.ndarray, "m 3"]:
+        """Length of the edge opposite to each corner [m]."""
+        c = self.corners
+        return np.asarray(np.linalg.norm(np.roll(c, -1, axis=1) - np.roll(c, 1, axis=1), axis=2))
+
+    @cached_property
+    def reach(self) -> Float[np.ndarray, " n"]:
+        """Longest edge at each vertex [m]: how far its faces extend from it."""
+        reach = np.zeros(len(self.vertices))
+        for corner in range(3):
+            for edge in ((corner + 1) % 3, (corner + 2) % 3):
+                np.maximum.at(reach, self.faces[:, corner], self.edge_length[:, edge])
+        return reach
+
+    @cached_property
+    def used(self) -> Bool[np.ndarray, " n"]:
+        """Vertices that belong to a face."""
+        used = np.zeros(len(self.vertices), bool)
+        used[self.faces.ravel()] = True
+        return used
+
+    @cached_property
+    def tree(self) -> Tree:
+        """The bounded tree over the faces, about the centre."""
+        corners = self.corners
+        box, meta, order = build_boxes(corners.min(axis=1), corners.max(axis=1))
+        records = triangle_frames(self.local, np.ascontiguousarray(self.faces[order]))
+        normals = pseudonormals(records, self.faces[order], self.topology.merged)
+        tree = Tree(box, meta, records, order, -normals if self.inside_out else normals)
+        if self.topology.closed:
+            tree.normal[tangled(tree, corners, self.topology.merged[self.faces])[order]] = 0.0
+        return tree
+
+    @cached_property
+    def walk(self) -> Int[np.ndarray, " n"]:
+        """All vertices that belong to a face, neighbours close together in the list."""
+        along = self.faces[self.tree.face].ravel()
+        _, first = np.unique(along, return_index=True)
+        return along[np.sort(first)]
+
+    @cached_property
+    def normals_trusted(self) -> bool:
+        """Whether sides may be read from normals; otherwise winding numbers decide, which is slower."""
+        return self.topology.closed and normals_agree(self)
+
+    @cached_property
+    def winding(self) -> igl.FastWindingNumberBVH:
+        """libigl's fast winding number about the centre (Barill et al., ACM TOG 37(4), 2018)."""
+        bvh = igl.FastWindingNumberBVH()
+        bvh.init(self.local, self.faces.astype(np.int64))
+        return bvh
+
+    def proximity(self, points: Float[np.ndarray, "n 3"], limit: float = np.inf) -> Proximity:
+        """Nearest point of the surface to each point, signed where the surface is closed.
+
+        Points farther than `limit` [m] get an infinite distance (negative deep inside), which is many times faster
+        than finding out how far they are. NaN among the points is refused.
+        """
+        points = np.ascontiguousarray(points, float)
+        if not np.isfinite(points).all():
+            raise ValueError("query points must be finite")
+        local = points - self.centre
+        limits = np.full(len(points), float(limit))
+        spheres = chunk_spheres(local, limits)
+        distance, side, slot, closest = signed_distances(self.tree, local, limits, spheres, self.closed)
+        side, _ = resolve_sides(self, local, side)
+        found = slot >= 0
+        signed = np.where(found, distance, np.inf) * side
+        face = np.where(found, self.tree.face[slot], -1)
+        normal = _outward(local - closest, signed, self.face_normal[face])
+        normal[~found] = np.nan
+        return Proximity(signed, closest + self.centre, normal, face, self.closed)
+
+
+def _outward(
+    offset: Float[np.ndarray, "n 3"], signed: Float[np.ndarray, " n"], spare: Float[np.ndarray, "n 3"]
+) -> Float[np.ndarray, "n 3"]:
+    """Gradient of the distance; the face normal where the point lies on the surface."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        gradient = offset / signed[:, None]
+    on_it = np.abs(signed) < 1e-12
+    gradient[on_it] = spare[on_it]
+    return gradient

@@ -1,0 +1,1 @@
+"""Files in, files out: everything inside is in SI units, whatever the file was written in."""

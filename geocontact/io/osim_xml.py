@@ -1,0 +1,146 @@
+"""OpenSim model files as XML: safe parsing, numbers with their place, frames and where they sit in their body."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from os import PathLike, fspath
+from pathlib import Path
+from posixpath import join, normpath
+from xml.etree.ElementTree import Element, ParseError
+
+import defusedxml.ElementTree  # type: ignore[import-untyped]
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform, Rotation
+
+from geocontact.data.errors import InputError
+
+LARGEST_MODEL = 32_000_000
+"""Bytes of an .osim file; full-body models are below 10 MB."""
+
+_DEEPEST = 50
+_SETS = ("BodySet", "JointSet", "ComponentSet")
+
+
+def read_model(path: str | PathLike[str]) -> Element:
+    """The `Model` element of an .osim file. External entities and entity expansion are refused."""
+    file = fspath(path)
+    try:
+        size = Path(file).stat().st_size
+        if size > LARGEST_MODEL:
+            raise InputError(file, "", f"{size / 1e6:.0f} MB is more than the {LARGEST_MODEL / 1e6:.0f} MB limit")
+        root: Element = defusedxml.ElementTree.parse(file).getroot()
+    except OSError as error:
+        raise InputError(file, "", f"cannot be read ({error.strerror})", "check the path") from error
+    except InputError:
+        raise
+    except (ParseError, ValueError, LookupError) as error:
+        raise InputError(file, "", f"not a readable OpenSim model ({error})", "is the file complete?") from error
+    model = root if root.tag == "Model" else root.find("Model")
+    if root.tag not in ("OpenSimDocument", "Model") or model is None:
+        raise InputError(file, "", f"root element is <{root.tag[:40]}>, not an OpenSim model", "give an .osim file")
+    return model
+
+
+def label(element: Element) -> str:
+    """`CustomJoint knee_r`: how messages call an element."""
+    return f"{element.tag} {element.get('name', '')}".strip()
+
+
+def text_of(element: Element, child: str, default: str = "") -> str:
+    """Text of a child element, stripped; the default where it is absent or empty."""
+    found = element.find(child)
+    return ((found.text or "") if found is not None else "").strip() or default
+
+
+def numbers_of(
+    file: str, element: Element, child: str, count: int | None, default: tuple[float, ...] | None = None
+) -> Float[np.ndarray, " k"]:
+    """Finite numbers in a child element, `count` of them unless None; without a default the child must be there."""
+    text = text_of(element, child)
+    if not text and default is not None:
+        return np.array(default, dtype=float)
+    try:
+        values = np.array([float(word) for word in text.replace(",", " ").split()], dtype=float)
+    except ValueError:
+        values = np.array([np.nan])
+    if not np.all(np.isfinite(values)) or (count is not None and len(values) != count):
+        expected = "finite numbers" if count is None else f"{count} finite number{'s' * (count > 1)}"
+        raise InputError(file, f"{label(element)} <{child}>", f"'{text[:60]}' where {expected} are expected")
+    return values
+
+
+def offset(orientation: Float[np.ndarray, " 3"], translation: Float[np.ndarray, " 3"]) -> RigidTransform:
+    """Pose from OpenSim's body-fixed x-y-z angles [rad] and translation [m]: R = Rx Ry Rz."""
+    return RigidTransform.from_components(translation, Rotation.from_euler("XYZ", orientation))
+
+
+class Frames:
+    """Bodies of a model and the offset frames fixed to them, by OpenSim's component path.
+
+    Parameters
+    ----------
+    file, model
+        As read by `read_model`.
+    """
+
+    def __init__(self, file: str, model: Element) -> None:
+        self.file = file
+        self.elements: dict[str, Element] = {}
+        for path, element in _components(model):
+            self.elements.setdefault(path, element)
+        if not {"/ground", "/bodyset/ground"} & set(self.elements):
+            self.elements["/ground"] = Element("Ground", name="ground")
+
+    def resolve(self, owner: str, socket: str) -> str:
+        """Absolute path of the frame that a socket of component `owner` names: absolute, relative or a bare name."""
+        path = normpath(join(owner, socket))
+        if path in self.elements:
+            return path
+        name = socket.rsplit("/", 1)[-1]
+        same = [known for known in self.elements if known.rsplit("/", 1)[-1] == name]
+        bodies = [known for known in same if known.startswith(("/bodyset/", "/ground")) and known.count("/") < 3]
+        if len(bodies or same) != 1:
+            what = (
+                f"frame '{socket[:80]}' of {owner} is {'ambiguous' if same else 'neither a body nor an offset frame'}"
+            )
+            raise InputError(self.file, "", what, "bodies and PhysicalOffsetFrames are supported")
+        return (bodies or same)[0]
+
+    def in_body(self, path: str) -> tuple[str, RigidTransform]:
+        """Name of the body that a frame is fixed to, and the frame's pose in it."""
+        pose = RigidTransform.identity()
+        for _ in range(_DEEPEST):
+            element = self.elements[path]
+            if element.tag != "PhysicalOffsetFrame":
+                return element.get("name", ""), pose
+            turn = numbers_of(self.file, element, "orientation", 3, (0.0, 0.0, 0.0))
+            shift = numbers_of(self.file, element, "translation", 3, (0.0, 0.0, 0.0))
+            pose = offset(turn, shift) * pose
+            path = self.resolve(path, socket_of(element, "parent") or "..")
+        raise InputError(self.file, path, "offset frames refer to each other in a circle", "correct the model")
+
+
+def socket_of(element: Element, name: str) -> str:
+    """Connectee of a socket; early 4.0 files write `socket_<name>_connectee_name`."""
+    return text_of(element, f"socket_{name}") or text_of(element, f"socket_{name}_connectee_name")
+
+
+def _components(model: Element) -> Iterator[tuple[str, Element]]:
+    """Frames of a model with their absolute paths: bodies, offset frames of joints, bodies, frames and the model."""
+    pending = [("", model, 0)]
+    while pending:
+        owner, element, depth = pending.pop()
+        if depth > _DEEPEST:
+            continue
+        for child in element:
+            name = child.get("name", "")
+            if child.tag in _SETS:
+                pending.append((f"{owner}/{name or child.tag.lower()}", child, depth + 1))
+            elif child.tag in ("objects", "components", "frames"):
+                pending.append((owner, child, depth + 1))
+            elif name and child.tag in ("Body", "Ground", "PhysicalOffsetFrame"):
+                yield f"{owner}/{name}", child
+                pending.append((f"{owner}/{name}", child, depth + 1))
+            elif name and child.tag.endswith("Joint"):
+                pending.append((f"{owner}/{name}", child, depth + 1))

@@ -1,0 +1,67 @@
+"""Rows of numbers below the column labels of a text table, with the line each stands in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TextIO
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.data.errors import InputError
+
+_BLOCK = 2048
+_NOT_A_NUMBER = ("", "1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind")
+"""Empty cells, and what C on Windows prints for NaN."""
+
+
+def read_rows(
+    stream: TextIO, first: int, names: tuple[str, ...], file: str, split: Callable[[str, None, int], list[str]]
+) -> tuple[Float[np.ndarray, "t c"], Int[np.ndarray, " t"]]:
+    """Numbers below the labels and the line of each row; blank lines are passed over."""
+    blocks: list[Float[np.ndarray, "r c"]] = []
+    lines: list[int] = []
+    rows: list[list[str]] = []
+    plain = True
+    for number, line in enumerate(stream, first):
+        cells = split(line, None, len(names))
+        if not cells:
+            continue
+        if len(cells) != len(names):
+            what = f"{'more' if len(cells) > len(names) else len(cells)} cells where {len(names)} columns are named"
+            raise InputError(file, f"line {number}", what, "rows must be as long as the header")
+        plain = plain and "_" not in line and line.isascii()
+        rows.append(cells)
+        lines.append(number)
+        if len(rows) == _BLOCK:
+            blocks.append(_numbers(rows, lines[-_BLOCK:], names, file, plain))
+            rows, plain = [], True
+    if not lines:
+        raise InputError(file, f"line {first}", "no rows below the column labels", "is the file complete?")
+    if rows:
+        blocks.append(_numbers(rows, lines[-len(rows) :], names, file, plain))
+    return np.concatenate(blocks), np.array(lines, dtype=np.int64)
+
+
+def _numbers(
+    rows: list[list[str]], lines: list[int], names: tuple[str, ...], file: str, plain: bool
+) -> Float[np.ndarray, "r c"]:
+    """Cells as floats; `plain` rules out what Python takes for a number and a table does not mean as one."""
+    if plain:
+        try:
+            return np.array(rows, dtype=np.float64)
+        except ValueError:
+            pass
+    return np.array([list(_row(row, line, names, file)) for row, line in zip(rows, lines, strict=True)], dtype=float)
+
+
+def _row(row: list[str], line: int, names: tuple[str, ...], file: str) -> Iterator[float]:
+    for cell, name in zip(row, names, strict=True):
+        text = cell.strip().strip('"').strip()
+        try:
+            if "_" in text or not text.isascii():
+                raise ValueError(text)
+            yield float("nan") if text.lower() in _NOT_A_NUMBER else float(text)
+        except ValueError as error:
+            what = f"'{text[:40]}' in column '{name}' is not a number"
+            raise InputError(file, f"line {line}", what, "use decimal points, leave missing cells NaN") from error

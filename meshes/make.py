@@ -1,0 +1,88 @@
+"""Make the sample data: `python meshes/make.py [--resolution NAME …] [--out DIR] [--check]`.
+
+Without options the committed files are written anew, byte for byte; `--check` only compares them. A named resolution
+(`fine`, `finest`, or any factor on the cells of the coarse mesh such as `5.5`) goes to `meshes/generated/`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+if __package__ in (None, ""):
+    sys.path[:1] = [str(HERE.parent)]
+
+from meshes.gait import synthetic_gait  # noqa: E402
+from meshes.motion_files import opensim_model, opensim_motion, pose_table  # noqa: E402
+from meshes.stl import stl_bytes  # noqa: E402
+from meshes.total_knee import RESOLUTIONS, total_knee  # noqa: E402
+
+COMMITTED = (("right", "coarse"), ("right", "medium"), ("left", "coarse"))
+
+
+def knee_files(side: str, resolution: str) -> dict[str, bytes]:
+    """STL files of insert and femoral component by name."""
+    factor = RESOLUTIONS[resolution] if resolution in RESOLUTIONS else float(resolution)
+    names = (f"tibial_insert_{side}_{resolution}.stl", f"femoral_component_{side}_{resolution}.stl")
+    title = f"geocontact synthetic total knee, {side}, {resolution}, mm"
+    return {name: stl_bytes(*body, title) for name, body in zip(names, total_knee(factor, side), strict=True)}
+
+
+def motion_files() -> dict[str, bytes]:
+    """The gait cycle, settled on the medium right pair, as table, motion and model."""
+    gait = synthetic_gait(*total_knee(RESOLUTIONS["medium"]))
+    texts = {
+        "gait.csv": pose_table(gait),
+        "gait_left.csv": pose_table(gait.mirrored()),
+        "gait.mot": opensim_motion(gait),
+        "knee.osim": opensim_model("tibial_insert_right_medium.stl", "femoral_component_right_medium.stl"),
+    }
+    return {name: text.encode("ascii") for name, text in texts.items()}
+
+
+def committed_files() -> dict[str, bytes]:
+    """Every generated file that belongs to the repository."""
+    files: dict[str, bytes] = {}
+    for side, resolution in COMMITTED:
+        files |= knee_files(side, resolution)
+    return files | motion_files()
+
+
+def differing(files: dict[str, bytes], folder: Path) -> list[str]:
+    """Names of files that are missing in `folder` or hold other bytes."""
+    return [n for n, data in files.items() if not (folder / n).is_file() or (folder / n).read_bytes() != data]
+
+
+def write(files: dict[str, bytes], folder: Path) -> None:
+    """Write the files into `folder`, made if need be."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, data in files.items():
+        (folder / name).write_bytes(data)
+
+
+def main() -> int:
+    """Command line; exit 1 when `--check` finds a difference."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--resolution", nargs="+", help=f"{', '.join(RESOLUTIONS)}, or a factor on the coarse cells")
+    parser.add_argument("--side", choices=("right", "left"), default="right")
+    parser.add_argument("--out", type=Path)
+    parser.add_argument("--check", action="store_true", help="compare instead of writing")
+    options = parser.parse_args()
+    if options.resolution:
+        files = {k: v for name in options.resolution for k, v in knee_files(options.side, name).items()}
+        folder = options.out or HERE / "generated"
+    else:
+        files, folder = committed_files(), options.out or HERE
+    if options.check:
+        wrong = differing(files, folder)
+        sys.stdout.write(f"{len(files)} files, differing: {', '.join(wrong) or 'none'}\n")
+        return 1 if wrong else 0
+    write(files, folder)
+    sys.stdout.write("".join(f"{folder.name}/{name}: {len(data)} bytes\n" for name, data in files.items()))
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,346 @@
+"""Meshes from files: every format against trimesh or pyvista, order and precision kept, warnings, units."""
+
+from __future__ import annotations
+
+import hashlib
+import struct
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.io.faces import read_face_indices
+from geocontact.io.merge import merge_coincident
+from geocontact.io.mesh_checks import degenerate, repeated
+from geocontact.io.meshes import read_mesh, write_stl
+from geocontact.io.units import ANGLE, LENGTH, split_header
+
+BALL = trimesh.creation.icosphere(subdivisions=2, radius=31.4159)
+
+
+def tetrahedron(faces: str, vertices: str = "v 0 0 0\nv 50 0 0\nv 0 50 0\nv 0 0 50\n") -> str:
+    return vertices + faces
+
+
+def write_obj(folder: Path, text: str, name: str = "bone.obj") -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def save_vtp(folder: Path, mode: int, base64: bool, compressed: bool, big_endian: bool, wide: bool) -> Path:
+    pyvista = pytest.importorskip("pyvista", reason="pyvista writes the VTP files; pip install 'geocontact[view]'")
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+    surface = pyvista.PolyData.from_regular_faces(BALL.vertices, BALL.faces)
+    surface.points_to_double()
+    path = folder / "ball.vtp"
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(surface)
+    writer.SetFileName(str(path))
+    writer.SetDataMode(mode)
+    writer.SetEncodeAppendedData(base64)
+    writer.SetByteOrderToBigEndian() if big_endian else writer.SetByteOrderToLittleEndian()
+    writer.SetHeaderTypeToUInt64() if wide else writer.SetHeaderTypeToUInt32()
+    writer.SetCompressorTypeToZLib() if compressed else writer.SetCompressorTypeToNone()
+    writer.SetBlockSize(1024)
+    writer.Write()
+    return path
+
+
+@pytest.mark.parametrize(
+    ("extension", "options", "kind"),
+    [
+        ("stl", {}, np.float32),
+        ("stl", {"file_type": "stl_ascii"}, np.float64),
+        ("ply", {}, np.float32),
+        ("ply", {"encoding": "ascii"}, np.float32),
+        ("obj", {"digits": 17, "include_normals": True}, np.float64),
+    ],
+)
+def test_round_trip_is_exact(tmp_path, extension, options, kind):
+    path = tmp_path / f"ball.{extension}"
+    BALL.export(path, **options)
+    mesh = read_mesh(path, "mm")
+    expected = BALL.triangles.astype(kind).astype(float) * 1e-3
+    np.testing.assert_array_equal(mesh.vertices[mesh.faces], expected)
+    assert len(mesh.vertices) == len(BALL.vertices), "coincident corners of the soup are merged"
+    assert mesh.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
+    assert (mesh.name, mesh.unit) == (path.name, "mm")
+
+
+@pytest.mark.parametrize("wide", [False, True])
+@pytest.mark.parametrize("big_endian", [False, True])
+@pytest.mark.parametrize("compressed", [False, True])
+@pytest.mark.parametrize(("mode", "base64"), [(0, True), (1, True), (2, True), (2, False)])
+def test_every_vtp_encoding_equals_what_vtk_wrote(tmp_path, mode, base64, compressed, big_endian, wide):
+    mesh = read_mesh(save_vtp(tmp_path, mode, base64, compressed, big_endian, wide), "mm")
+    tolerance = 1e-9 if mode == 0 else 0  # VTK prints fewer digits than a double has
+    np.testing.assert_allclose(mesh.vertices[mesh.faces], BALL.triangles * 1e-3, rtol=tolerance, atol=tolerance)
+
+
+def ply_bytes(order: str, vertex_type: str, polygons: list[list[int]], vertices: np.ndarray) -> bytes:
+    name = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
+    head = (
+        f"ply\nformat {name} 1.0\ncomment a test\nelement vertex {len(vertices)}\n"
+        + "".join(f"property {vertex_type} {axis}\n" for axis in "xyz")
+        + "property uchar quality\n"
+        + f"element face {len(polygons)}\nproperty ushort flags\nproperty list uchar int vertex_indices\n"
+        + "property list uchar float texcoord\nelement edge 2\nproperty int v1\nproperty int v2\nend_header\n"
+    )
+    code = {"double": "d", "float": "f"}[vertex_type]
+    body = b"".join(struct.pack(f"{order}3{code}B", *vertex, 7) for vertex in vertices)
+    for polygon in polygons:
+        body += struct.pack(f"{order}HB{len(polygon)}i", 1, len(polygon), *polygon)
+        body += struct.pack(f"{order}B2f", 2, 0.5, 0.5)
+    return head.encode() + body + struct.pack(f"{order}4i", 0, 1, 1, 2)
+
+
+@pytest.mark.parametrize("order", ["<", ">"])
+@pytest.mark.parametrize("vertex_type", ["float", "double"])
+def test_binary_ply_with_other_elements_and_properties(tmp_path, order, vertex_type):
+    path = tmp_path / "ball.PLY"
+    path.write_bytes(ply_bytes(order, vertex_type, BALL.faces.tolist(), BALL.vertices))
+    mesh = read_mesh(path, "mm")
+    kind = {"float": np.float32, "double": np.float64}[vertex_type]
+    np.testing.assert_array_equal(mesh.vertices[mesh.faces], BALL.triangles.astype(kind).astype(float) * 1e-3)
+
+
+def test_mixed_polygons_of_binary_ply_become_fans(tmp_path):
+    path = tmp_path / "box.ply"
+    square = np.array([[0, 0, 0], [50, 0, 0], [50, 50, 0], [0, 50, 0], [25, 25, 40]], dtype=float)
+    path.write_bytes(ply_bytes("<", "double", [[0, 1, 4], [3, 2, 1, 0], [1, 2, 4]], square))
+    with pytest.warns(InputWarning, match="1 polygons with more than 3 corners"):
+        mesh = read_mesh(path, "mm")
+    np.testing.assert_array_equal(mesh.faces, [[0, 1, 4], [3, 2, 1], [3, 1, 0], [1, 2, 4]])
+
+
+def test_obj_indices_materials_and_polygons(tmp_path):
+    text = (
+        "# quads, negative indices, materials that alternate\nmtllib ../../etc/passwd\no one\n"
+        "v 0 0 0\nv 50 0 0\nv 0 50 0 1.0\nusemtl a\nf -3 -2 -1\n"
+        "v 0 0 50 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\nusemtl b\nf 1/1 2/1 4/1\nusemtl a\nf 1//1 3//1 4//1\n"
+        "f 2/1/1 \\\n 3/1/1 4/1/1\nf 1 2 3 4\n"
+    )
+    with pytest.warns(InputWarning, match="duplicate"), pytest.warns(InputWarning, match="polygons"):
+        mesh = read_mesh(write_obj(tmp_path, text), "mm")
+    np.testing.assert_array_equal(mesh.faces, [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3], [0, 1, 2], [0, 2, 3]])
+
+
+def test_negative_obj_indices_count_from_their_own_line(tmp_path):
+    rows = "v 0 0 0\nv 50 0 0\nv 0 50 0\nf -3 -2 -1\nv 0 0 50\nv 50 0 50\nv 0 50 50\nf -3 -2 -1\n"
+    mesh = read_mesh(write_obj(tmp_path, rows), "mm")
+    np.testing.assert_array_equal(mesh.faces, [[0, 1, 2], [3, 4, 5]])
+
+
+def ascii_stl(facets: np.ndarray, solids: int = 1, end: str = "\n") -> bytes:
+    text = ""
+    for part in np.array_split(facets, solids):
+        text += f"solid knee facet{end}"
+        for facet in part:
+            corners = "".join(f"vertex {x!r} {y!r} {z!r}{end}" for x, y, z in facet.tolist())
+            text += f"  facet normal nan 0 -NaN(ind){end} outer loop{end}{corners} endloop{end} endfacet{end}"
+        text += f"endsolid knee facet{end}"
+    return text.encode()
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("upper", [False, True])
+def test_ascii_stl_dialects(tmp_path, end, upper):
+    path = tmp_path / "ball.stl"
+    text = ascii_stl(BALL.triangles, solids=3, end=end)
+    path.write_bytes(b"\xef\xbb\xbf" + (text.upper() if upper else text))
+    mesh = read_mesh(path, "mm")
+    np.testing.assert_array_equal(mesh.vertices[mesh.faces], BALL.triangles * 1e-3)
+
+
+@pytest.mark.parametrize("extension", ["stl", "obj", "ply"])
+def test_precision_far_from_the_origin(tmp_path, extension):
+    """At 1e6 mm float32 rounds to 0.06 mm; formats that carry double lose nothing."""
+    moved = BALL.vertices + 1e6
+    path = tmp_path / f"far.{extension}"
+    if extension == "stl":
+        path.write_bytes(ascii_stl(moved[BALL.faces]))
+    elif extension == "obj":
+        rows = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in moved.tolist()]
+        rows += [f"f {a} {b} {c}\n" for a, b, c in (BALL.faces + 1).tolist()]
+        write_obj(tmp_path, "".join(rows), path.name)
+    else:
+        path.write_bytes(ply_bytes("<", "double", BALL.faces.tolist(), moved))
+    mesh = read_mesh(path, "mm")
+    np.testing.assert_array_equal(mesh.vertices[mesh.faces], moved[BALL.faces] * 1e-3)
+
+
+def test_binary_stl_may_start_with_solid(tmp_path):
+    path = tmp_path / "ball.stl"
+    data = BALL.export(file_type="stl")
+    path.write_bytes(b"solid exported by a careless program".ljust(80) + data[80:])
+    assert len(read_mesh(path, "mm").faces) == len(BALL.faces)
+
+
+def test_text_is_read_the_same_whatever_the_block_size(tmp_path, monkeypatch):
+    path = tmp_path / "ball.stl"
+    path.write_bytes(ascii_stl(BALL.triangles, solids=2))
+    whole = read_mesh(path, "mm")
+    monkeypatch.setattr("geocontact.io.stl_preflight.BLOCK", 700)
+    parts = read_mesh(path, "mm")
+    np.testing.assert_array_equal(whole.vertices, parts.vertices)
+    np.testing.assert_array_equal(whole.faces, parts.faces)
+
+
+@pytest.mark.parametrize("unit", ["m", "cm", "mm", "in"])
+def test_written_stl_comes_back_and_is_deterministic(tmp_path, unit):
+    vertices = np.float32(BALL.vertices / 1e3 / LENGTH[unit]).astype(float) * LENGTH[unit]
+    first, second = tmp_path / "a.stl", tmp_path / "b.stl"
+    write_stl(first, vertices, BALL.faces, unit)
+    write_stl(second, vertices, BALL.faces, unit)
+    assert first.read_bytes() == second.read_bytes()
+    mesh = read_mesh(first, unit)
+    np.testing.assert_array_equal(mesh.vertices[mesh.faces], vertices[BALL.faces])
+    oracle = trimesh.load_mesh(first, process=False)
+    np.testing.assert_allclose(oracle.face_normals, BALL.face_normals, atol=1e-5)
+
+
+def test_units_agree_with_each_other(tmp_path):
+    meshes = []
+    for unit in ("m", "cm", "mm", "in"):
+        path = tmp_path / f"{unit}.stl"
+        write_stl(path, BALL.vertices / 1e3, BALL.faces, unit)
+        meshes.append(read_mesh(path, unit))
+    for one, other in pairwise(meshes):
+        np.testing.assert_allclose(one.vertices[one.faces], other.vertices[other.faces], rtol=3e-7, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("length", "given_unit", "plea"),
+    [
+        (0.1, "mm", "too small for an implant; the file looks like metres, pass --unit m"),
+        (100.0, "m", "too large for an implant or a body; the file looks like millimetres, pass --unit mm"),
+        (1800.0, "cm", "the file looks like millimetres, pass --unit mm"),
+        (1e-7, "m", "too small for an implant; check the unit"),
+        (1e9, "mm", "too large for an implant or a body; check the unit"),
+        (1e300, "mm", "check the unit"),
+    ],
+)
+def test_absurd_unit_is_refused_with_the_likely_one(tmp_path, length, given_unit, plea):
+    text = f"v 0 0 0\nv {length!r} 0 0\nv 0 {length!r} 0\nf 1 2 3\n"
+    with pytest.raises(InputError) as caught:
+        read_mesh(write_obj(tmp_path, text, "femur.obj"), given_unit)
+    assert str(caught.value).startswith(f"femur.obj: bounding box {length:.3g} x {length:.3g} x 0 {given_unit} is too")
+    assert plea in str(caught.value)
+
+
+def test_absurd_unit_says_what_the_style_guide_prints(tmp_path):
+    text = "v 0 0 0\nv 0.068 0 0\nv 0 0.054 0\nv 0 0 0.061\nf 1 2 3\nf 1 2 4\n"
+    with pytest.raises(InputError) as caught:
+        read_mesh(write_obj(tmp_path, text, "femur.obj"), "mm")
+    assert str(caught.value) == (
+        "femur.obj: bounding box 0.068 x 0.054 x 0.061 mm is too small for an implant; "
+        "the file looks like metres, pass --unit m"
+    )
+
+
+def test_plausible_size_can_be_widened_and_ignores_unused_vertices(tmp_path):
+    path = write_obj(tmp_path, "v 1e6 0 0\nv 0 0 0\nv 2 0 0\nv 0 2 0\nf 2 3 4\n")
+    with pytest.warns(InputWarning, match="1 vertex belongs to no face"):
+        mesh = read_mesh(path, "mm", plausible=(1e-3, 3.0))
+    np.testing.assert_array_equal(mesh.vertices, np.array([[0, 0, 0], [2, 0, 0], [0, 2, 0]]) * 1e-3)
+
+
+def test_degenerate_faces_stay_and_are_warned_about(tmp_path):
+    path = write_obj(tmp_path, tetrahedron("v 25 0 0\nf 1 2 3\nf 1 2 2\nf 1 5 2\nf 1 2 4\n"))
+    message = "^bone.obj: 2 degenerate faces .zero area., ignored in areas; first is face 1$"
+    with pytest.warns(InputWarning, match=message):
+        mesh = read_mesh(path, "mm")
+    assert len(mesh.faces) == 4
+
+
+def test_duplicate_faces_stay_and_are_warned_about(tmp_path):
+    path = write_obj(tmp_path, tetrahedron("f 1 2 3\nf 1 2 4\nf 2 3 1\nf 3 2 1\n"))
+    with pytest.warns(InputWarning, match=r"2 duplicate faces \(same three vertices as an earlier face\); first is face 2"):
+        mesh = read_mesh(path, "mm")
+    np.testing.assert_array_equal(mesh.faces, [[0, 1, 2], [0, 1, 3], [1, 2, 0], [2, 1, 0]])
+
+
+def test_thin_but_real_triangles_are_not_called_degenerate():
+    vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0.5, 1e-9, 0], [0.5, 1e-13, 0]])
+    np.testing.assert_array_equal(degenerate(vertices, np.array([[0, 1, 2], [0, 1, 3]])), [False, True])
+
+
+@given(st.lists(st.tuples(*[st.sampled_from([-1.0, -0.0, 0.0, 1.0])] * 3), min_size=3, max_size=30), st.randoms())
+def test_merging_equals_a_dictionary_of_rows(rows, random):
+    vertices = np.array(rows)
+    faces = np.array([[random.randrange(len(rows)) for _ in range(3)] for _ in range(9)] + [[0, 1, 2]])
+    faces = np.concatenate([faces, np.resize(np.arange(len(rows)), (-(-len(rows) // 3), 3))])  # all are used
+    numbers: dict[tuple[float, ...], int] = {}
+    expected = [numbers.setdefault(tuple(float(x) + 0.0 for x in row), len(numbers)) for row in rows]
+    merged, renumbered = merge_coincident(vertices, faces, "x.stl")
+    np.testing.assert_array_equal(renumbered, np.array(expected)[faces])
+    np.testing.assert_array_equal(merged, list(numbers))
+    assert not np.signbit(merged[merged == 0]).any()
+
+
+@given(st.lists(st.tuples(*[st.integers(0, 4)] * 3), min_size=1, max_size=40))
+def test_repeated_equals_a_set_of_rows(rows):
+    seen: set[tuple[int, ...]] = set()
+    expected = []
+    for row in rows:
+        key = tuple(sorted(row))
+        expected.append(key in seen)
+        seen.add(key)
+    np.testing.assert_array_equal(repeated(np.array(rows)), expected)
+
+
+@pytest.mark.parametrize(
+    ("header", "parts"),
+    [
+        ("tx [mm]", ("tx", "mm")),
+        ("  time[s] ", ("time", "s")),
+        ("qw", ("qw", "")),
+        ("area [ mm^2 ]", ("area", "mm^2")),
+        ("a ]b[", ("a ]b[", "")),
+        ("", ("", "")),
+    ],
+)
+def test_header_with_unit(header, parts):
+    assert split_header(header) == parts
+
+
+def test_units_are_exact():
+    assert LENGTH["in"] == 0.0254
+    assert 180 * ANGLE["deg"] == np.pi
+
+
+def test_face_indices(tmp_path):
+    path = tmp_path / "faces.txt"
+    path.write_text("# condyle\n3, 1 0\n\n7 # rim\n", encoding="utf-8")
+    np.testing.assert_array_equal(read_face_indices(path, 8), [3, 1, 0, 7])
+
+
+@pytest.mark.parametrize(
+    ("text", "where", "plea"),
+    [
+        ("1\n2 x\n", "line 2", "'x' is not a face index"),
+        ("1\n8\n", "line 2", "outside 0 to 7"),
+        ("-1", "line 1", "start at 0"),
+        ("1 2\n3\n2", "line 3", "listed already in line 1"),
+        ("1.0", "line 1", "not a face index"),
+        ("1_0", "line 1", "not a face index"),
+        ("9" * 5000, "line 1", "not a face index"),
+        ("# nothing\n", "faces.txt", "lists no faces"),
+        ("", "faces.txt", "empty"),
+    ],
+)
+def test_bad_face_indices_are_refused(tmp_path, text, where, plea):
+    path = tmp_path / "faces.txt"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        read_face_indices(path, 8)
+    assert "faces.txt" in str(caught.value)
+    assert where in str(caught.value)
+    assert plea in str(caught.value)
