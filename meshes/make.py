@@ -16,7 +16,8 @@ if __package__ in (None, ""):
 
 from meshes.gait import synthetic_gait  # noqa: E402
 from meshes.motion_files import opensim_model, opensim_motion, pose_table  # noqa: E402
-from meshes.stl import stl_bytes  # noqa: E402
+from meshes.simple_shapes import SAMPLES  # noqa: E402
+from meshes.stl import snapped, stl_bytes  # noqa: E402
 from meshes.total_knee import RESOLUTIONS, total_knee  # noqa: E402
 
 COMMITTED = (("right", "coarse"), ("right", "medium"), ("left", "coarse"))
@@ -28,6 +29,15 @@ def knee_files(side: str, resolution: str) -> dict[str, bytes]:
     names = (f"tibial_insert_{side}_{resolution}.stl", f"femoral_component_{side}_{resolution}.stl")
     title = f"geocontact synthetic total knee, {side}, {resolution}, mm"
     return {name: stl_bytes(*body, title) for name, body in zip(names, total_knee(factor, side), strict=True)}
+
+
+def simple_files(refinement: int = 1) -> dict[str, bytes]:
+    """STL files of the shapes with closed-form areas, `refinement` times as many cells along each edge."""
+    files = {}
+    for name, (make, lengths, n) in SAMPLES.items():
+        vertices, faces = make(*lengths, n * refinement)
+        files[f"{name}.stl"] = stl_bytes(snapped(vertices), faces, f"geocontact synthetic {name}, n = {n * refinement}, mm")
+    return files
 
 
 def motion_files() -> dict[str, bytes]:
@@ -47,7 +57,7 @@ def committed_files() -> dict[str, bytes]:
     files: dict[str, bytes] = {}
     for side, resolution in COMMITTED:
         files |= knee_files(side, resolution)
-    return files | motion_files()
+    return files | simple_files() | motion_files()
 
 
 def differing(files: dict[str, bytes], folder: Path) -> list[str]:

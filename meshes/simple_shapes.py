@@ -88,3 +88,14 @@ def torus(ring: float, tube: float, n: int) -> tuple[np.ndarray, np.ndarray]:
     right, above = np.roll(index, -1, axis=0), np.roll(index, -1, axis=1)
     quads = np.stack([index, above, np.roll(right, -1, axis=1), right], axis=-1).reshape(-1, 4)
     return vertices, split_quads(vertices, quads)
+
+
+SAMPLES = {
+    "sphere_r20": (sphere, (20.0,), 12),
+    "sphere_r18": (sphere, (18.0,), 12),
+    "plate_80x80x12": (block, (80.0, 80.0, 12.0), 24),
+    "cylinder_r15_l40": (cylinder, (15.0, 40.0), 10),
+    "cup_r24": (cup, (24.0, 5.0), 14),
+    "torus_r25_r8": (torus, (25.0, 8.0), 24),
+}
+"""The shipped shapes: function, lengths [mm] and number of cells n; pass a larger n for a finer mesh."""

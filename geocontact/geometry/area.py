@@ -8,15 +8,15 @@ divided into four as long as the cut still moves, or the bounds are wider than a
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
-from jaxtyping import Float, Int, Int8
+from jaxtyping import Bool, Float, Int
 
 from geocontact.geometry.kernels.certify import certify
 from geocontact.geometry.kernels.clip import clipped_parts
-from geocontact.geometry.kernels.faces import quarter, sort_faces
-from geocontact.geometry.sampled import QUARTERS, Distances, Sampled, measure
+from geocontact.geometry.sampled import Distances, Sampled
+from geocontact.geometry.subdivision import compact, quartered
 from geocontact.geometry.surface import Surface
 
 SMALLEST = 1e-10  # m^2; an upper bound below this is not refined further
@@ -73,14 +73,9 @@ class AreaWithin:
 
 @dataclass(frozen=True, eq=False)
 class _Pieces:
-    """Triangles still under examination; positions about the other surface's centre."""
+    """Triangles under examination: corners in a set of measured points, area, certified shares and linear cut."""
 
-    corner: Float[np.ndarray, "k 3 3"]
-    closest: Float[np.ndarray, "k 3 3"]
-    distance: Float[np.ndarray, "k 3"]
-    side: Int8[np.ndarray, "k 3"]
-    slot: Int[np.ndarray, "k 3"]
-    across: Float[np.ndarray, "k 3"]
+    faces: Int[np.ndarray, "k 3"]
     area: Float[np.ndarray, " k"]
     lower: Float[np.ndarray, " k"]
     upper: Float[np.ndarray, " k"]
@@ -92,8 +87,34 @@ class _Pieces:
     def __getitem__(self, chosen: np.ndarray) -> _Pieces:
         return _Pieces(*(getattr(self, f.name)[chosen] for f in fields(self)))
 
-    def __add__(self, other: _Pieces) -> _Pieces:
-        return _Pieces(*(np.concatenate([getattr(self, f.name), getattr(other, f.name)]) for f in fields(self)))
+    @property
+    def gap(self) -> Float[np.ndarray, " k"]:
+        """Area that is neither certainly within nor certainly outside [m^2]."""
+        return (self.upper - self.lower) * self.area
+
+
+@dataclass
+class _Sums:
+    """Running totals of what is settled; moment about the other surface's centre."""
+
+    area: float = 0.0
+    lower: float = 0.0
+    upper: float = 0.0
+    error: float = 0.0
+    gap: float = 0.0
+    negative: float = 0.0
+    moment: Float[np.ndarray, " 3"] = field(default_factory=lambda: np.zeros(3))
+
+    def with_(self, pieces: _Pieces) -> _Sums:
+        return _Sums(
+            self.area + float(pieces.part.sum()),
+            self.lower + float(pieces.lower @ pieces.area),
+            self.upper + float(pieces.upper @ pieces.area),
+            self.error + float(pieces.error.sum()),
+            self.gap + float(pieces.gap.sum()),
+            self.negative + float(pieces.negative.sum()),
+            self.moment + pieces.moment.sum(axis=0),
+        )
 
 
 def area_within(
@@ -107,105 +128,65 @@ def area_within(
 ) -> AreaWithin:
     """Area of `sampled` whose signed distance to `other` is <= threshold [m], at the pose of `distances`."""
     d = distances
-    signed = other.closed
-    totals, undecided = sort_faces(
-        sampled.faces, d.points, d.distance, d.side, d.slot, d.closest, threshold, signed,
-        sampled.area, sampled.moment, sampled.negative,
-    )  # fmt: skip
-    whole = float(totals[0])
-    pieces = _first_pieces(sampled, d, undecided, threshold, signed)
-    if refinement.depth > 0:
-        pieces = _refine(pieces, other, threshold, refinement, whole)
-    part = float(pieces.part.sum())
-    lower = whole + float(pieces.lower @ pieces.area)
-    upper = whole + float(pieces.upper @ pieces.area)
+    lower, upper = certify(
+        sampled.faces, d.points, d.distance, d.side, d.slot, d.closest, threshold, other.closed
+    )
+    sure = lower >= 1.0
+    moment = sampled.moment[sure].sum(axis=0)
+    sums = _Sums(*[float(sampled.area[sure].sum())] * 3, negative=float(sampled.negative[sure].sum()))
+    doubtful = np.flatnonzero(~sure & (upper > 0.0))
+    faces, points = compact(sampled.faces[doubtful], d)
+    pieces = _examined(faces, points, sampled.area[doubtful], threshold, other.closed)
+    sums = _refined(sums, pieces, points, other, threshold, refinement)
+    # the pieces' moment is about the other's centre and in its axes
     shift = rotation @ sampled.surface.centre + translation - other.centre
-    moment = totals[1:4] + (pieces.moment.sum(axis=0) - part * shift) @ rotation
-    area = whole + part
+    moment += (sums.moment - (sums.area - float(sampled.area[sure].sum())) * shift) @ rotation
     return AreaWithin(
-        area=min(max(area, lower), upper),
-        lower=lower,
-        upper=upper,
-        error=float(pieces.error.sum()),
-        moment=moment + area * sampled.surface.centre,
-        negative=float(totals[4]) + float(pieces.negative.sum()),
+        area=min(max(sums.area, sums.lower), sums.upper),
+        lower=sums.lower,
+        upper=sums.upper,
+        error=sums.error,
+        moment=moment + sums.area * sampled.surface.centre,
+        negative=sums.negative,
         undecided=d.undecided,
     )
 
 
-def _first_pieces(
-    sampled: Sampled, d: Distances, undecided: Int[np.ndarray, " k"], threshold: float, signed: bool
-) -> _Pieces:
-    f = sampled.faces[undecided]
-    return _examined(
-        d.points[f], d.closest[f], d.distance[f], d.side[f], d.slot[f], sampled.across[f], sampled.area[undecided],
-        threshold, signed,
-    )  # fmt: skip
-
-
 def _examined(
-    corner: Float[np.ndarray, "k 3 3"],
-    closest: Float[np.ndarray, "k 3 3"],
-    distance: Float[np.ndarray, "k 3"],
-    side: Int8[np.ndarray, "k 3"],
-    slot: Int[np.ndarray, "k 3"],
-    across: Float[np.ndarray, "k 3"],
-    area: Float[np.ndarray, " k"],
-    threshold: float,
-    signed: bool,
+    faces: Int[np.ndarray, "k 3"], points: Distances, area: Float[np.ndarray, " k"], threshold: float, signed: bool
 ) -> _Pieces:
     """Pieces with their bounds and their linear cut; the error of a piece never divided is taken as its whole doubt."""
-    lower, upper = certify(corner, closest, distance, side, slot, threshold, signed)
-    part, moment, negative = clipped_parts(corner, side * distance - threshold, across, area)
-    return _Pieces(
-        corner, closest, distance, side, slot, across, area, lower, upper, part, moment, negative,
-        (upper - lower) * area,
-    )  # fmt: skip
+    p = points
+    lower, upper = certify(faces, p.points, p.distance, p.side, p.slot, p.closest, threshold, signed)
+    part, moment, negative = clipped_parts(faces, p.points, p.side * p.distance - threshold, p.across, area)
+    return _Pieces(faces, area, lower, upper, part, moment, negative, (upper - lower) * area)
 
 
-def _refine(pieces: _Pieces, other: Surface, threshold: float, rule: Refinement, whole: float) -> _Pieces:
-    settled: list[_Pieces] = []
+def _refined(
+    settled: _Sums, pieces: _Pieces, points: Distances, other: Surface, threshold: float, rule: Refinement
+) -> _Sums:
+    """Divide the pieces as long as `rule` asks for it and return the totals."""
     for level in range(rule.depth):
-        done = settled + [pieces]
-        upper = whole + sum(float(p.upper @ p.area) for p in done)
-        area = whole + sum(float(p.part.sum()) for p in done)
-        gap = (pieces.upper - pieces.lower) * pieces.area
-        if upper < SMALLEST or len(pieces.area) == 0:
-            break
-        wanted = np.full(len(gap), level == 0) | (gap > rule.single * upper)
-        if sum(float(p.error.sum()) for p in done) > rule.accuracy * area:
-            wanted |= pieces.error > 0.25 * rule.accuracy * area / len(pieces.error)
-        total_gap = sum(float(((p.upper - p.lower) * p.area).sum()) for p in done)
-        if rule.bounds is not None and total_gap > rule.bounds * upper:
-            wanted |= gap > 0.25 * rule.bounds * upper / len(gap)
-        wanted &= gap > 0.0
+        wanted = _wanted(settled.with_(pieces), pieces, rule, first=level == 0)
         if not wanted.any():
             break
-        settled.append(pieces[~wanted])
-        pieces = _divided(pieces[wanted], other, threshold)
-    for part in settled:
-        pieces = pieces + part
-    return pieces
+        settled = settled.with_(pieces[~wanted])
+        faces, points = compact(pieces.faces[wanted], points)
+        faces, points = quartered(faces, points, other, threshold)
+        child = _examined(faces, points, np.repeat(0.25 * pieces.area[wanted], 4), threshold, other.closed)
+        change = np.abs(child.part.reshape(-1, 4).sum(axis=1) - pieces.part[wanted]) / 3.0  # order 2: a quarter is left
+        pieces = replace(child, error=np.minimum(np.repeat(0.25 * change, 4), child.gap))
+    return settled.with_(pieces)
 
 
-def _divided(parent: _Pieces, other: Surface, threshold: float) -> _Pieces:
-    """Each piece replaced by its four quarters, with distances asked for at the new corners."""
-    k = len(parent.area)
-    middle = quarter(parent.corner)
-    edge = np.linalg.norm(np.roll(parent.corner, -1, axis=1) - np.roll(parent.corner, 1, axis=1), axis=2)
-    limit = np.repeat(threshold + edge.max(axis=1), 3)
-    new = measure(other, middle.reshape(-1, 3), limit)
-
-    def both(old: np.ndarray, added: np.ndarray) -> np.ndarray:
-        joined = np.concatenate([old, added.reshape(old.shape)], axis=1)  # corners 0 1 2, middles 3 4 5
-        return np.asarray(joined[:, QUARTERS].reshape(4 * k, 3, *old.shape[2:]))
-
-    across = 0.5 * (np.roll(parent.across, -1, axis=1) + np.roll(parent.across, 1, axis=1))
-    child = _examined(
-        both(parent.corner, middle), both(parent.closest, new.closest), both(parent.distance, new.distance),
-        both(parent.side, new.side), both(parent.slot, new.slot), both(parent.across, across),
-        np.repeat(0.25 * parent.area, 4), threshold, other.closed,
-    )  # fmt: skip
-    change = np.abs(child.part.reshape(k, 4).sum(axis=1) - parent.part) / 3.0  # second order: a quarter remains
-    error = np.minimum(np.repeat(0.25 * change, 4), (child.upper - child.lower) * child.area)
-    return _Pieces(*(error if f.name == "error" else getattr(child, f.name) for f in fields(child)))
+def _wanted(now: _Sums, pieces: _Pieces, rule: Refinement, first: bool) -> Bool[np.ndarray, " k"]:
+    """Which pieces to divide: all once, then those that hold more than their share of what is too much."""
+    if now.upper < SMALLEST or len(pieces.area) == 0:
+        return np.zeros(len(pieces.area), bool)
+    gap = pieces.gap
+    wanted = np.full(len(gap), first) | (gap > rule.single * now.upper)
+    if now.error > rule.accuracy * now.area:
+        wanted |= pieces.error > 0.25 * rule.accuracy * now.area / len(gap)
+    if rule.bounds is not None and now.gap > rule.bounds * now.upper:
+        wanted |= gap > 0.25 * rule.bounds * now.upper / len(gap)
+    return np.asarray(wanted & (gap > 0.0))

@@ -17,7 +17,7 @@ def pseudonormals(
     shift = records[:, 15].astype(np.int64)
     turned = merged[np.take_along_axis(faces, (shift[:, None] + np.arange(3)) % 3, axis=1)]  # A, B, C of the record
     flat = records[:, 14] == 0.0
-    unit = np.where(flat[:, None], 0.0, records[:, 9:12])
+    unit = np.where(flat[:, None], 0.0, records[:, 3:6])
     normals = np.zeros((len(faces), 7, 3))
     normals[:, 0] = unit
     for place, (start, end) in enumerate(((0, 1), (0, 2), (1, 2)), start=1):

@@ -13,16 +13,13 @@ from geocontact.geometry.plane import Plane
 from geocontact.geometry.sides import resolve_sides
 from geocontact.geometry.surface import Surface
 
-# the four quarters of a triangle, from its corners 0 1 2 and the middles 3 4 5 of the edges opposite to them
-QUARTERS = np.array([[0, 5, 4], [5, 1, 3], [4, 3, 2], [3, 4, 5]])
-
-
 @dataclass(frozen=True, eq=False)
 class Distances:
     """Distance of each sampled point to the other surface, in the other surface's frame about its centre.
 
     `distance` is unsigned; `side` is 1 outside, -1 inside (always 1 against an open surface); a point beyond its limit
-    has slot -1 and its limit as distance. `undecided` counts points whose side the winding number could not give.
+    has slot -1 and its limit as distance. `across` is the signed distance to the splitting plane (1 without one);
+    `undecided` counts points whose side the winding number could not give.
     """
 
     points: Float[np.ndarray, "n 3"]
@@ -30,7 +27,18 @@ class Distances:
     side: Int8[np.ndarray, " n"]
     slot: Int[np.ndarray, " n"]
     closest: Float[np.ndarray, "n 3"]
-    undecided: int
+    across: Float[np.ndarray, " n"]
+    undecided: int = 0
+
+    def __getitem__(self, chosen: np.ndarray) -> Distances:
+        return Distances(*(values[chosen] for values in self._arrays()), self.undecided)
+
+    def __add__(self, other: Distances) -> Distances:
+        joined = (np.concatenate(both) for both in zip(self._arrays(), other._arrays(), strict=True))
+        return Distances(*joined, self.undecided + other.undecided)
+
+    def _arrays(self) -> tuple[np.ndarray, ...]:
+        return self.points, self.distance, self.side, self.slot, self.closest, self.across
 
     @property
     def signed(self) -> Float[np.ndarray, " n"]:
@@ -98,13 +106,14 @@ class Sampled:
         points = move(self.points, rotation, shift)
         spheres = self.spheres.copy()
         spheres[:, :3] = move(np.ascontiguousarray(self.spheres[:, :3]), rotation, shift)
-        return measure(other, points, self.limit, spheres)
+        return measure(other, points, self.limit, self.across, spheres)
 
 
 def measure(
     other: Surface,
     points: Float[np.ndarray, "n 3"],
     limit: Float[np.ndarray, " n"],
+    across: Float[np.ndarray, " n"] | None = None,
     spheres: Float[np.ndarray, "c 5"] | None = None,
 ) -> Distances:
     """Distances of points given about the centre of `other`, each up to its own limit [m]."""
@@ -113,7 +122,8 @@ def measure(
     signed = other.closed and other.normals_trusted
     distance, side, slot, closest = signed_distances(other.tree, points, limit, spheres, signed)
     side, undecided = resolve_sides(other, points, side)
-    return Distances(points, distance, side, slot, closest, undecided)
+    across = np.ones(len(points)) if across is None else across
+    return Distances(points, distance, side, slot, closest, across, undecided)
 
 
 def _negative_share(across: Float[np.ndarray, "m 3"]) -> Float[np.ndarray, " m"]:

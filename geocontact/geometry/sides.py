@@ -54,7 +54,7 @@ def disagreement(surface: Surface) -> float:
     some = rng.permutation(len(surface.faces))[: PROBES // 4]
     step = 0.25 * np.sqrt(surface.face_area[some])[:, None] * surface.face_normal[some]
     middle = surface.corners[some].mean(axis=1)
-    box = surface.tree.box[0]
+    box = surface.tree.root
     around = rng.uniform(box[:3], box[3:], (PROBES // 2, 3))
     probes = np.concatenate([middle + step, middle - step, around])
     limits = np.full(len(probes), np.inf)
@@ -73,7 +73,7 @@ def resolve_sides(
         return side, 0
     ask = side == 0
     if not surface.normals_trusted:
-        box = surface.tree.box[0]
+        box = surface.tree.root
         ask = ((local > box[:3]) & (local < box[3:])).all(axis=1)
     if not ask.any():
         return side, 0

@@ -95,7 +95,7 @@ class Surface:
     def face_normal(self) -> Float[np.ndarray, "m 3"]:
         """Unit normal of each face, zero where it has no area."""
         records = triangle_frames(self.local, self.faces)
-        return np.where(records[:, 14:15] > 0.0, records[:, 9:12], 0.0) * (-1.0 if self.inside_out else 1.0)
+        return np.where(records[:, 14:15] > 0.0, records[:, 3:6], 0.0) * (-1.0 if self.inside_out else 1.0)
 
     @cached_property
     def edge_length(self) -> Float[np.ndarray, "m 3"]:
@@ -123,10 +123,11 @@ class Surface:
     def tree(self) -> Tree:
         """The bounded tree over the faces, about the centre."""
         corners = self.corners
-        box, meta, order = build_boxes(corners.min(axis=1), corners.max(axis=1))
+        root, pairs, first, count, order = build_boxes(corners.min(axis=1), corners.max(axis=1))
         records = triangle_frames(self.local, np.ascontiguousarray(self.faces[order]))
         normals = pseudonormals(records, self.faces[order], self.topology.merged)
-        tree = Tree(box, meta, records, order, -normals if self.inside_out else normals)
+        normals = -normals if self.inside_out else normals
+        tree = Tree(root, pairs, first, count, records.ravel(), order, normals)
         if self.topology.closed:
             tree.normal[tangled(tree, corners, self.topology.merged[self.faces])[order]] = 0.0
         return tree

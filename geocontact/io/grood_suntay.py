@@ -16,8 +16,6 @@ Sources differ in what they call positive (abduction, valgus, external rotation)
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
@@ -27,14 +25,12 @@ from geocontact.data.motion import Motion
 from geocontact.io.columns import mapped, parse_map
 from geocontact.io.tables import Table
 
-Side = Literal["right", "left"]
-
 _ANGLES = ("flexion", "adduction", "rotation")
 _SHIFTS = ("tx", "ty", "tz")
 
 
 def tibia_in_femur(
-    flexion: Float[np.ndarray, " t"], adduction: Float[np.ndarray, " t"], rotation: Float[np.ndarray, " t"], side: Side
+    flexion: Float[np.ndarray, " t"], adduction: Float[np.ndarray, " t"], rotation: Float[np.ndarray, " t"], side: str
 ) -> Rotation:
     """`R_FT` from knee angles [rad]; signs in the module's docstring."""
     s = _sign(side)
@@ -48,7 +44,7 @@ def tibia_in_femur(
     return Rotation.from_matrix(np.moveaxis(np.array(rows, dtype=float), (0, 1), (-2, -1)))
 
 
-def knee_angles(tibia: Rotation, side: Side) -> Float[np.ndarray, "t 3"]:
+def knee_angles(tibia: Rotation, side: str) -> Float[np.ndarray, "t 3"]:
     """Flexion, adduction and internal rotation [rad] from `R_FT`, by the definition with the floating axis.
 
     Adduction within ±90°; at ±90° flexion and rotation turn about the same axis and cannot be told apart.
@@ -67,8 +63,8 @@ def knee_angles(tibia: Rotation, side: Side) -> Float[np.ndarray, "t 3"]:
 def motion_from_grood_suntay(
     table: Table,
     mapping: str | None,
-    side: Side,
-    moving: Literal["tibia", "femur"] = "tibia",
+    side: str,
+    moving: str = "tibia",
     angles: str | None = None,
 ) -> Motion:
     """Motion of one knee component in the other from columns of knee angles.
@@ -79,12 +75,13 @@ def motion_from_grood_suntay(
         `"flexion=knee_flex,adduction=knee_add,rotation=knee_rot,tx=…,ty=…,tz=…"`; None takes columns of these names.
         rotation is internal rotation; `-name` negates; what is not mapped is 0, with a warning.
     side
-        Of the body. Left mirrors adduction and rotation.
+        "right" or "left". Left mirrors adduction and rotation.
     moving
-        MOVING; the other body is FIXED. The angles are the knee's either way.
+        "tibia" or "femur": MOVING; the other body is FIXED. The angles are the knee's either way.
 
     tx, ty, tz is the origin of MOVING along the x, y, z axes of FIXED (not Grood and Suntay's oblique e1, e2, e3).
     """
+    _sign(side)
     if moving not in ("tibia", "femur"):
         raise InputError("", "--moving", f"'{moving}' is not a body of the knee", "MOVING is tibia or femur")
     present = [name for name in _ANGLES + _SHIFTS if name in table.channels]

@@ -47,7 +47,8 @@ def require_plausible(vertices: Float[np.ndarray, "n 3"], unit: str, plausible: 
     size = "too small for an implant" if metres < plausible[0] else "too large for an implant or a body"
     fitting = [u for u in _COMMON_FIRST if u != unit and _LIKELY[0] <= diagonal * LENGTH[u] <= _LIKELY[1]]
     remedy = f"the file looks like {_IN_WORDS[fitting[0]]}, pass --unit {fitting[0]}" if fitting else "check the unit"
-    raise InputError(file, "", f"bounding box {box[0]:.3g} x {box[1]:.3g} x {box[2]:.3g} {unit} is {size}", remedy)
+    shown = " x ".join(f"{side:.0f}" if 100 <= side < 1e7 else f"{side:.3g}" for side in box)
+    raise InputError(file, "", f"bounding box {shown} {unit} is {size}", remedy)
 
 
 def metres_per(unit: str, file: str) -> float:

@@ -146,8 +146,8 @@ def _read_axis(file: str, transform: Element, slot: int) -> TransformAxis:
         return TransformAxis(np.array(default), (), constant(0.0))
     direction = numbers_of(file, axis, "axis", 3, default)
     length = float(np.linalg.norm(direction))
-    if length == 0.0:
-        raise InputError(file, f"{label(axis)} <axis>", "the axis has no length", "correct the model")
+    if not 0.0 < length < np.inf:
+        raise InputError(file, f"{label(axis)} <axis>", f"an axis of length {length:g}", "correct the model")
     names = tuple(text_of(axis, "coordinates").split())
     found = _function_element(axis)
     function = constant(0.0) if found is None else read_function(file, found, len(names))

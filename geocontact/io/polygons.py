@@ -36,7 +36,8 @@ def triangles(
     limits.require_count(int(each.sum()), limits.MAX_FACES, "faces", file)
     first = np.repeat(np.cumsum(sizes) - sizes, each)
     step = np.arange(len(first)) - np.repeat(np.cumsum(each) - each, each)
-    message = f"{file}: {split} polygons with more than 3 corners cut into triangles; face numbers count triangles"
+    noun = "polygon" if split == 1 else "polygons"
+    message = f"{file}: {split} {noun} with more than 3 corners cut into triangles; face numbers count triangles"
     warnings.warn(InputWarning(message), stacklevel=2)
     return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)
 

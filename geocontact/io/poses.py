@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
@@ -58,9 +57,7 @@ def motion_from_csv(path: str | PathLike[str], order: str | None = None, angles:
     )
 
 
-def motion_from_joint(
-    table: Table, joint: JointModel, moving: Literal["child", "parent"] = "child", angles: str | None = None
-) -> Motion:
+def motion_from_joint(table: Table, joint: JointModel, moving: str = "child", angles: str | None = None) -> Motion:
     """Motion of a joint's child body in its parent body; `moving="parent"` gives the parent in the child.
 
     Columns are coordinates by name or by path (`/jointset/joint/name/value`). A coordinate without a column keeps its
@@ -74,6 +71,8 @@ def motion_from_joint(
         what = f"no column for any coordinate of joint {joint.name} ({names})"
         raise InputError(table.file, "", what, f"columns are: {listed(table.channels)}")
     pose = joint.pose(_coordinates(table, joint, columns, angles), len(table.time))
+    if not np.all(np.isfinite(pose.as_matrix())):
+        raise InputError(table.file, "", f"pose of joint {joint.name} is not finite", "coordinates or model are absurd")
     _warn_of_defaults(table, joint, [c for c in joint.coordinates if c.name not in columns])
     poses = pose.inv() if moving == "parent" else pose
     return Motion(table.time, poses, f"{table.file} with joint {joint.name} of {joint.file}", table.time_unit)
@@ -109,6 +108,8 @@ def read_pose(path: str | PathLike[str], unit: str = "m") -> RigidTransform:
     Refused unless the rotation part is orthonormal with determinant +1 and the last row 0 0 0 1, within 1e-6.
     """
     file = fspath(path)
+    if unit not in LENGTH:
+        raise InputError(file, "", f"'{unit}' is not a unit of length here", f"give one of {', '.join(LENGTH)}")
     try:
         if Path(file).stat().st_size > _LARGEST_POSE:
             raise InputError(file, "", "too long for a 4x4 matrix", "give 4 rows of 4 numbers")

@@ -66,6 +66,7 @@ def _is_binary(data: bytes, file: str) -> bool:
 
 
 def _read_ascii(data: bytes, file: str) -> Float[np.ndarray, "n 3"]:
+    data = data.removeprefix(BYTE_ORDER_MARK)
     if b"\n" not in data:
         data = data.replace(b"\r", b"\n")
     blocks: list[Float[np.ndarray, "n 3"]] = []
@@ -82,8 +83,8 @@ def _read_ascii(data: bytes, file: str) -> Float[np.ndarray, "n 3"]:
 
 def _solids(data: bytes, file: str) -> Iterator[tuple[int, int]]:
     """Where the facets between each `solid` line and its `endsolid` line begin and end."""
-    inside, last = False, len(BYTE_ORDER_MARK) if data.startswith(BYTE_ORDER_MARK) else 0
-    for mark in _MARK.finditer(data, last):
+    inside, last = False, 0
+    for mark in _MARK.finditer(data):
         ends = mark[1] is not None
         if ends != inside:
             what = "'endsolid' without 'solid'" if ends else "'solid' before the previous 'endsolid'"

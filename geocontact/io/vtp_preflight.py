@@ -57,15 +57,14 @@ class Document:
 
 def read_document(data: bytes, file: str) -> Document:
     """Structure of a VTP file; refuses other VTK types, entities and document types, triangle strips, no polygons."""
+    if b"<VTKFile" not in data:
+        raise not_a("a VTP file", data, file)
     xml, raw = _without_raw_bytes(data, file)
     try:
         root: Element = fromstring(xml, forbid_dtd=True)
     except DefusedXmlException as error:
-        what = "declares a document type or entities, which are not read"
-        raise InputError(file, "", what, _RESAVE) from error
+        raise InputError(file, "", "declares a document type or entities, which are not read", _RESAVE) from error
     except (ParseError, ValueError, LookupError) as error:
-        if b"<VTKFile" not in data[:4096]:
-            raise not_a("a VTP file", data, file) from error
         raise InputError(file, "", f"is not well-formed XML ({error})", "it is cut off or damaged") from error
     if root.tag != "VTKFile" or root.get("type") != "PolyData":
         what = f"holds {root.tag} {root.get('type', '')}, expected VTKFile PolyData"

@@ -115,7 +115,7 @@ def test_mixed_polygons_of_binary_ply_become_fans(tmp_path):
     path = tmp_path / "box.ply"
     square = np.array([[0, 0, 0], [50, 0, 0], [50, 50, 0], [0, 50, 0], [25, 25, 40]], dtype=float)
     path.write_bytes(ply_bytes("<", "double", [[0, 1, 4], [3, 2, 1, 0], [1, 2, 4]], square))
-    with pytest.warns(InputWarning, match="1 polygons with more than 3 corners"):
+    with pytest.warns(InputWarning, match="1 polygon with more than 3 corners"):
         mesh = read_mesh(path, "mm")
     np.testing.assert_array_equal(mesh.faces, [[0, 1, 4], [3, 2, 1], [3, 1, 0], [1, 2, 4]])
 
@@ -127,7 +127,7 @@ def test_obj_indices_materials_and_polygons(tmp_path):
         "v 0 0 50 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\nusemtl b\nf 1/1 2/1 4/1\nusemtl a\nf 1//1 3//1 4//1\n"
         "f 2/1/1 \\\n 3/1/1 4/1/1\nf 1 2 3 4\n"
     )
-    with pytest.warns(InputWarning, match="duplicate"), pytest.warns(InputWarning, match="polygons"):
+    with pytest.warns(InputWarning, match="duplicate"), pytest.warns(InputWarning, match="polygon"):
         mesh = read_mesh(write_obj(tmp_path, text), "mm")
     np.testing.assert_array_equal(mesh.faces, [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3], [0, 1, 2], [0, 2, 3]])
 
@@ -217,21 +217,21 @@ def test_units_agree_with_each_other(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("length", "given_unit", "plea"),
+    ("length", "shown", "given_unit", "plea"),
     [
-        (0.1, "mm", "too small for an implant; the file looks like metres, pass --unit m"),
-        (100.0, "m", "too large for an implant or a body; the file looks like millimetres, pass --unit mm"),
-        (1800.0, "cm", "the file looks like millimetres, pass --unit mm"),
-        (1e-7, "m", "too small for an implant; check the unit"),
-        (1e9, "mm", "too large for an implant or a body; check the unit"),
-        (1e300, "mm", "check the unit"),
+        (0.1, "0.1", "mm", "too small for an implant; the file looks like metres, pass --unit m"),
+        (100.0, "100", "m", "too large for an implant or a body; the file looks like millimetres, pass --unit mm"),
+        (1500.0, "1500", "cm", "the file looks like millimetres, pass --unit mm"),
+        (1e-7, "1e-07", "m", "too small for an implant; check the unit"),
+        (1e9, "1e+09", "mm", "too large for an implant or a body; check the unit"),
+        (1e300, "1e+300", "mm", "check the unit"),
     ],
 )
-def test_absurd_unit_is_refused_with_the_likely_one(tmp_path, length, given_unit, plea):
+def test_absurd_unit_is_refused_with_the_likely_one(tmp_path, length, shown, given_unit, plea):
     text = f"v 0 0 0\nv {length!r} 0 0\nv 0 {length!r} 0\nf 1 2 3\n"
     with pytest.raises(InputError) as caught:
         read_mesh(write_obj(tmp_path, text, "femur.obj"), given_unit)
-    assert str(caught.value).startswith(f"femur.obj: bounding box {length:.3g} x {length:.3g} x 0 {given_unit} is too")
+    assert str(caught.value).startswith(f"femur.obj: bounding box {shown} x {shown} x 0 {given_unit} is too")
     assert plea in str(caught.value)
 
 
@@ -262,7 +262,9 @@ def test_degenerate_faces_stay_and_are_warned_about(tmp_path):
 
 def test_duplicate_faces_stay_and_are_warned_about(tmp_path):
     path = write_obj(tmp_path, tetrahedron("f 1 2 3\nf 1 2 4\nf 2 3 1\nf 3 2 1\n"))
-    with pytest.warns(InputWarning, match=r"2 duplicate faces \(same three vertices as an earlier face\); first is face 2"):
+    with pytest.warns(
+        InputWarning, match=r"2 duplicate faces \(same three vertices as an earlier face\); first is face 2"
+    ):
         mesh = read_mesh(path, "mm")
     np.testing.assert_array_equal(mesh.faces, [[0, 1, 2], [0, 1, 3], [1, 2, 0], [2, 1, 0]])
 

@@ -50,13 +50,16 @@ def joint4(kind: str, inside: str, coordinates: Sequence[str]) -> str:
 def model3(kind: str, inside: str, coordinates: Sequence[str], reverse: str, visible: str = "") -> str:
     """OpenSim 3: the same two bodies, joints inside the bodies."""
     listed = "".join(
-        f'<Coordinate name="{c}"><default_value>0.25</default_value><range>-9 9</range></Coordinate>' for c in coordinates
+        f'<Coordinate name="{c}"><default_value>0.25</default_value><range>-9 9</range></Coordinate>'
+        for c in coordinates
     )
     body = "<mass>1</mass><mass_center>0 0 0</mass_center>" + "".join(
-        f"<inertia_{ij}>{value}</inertia_{ij}>" for ij, value in zip(("xx", "yy", "zz", "xy", "xz", "yz"), (1, 1, 1, 0, 0, 0))
+        f"<inertia_{ij}>{value}</inertia_{ij}>"
+        for ij, value in zip(("xx", "yy", "zz", "xy", "xz", "yz"), (1, 1, 1, 0, 0, 0), strict=True)
     )
     weld = '<WeldJoint name="w"><parent_body>ground</parent_body></WeldJoint>'
-    return f"""<?xml version="1.0" encoding="UTF-8"?><OpenSimDocument Version="30000"><Model name="mini"><BodySet><objects>
+    return f"""<?xml version="1.0" encoding="UTF-8"?><OpenSimDocument Version="30000"><Model name="mini">
+    <BodySet><objects>
     <Body name="ground">{body}<Joint/></Body><Body name="p">{body}<Joint>{weld}</Joint></Body>
     <Body name="c">{body}<Joint><{kind} name="j"><parent_body>p</parent_body>
     <location_in_parent>0.1 -0.2 0.3</location_in_parent><orientation_in_parent>0.4 -0.5 0.6</orientation_in_parent>
@@ -82,10 +85,15 @@ def transform(wrapped: bool) -> str:
     """One of each function on six oblique axes of no unit length, written as OpenSim 3 or as OpenSim 4 does."""
     parts = []
     for slot, axis, (kind, inside) in zip(SLOTS, AXES, FUNCTIONS.items(), strict=True):
-        function = f"<function><{kind}>{inside}</{kind}></function>" if wrapped else f'<{kind} name="function">{inside}</{kind}>'
+        function = (
+            f"<function><{kind}>{inside}</{kind}></function>"
+            if wrapped
+            else f'<{kind} name="function">{inside}</{kind}>'
+        )
         coordinate = "" if kind == "Constant" else "a" if slot < "rotation3" else "b"
         parts.append(
-            f'<TransformAxis name="{slot}"><coordinates>{coordinate}</coordinates><axis>{axis}</axis>{function}</TransformAxis>'
+            f'<TransformAxis name="{slot}"><coordinates>{coordinate}</coordinates><axis>{axis}</axis>'
+            f"{function}</TransformAxis>"
         )
     return f"<SpatialTransform>{''.join(parts)}</SpatialTransform>"
 
@@ -166,7 +174,9 @@ def test_kind_of_linear_coordinates(tmp_path: Path, opensim: ModuleType, axes: s
     file = written(tmp_path, model4(joint4("CustomJoint", f"<SpatialTransform>{axes}</SpatialTransform>", ("a",))))
     model = opensim.Model(str(file))
     model.initSystem()
-    assert model.getCoordinateSet().get("a").getMotionType() == ["", "rotational", "translational", "coupled"].index(kind)
+    assert model.getCoordinateSet().get("a").getMotionType() == ["", "rotational", "translational", "coupled"].index(
+        kind
+    )
     assert read_joint(file, "j").coordinates[0].kind == kind
 
 
@@ -274,22 +284,52 @@ BAD = {
     "truncated": (PIN4[:-40], "not a readable OpenSim model"),
     "html": ("<html><body/></html>", "root element is <html>, not an OpenSim model"),
     "other document": ("<OpenSimDocument/>", "not an OpenSim model"),
-    "entity bomb": ('<!DOCTYPE x [<!ENTITY a "aa"><!ENTITY b "&a;&a;">]><OpenSimDocument>&b;</OpenSimDocument>', "readable"),
+    "entity bomb": (
+        '<!DOCTYPE x [<!ENTITY a "aa"><!ENTITY b "&a;&a;">]><OpenSimDocument>&b;</OpenSimDocument>',
+        "readable",
+    ),
     "other joint": (PIN4.replace('name="j"', 'name="knee_r"'), "no joint 'j'; joints are: w, knee_r"),
-    "word for a number": (PIN4.replace("-0.5 0.6", "-0.5 abc"), "PhysicalOffsetFrame p_offset <orientation>: '0.4 -0.5 abc'"),
-    "two numbers": (PIN4.replace("0.1 -0.2 0.3", "0.1 -0.2"), "PhysicalOffsetFrame p_offset <translation>: '0.1 -0.2' where 3"),
+    "word for a number": (
+        PIN4.replace("-0.5 0.6", "-0.5 abc"),
+        "PhysicalOffsetFrame p_offset <orientation>: '0.4 -0.5 abc'",
+    ),
+    "two numbers": (
+        PIN4.replace("0.1 -0.2 0.3", "0.1 -0.2"),
+        "PhysicalOffsetFrame p_offset <translation>: '0.1 -0.2' where 3",
+    ),
     "NaN": (PIN4.replace("0.25", "nan"), "Coordinate a <default_value>: 'nan' where 1 finite number"),
-    "unknown frame": (PIN4.replace("/bodyset/p<", "/bodyset/q<"), "frame '/bodyset/q' of /jointset/j/p_offset is neither"),
+    "unknown frame": (
+        PIN4.replace("/bodyset/p<", "/bodyset/q<"),
+        "frame '/bodyset/q' of /jointset/j/p_offset is neither",
+    ),
     "circle": (PIN4.replace("../../../bodyset/c/c_fixed", "../c_offset"), "refer to each other in a circle"),
     "no socket": (PIN4.replace("socket_child_frame", "socket_x"), "PinJoint j: no <socket_child_frame>"),
-    "other kind of joint": (PIN4.replace("PinJoint", "EllipsoidJoint"), "this kind of joint is not supported; supported: Cu"),
-    "other kind of function": (CUSTOM.replace("SimmSpline", "GCVSpline"), "GCVSpline function: this kind of function is not"),
-    "spline runs back": (CUSTOM.replace("-0.4 0.1 0.5", "-0.4 0.1 0.1"), "5 x and 5 y values; two or more points with incr"),
+    "other kind of joint": (
+        PIN4.replace("PinJoint", "EllipsoidJoint"),
+        "this kind of joint is not supported; supported: Cu",
+    ),
+    "other kind of function": (
+        CUSTOM.replace("SimmSpline", "GCVSpline"),
+        "GCVSpline function: this kind of function is not",
+    ),
+    "spline runs back": (
+        CUSTOM.replace("-0.4 0.1 0.5", "-0.4 0.1 0.1"),
+        "5 x and 5 y values; two or more points with incr",
+    ),
     "spline of unequal length": (CUSTOM.replace("0.25 -0.4<", "0.25<"), "5 x and 4 y values"),
-    "too many coefficients": (CUSTOM.replace("-1.5 0.2", "-1.5 0.2 1"), "LinearFunction function <coefficients>: '-1.5 0.2 1'"),
-    "axis of no length": (CUSTOM.replace("0 0 2", "0 0 0"), "TransformAxis rotation1 <axis>: the axis has no length"),
-    "unknown coordinate": (CUSTOM.replace('Coordinate name="b"', 'Coordinate name="z"'), "its transform uses b; coordinates are: a, z"),
-    "reverse": (MODELS["3 PinJoint true"].replace(">true<", ">maybe<"), "PinJoint j <reverse>: 'maybe' is neither true nor false"),
+    "too many coefficients": (
+        CUSTOM.replace("-1.5 0.2", "-1.5 0.2 1"),
+        "LinearFunction function <coefficients>: '-1.5 0.2 1'",
+    ),
+    "axis of no length": (CUSTOM.replace("0 0 2", "0 0 0"), "TransformAxis rotation1 <axis>: an axis of length 0"),
+    "unknown coordinate": (
+        CUSTOM.replace('Coordinate name="b"', 'Coordinate name="z"'),
+        "its transform uses b; coordinates are: a, z",
+    ),
+    "reverse": (
+        MODELS["3 PinJoint true"].replace(">true<", ">maybe<"),
+        "PinJoint j <reverse>: 'maybe' is neither true nor false",
+    ),
     "no parent": (MODELS["3 PinJoint true"].replace("parent_body", "parent"), "PinJoint j: no <parent_body>"),
 }
 

@@ -61,7 +61,9 @@ def test_version_3_without_counts(tmp_path: Path) -> None:
 
 def test_simm_form_asks_for_the_unit_and_names_the_convention(tmp_path: Path) -> None:
     read = table(tmp_path, SIMM)
-    with pytest.raises(InputError, match=r"gait\.mot: header does not say .* pass --angles deg or rad \(SIMM .* degrees"):
+    with pytest.raises(
+        InputError, match=r"gait\.mot: header does not say .* pass --angles deg or rad \(SIMM .* degrees"
+    ):
         angles_of(read, ["knee"])
     np.testing.assert_array_equal(angles_of(read, ["knee"], "deg")[:, 0], np.radians([10.0, 20.0, 30.0]))
 
@@ -97,8 +99,14 @@ REFUSED = {
     "no rows": (GOOD.split("0.0\t")[0], "line 8: no rows below the column labels"),
     "fewer rows than declared": (GOOD.replace("1.0\t30\t0.3\n", ""), "line 3: header says 'nRows=3' but 2 rows follow"),
     "more rows than declared": (GOOD + "2\t3\t4\n", "line 3: header says 'nRows=3' but 4 rows follow"),
-    "columns unlike declared": (GOOD.replace("nColumns=3", "nColumns=4"), "line 4: header says 'nColumns=4' but there are 3"),
-    "SIMM rows unlike declared": (SIMM.replace("datarows 3", "datarows 9"), "line 3: header says 'datarows 9' but 3 rows"),
+    "columns unlike declared": (
+        GOOD.replace("nColumns=3", "nColumns=4"),
+        "line 4: header says 'nColumns=4' but there are 3",
+    ),
+    "SIMM rows unlike declared": (
+        SIMM.replace("datarows 3", "datarows 9"),
+        "line 3: header says 'datarows 9' but 3 rows",
+    ),
     "count is no number": (GOOD.replace("nRows=3", "nRows=three"), "line 3: 'nRows=three' is not a count"),
     "short row": (GOOD.replace("0.5\t20\t0.2", "0.5\t20"), "line 9: 2 cells where 3 columns are named"),
     "long row": (GOOD.replace("0.5\t20\t0.2", "0.5\t20\t0.2\t7"), "line 9: more cells where 3 columns are named"),
@@ -186,8 +194,16 @@ def test_what_free_text_is_evidence(line: str, unit: str | None) -> None:
 @pytest.mark.parametrize(
     ("flag", "text", "message"),
     [
-        ("no", "Angles are in degrees.\n", r"line 5: header says inDegrees=no but the text says degrees \(line 6\); pass"),
-        ("yes", "\nAngles are in radians.\n", r"line 5: header says inDegrees=yes but the text says radians \(line 7\)"),
+        (
+            "no",
+            "Angles are in degrees.\n",
+            r"line 5: header says inDegrees=no but the text says degrees \(line 6\); pass",
+        ),
+        (
+            "yes",
+            "\nAngles are in radians.\n",
+            r"line 5: header says inDegrees=yes but the text says radians \(line 7\)",
+        ),
         ("yes", "inDegrees=no\n", r"line 5: header says inDegrees=yes but inDegrees=no \(line 6\)"),
     ],
 )
@@ -225,7 +241,10 @@ def test_user_overrules_the_header_with_a_warning(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("header", "message"),
-    [("knee_tx", "column 'knee_tx' has no unit; write e.g."), ("knee_tx [furlong]", "column 'knee_tx' is in 'furlong'")],
+    [
+        ("knee_tx", "column 'knee_tx' has no unit; write e.g."),
+        ("knee_tx [furlong]", "column 'knee_tx' is in 'furlong'"),
+    ],
 )
 def test_csv_lengths_need_a_unit(tmp_path: Path, header: str, message: str) -> None:
     with pytest.raises(InputError, match=message):
@@ -234,7 +253,9 @@ def test_csv_lengths_need_a_unit(tmp_path: Path, header: str, message: str) -> N
 
 def test_csv_angles_need_a_unit(tmp_path: Path) -> None:
     read = table(tmp_path, CSV.replace(" [deg]", ""), "gait.csv")
-    with pytest.raises(InputError, match="column 'knee' does not say whether angles are degrees or radians; pass --angles"):
+    with pytest.raises(
+        InputError, match="column 'knee' does not say whether angles are degrees or radians; pass --angles"
+    ):
         angles_of(read, ["knee"])
     with pytest.raises(InputError, match="angle column 'knee' is in 'turn'"):
         angles_of(table(tmp_path, CSV.replace("[deg]", "[turn]"), "gait.csv"), ["knee"])

@@ -5,7 +5,7 @@ import pytest
 
 from tests import closed_forms as exact
 
-SAMPLES = 2**18
+SAMPLES = 2**19
 """Points of the additive sequence with the plastic number's powers: even in two dimensions, aligned with nothing."""
 PLASTIC = 1.32471795724474602596
 

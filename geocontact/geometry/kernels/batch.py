@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.geometry.kernels.tree import STACK, nearest, side_of
+from geocontact.geometry.kernels.tree import STACK, box_distance, nearest, side_of
 
 CHUNK = 32  # points that are dismissed together when none of them can be near
+SLACK = 1.0 + 1e-9  # so that rounding never excludes the nearest triangle itself
 
 
 @kernel
@@ -50,33 +51,43 @@ def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-un
 
     Beyond its limit a point has slot -1 and its limit as distance (the true distance is not smaller). side is 1
     outside, -1 inside, 0 undecided; always 1 when not `signed`. `sphere` (from `chunk_spheres`, in the same frame)
-    lets whole chunks be dismissed.
+    lets whole chunks be dismissed, and bounds the search of the others: distance is 1-Lipschitz.
     """
     n = len(points)
     distance = np.empty(n)
     side = np.ones(n, np.int8)
     slot = np.full(n, -1)
     closest = np.full((n, 3), np.nan)
-    nodes = np.empty(STACK, np.int64)
+    nodes = np.empty(STACK, np.uint32)
     keys = np.empty(STACK)
     for c in range(len(sphere)):
         first = c * CHUNK
         last = min(first + CHUNK, n)
-        x, y, z = sphere[c, 0], sphere[c, 1], sphere[c, 2]
+        cx, cy, cz = sphere[c, 0], sphere[c, 1], sphere[c, 2]
         reach = sphere[c, 3] + sphere[c, 4]
-        if last - first > 1 and nearest(tree, x, y, z, reach * reach, nodes, keys)[1] < 0:
-            far = _side(tree, x, y, z, signed, nodes, keys)
+        d2, s = nearest(tree, cx, cy, cz, reach * reach, nodes, keys)
+        if s < 0:
+            far = _side(tree, cx, cy, cz, signed, nodes, keys)
             for i in range(first, last):
                 distance[i] = limit[i]
                 side[i] = far
             continue
+        middle = np.sqrt(d2)
+        _, _, _, central = side_of(tree, s, cx, cy, cz)
         for i in range(first, last):
             x, y, z = points[i, 0], points[i, 1], points[i, 2]
-            d2, s = nearest(tree, x, y, z, limit[i] * limit[i], nodes, keys)
+            away = np.sqrt((x - cx) ** 2 + (y - cy) ** 2 + (z - cz) ** 2)
+            s = -1
+            if middle - away <= limit[i]:
+                start = min(limit[i], (middle + away) * SLACK)
+                d2, s = nearest(tree, x, y, z, start * start, nodes, keys)
             slot[i] = s
             if s < 0:
                 distance[i] = limit[i]
-                side[i] = _side(tree, x, y, z, signed, nodes, keys)
+                if away < limit[i]:  # nothing between the point and the middle of its chunk
+                    side[i] = central if signed else 1
+                else:
+                    side[i] = _side(tree, x, y, z, signed, nodes, keys)
                 continue
             distance[i] = np.sqrt(d2)
             closest[i, 0], closest[i, 1], closest[i, 2], which = side_of(tree, s, x, y, z)
@@ -87,13 +98,7 @@ def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-un
 
 @kernel
 def _side(tree, x, y, z, signed, nodes, keys):  # type: ignore[no-untyped-def]
-    box = tree.box[0]
-    if (
-        not signed
-        or not (box[0] < x < box[3])
-        or not (box[1] < y < box[4])
-        or not (box[2] < z < box[5])
-    ):
+    if not signed or box_distance(tree.root, np.uint64(0), x, y, z) > 0.0:
         return 1
     slot = nearest(tree, x, y, z, np.inf, nodes, keys)[1]
     return side_of(tree, slot, x, y, z)[3]

@@ -24,17 +24,37 @@ ROUND = 1e-12  # relative allowance for rounding in the certificates
 
 
 @kernel
-def certify(corner, closest, distance, side, slot, threshold, signed):  # type: ignore[no-untyped-def]
+def certify(faces, points, distance, side, slot, closest, threshold, signed):  # type: ignore[no-untyped-def]
     """Lower and upper bound of the part of each triangle within the threshold, as fractions of its area.
 
-    corner, closest (k, 3, 3); distance, side, slot (k, 3) as `signed_distances` gives them (a corner beyond its limit
-    has slot -1 and at least the distance given). Returns arrays (k,), (k,).
+    faces (k, 3) index the point arrays, which are as `signed_distances` gives them: a point beyond its limit has
+    slot -1 and is at least as far as the distance given. Returns arrays (k,), (k,).
     """
-    k = len(corner)
-    lower = np.empty(k)
-    upper = np.empty(k)
-    for i in range(k):
-        lower[i], upper[i] = bounds(corner[i], closest[i], distance[i], side[i], slot[i], threshold, signed)
+    lower = np.empty(len(faces))
+    upper = np.empty(len(faces))
+    v = np.empty((3, 3))
+    p = np.empty((3, 3))
+    d = np.empty(3)
+    s = np.empty(3, np.int8)
+    t = np.empty(3, np.int64)
+    for f in range(len(faces)):
+        out = True
+        for c in range(3):
+            i = faces[f, c]
+            d[c] = distance[i]
+            s[c] = side[i]
+            t[c] = slot[i]
+            out = out and slot[i] < 0 and side[i] > 0
+        lower[f] = 0.0
+        upper[f] = 0.0
+        if out:  # all corners farther than the threshold by more than the longest edge
+            continue
+        for c in range(3):
+            i = faces[f, c]
+            for x in range(3):
+                v[c, x] = points[i, x]
+                p[c, x] = closest[i, x]
+        lower[f], upper[f] = _bounds(v, p, d, s, t, threshold, signed)
     return lower, upper
 
 
@@ -44,7 +64,7 @@ def _length(a, b):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def bounds(v, p, d, s, slot, threshold, signed):  # type: ignore[no-untyped-def]
+def _bounds(v, p, d, s, slot, threshold, signed):  # type: ignore[no-untyped-def]
     e0 = _length(v[1], v[2])
     e1 = _length(v[2], v[0])
     e2 = _length(v[0], v[1])

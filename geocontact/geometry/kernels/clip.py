@@ -63,13 +63,13 @@ def _moments(polygon, count, out):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def clipped_parts(corner, value, across, area):  # type: ignore[no-untyped-def]
+def clipped_parts(faces, points, value, across, area):  # type: ignore[no-untyped-def]
     """Area, first moment and area on the negative side of each triangle's part where `value` <= 0.
 
-    corner (k, 3, 3), value (k, 3) linear in each triangle, across (k, 3) signed distance of the corners to a splitting
-    plane, area (k,). Returns part (k,), moment (k, 3) = integral of position, negative (k,).
+    faces (k, 3) index points (n, 3), value (n,) and across (n,), all linear in each triangle; across is the signed
+    distance to a splitting plane; area (k,). Returns part (k,), moment (k, 3) = integral of position, negative (k,).
     """
-    k = len(corner)
+    k = len(faces)
     part = np.zeros(k)
     negative = np.zeros(k)
     moment = np.zeros((k, 3))
@@ -77,14 +77,21 @@ def clipped_parts(corner, value, across, area):  # type: ignore[no-untyped-def]
     first = np.empty((4, 3))
     second = np.empty((5, 3))
     weight = np.empty(3)
+    f = np.empty(3)
+    g = np.empty(3)
     for i in range(k):
-        count = _cut(whole, 3, value[i], first)
+        for j in range(3):
+            f[j] = value[faces[i, j]]
+            g[j] = across[faces[i, j]]
+        count = _cut(whole, 3, f, first)
         if count < 3:
             continue
         share = _moments(first, count, weight)
         part[i] = share * area[i]
         for j in range(3):
             for m in range(3):
-                moment[i, m] += weight[j] * corner[i, j, m] * area[i]
-        negative[i] = _moments(second, _cut(first, count, across[i], second), weight) * area[i]
+                moment[i, m] += weight[j] * points[faces[i, j], m] * area[i]
+        if g[0] > 0.0 and g[1] > 0.0 and g[2] > 0.0:
+            continue
+        negative[i] = _moments(second, _cut(first, count, g, second), weight) * area[i]
     return part, moment, negative

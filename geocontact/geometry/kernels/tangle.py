@@ -38,17 +38,12 @@ def _pierce(tree, corner, faces, f, k, l, nodes, marked):  # type: ignore[no-unt
     while waiting > 0:
         waiting -= 1
         node = nodes[waiting]
-        box = tree.box[node]
-        if (
-            box[0] > hi[0] or box[1] > hi[1] or box[2] > hi[2]
-            or box[3] < lo[0] or box[4] < lo[1] or box[5] < lo[2]
-        ):  # fmt: skip
-            continue
-        first, count = tree.meta[node, 0], tree.meta[node, 1]
+        first, count = np.int64(tree.first[node]), np.int64(tree.count[node])
         if count == 0:
-            nodes[waiting] = first
-            nodes[waiting + 1] = first + 1
-            waiting += 2
+            for child in range(2):
+                if _meets(tree.pairs, 12 * node + 6 * child, lo, hi):
+                    nodes[waiting] = first + child
+                    waiting += 1
             continue
         for slot in range(first, first + count):
             g = tree.face[slot]
@@ -57,6 +52,14 @@ def _pierce(tree, corner, faces, f, k, l, nodes, marked):  # type: ignore[no-unt
             if _crosses(p, q, corner[g, 0], corner[g, 1], corner[g, 2]):
                 marked[f] = True
                 marked[g] = True
+
+
+@kernel
+def _meets(box, o, lo, hi):  # type: ignore[no-untyped-def]
+    for k in range(3):
+        if box[o + k] > hi[k] or box[o + k + 3] < lo[k]:
+            return False
+    return True
 
 
 @kernel

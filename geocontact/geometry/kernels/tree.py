@@ -19,24 +19,35 @@ DEPTH = 40  # deeper than this nodes are halved by count, so that the stack belo
 STACK = 128
 
 
+WIDTH = np.uint64(16)  # numbers in a triangle record
+PAIR = np.uint64(12)  # numbers in the two boxes of a node's children
+BOX = np.uint64(6)
+
+
 class Tree(NamedTuple):
     """Arrays of the tree; triangles are numbered by *slot*, their order along the leaves.
 
-    box (k, 6) lower and upper corner; meta (k, 2): for a leaf first slot and count, else left child and 0;
-    triangle (m, 16) records; face (m,) the face of each slot; normal (m, 7, 3) angle-weighted pseudo-normals of the
-    seven features of each slot, zero where a feature touches a degenerate face and has no trustworthy normal.
+    root (6,) lower and upper corner of everything; pairs (12 k,) boxes of the two children of each node, flat;
+    first, count (k,) first slot and number of slots of a leaf, else left child and 0 (the right child follows it);
+    records (16 m,) triangles, flat, as `triangle_frames` lays them out; face (m,) the face of each slot;
+    normal (m, 7, 3) angle-weighted pseudo-normals of the seven features of each slot, zero where a feature touches a
+    degenerate or tangled face and has no trustworthy normal.
+
+    Flat arrays and unsigned indices: half the time of two-dimensional ones in the innermost loop.
     """
 
-    box: np.ndarray
-    meta: np.ndarray
-    triangle: np.ndarray
+    root: np.ndarray
+    pairs: np.ndarray
+    first: np.ndarray
+    count: np.ndarray
+    records: np.ndarray
     face: np.ndarray
     normal: np.ndarray
 
 
 @kernel
 def build_boxes(lower, upper):  # type: ignore[no-untyped-def]
-    """Node boxes, node meta data and the slot order of triangles with the given boxes (m, 3)."""
+    """Root box, child boxes, first and count of the nodes, and the slot order, of triangles with these boxes (m, 3)."""
     m = len(lower)
     order = np.arange(m)
     centre = 0.5 * (lower + upper)
@@ -65,7 +76,12 @@ def build_boxes(lower, upper):  # type: ignore[no-untyped-def]
             todo[waiting + 1] = np.array([used, first, middle, depth + 1])
         waiting += 2
         used += 2
-    return box[:used].copy(), meta[:used].copy(), order
+    pairs = np.zeros((used, 12))
+    for node in range(used):
+        if meta[node, 1] == 0:
+            pairs[node, :6] = box[meta[node, 0]]
+            pairs[node, 6:] = box[meta[node, 0] + 1]
+    return box[0].copy(), pairs.ravel(), meta[:used, 0].astype(np.uint32), meta[:used, 1].astype(np.uint32), order
 
 
 @kernel
@@ -140,23 +156,24 @@ def _cheapest_bin(lower, upper, centre, order, first, last, axis, low, extent): 
 
 
 @kernel
-def _box_distance(box, px, py, pz):  # type: ignore[no-untyped-def]
-    dx = max(box[0] - px, px - box[3], 0.0)
-    dy = max(box[1] - py, py - box[4], 0.0)
-    dz = max(box[2] - pz, pz - box[5], 0.0)
+def box_distance(box, o, x, y, z):  # type: ignore[no-untyped-def]
+    """Squared distance of a point to the box that starts at offset o of a flat array; 0 inside."""
+    dx = max(box[o] - x, x - box[o + np.uint64(3)], 0.0)
+    dy = max(box[o + np.uint64(1)] - y, y - box[o + np.uint64(4)], 0.0)
+    dz = max(box[o + np.uint64(2)] - z, z - box[o + np.uint64(5)], 0.0)
     return dx * dx + dy * dy + dz * dz
 
 
 @kernel
-def nearest(tree, px, py, pz, limit2, nodes, keys):  # type: ignore[no-untyped-def]
+def nearest(tree, x, y, z, limit2, nodes, keys):  # type: ignore[no-untyped-def]
     """Squared distance and slot of the nearest triangle; slot -1 when none is nearer than sqrt(limit2).
 
-    `nodes` (STACK, int64) and `keys` (STACK, float64) are scratch, one pair per thread.
+    `nodes` (STACK, uint32) and `keys` (STACK, float64) are scratch, one pair per thread.
     """
     best = limit2
     slot = -1
     waiting = 0
-    if _box_distance(tree.box[0], px, py, pz) < best:
+    if box_distance(tree.root, np.uint64(0), x, y, z) < best:
         nodes[0] = 0
         keys[0] = 0.0
         waiting = 1
@@ -164,31 +181,30 @@ def nearest(tree, px, py, pz, limit2, nodes, keys):  # type: ignore[no-untyped-d
         waiting -= 1
         if keys[waiting] >= best:
             continue
-        node = nodes[waiting]
-        while tree.meta[node, 1] == 0:
-            near = tree.meta[node, 0]
-            far = near + 1
-            d_near = _box_distance(tree.box[near], px, py, pz)
-            d_far = _box_distance(tree.box[far], px, py, pz)
-            if d_far < d_near:
-                near, far = far, near
-                d_near, d_far = d_far, d_near
-            if d_far < best:
-                nodes[waiting] = far
-                keys[waiting] = d_far
-                waiting += 1
-            if d_near >= best:
-                node = -1
+        node = np.uint64(nodes[waiting])
+        while True:
+            count = np.uint64(tree.count[node])
+            first = np.uint64(tree.first[node])
+            if count != 0:
+                for i in range(first, first + count):
+                    d2 = squared_distance(tree.records, i * WIDTH, x, y, z, best)
+                    if d2 < best:
+                        best = d2
+                        slot = np.int64(i)
                 break
-            node = near
-        if node < 0:
-            continue
-        first = tree.meta[node, 0]
-        for i in range(first, first + tree.meta[node, 1]):
-            d2 = squared_distance(tree.triangle[i], px, py, pz, best)
-            if d2 < best:
-                best = d2
-                slot = i
+            near = box_distance(tree.pairs, node * PAIR, x, y, z)
+            far = box_distance(tree.pairs, node * PAIR + BOX, x, y, z)
+            node = first
+            other = first + np.uint64(1)
+            if far < near:
+                near, far = far, near
+                node, other = other, node
+            if far < best:
+                nodes[waiting] = other
+                keys[waiting] = far
+                waiting += 1
+            if near >= best:
+                break
     return best, slot
 
 
@@ -199,7 +215,7 @@ def side_of(tree, slot, px, py, pz):  # type: ignore[no-untyped-def]
     Angle-weighted pseudo-normals: Baerentzen & Aanaes, Signed distance computation using the angle weighted
     pseudonormal, IEEE TVCG 11 (2005). Right for closed, consistently oriented surfaces without self-intersection.
     """
-    qx, qy, qz, feature = closest_point(tree.triangle[slot], px, py, pz)
+    qx, qy, qz, feature = closest_point(tree.records, np.uint64(slot) * WIDTH, px, py, pz)
     n = tree.normal[slot, feature]
     dx = px - qx
     dy = py - qy

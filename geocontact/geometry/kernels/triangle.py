@@ -1,6 +1,6 @@
 """Point to triangle in the triangle's own frame: right for degenerate and collinear triangles too.
 
-Each triangle is stored as 16 numbers: corner A (3), unit vectors u, v, n (9), L, cx, cy, shift. The longest edge AB lies
+Each triangle is stored as 16 numbers: corner A (3), unit vectors n, u, v (9), L, cx, cy, shift. The longest edge AB lies
 along u with length L; C is at (cx, cy) with cy >= 0; n = u x v points to the outside. `shift` tells which corner of
 the face became A. Because AB is the longest edge the angles at A and B are acute, which leaves few cases. A collinear
 triangle has cy = 0 and is the segment AB, a point has L = 0. The frame is orthonormal even for needles, so distances
@@ -13,6 +13,7 @@ import numpy as np
 
 from geocontact.geometry.kernels.compile import kernel
 
+ONE, TWO, N, U, V, LENGTH, CX, CY = (np.uint64(k) for k in (1, 2, 3, 6, 9, 12, 13, 14))  # places in a record
 FLAT = 1e-13  # height of a triangle over its longest edge below which it is treated as a segment
 
 
@@ -60,11 +61,11 @@ def _frame(vertices, face, out):  # type: ignore[no-untyped-def]
         v = v - (v[0] * u[0] + v[1] * u[1] + v[2] * u[2]) * u
         v /= np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
     out[0:3] = a
-    out[3:6] = u
-    out[6:9] = v
-    out[9] = u[1] * v[2] - u[2] * v[1]
-    out[10] = u[2] * v[0] - u[0] * v[2]
-    out[11] = u[0] * v[1] - u[1] * v[0]
+    out[3] = u[1] * v[2] - u[2] * v[1]
+    out[4] = u[2] * v[0] - u[0] * v[2]
+    out[5] = u[0] * v[1] - u[1] * v[0]
+    out[6:9] = u
+    out[9:12] = v
     out[12] = length
     out[13] = min(max(cx, 0.0), length)
     out[14] = cy
@@ -72,20 +73,20 @@ def _frame(vertices, face, out):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def squared_distance(r, px, py, pz, enough):  # type: ignore[no-untyped-def]
-    """Squared distance of a point to the triangle of record r; any value >= enough when it is not below `enough`."""
-    dx = px - r[0]
-    dy = py - r[1]
-    dz = pz - r[2]
-    z = dx * r[9] + dy * r[10] + dz * r[11]
+def squared_distance(r, o, px, py, pz, enough):  # type: ignore[no-untyped-def]
+    """Squared distance of a point to the record at offset o of r; anything >= enough when it is not below `enough`."""
+    dx = px - r[o]
+    dy = py - r[o + ONE]
+    dz = pz - r[o + TWO]
+    z = dx * r[o + N] + dy * r[o + N + ONE] + dz * r[o + N + TWO]
     z2 = z * z
     if z2 >= enough:
         return z2
-    x = dx * r[3] + dy * r[4] + dz * r[5]
-    y = dx * r[6] + dy * r[7] + dz * r[8]
-    length = r[12]
-    cx = r[13]
-    cy = r[14]
+    x = dx * r[o + U] + dy * r[o + U + ONE] + dz * r[o + U + TWO]
+    y = dx * r[o + V] + dy * r[o + V + ONE] + dz * r[o + V + TWO]
+    length = r[o + LENGTH]
+    cx = r[o + CX]
+    cy = r[o + CY]
     if y < 0.0 or cy == 0.0:
         ex = min(x, 0.0) + max(x - length, 0.0)
         return ex * ex + y * y + z2
@@ -109,19 +110,19 @@ def squared_distance(r, px, py, pz, enough):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def closest_point(r, px, py, pz):  # type: ignore[no-untyped-def]
-    """Closest point of the triangle and the feature it lies on.
+def closest_point(r, o, px, py, pz):  # type: ignore[no-untyped-def]
+    """Closest point of the record at offset o of r and the feature it lies on.
 
     Features: 0 interior, 1 edge AB, 2 edge AC, 3 edge BC, 4 corner A, 5 corner B, 6 corner C (letters of the record).
     """
-    dx = px - r[0]
-    dy = py - r[1]
-    dz = pz - r[2]
-    x = dx * r[3] + dy * r[4] + dz * r[5]
-    y = dx * r[6] + dy * r[7] + dz * r[8]
-    length = r[12]
-    cx = r[13]
-    cy = r[14]
+    dx = px - r[o]
+    dy = py - r[o + ONE]
+    dz = pz - r[o + TWO]
+    x = dx * r[o + U] + dy * r[o + U + ONE] + dz * r[o + U + TWO]
+    y = dx * r[o + V] + dy * r[o + V + ONE] + dz * r[o + V + TWO]
+    length = r[o + LENGTH]
+    cx = r[o + CX]
+    cy = r[o + CY]
     feature = 0
     if y < 0.0 or cy == 0.0:
         feature = 1
@@ -163,8 +164,8 @@ def closest_point(r, px, py, pz):  # type: ignore[no-untyped-def]
         x = qx
         y = qy
     return (
-        r[0] + x * r[3] + y * r[6],
-        r[1] + x * r[4] + y * r[7],
-        r[2] + x * r[5] + y * r[8],
+        r[o] + x * r[o + U] + y * r[o + V],
+        r[o + ONE] + x * r[o + U + ONE] + y * r[o + V + ONE],
+        r[o + TWO] + x * r[o + U + TWO] + y * r[o + V + TWO],
         feature,
     )
