@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshes.solids import split_quads, thicken
+from meshes.sheets import quads_of, split_quads
+from meshes.solids import thicken
 
 ANTERIOR, DISTAL, POSTERIOR = 28.0, 34.0, 22.0
 """Sagittal radii of the three tangent-continuous arcs [mm]."""
@@ -65,7 +66,9 @@ def sagittal_profile(s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     turn = np.where(s > ends[1], TURNS[1] - (s - ends[1]) / DISTAL, turn)
     turn = np.where(s > ends[2], TURNS[2] - (s - ends[2]) / POSTERIOR, turn)
     normal = direction(turn)
-    on_arc = [c + r * normal for c, r in ((anterior_centre, ANTERIOR), (distal_centre, DISTAL), (posterior_centre, POSTERIOR))]
+    on_arc = [
+        c + r * normal for c, r in ((anterior_centre, ANTERIOR), (distal_centre, DISTAL), (posterior_centre, POSTERIOR))
+    ]
     point = np.where((s > ends[2])[:, None], on_arc[2], np.where((s > ends[1])[:, None], on_arc[1], on_arc[0]))
     up = np.array([-np.sin(TURNS[0]), np.cos(TURNS[0])])
     return point + np.clip(ends[0] - s, 0, None)[:, None] * up, normal
@@ -110,7 +113,9 @@ def back_depth(point: np.ndarray, normal: np.ndarray) -> np.ndarray:
         support = np.max(sagittal_profile(np.linspace(0, arc_ends()[3], 4001))[0] @ across)
         facing = normal @ across
         meets = facing > 0.05
-        depth = np.where(meets, np.maximum(depth, (point @ across - support + thickness) / np.where(meets, facing, 1)), depth)
+        depth = np.where(
+            meets, np.maximum(depth, (point @ across - support + thickness) / np.where(meets, facing, 1)), depth
+        )
     return depth
 
 
@@ -135,11 +140,6 @@ def unfolded_layout(grid: Grid) -> tuple[np.ndarray, np.ndarray]:
         positions.append(leg_rows(grid, side)[1:].reshape(-1, 2))
         quads.append(quads_of(np.vstack([index[-1:, columns], fresh])))
     return np.vstack(positions), np.vstack(quads)
-
-
-def quads_of(index: np.ndarray) -> np.ndarray:
-    """Cells of a rectangular array of node numbers, rows running distally and columns to the right."""
-    return np.stack([index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1]], axis=-1).reshape(-1, 4)
 
 
 def notch_start() -> float:

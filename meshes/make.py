@@ -10,16 +10,15 @@ import argparse
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
+
+from meshes.gait import synthetic_gait
+from meshes.motion_files import opensim_model, opensim_motion, pose_table
+from meshes.simple_shapes import SAMPLES
+from meshes.stl import snapped, stl_bytes
+from meshes.total_knee import RESOLUTIONS, total_knee
+
 HERE = Path(__file__).resolve().parent
-if __package__ in (None, ""):
-    sys.path[:1] = [str(HERE.parent)]
-
-from meshes.gait import synthetic_gait  # noqa: E402
-from meshes.motion_files import opensim_model, opensim_motion, pose_table  # noqa: E402
-from meshes.simple_shapes import SAMPLES  # noqa: E402
-from meshes.stl import snapped, stl_bytes  # noqa: E402
-from meshes.total_knee import RESOLUTIONS, total_knee  # noqa: E402
-
 COMMITTED = (("right", "coarse"), ("right", "medium"), ("left", "coarse"))
 
 
@@ -31,12 +30,12 @@ def knee_files(side: str, resolution: str) -> dict[str, bytes]:
     return {name: stl_bytes(*body, title) for name, body in zip(names, total_knee(factor, side), strict=True)}
 
 
-def simple_files(refinement: int = 1) -> dict[str, bytes]:
-    """STL files of the shapes with closed-form areas, `refinement` times as many cells along each edge."""
+def simple_files() -> dict[str, bytes]:
+    """STL files of the shapes with closed-form areas."""
     files = {}
     for name, (make, lengths, n) in SAMPLES.items():
-        vertices, faces = make(*lengths, n * refinement)
-        files[f"{name}.stl"] = stl_bytes(snapped(vertices), faces, f"geocontact synthetic {name}, n = {n * refinement}, mm")
+        vertices, faces = make(*lengths, n)
+        files[f"{name}.stl"] = stl_bytes(snapped(vertices), faces, f"geocontact synthetic {name}, n = {n}, mm")
     return files
 
 

@@ -11,15 +11,14 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
+
+from meshes.reference import SOURCE, Body, area_within, smallest_distance
+from meshes.solids import is_closed, smallest_angle, volume
+from meshes.stl import read_stl
+from tests import closed_forms as exact
+
 HERE = Path(__file__).resolve().parent
-if __package__ in (None, ""):
-    sys.path[:1] = [str(HERE.parent)]
-
-from meshes.reference import SOURCE, Body, area_within, smallest_distance  # noqa: E402
-from meshes.solids import is_closed, smallest_angle, volume  # noqa: E402
-from meshes.stl import read_stl  # noqa: E402
-from tests import closed_forms as exact  # noqa: E402
-
 THRESHOLDS = (0.1, 0.5, 1.0, 4.0)
 GAPS = (-0.3, 0.0, 0.4)
 
@@ -30,9 +29,10 @@ HEADER = """\
 # [[file]]  name, kind ("surface", "motion", "model"), what, sha256; surfaces also have unit, faces, vertices, closed,
 #           volume_mm3, smallest_angle_deg.
 # [[pair]]  name, fixed, moving (names of surfaces), what.
-#   [[pair.pose]]  the pose of MOVING in the frame of FIXED: position_mm, quaternion (w, x, y, z); frame = row of `motion`
-#                  (counted from 0) where it comes from there. min_distance_mm = [lower, upper]: the smallest signed
-#                  distance over both whole triangulated surfaces lies between.
+#   [[pair.pose]]
+#           the pose of MOVING in the frame of FIXED: position_mm, quaternion (w, x, y, z); frame = row of `motion`
+#           (counted from 0) where it comes from there. min_distance_mm = [lower, upper]: the smallest signed distance
+#           over both whole triangulated surfaces lies between.
 #     [[pair.pose.area]]  one threshold and one source:
 #       surface = "triangulated", source = "converged by ...": the shipped meshes themselves. area_fixed_mm2 and
 #         area_moving_mm2, each with _uncertainty_mm2 (change over the last halving of the leaves), _lower_mm2 and
@@ -79,7 +79,8 @@ def gait_poses(table: str, frames: tuple[int, ...]) -> tuple[Pose, ...]:
     """Poses of some rows of a pose table."""
     rows = np.loadtxt(HERE / table, delimiter=",", skiprows=1)[list(frames)]
     return tuple(
-        Pose(row[1:4], Rotation.from_quat(row[4:], scalar_first=True), frame=f) for f, row in zip(frames, rows, strict=True)
+        Pose(row[1:4], Rotation.from_quat(row[4:], scalar_first=True), frame=f)
+        for f, row in zip(frames, rows, strict=True)
     )
 
 
@@ -133,24 +134,17 @@ def cup_forms() -> tuple[tuple[str, Formula], tuple[str, Formula]]:
 def simple_pairs() -> Iterator[Pair]:
     """Pairs with closed-form areas."""
     plate, torus = "plate_80x80x12.stl", "torus_r25_r8.stl"
-    wheel, ring = turn(0, 25, 0) * turn(90, 0, 0), turn(0, 25, 0)
-    yield Pair(
-        "sphere_plane", "synthetic sphere on the top of a plate", plate, "sphere_r20.stl", over_plate(20, turn(10, 20, 30)),
-        closed_forms=forms("sphere_plane_on_plane", "sphere_plane_on_sphere", 20),
-    )  # fmt: skip
-    yield Pair(
-        "cylinder_plane", "synthetic cylinder lying on a plate", plate, "cylinder_r15_l40.stl", over_plate(15, turn(0, 20, 0)),
-        closed_forms=forms("cylinder_plane_on_plane", "cylinder_plane_on_cylinder", 15, 40),
-    )  # fmt: skip
-    yield Pair("sphere_cup", "synthetic sphere in a cup", "cup_r24.stl", "sphere_r18.stl", in_cup(), closed_forms=cup_forms())
-    yield Pair(
-        "flat_torus_plane", "synthetic torus lying on a plate", plate, torus, over_plate(8, ring),
-        closed_forms=forms("flat_torus_plane_on_plane", "flat_torus_plane_on_torus", 25, 8),
-    )  # fmt: skip
-    yield Pair(
-        "upright_torus_plane", "synthetic torus standing on a plate", plate, torus, over_plate(33, wheel),
-        closed_forms=forms("upright_torus_plane_on_plane", "upright_torus_plane_on_torus", 25, 8),
-    )  # fmt: skip
+    cases = (
+        ("sphere", "on the top of a plate", "sphere_r20.stl", over_plate(20, turn(10, 20, 30)), (20,)),
+        ("cylinder", "lying on a plate", "cylinder_r15_l40.stl", over_plate(15, turn(0, 20, 0)), (15, 40)),
+        ("flat_torus", "lying on a plate", torus, over_plate(8, turn(0, 25, 0)), (25, 8)),
+        ("upright_torus", "standing on a plate", torus, over_plate(33, turn(0, 25, 0) * turn(90, 0, 0)), (25, 8)),
+    )
+    for name, where, file, poses, lengths in cases:
+        on_plane, on_body = f"{name}_plane_on_plane", f"{name}_plane_on_{name.rpartition('_')[2]}"
+        what = f"synthetic {name.replace('_', ' ')} {where}"
+        yield Pair(f"{name}_plane", what, plate, file, poses, closed_forms=forms(on_plane, on_body, *lengths))
+    yield Pair("sphere_cup", "synthetic sphere in a cup", "cup_r24.stl", "sphere_r18.stl", in_cup(), None, cup_forms())
 
 
 def toml(value: object) -> str:
@@ -203,7 +197,11 @@ def area_entries(pair: Pair, pose: Pose, fixed: Body, moving: Body, threshold: f
         entry = {"threshold_mm": threshold, "surface": "smooth", "source": "closed form", "gap_mm": pose.gap}
         for (side, area), (text, formula) in zip(found.items(), pair.closed_forms, strict=True):
             smooth = formula(pose.gap, threshold)
-            entry |= {f"formula_{side}": text, f"area_{side}_mm2": smooth, f"area_{side}_uncertainty_mm2": 1e-12 * smooth}
+            entry |= {
+                f"formula_{side}": text,
+                f"area_{side}_mm2": smooth,
+                f"area_{side}_uncertainty_mm2": 1e-12 * smooth,
+            }
             entry[f"area_{side}_facets_mm2"] = area.estimate - smooth
         yield entry
 

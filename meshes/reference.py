@@ -81,14 +81,14 @@ def area_within(of: Body, to: Body, threshold: float, width: float = 2e-4, most:
         centroid, radius = centroids_and_radii(triangles)
         distance, size = signed_distance(centroid, to), areas(triangles)
         inside += float(size[distance + radius <= threshold].sum())
-        open_ = np.abs(distance - threshold) <= radius
-        open_ &= distance + radius > threshold
-        triangles, undecided = triangles[open_], float(size[open_].sum())
+        cut = (distance - radius <= threshold) & (distance + radius > threshold)
+        triangles, undecided = triangles[cut], float(size[cut].sum())
         estimates.append(inside + clipped_area(triangles, to, threshold))
         done = undecided <= width * (inside + undecided)
         if len(estimates) > 1 and (done or 4 * len(triangles) > 2 * most):
             change = abs(estimates[-1] - estimates[-2])
-            return Area(estimates[-1], change, inside, inside + undecided)
+            # Where the distance is linear the change is nothing but rounding.
+            return Area(estimates[-1], max(change, 1e-9 * estimates[-1]), inside, inside + undecided)
         triangles = quartered(triangles)
 
 

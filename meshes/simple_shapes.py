@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshes.solids import split_quads, thicken
-from meshes.tibial_insert import hexagonal_disc
+from meshes.sheets import hexagonal_disc, quads_of, split_quads
+from meshes.solids import thicken
 
 GOLDEN = (1 + 5**0.5) / 2
 ICOSAHEDRON = np.array([[0, a, b * GOLDEN] for a in (-1, 1) for b in (-1, 1)])
@@ -20,7 +20,9 @@ ICOSAHEDRON = np.vstack([np.roll(ICOSAHEDRON, k, axis=1) for k in range(3)])
 def icosahedron_faces() -> np.ndarray:
     """The 20 triples of mutually neighbouring corners, turned outwards."""
     near = np.linalg.norm(ICOSAHEDRON[:, None] - ICOSAHEDRON[None], axis=-1) < 2.1
-    triples = [(i, j, k) for i in range(12) for j in range(i) for k in range(j) if near[i, j] and near[j, k] and near[i, k]]
+    triples = [
+        (i, j, k) for i in range(12) for j in range(i) for k in range(j) if near[i, j] and near[j, k] and near[i, k]
+    ]
     faces = np.array(triples)
     turned = np.linalg.det(ICOSAHEDRON[faces]) < 0
     faces[turned] = faces[turned, ::-1]
@@ -53,11 +55,12 @@ def merged(vertices: np.ndarray, faces: np.ndarray, tolerance: float) -> tuple[n
 def block(width: float, depth: float, height: float, n: int) -> tuple[np.ndarray, np.ndarray]:
     """Box with its top in y = 0, centred on the y axis: `width` along x, `depth` along z, n cells along x on top."""
     along_z, layers = max(1, round(n * depth / width)), max(1, round(n * height / width))
-    x, z = np.meshgrid(np.linspace(-0.5, 0.5, n + 1) * width, np.linspace(-0.5, 0.5, along_z + 1) * depth, indexing="ij")
+    x, z = np.meshgrid(
+        np.linspace(-0.5, 0.5, n + 1) * width, np.linspace(-0.5, 0.5, along_z + 1) * depth, indexing="ij"
+    )
     top = np.column_stack([x.ravel(), np.zeros(x.size), z.ravel()])
-    index = np.arange(x.size).reshape(x.shape)
-    quads = np.stack([index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1]], axis=-1).reshape(-1, 4)
-    return thicken(top, top - [0, height, 0], split_quads(top, quads), layers)
+    faces = split_quads(top, quads_of(np.arange(x.size).reshape(x.shape)))
+    return thicken(top, top - [0, height, 0], faces, layers)
 
 
 def cylinder(radius: float, length: float, n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -70,7 +73,10 @@ def cylinder(radius: float, length: float, n: int) -> tuple[np.ndarray, np.ndarr
 
 
 def cup(radius: float, thickness: float, n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Hemispherical cup that opens upwards: cavity of `radius` about the origin, wall of `thickness`; 12 n^2 faces and the rim."""
+    """Hemispherical cup that opens upwards: cavity of `radius` about the origin, wall of `thickness`.
+
+    12 n^2 faces and those of the rim.
+    """
     distance, turn, faces = hexagonal_disc(n)
     polar, around = distance * np.pi / 2, 2 * np.pi * turn
     downwards = np.column_stack([np.sin(polar) * np.cos(around), -np.cos(polar), np.sin(polar) * np.sin(around)])

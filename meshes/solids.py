@@ -4,14 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-
-def split_quads(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
-    """Two triangles for each quad, cut along its clearly shorter diagonal (the first one if they are equal)."""
-    a, b, c, d = (vertices[quads[:, k]] for k in range(4))
-    second = np.linalg.norm(b - d, axis=1) < np.linalg.norm(a - c, axis=1) - 1e-6
-    first_cut = quads[:, [0, 1, 2, 0, 2, 3]]
-    second_cut = quads[:, [0, 1, 3, 1, 2, 3]]
-    return np.where(second[:, None], second_cut, first_cut).reshape(-1, 3)
+from meshes.sheets import split_quads
 
 
 def boundary_edges(faces: np.ndarray) -> np.ndarray:
@@ -41,7 +34,9 @@ def thicken(outer: np.ndarray, inner: np.ndarray, faces: np.ndarray, layers: int
         return 2 * len(outer) + (level - 1) * len(ring) + position[index]
 
     wall = [
-        np.column_stack([at_level(k, rim[:, 1]), at_level(k, rim[:, 0]), at_level(k + 1, rim[:, 0]), at_level(k + 1, rim[:, 1])])
+        np.column_stack(
+            [at_level(k, rim[:, 1]), at_level(k, rim[:, 0]), at_level(k + 1, rim[:, 0]), at_level(k + 1, rim[:, 1])]
+        )
         for k in range(layers)
     ]
     return vertices, np.vstack([faces, faces[:, ::-1] + len(outer), split_quads(vertices, np.vstack(wall))])
@@ -70,7 +65,9 @@ def smallest_angle(vertices: np.ndarray, faces: np.ndarray) -> float:
     corners = vertices[faces]
     sides = [corners[:, (k + 1) % 3] - corners[:, k] for k in range(3)]
     angles = [
-        np.arctan2(np.linalg.norm(np.cross(sides[k], -sides[k - 1]), axis=1), np.einsum("ij,ij->i", sides[k], -sides[k - 1]))
+        np.arctan2(
+            np.linalg.norm(np.cross(sides[k], -sides[k - 1]), axis=1), np.einsum("ij,ij->i", sides[k], -sides[k - 1])
+        )
         for k in range(3)
     ]
     return float(np.degrees(np.min(angles)))

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from meshes.sheets import hexagonal_disc
 from meshes.solids import thicken
 
 HALF_DEPTH, HALF_WIDTH = 25.0, 37.5
@@ -69,24 +70,6 @@ def outline(fraction: np.ndarray) -> np.ndarray:
     angle = np.linspace(0, 2 * np.pi, 20001)
     length = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(border(angle), axis=0), axis=1))])
     return border(np.interp(fraction * length[-1], length, angle))
-
-
-def hexagonal_disc(rings: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Radius (0..1) and fraction of the turn (0..1) of the nodes of `rings` hexagonal rings, and the 6 rings^2 faces."""
-    ring = np.repeat(np.arange(rings + 1), [1, *(6 * k for k in range(1, rings + 1))])
-    start = np.concatenate([[0], 1 + 3 * np.arange(rings + 1) * np.arange(1, rings + 2)])
-    place = np.arange(len(ring)) - start[ring]
-    faces = []
-    for k in range(1, rings + 1):
-        i = np.arange(6 * k)
-        sector, step = np.divmod(i, k)
-        inside = start[k - 1] + (sector * (k - 1) + step) % max(1, 6 * (k - 1))
-        outside, following = start[k] + i, start[k] + (i + 1) % (6 * k)
-        faces.append(np.column_stack([inside, outside, following]))
-        keep = step < k - 1
-        next_inside = start[k - 1] + (sector * (k - 1) + step + 1) % max(1, 6 * (k - 1))
-        faces.append(np.column_stack([inside, following, next_inside])[keep])
-    return ring / rings, place / np.maximum(1, 6 * ring), np.vstack(faces)
 
 
 def tibial_insert(rings: int, wall: int) -> tuple[np.ndarray, np.ndarray]:

@@ -194,22 +194,28 @@ def area_evolution(
     pair = ContactPair(moving, fixed, settings)
     rotation = np.ascontiguousarray(motion.poses.rotation.as_matrix().reshape(-1, 3, 3))
     translation = np.asarray(motion.poses.translation).reshape(-1, 3)
-    frames: list[FrameContact] = []
+    on_fixed: list[list[AreaWithin]] = []
+    on_moving: list[list[AreaWithin]] = []
+    lowest: list[float] = []
+    deepest: list[float] = []
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
         for k, frame in enumerate(pool.map(pair.at, rotation, translation)):
             if each is not None:
                 each(k, frame)
-            frames.append(frame)
+            on_fixed.append(frame.fixed)
+            on_moving.append(frame.moving)
+            lowest.append(frame.min_distance)
+            deepest.append(frame.max_penetration_fixed)
     return AreaEvolution(
         time=motion.time,
         thresholds=settings.thresholds,
-        fixed=_gathered([f.fixed for f in frames]),
-        moving=_gathered([f.moving for f in frames]),
-        min_distance=np.array([f.min_distance for f in frames]),
-        max_penetration_fixed=np.array([f.max_penetration_fixed for f in frames]),
+        fixed=_gathered(on_fixed),
+        moving=_gathered(on_moving),
+        min_distance=np.array(lowest),
+        max_penetration_fixed=np.array(deepest),
         signed=pair.signed,
         medial_side=settings.medial_side if settings.split is not None else 0,
-        undecided=np.array([f.fixed[0].undecided + f.moving[0].undecided for f in frames]),
+        undecided=np.array([a[0].undecided + b[0].undecided for a, b in zip(on_fixed, on_moving, strict=True)]),
     )
 
 

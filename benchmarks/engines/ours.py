@@ -1,0 +1,66 @@
+"""geocontact itself: map with exact clip, and the refined area with certified bounds."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from jaxtyping import Float
+
+from benchmarks.engines.engine import Engine, Frame, Step
+from benchmarks.pairs import THRESHOLD, Pair
+from geocontact.geometry.area import AS_GIVEN, Refinement, area_within
+from geocontact.geometry.sampled import Sampled
+
+OURS = "geocontact, map + clip"
+
+
+def prepare(pair: Pair, refinement: Refinement) -> Step:
+    """Bounded map of A's vertices and the area on A; signed where B is closed."""
+    sampled = Sampled.of(pair.moving, THRESHOLD)
+    _ = pair.fixed.tree, pair.fixed.closed and pair.fixed.normals_trusted
+
+    def step(k: int) -> Frame:
+        pose = pair.rotation[k], pair.translation[k]
+        start = time.process_time()
+        distances = sampled.distances(pair.fixed, *pose)
+        seconds = time.process_time() - start
+        area = area_within(sampled, pair.fixed, distances, THRESHOLD, *pose, refinement).area
+        return Frame((sampled, distances), area, seconds)
+
+    return step
+
+
+def in_given_order(frame: Frame) -> Float[np.ndarray, " n"]:
+    """Unsigned distance of A's vertices as the mesh numbers them; infinite beyond their limit."""
+    sampled, found = frame.distance  # type: ignore[misc]
+    distance = np.full(len(sampled.surface.vertices), np.inf)
+    distance[sampled.surface.walk] = np.where(found.slot >= 0, found.distance, np.inf)
+    return distance
+
+
+def unbounded(pair: Pair) -> Step:
+    """Signed distance with closest point, normal and face of every vertex, however far."""
+
+    def step(k: int) -> Frame:
+        start = time.process_time()
+        distance = np.abs(pair.fixed.proximity(pair.moved(k) + pair.fixed.centre).distance)
+        return Frame(distance, np.nan, time.process_time() - start)
+
+    return step
+
+
+def engines() -> list[Engine]:
+    """The row that ratios are taken to, the refined area, and the unbounded query."""
+
+    def row(name: str, refinement: Refinement, goal: float | None = None) -> Engine:
+        steps: Callable[[Pair], Step] = partial(prepare, refinement=refinement)
+        return Engine(name, "geocontact", steps, in_given_order, lambda pair: THRESHOLD, goal=goal)
+
+    return [
+        row(OURS, AS_GIVEN),
+        row("geocontact, map + refined area with bounds", Refinement()),
+        Engine("geocontact, unbounded signed proximity", "geocontact", unbounded, every=10, note="no area"),
+    ]

@@ -1,0 +1,30 @@
+"""trimesh.proximity.closest_point, float64: too slow for the whole job, so a sample of vertices is scaled up."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+from benchmarks.engines.engine import Engine, Query, peer
+from benchmarks.pairs import Pair
+
+POINTS = 600
+
+
+def build(pair: Pair) -> Query:
+    """One call per frame."""
+    import rtree  # noqa: F401  (trimesh asks for it only at the first query)
+    import trimesh
+
+    mesh = trimesh.Trimesh(pair.fixed.local, pair.fixed.faces, process=False)
+    _ = mesh.triangles_tree
+
+    def query(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
+        return np.asarray(trimesh.proximity.closest_point(mesh, points)[1])
+
+    return query
+
+
+def engines() -> list[Engine]:
+    """One naive use."""
+    return [Engine("trimesh.closest_point", "trimesh", peer(build, POINTS), every=34, points=POINTS, goal=4000.0)]

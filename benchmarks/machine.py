@@ -1,0 +1,47 @@
+"""What a figure depends on besides the code."""
+
+from __future__ import annotations
+
+import datetime
+import importlib.metadata
+import os
+import platform
+from pathlib import Path
+
+
+def machine() -> dict[str, str]:
+    """Processor, system, Python, load and date."""
+    load = f"{os.getloadavg()[0]:.2f}" if hasattr(os, "getloadavg") else "unknown"
+    return {
+        "date": datetime.datetime.now(datetime.UTC).isoformat(timespec="minutes"),
+        "processor": processor(),
+        "cores": str(os.cpu_count()),
+        "system": f"{platform.system()} {platform.machine()}",
+        "python": platform.python_version(),
+        "load": load,
+    }
+
+
+def processor() -> str:
+    """Model name; on Linux with family and model number, for cloud machines hide the name."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        return platform.processor() or "unknown"
+    facts: dict[str, str] = {}
+    for line in lines:
+        name, _, value = line.partition(":")
+        facts.setdefault(name.strip(), value.strip())
+    family, number = facts.get("cpu family", "?"), facts.get("model", "?")
+    return f"{facts.get('model name', 'unknown')} (family {family}, model {number})"
+
+
+def versions(packages: set[str]) -> dict[str, str]:
+    """Versions of those that are installed."""
+    found = {}
+    for package in sorted(packages | {"numpy", "numba", "llvmlite"}):
+        try:
+            found[package] = importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            continue
+    return found

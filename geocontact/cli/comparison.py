@@ -1,0 +1,75 @@
+"""The user's own measured areas beside ours."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from geocontact.data.errors import InputError
+
+TIME, THRESHOLD = "time [s]", "threshold [mm]"
+
+
+def read_reference(path: Path) -> pd.DataFrame:
+    """Reference table: `time [s]`, optionally `threshold [mm]`, and one or more area columns as in area.csv [mm^2]."""
+    try:
+        table = pd.read_csv(path, comment="#")
+    except (OSError, ValueError, pd.errors.ParserError) as error:
+        raise InputError(path, "", f"cannot be read as a table ({error})", "give a CSV like area.csv") from error
+    table.columns = [str(name).strip() for name in table.columns]
+    if TIME not in table or not any(_is_area(name) for name in table.columns):
+        what = f"has the columns {', '.join(map(str, table.columns))}"
+        raise InputError(path, "", what, "it needs 'time [s]' and for example 'area_fixed [mm^2]'")
+    for name in table.columns:
+        if name in (TIME, THRESHOLD) or _is_area(name):
+            table[name] = pd.to_numeric(table[name], errors="coerce")
+    if table[TIME].isna().any():
+        raise InputError(path, f"row {int(table[TIME].isna().argmax()) + 2}", "time is not a number", "correct it")
+    return table
+
+
+def _is_area(name: str) -> bool:
+    return name.startswith("area_") and name.endswith("[mm^2]")
+
+
+def compared(ours: pd.DataFrame, reference: pd.DataFrame, path: Path) -> pd.DataFrame:
+    """One row per reference value: ours (linear in time between frames), theirs, difference, relative difference.
+
+    Reference times outside our own frames are refused; rows without a threshold need ours to have only one.
+    """
+    levels = sorted(set(ours[THRESHOLD]))
+    if THRESHOLD not in reference:
+        if len(levels) > 1:
+            raise InputError(path, "", "does not say which threshold it is for", f"add a column '{THRESHOLD}'")
+        reference = reference.assign(**{THRESHOLD: levels[0]})
+    rows = [_row(ours, row, name, path) for name in reference.columns if _is_area(name)
+            for _, row in reference.iterrows() if np.isfinite(row[name])]  # fmt: skip
+    if not rows:
+        raise InputError(path, "", "no area in it is a number", "give measured areas in mm^2")
+    return pd.DataFrame(rows)
+
+
+def _row(ours: pd.DataFrame, row: pd.Series, name: str, path: Path) -> dict[str, object]:
+    if name not in ours:
+        raise InputError(path, name, "is not among our columns", f"ours are {', '.join(ours.columns)}")
+    same = ours[np.isclose(ours[THRESHOLD], row[THRESHOLD], rtol=1e-9, atol=1e-9)]
+    if same.empty:
+        levels = ", ".join(f"{level:g}" for level in sorted(set(ours[THRESHOLD])))
+        raise InputError(path, "", f"threshold {row[THRESHOLD]:g} mm was not evaluated ({levels})", "see --threshold")
+    time, value = same[TIME].to_numpy(float), same[name].to_numpy(float)
+    tolerance = 1e-6 * max(1.0, float(np.abs(time).max()))
+    if not time[0] - tolerance <= row[TIME] <= time[-1] + tolerance:
+        raise InputError(path, "", f"time {row[TIME]:g} lies outside {time[0]:g} … {time[-1]:g}", "shift its clock")
+    mine = float(np.interp(row[TIME], time, value))
+    theirs = float(row[name])
+    return {
+        TIME: row[TIME],
+        THRESHOLD: row[THRESHOLD],
+        "quantity": name,
+        "ours [mm^2]": mine,
+        "reference [mm^2]": theirs,
+        "difference [mm^2]": mine - theirs,
+        "relative [-]": (mine - theirs) / theirs if theirs else (0.0 if mine == 0.0 else np.inf),
+    }

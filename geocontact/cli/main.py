@@ -1,0 +1,64 @@
+"""Entry point: parse, run one command, turn every failure into one line and an exit code."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Sequence
+
+from cyclopts import App, CycloptsError
+
+from geocontact import __version__
+from geocontact.data.errors import InputError
+
+USAGE_ERROR = 2
+FAILURE = 1
+
+app = App(
+    name="geocontact",
+    help="Contact areas, contact forces and material properties from meshes, motion and pressure data.",
+    version=__version__,
+    version_flags=["--version"],
+)
+app.command("geocontact.cli.area:area", name="area")
+app.command("geocontact.cli.demo:demo", name="demo")
+app.command("geocontact.cli.doctor:doctor", name="doctor")
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line and exit: 0 done, 2 for a mistake in the input, 1 for any other failure."""
+    tokens = list(sys.argv[1:] if arguments is None else arguments)
+    debug = "--debug" in tokens
+    sys.exit(run([token for token in tokens if token != "--debug"], debug))
+
+
+def run(tokens: Sequence[str], debug: bool = False) -> int:
+    """Exit code of one call; with `debug` a traceback precedes the line that says what went wrong."""
+    try:
+        result = app(list(tokens), exit_on_error=False, print_error=False, result_action="return_value")
+        return result if isinstance(result, int) else 0
+    except CycloptsError as error:
+        return _fail(_one_line(str(error)) + "; see geocontact --help", USAGE_ERROR, debug)
+    except InputError as error:
+        return _fail(str(error), USAGE_ERROR, debug)
+    except KeyboardInterrupt:
+        return _fail("interrupted; nothing was written", 130, debug)
+    except BrokenPipeError:
+        return FAILURE
+    except OSError as error:
+        return _fail(f"{error.filename or 'file system'}: {error.strerror or error}", FAILURE, debug)
+    except MemoryError:
+        return _fail("not enough memory; decimate the meshes or evaluate fewer frames", FAILURE, debug)
+    except Exception as error:  # the last line of defence: one line for the user, --debug for us
+        return _fail(f"{type(error).__name__}: {error} (run again with --debug for the details)", FAILURE, debug)
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
+
+
+def _fail(line: str, code: int, debug: bool) -> int:
+    if debug:
+        traceback.print_exc()
+    print(_one_line(line), file=sys.stderr)
+    return code

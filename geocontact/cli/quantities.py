@@ -1,0 +1,106 @@
+"""Numbers with units as they are typed on the command line."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+from geocontact.data.errors import InputError
+from geocontact.geometry.plane import Plane
+from geocontact.geometry.sweep import Axis
+from geocontact.io.units import ANGLE, LENGTH
+
+
+def number(text: str, option: str, example: str) -> float:
+    """A finite number, or one line that says what was expected."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise InputError("", option, f"{text.strip()!r} is not a finite number", f"write for example {example}")
+    return value
+
+
+def length(text: str, option: str, unit: str = "mm") -> float:
+    """ "4", "4mm", "0.4 cm" to metres; `unit` when none is written."""
+    text = text.strip()
+    for name in sorted(LENGTH, key=len, reverse=True):
+        if text.endswith(name):
+            text, unit = text[: -len(name)], name
+            break
+    return number(text, option, f"{option} 4 or {option} 4mm") * LENGTH[unit]
+
+
+def thresholds(text: str) -> tuple[float, ...]:
+    """Comma-separated lengths [m], in the order given; mm unless a unit is written."""
+    values = tuple(length(part, "--threshold") for part in text.split(","))
+    if min(values) < 0.0:
+        raise InputError("", "--threshold", f"{text!r} is negative", "a point counts when its distance is not above it")
+    if len(set(values)) < len(values):
+        raise InputError("", "--threshold", f"{text!r} names a threshold twice", "give each once")
+    return values
+
+
+def fraction(text: str, option: str) -> float:
+    """ "2%" or "0.02" to 0.02."""
+    value = number(text.rstrip("% "), option, "2%") * (0.01 if text.strip().endswith("%") else 1.0)
+    if value <= 0.0:
+        raise InputError("", option, f"{text!r} is not positive", "write for example 2%")
+    return value
+
+
+def splitting_plane(text: str, unit: str) -> Plane:
+    """ "z" or "z=1.5": the plane z = 0 or z = 1.5 (in the mesh unit)."""
+    axis, _, at = text.partition("=")
+    if axis.strip() not in ("x", "y", "z"):
+        raise InputError("", "--split", f"{text!r} is not an axis", "write x, y or z, or for example z=1.5")
+    return Plane.across(axis.strip(), length(at, "--split", unit) if at else 0.0)
+
+
+def sweep_range(text: str) -> tuple[str, float, float, float]:
+    """ "flexion=0:90:1" to a name and start, stop, step [rad]; degrees are typed."""
+    name, found, rest = text.partition("=")
+    parts = rest.split(":")
+    if not found or len(parts) not in (2, 3) or not name.strip():
+        raise InputError("", "--sweep", f"{text!r} is not a range", "write flexion=0:90:1 (degrees)")
+    start, stop, step = (number(part, "--sweep", "flexion=0:90:1") for part in (*parts, "1")[:3])
+    if step == 0.0 or (stop - start) * step < 0.0 or abs((stop - start) / step) > 1e5:
+        raise InputError("", "--sweep", f"{text!r} never arrives", "write start:stop:step in degrees, as in 0:90:1")
+    return name.strip(), start * ANGLE["deg"], stop * ANGLE["deg"], step * ANGLE["deg"]
+
+
+def axis(text: str, unit: str) -> Axis:
+    """ "x,y,z,dx,dy,dz" (point in the mesh unit, direction), a text file of them, or a fit.json."""
+    file = Path(text)
+    source = text
+    if file.is_file():
+        source = file.read_text(encoding="utf-8", errors="replace")[:10_000]
+        if file.suffix.lower() == ".json":
+            return _axis_of_fit(file, source)
+    parts = source.replace(",", " ").split()
+    if len(parts) != 6:
+        raise InputError("", "--axis", f"{text!r} is neither a file nor six numbers", "write x,y,z,dx,dy,dz")
+    values = [number(part, "--axis", "x,y,z,dx,dy,dz") for part in parts]
+    scale = LENGTH[unit]
+    return _checked((values[0] * scale, values[1] * scale, values[2] * scale), (values[3], values[4], values[5]), text)
+
+
+def _axis_of_fit(file: Path, source: str) -> Axis:
+    try:
+        fit = json.loads(source)
+        point = [float(value) * 1e-3 for value in fit["point_mm"]]
+        direction = [float(value) for value in fit["axis"]]
+        x, y, z = point
+        dx, dy, dz = direction
+    except (ValueError, KeyError, TypeError) as error:
+        raise InputError(file, "", "holds no axis and point_mm", "give the fit.json of a cylinder fit") from error
+    return _checked((x, y, z), (dx, dy, dz), str(file))
+
+
+def _checked(point: tuple[float, float, float], direction: tuple[float, float, float], text: str) -> Axis:
+    try:
+        return Axis(point, direction)
+    except ValueError as error:
+        raise InputError("", "--axis", str(error), f"check {text!r}") from error

@@ -1,0 +1,95 @@
+"""Choosing faces by where they are and which way they look: "ny > 0.25 and abs(z) < 30"."""
+
+from __future__ import annotations
+
+import ast
+import operator
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.geometry.surface import Surface
+
+NAMES = ("x", "y", "z", "nx", "ny", "nz")
+Value = np.ndarray | float
+
+_COMPARE: Mapping[type, Callable[[Value, Value], Value]] = {
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+}
+_COMBINE: Mapping[type, Callable[[Value, Value], Value]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+}
+_FUNCTIONS: Mapping[str, Callable[[Value], Value]] = {"abs": np.abs, "sqrt": np.sqrt}
+
+
+def faces_where(surface: Surface, expression: str, metres_per_unit: float = 1.0) -> Bool[np.ndarray, " m"]:
+    """Faces for which the expression holds.
+
+    Parameters
+    ----------
+    expression
+        Comparisons in x y z (face centroid) and nx ny nz (unit normal), both in the surface's frame, combined with
+        `and`, `or`, `not`, + - * / **, abs, sqrt and parentheses.
+    metres_per_unit
+        Length unit of x, y, z: 1e-3 when the expression is in mm.
+
+    Raises
+    ------
+    ValueError
+        The expression cannot be read, or does not say yes or no for each face.
+    """
+    centroid = surface.vertices[surface.faces].mean(axis=1) / metres_per_unit
+    values = dict(zip(NAMES, [*centroid.T, *surface.face_normal.T], strict=True))
+    try:
+        tree = ast.parse(expression.strip(), mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise ValueError(f"{expression!r} cannot be read; write for example ny>0.25 and abs(z)<30") from None
+    with np.errstate(all="ignore"):
+        chosen = _evaluate(tree.body, values)
+    if not isinstance(chosen, np.ndarray) or chosen.dtype != bool:
+        raise ValueError(f"{expression!r} is not a condition on the faces; write for example ny>0.25")
+    return chosen
+
+
+def _evaluate(node: ast.expr, values: Mapping[str, Float[np.ndarray, " m"]]) -> Value:
+    match node:
+        case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
+            return float(number)
+        case ast.Name(id=name) if name in values:
+            return values[name]
+        case ast.BoolOp(op=op, values=parts):
+            both = [_condition(_evaluate(part, values)) for part in parts]
+            return np.logical_and.reduce(both) if isinstance(op, ast.And) else np.logical_or.reduce(both)
+        case ast.UnaryOp(op=ast.Not(), operand=inner):
+            return ~_condition(_evaluate(inner, values))
+        case ast.UnaryOp(op=ast.USub(), operand=inner):
+            return -_number(_evaluate(inner, values))
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _COMBINE:
+            return _COMBINE[type(op)](_number(_evaluate(left, values)), _number(_evaluate(right, values)))
+        case ast.Call(func=ast.Name(id=name), args=[inner], keywords=[]) if name in _FUNCTIONS:
+            return _FUNCTIONS[name](_number(_evaluate(inner, values)))
+        case ast.Compare(left=left, ops=ops, comparators=rest) if all(type(op) in _COMPARE for op in ops):
+            terms = [_number(_evaluate(term, values)) for term in (left, *rest)]
+            pairs = zip(ops, terms, terms[1:], strict=False)
+            return np.logical_and.reduce([np.asarray(_COMPARE[type(op)](a, b)) for op, a, b in pairs])
+    raise ValueError(f"{ast.unparse(node)!r} is not understood; only {', '.join(NAMES)}, numbers, and/or/not, abs, sqrt")
+
+
+def _condition(value: Value) -> Bool[np.ndarray, " m"]:
+    if not isinstance(value, np.ndarray) or value.dtype != bool:
+        raise ValueError("and, or, not join conditions such as ny>0.25")
+    return value
+
+
+def _number(value: Value) -> Value:
+    if isinstance(value, np.ndarray) and value.dtype == bool:
+        raise ValueError("a condition cannot be used as a number; join conditions with and, or")
+    return value

@@ -1,0 +1,42 @@
+"""A prescribed rotation about an axis: flexion from 0 to 90 degrees without a recorded motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform, Rotation
+
+from geocontact.data.motion import Motion
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A line in space: point [m] and direction of any length, in FIXED's frame."""
+
+    point: tuple[float, float, float]
+    direction: tuple[float, float, float]
+
+    def __post_init__(self) -> None:
+        length = np.linalg.norm(self.direction)
+        if not np.isfinite([*self.point, *self.direction]).all() or length == 0.0:
+            raise ValueError(f"an axis needs a finite point and a direction of some length, not {self.direction}")
+
+    def turned(self, angle: Float[np.ndarray, " t"]) -> RigidTransform:
+        """Rotations by `angle` [rad], right-handed about the direction, that leave the axis in place."""
+        unit = np.asarray(self.direction, float) / np.linalg.norm(self.direction)
+        rotation = Rotation.from_rotvec(np.asarray(angle)[:, None] * unit)
+        point = np.asarray(self.point, float)
+        return RigidTransform.from_components(point - rotation.apply(point), rotation)
+
+
+def sweep(axis: Axis, start: float, stop: float, step: float, name: str = "angle") -> Motion:
+    """MOVING turned about `axis` from start to stop [rad] in steps, both ends included; one frame a second.
+
+    MOVING's own frame coincides with FIXED's at angle 0.
+    """
+    if step == 0.0 or not np.isfinite([start, stop, step]).all() or (stop - start) * step < 0.0:
+        raise ValueError(f"a sweep from {start} to {stop} cannot go in steps of {step}")
+    angle = start + step * np.arange(int(np.floor((stop - start) / step + 1e-9)) + 1)
+    return Motion(np.arange(len(angle), dtype=float), axis.turned(angle), f"sweep of {name}")

@@ -1,0 +1,123 @@
+"""The static figure of an area analysis: areas with their bounds, separation, and the patch at its largest."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.data.evolution import AreaEvolution
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # Okabe-Ito: told apart by colour-blind readers
+
+
+def draw_areas(
+    evolution: AreaEvolution,
+    vertices: Float[np.ndarray, "n 3"],
+    faces: Int[np.ndarray, "m 3"],
+    distance: Float[np.ndarray, " n"],
+    frame: int,
+    title: str,
+    files: tuple[Path, ...],
+    time_label: str = "time [s]",
+) -> None:
+    """Draw and save the figure, once per file name (png, svg, pdf by ending).
+
+    Parameters
+    ----------
+    evolution
+        What to draw over time.
+    vertices, faces, distance
+        FIXED [m] and the signed distance of its vertices to MOVING at `frame` [m]; infinite where far.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(11.0, 6.4), layout="constrained")
+    FigureCanvasAgg(figure)
+    panels = figure.subplot_mosaic([["area", "map"], ["gap", "map"]], height_ratios=[2, 1], width_ratios=[3, 2])
+    _areas(panels["area"], evolution)
+    _separation(panels["gap"], evolution, time_label)
+    _patch(panels["map"], evolution, vertices, faces, distance, frame)
+    figure.suptitle(_plain(title), fontsize=11)
+    for file in files:
+        figure.savefig(file, dpi=150, metadata={"Date": None} if file.suffix == ".svg" else None)
+
+
+def _plain(text: str) -> str:
+    """Text that stays text: a dollar sign in a file name would start a formula."""
+    return text.replace("$", r"\$")
+
+
+def _areas(axes: Axes, e: AreaEvolution) -> None:
+    for k, threshold in enumerate(e.thresholds):
+        colour = COLOURS[k % len(COLOURS)]
+        label = f"FIXED, {threshold * 1e3:g} mm"
+        axes.fill_between(e.time, e.fixed.lower[:, k] * 1e6, e.fixed.upper[:, k] * 1e6, color=colour, alpha=0.25, lw=0)
+        axes.plot(e.time, e.fixed.area[:, k] * 1e6, color=colour, label=label)
+        axes.plot(e.time, e.moving.area[:, k] * 1e6, color=colour, lw=0.9, ls=":", label="MOVING" if k == 0 else None)
+        if e.medial_side:
+            sides = (("medial", e.medial, "--"), ("lateral", e.lateral, "-."))
+            for name, part, style in sides:
+                axes.plot(e.time, part[:, k] * 1e6, color=colour, lw=0.9, ls=style, label=name if k == 0 else None)
+    axes.set_ylabel("contact area [mm²]")
+    axes.set_ylim(bottom=0.0)
+    axes.set_title(f"signed: {e.signed}; shaded: certified bounds", fontsize=9)
+    axes.legend(fontsize=8, frameon=False, ncols=2)
+    axes.tick_params(labelbottom=False)
+
+
+def _separation(axes: Axes, e: AreaEvolution, time_label: str) -> None:
+    axes.plot(e.time, e.min_distance * 1e3, color="black", label="smallest distance")
+    if np.isfinite(e.max_penetration_fixed).any():
+        axes.plot(e.time, -e.max_penetration_fixed * 1e3, color="grey", ls="--", label="− penetration of FIXED")
+    axes.axhline(0.0, color="grey", lw=0.6)
+    axes.set_xlabel(_plain(time_label))
+    axes.set_ylabel("distance [mm]")
+    axes.legend(fontsize=8, frameon=False)
+
+
+def _patch(
+    axes: Axes,
+    e: AreaEvolution,
+    vertices: Float[np.ndarray, "n 3"],
+    faces: Int[np.ndarray, "m 3"],
+    distance: Float[np.ndarray, " n"],
+    frame: int,
+) -> None:
+    """FIXED seen along the direction in which its patch looks, coloured by distance, with the threshold's contour."""
+    largest = max(e.thresholds)
+    span = max(2.0 * largest, 1e-3) * 1e3
+    corners = vertices[faces] * 1e3
+    shown = np.where(np.isfinite(distance), distance, largest * 4.0 + 1.0)
+    near = (shown[faces] <= largest).any(axis=1)
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    view = normal[near].sum(axis=0) if near.any() else normal.sum(axis=0)
+    axis = int(np.argmax(np.abs(view)))
+    sign = 1.0 if view[axis] >= 0.0 else -1.0
+    right, up = ((1, 2), (2, 0), (0, 1))[axis]
+    visible = normal[:, axis] * sign > 0.0
+    seen = faces[visible]
+    points = vertices * 1e3
+    colours = axes.tripcolor(
+        points[:, right], points[:, up], seen, np.clip(shown * 1e3, -span, span), cmap="viridis_r",
+        vmin=-span / 4.0, vmax=span, shading="gouraud", rasterized=True,
+    )  # fmt: skip
+    for k, threshold in enumerate(e.thresholds):
+        level = [threshold * 1e3]
+        if near.any() and shown.min() < threshold < shown.max():
+            axes.tricontour(
+                points[:, right], points[:, up], seen, shown * 1e3, levels=level, colors=COLOURS[k % len(COLOURS)],
+                linewidths=1.2,
+            )  # fmt: skip
+    axes.set_aspect("equal")
+    axes.set_xlabel(f"{'xyz'[right]} [mm]")
+    axes.set_ylabel(f"{'xyz'[up]} [mm]")
+    axes.set_title(f"FIXED at t = {e.time[frame]:g}, seen along {'-' if sign > 0 else '+'}{'xyz'[axis]}", fontsize=9)
+    axes.figure.colorbar(colours, ax=axes, label="signed distance [mm]" if e.signed in ("both", "fixed") else
+                         "distance [mm]", shrink=0.7)  # fmt: skip
