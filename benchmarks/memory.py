@@ -1,4 +1,4 @@
-"""Peak memory of one engine doing a few frames, in a process of its own: `python -m benchmarks.memory "libigl AABB"`."""
+"""Peak memory of one engine in a process of its own: `python -m benchmarks.memory "libigl AABB"`."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import json
 import resource
 import subprocess
 import sys
+from pathlib import Path
 
 from benchmarks.one_core import pin
 
@@ -22,6 +23,17 @@ def peaks(names: list[str], pair: str, faces: int) -> dict[str, float]:
         if done.returncode == 0:
             found[name] = float(json.loads(done.stdout.splitlines()[-1]))
     return found
+
+
+def peak_of_this_process() -> float:
+    """Peak resident memory [MB]; on Linux from /proc, for getrusage there starts with the parent's peak."""
+    status = Path("/proc/self/status")
+    if status.exists():
+        lines = dict(line.split(":", 1) for line in status.read_text().splitlines() if ":" in line)
+        if "VmHWM" in lines:
+            return float(lines["VmHWM"].split()[0]) / 1024
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak / (1024**2 if sys.platform == "darwin" else 1024)
 
 
 def main() -> None:
@@ -40,8 +52,7 @@ def main() -> None:
         step = engine_named(options.engine).prepare(pair)
         for k in range(len(pair.rotation)):
             step(k)
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    sys.stdout.write(json.dumps(peak / (1024 if sys.platform != "darwin" else 1024**2)) + "\n")
+    sys.stdout.write(json.dumps(peak_of_this_process()) + "\n")
 
 
 if __name__ == "__main__":

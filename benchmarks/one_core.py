@@ -16,7 +16,7 @@ THREADS = (
 
 
 def pin() -> int | None:
-    """One thread for every library, and the process on its last core; returns that core, None where it cannot be set."""
+    """One thread for every library, the process on its last core; returns that core, None where it cannot be set."""
     for name in THREADS:
         os.environ[name] = "1"
     if not hasattr(os, "sched_setaffinity"):

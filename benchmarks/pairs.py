@@ -60,7 +60,7 @@ def sphere_cup(faces: int, frames: int) -> Pair:
 
 
 def dm(faces: int, frames: int) -> Pair:
-    """The real implants of the sixth Grand Challenge (subject DM) over recorded gait; `faces` is what the files have."""
+    """The real implants of the sixth Grand Challenge (subject DM) over recorded gait; the files set the faces."""
     folder = Path(os.environ.get("GEOCONTACT_DATA", ROOT.parent / "shared" / "data")) / "gc6_dm_knee"
     if not folder.is_dir():
         raise FileNotFoundError(f"no folder {folder.name} in $GEOCONTACT_DATA: the pair dm cannot be measured")

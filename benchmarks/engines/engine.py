@@ -82,6 +82,10 @@ def peer(build: Callable[[Pair], Query], points: int | None = None) -> Callable[
     return prepare
 
 
+FAR = 1.0
+"""Stands for the distance of a vertex that a bounded peer did not find [m]."""
+
+
 def sample(pair: Pair, points: int | None) -> slice | np.ndarray:
     """All vertices, or `points` of them spread over the list."""
     n = len(pair.moving.vertices)
@@ -89,7 +93,7 @@ def sample(pair: Pair, points: int | None) -> slice | np.ndarray:
 
 
 def threshold_only(pair: Pair) -> float:
-    """Bound of a user who asks for the threshold and no more: the iso-line is then cut wrongly."""
+    """Bound of a user who asks for the threshold and no more: cut triangles lose nearly all of their part."""
     return THRESHOLD
 
 

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from jaxtyping import Float
 
-from benchmarks.engines.engine import Engine, Query, peer, threshold_and_edge, threshold_only
+from benchmarks.engines.engine import FAR, Engine, Query, peer, threshold_and_edge, threshold_only
 from benchmarks.pairs import Pair
 
 LARGEST = np.finfo(np.float32).max
@@ -24,13 +24,12 @@ def build(pair: Pair, bound: Callable[[Pair], float]) -> Query:
     scene.set_object_vertices(np.asfortranarray(pair.fixed.local, dtype=np.float32), 0)
     scene.set_object_triangles(np.asfortranarray(pair.fixed.faces, dtype=np.int32), 0)
     scene.build(fcpw.aggregate_type.bvh_surface_area, True)
-    largest = bound(pair)
-    squared = np.full(len(pair.moving.vertices), min(largest**2, LARGEST), np.float32)
+    squared = np.full(len(pair.moving.vertices), min(bound(pair) ** 2, LARGEST), np.float32)
 
     def query(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
         answers = fcpw.interaction_3D_list()
         scene.find_closest_points(np.asfortranarray(points, dtype=np.float32), squared, answers)
-        return np.minimum(np.array([answer.d for answer in answers]), largest)
+        return np.minimum(np.array([answer.d for answer in answers]), FAR)
 
     return query
 

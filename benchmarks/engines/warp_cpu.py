@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from benchmarks.engines.engine import Engine, Query, peer, threshold_and_edge, threshold_only
+from benchmarks.engines.engine import FAR, Engine, Query, peer, threshold_and_edge, threshold_only
 from benchmarks.engines.warp_kernels import load
 from benchmarks.pairs import Pair
 
@@ -21,7 +21,7 @@ def kernels() -> Any:
 
 
 def build(pair: Pair, bound: Callable[[Pair], float], signed: bool) -> Query:
-    """One launch per frame on preallocated output; a point that is not found gets the bound."""
+    """One launch per frame on preallocated output."""
     wp, plain, with_sign = kernels()
     vertices = wp.array(pair.fixed.local.astype(np.float32), dtype=wp.vec3, device="cpu")
     faces = wp.array(pair.fixed.faces.astype(np.int32).ravel(), dtype=wp.int32, device="cpu")
@@ -32,7 +32,7 @@ def build(pair: Pair, bound: Callable[[Pair], float], signed: bool) -> Query:
 
     def query(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
         where = wp.array(points.astype(np.float32), dtype=wp.vec3, device="cpu", copy=False)
-        inputs = [mesh.id, where, largest]
+        inputs = [mesh.id, where, largest, FAR]
         wp.launch(with_sign if signed else plain, dim=n, inputs=inputs, outputs=[out], device="cpu")
         return np.asarray(out.numpy())
 

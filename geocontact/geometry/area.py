@@ -19,6 +19,8 @@ from geocontact.geometry.sampled import Distances, Sampled
 from geocontact.geometry.subdivision import compact, quartered
 from geocontact.geometry.surface import Surface
 
+PIECES = 100_000  # at most this many triangles are divided at a time, the most doubtful first
+STALLED = 0.9  # a division that leaves more of the doubt than this will not end: surfaces exactly a threshold apart
 SMALLEST = 1e-10  # m^2; an upper bound below this is not refined further
 
 
@@ -166,10 +168,13 @@ def _refined(
     settled: _Sums, pieces: _Pieces, points: Distances, other: Surface, threshold: float, rule: Refinement
 ) -> _Sums:
     """Divide the pieces as long as `rule` asks for it and return the totals."""
+    before = np.inf
     for level in range(rule.depth):
-        wanted = _wanted(settled.with_(pieces), pieces, rule, first=level == 0)
-        if not wanted.any():
+        now = settled.with_(pieces)
+        wanted = _wanted(now, pieces, rule, first=level == 0)
+        if not wanted.any() or now.gap > STALLED * before:
             break
+        before = now.gap
         settled = settled.with_(pieces[~wanted])
         faces, points = compact(pieces.faces[wanted], points)
         faces, points = quartered(faces, points, other, threshold)
@@ -189,4 +194,7 @@ def _wanted(now: _Sums, pieces: _Pieces, rule: Refinement, first: bool) -> Bool[
         wanted |= pieces.error > 0.25 * rule.accuracy * now.area / len(gap)
     if rule.bounds is not None and now.gap > rule.bounds * now.upper:
         wanted |= gap > 0.25 * rule.bounds * now.upper / len(gap)
-    return np.asarray(wanted & (gap > 0.0))
+    wanted &= gap > 0.0
+    if np.count_nonzero(wanted) > PIECES:
+        wanted &= gap >= np.sort(gap[wanted])[-PIECES]
+    return np.asarray(wanted)

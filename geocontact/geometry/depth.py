@@ -21,8 +21,10 @@ def lowest_signed_distance(sampled: Sampled, other: Surface, distances: Distance
 
     Branch and bound over triangles: no point of a triangle is deeper than its corner's depth plus the longest edge
     there, nor deeper than the largest distance of its corners to one point of `other`; what cannot beat the deepest
-    point found so far is dropped, the rest is divided into four.
+    point found so far is dropped, the rest is divided into four. Infinite when no face counts.
     """
+    if len(sampled.faces) == 0:
+        return np.inf
     points = _unlimited(other, distances)
     faces = sampled.faces
     best = float(points.signed[faces].min())

@@ -99,6 +99,8 @@ class ContactPair:
 
     def at(self, rotation: Float[np.ndarray, "3 3"], translation: Float[np.ndarray, " 3"]) -> FrameContact:
         """Contact with MOVING at x_fixed = rotation x_moving + translation [m]."""
+        if not (np.isfinite(rotation).all() and np.isfinite(translation).all()):
+            raise ValueError("the pose is not finite")
         back, origin = np.ascontiguousarray(rotation.T), -rotation.T @ translation
         on_fixed = self._fixed.distances(self.moving, back, origin)
         on_moving = self._moving.distances(self.fixed, np.ascontiguousarray(rotation), translation)

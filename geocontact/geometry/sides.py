@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int8
 
+from geocontact.geometry.kernels.binary import Binary
 from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
 from geocontact.geometry.kernels.tangle import pierced
-from geocontact.geometry.kernels.tree import Tree
 
 if TYPE_CHECKING:
     from geocontact.geometry.surface import Surface
@@ -19,10 +19,10 @@ PROBES = 4000  # points at which normals are compared with winding numbers befor
 
 
 def tangled(
-    tree: Tree, corners: Float[np.ndarray, "m 3 3"], merged: Int[np.ndarray, "m 3"]
+    binary: Binary, corners: Float[np.ndarray, "m 3 3"], merged: Int[np.ndarray, "m 3"]
 ) -> Bool[np.ndarray, " m"]:
     """Faces that touch a self-intersection: their normals would misplace points, winding numbers do not."""
-    marked = pierced(tree, corners, merged)
+    marked = pierced(binary, corners, merged)
     near = np.zeros(int(merged.max()) + 1, bool)
     near[merged[marked].ravel()] = True
     return np.asarray(near[merged].any(axis=1))

@@ -11,8 +11,10 @@ from jaxtyping import Bool, Float, Int
 
 from geocontact.data.mesh import Mesh
 from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
-from geocontact.geometry.kernels.tree import Tree, build_boxes
+from geocontact.geometry.kernels.binary import build
+from geocontact.geometry.kernels.tree import Tree
 from geocontact.geometry.kernels.triangle import triangle_frames
+from geocontact.geometry.kernels.wide import widen
 from geocontact.geometry.proximity import Proximity
 from geocontact.geometry.pseudonormals import pseudonormals
 from geocontact.geometry.sides import normals_agree, resolve_sides, tangled
@@ -123,14 +125,14 @@ class Surface:
     def tree(self) -> Tree:
         """The bounded tree over the faces, about the centre."""
         corners = self.corners
-        root, pairs, first, count, order = build_boxes(corners.min(axis=1), corners.max(axis=1))
+        binary = build(corners.min(axis=1), corners.max(axis=1))
+        order = binary.order
         records = triangle_frames(self.local, np.ascontiguousarray(self.faces[order]))
         normals = pseudonormals(records, self.faces[order], self.topology.merged)
         normals = -normals if self.inside_out else normals
-        tree = Tree(root, pairs, first, count, records.ravel(), order, normals)
         if self.topology.closed:
-            tree.normal[tangled(tree, corners, self.topology.merged[self.faces])[order]] = 0.0
-        return tree
+            normals[tangled(binary, corners, self.topology.merged[self.faces])[order]] = 0.0
+        return Tree(binary.root, *widen(binary, records), records.ravel(), order, normals)
 
     @cached_property
     def walk(self) -> Int[np.ndarray, " n"]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.geometry.kernels.tree import STACK, box_distance, nearest, side_of
+from geocontact.geometry.kernels.tree import in_box, nearest, scratch, side_of
 
 CHUNK = 32  # points that are dismissed together when none of them can be near
 SLACK = 1.0 + 1e-9  # so that rounding never excludes the nearest triangle itself
@@ -58,16 +58,15 @@ def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-un
     side = np.ones(n, np.int8)
     slot = np.full(n, -1)
     closest = np.full((n, 3), np.nan)
-    nodes = np.empty(STACK, np.uint32)
-    keys = np.empty(STACK)
+    w = scratch()
     for c in range(len(sphere)):
         first = c * CHUNK
         last = min(first + CHUNK, n)
         cx, cy, cz = sphere[c, 0], sphere[c, 1], sphere[c, 2]
         reach = sphere[c, 3] + sphere[c, 4]
-        d2, s = nearest(tree, cx, cy, cz, reach * reach, nodes, keys)
+        d2, s = nearest(tree, cx, cy, cz, reach * reach, w)
         if s < 0:
-            far = _side(tree, cx, cy, cz, signed, nodes, keys)
+            far = _side(tree, cx, cy, cz, signed, w)
             for i in range(first, last):
                 distance[i] = limit[i]
                 side[i] = far
@@ -80,14 +79,14 @@ def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-un
             s = -1
             if middle - away <= limit[i]:
                 start = min(limit[i], (middle + away) * SLACK)
-                d2, s = nearest(tree, x, y, z, start * start, nodes, keys)
+                d2, s = nearest(tree, x, y, z, start * start, w)
             slot[i] = s
             if s < 0:
                 distance[i] = limit[i]
                 if away < limit[i]:  # nothing between the point and the middle of its chunk
                     side[i] = central if signed else 1
                 else:
-                    side[i] = _side(tree, x, y, z, signed, nodes, keys)
+                    side[i] = _side(tree, x, y, z, signed, w)
                 continue
             distance[i] = np.sqrt(d2)
             closest[i, 0], closest[i, 1], closest[i, 2], which = side_of(tree, s, x, y, z)
@@ -97,8 +96,8 @@ def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-un
 
 
 @kernel
-def _side(tree, x, y, z, signed, nodes, keys):  # type: ignore[no-untyped-def]
-    if not signed or box_distance(tree.root, np.uint64(0), x, y, z) > 0.0:
+def _side(tree, x, y, z, signed, w):  # type: ignore[no-untyped-def]
+    if not signed or not in_box(tree.root, x, y, z):
         return 1
-    slot = nearest(tree, x, y, z, np.inf, nodes, keys)[1]
+    slot = nearest(tree, x, y, z, np.inf, w)[1]
     return side_of(tree, slot, x, y, z)[3]

@@ -30,27 +30,22 @@ def certify(faces, points, distance, side, slot, closest, threshold, signed):  #
     faces (k, 3) index the point arrays, which are as `signed_distances` gives them: a point beyond its limit has
     slot -1 and is at least as far as the distance given. Returns arrays (k,), (k,).
     """
-    lower = np.empty(len(faces))
-    upper = np.empty(len(faces))
+    lower = np.zeros(len(faces))
+    upper = np.zeros(len(faces))
+    near = (slot >= 0) | (side <= 0)
     v = np.empty((3, 3))
     p = np.empty((3, 3))
     d = np.empty(3)
     s = np.empty(3, np.int8)
     t = np.empty(3, np.int64)
     for f in range(len(faces)):
-        out = True
+        if not (near[faces[f, 0]] or near[faces[f, 1]] or near[faces[f, 2]]):
+            continue  # all corners farther than the threshold by more than the longest edge
         for c in range(3):
             i = faces[f, c]
             d[c] = distance[i]
             s[c] = side[i]
             t[c] = slot[i]
-            out = out and slot[i] < 0 and side[i] > 0
-        lower[f] = 0.0
-        upper[f] = 0.0
-        if out:  # all corners farther than the threshold by more than the longest edge
-            continue
-        for c in range(3):
-            i = faces[f, c]
             for x in range(3):
                 v[c, x] = points[i, x]
                 p[c, x] = closest[i, x]

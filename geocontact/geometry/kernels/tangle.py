@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from geocontact.geometry.kernels.binary import DEPTH
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.geometry.kernels.tree import STACK
 
 SIDES = 3
 
@@ -18,7 +18,7 @@ def pierced(tree, corner, faces):  # type: ignore[no-untyped-def]
     face that shares no vertex with it; both the faces of the edge and the pierced face are marked.
     """
     marked = np.zeros(len(faces), np.bool_)
-    nodes = np.empty(STACK, np.int64)
+    nodes = np.empty(2 * DEPTH + 64, np.int64)
     for f in range(len(faces)):
         for k in range(SIDES):
             i, j = faces[f, k], faces[f, (k + 1) % 3]
@@ -38,7 +38,7 @@ def _pierce(tree, corner, faces, f, k, l, nodes, marked):  # type: ignore[no-unt
     while waiting > 0:
         waiting -= 1
         node = nodes[waiting]
-        first, count = np.int64(tree.first[node]), np.int64(tree.count[node])
+        first, count = tree.first[node], tree.count[node]
         if count == 0:
             for child in range(2):
                 if _meets(tree.pairs, 12 * node + 6 * child, lo, hi):
@@ -46,7 +46,7 @@ def _pierce(tree, corner, faces, f, k, l, nodes, marked):  # type: ignore[no-unt
                     waiting += 1
             continue
         for slot in range(first, first + count):
-            g = tree.face[slot]
+            g = tree.order[slot]
             if _share(faces[g], faces[f, k], faces[f, l]):
                 continue
             if _crosses(p, q, corner[g, 0], corner[g, 1], corner[g, 2]):

@@ -73,43 +73,6 @@ def _frame(vertices, face, out):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def squared_distance(r, o, px, py, pz, enough):  # type: ignore[no-untyped-def]
-    """Squared distance of a point to the record at offset o of r; anything >= enough when it is not below `enough`."""
-    dx = px - r[o]
-    dy = py - r[o + ONE]
-    dz = pz - r[o + TWO]
-    z = dx * r[o + N] + dy * r[o + N + ONE] + dz * r[o + N + TWO]
-    z2 = z * z
-    if z2 >= enough:
-        return z2
-    x = dx * r[o + U] + dy * r[o + U + ONE] + dz * r[o + U + TWO]
-    y = dx * r[o + V] + dy * r[o + V + ONE] + dz * r[o + V + TWO]
-    length = r[o + LENGTH]
-    cx = r[o + CX]
-    cy = r[o + CY]
-    if y < 0.0 or cy == 0.0:
-        ex = min(x, 0.0) + max(x - length, 0.0)
-        return ex * ex + y * y + z2
-    left = x * cy - y * cx
-    right = (length - x) * cy - y * (length - cx)
-    if left >= 0.0 and right >= 0.0:
-        return z2
-    best = np.inf
-    if left < 0.0:
-        t = min(max((x * cx + y * cy) / (cx * cx + cy * cy), 0.0), 1.0)
-        ex = x - t * cx
-        ey = y - t * cy
-        best = ex * ex + ey * ey
-    if right < 0.0:
-        bx = cx - length
-        t = min(max(((x - length) * bx + y * cy) / (bx * bx + cy * cy), 0.0), 1.0)
-        ex = x - length - t * bx
-        ey = y - t * cy
-        best = min(best, ex * ex + ey * ey)
-    return best + z2
-
-
-@kernel
 def closest_point(r, o, px, py, pz):  # type: ignore[no-untyped-def]
     """Closest point of the record at offset o of r and the feature it lies on.
 

@@ -1,0 +1,72 @@
+# For users: `make demo` and `make test`. Everything is installed into .venv, pinned and checked by hash.
+# A Python other than the first one found that is new enough: make demo PYTHON=/path/to/python3
+
+PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && exit; done; echo python3)
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
+EDITABLE := $(PIP) install --quiet --no-deps --no-build-isolation -e .
+COMPILE := $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url \
+	--no-annotate --no-header --group build --extra all --extra test
+
+.DELETE_ON_ERROR:
+.PHONY: demo test check lint types imports oracle lock clean
+
+demo: $(VENV)/core.stamp
+	@$(BIN)/geocontact demo
+
+test: $(VENV)/full.stamp
+	@$(BIN)/python -m pytest -m "not oracle"
+
+check:
+	@.ci/run
+
+lint: $(VENV)/full.stamp
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(VENV)/full.stamp
+	$(BIN)/mypy --strict -p geocontact
+
+imports: $(VENV)/full.stamp
+	$(BIN)/lint-imports
+
+oracle: $(VENV)/oracle.stamp
+
+# Pins stay as they are unless a requirement forces a change; newer versions: make lock UPGRADE=--upgrade
+lock: $(BIN)/python
+	$(PIP) install --quiet --upgrade uv
+	$(COMPILE) $(UPGRADE) pyproject.toml -o requirements.lock
+	$(COMPILE) $(UPGRADE) --extra oracle -c requirements.lock pyproject.toml -o requirements-oracle.lock
+
+clean:
+	rm -rf $(VENV) build dist demo-result .benchmarks .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	find geocontact meshes tests benchmarks -name __pycache__ -prune -exec rm -rf {} +
+
+$(BIN)/python:
+	@command -v $(PYTHON) >/dev/null || { echo "$(PYTHON) not found: install Python 3.11 or newer" >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "$(PYTHON) is older than 3.11: name a newer one, make demo PYTHON=python3.12" >&2; exit 1; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
+		{ echo "$(PYTHON) cannot make virtual environments: on Debian and Ubuntu, apt install python3-venv" >&2; exit 1; }
+	@$(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); exit 1; }
+
+# What the demo needs is a third of the whole lock.
+$(VENV)/core.stamp: requirements.lock pyproject.toml | $(BIN)/python
+	@echo "Installing the core packages into $(VENV) (once) ..."
+	@$(BIN)/python .ci/core_lock.py > $(VENV)/core.lock
+	@$(PIP) install --quiet --require-hashes --no-deps -r $(VENV)/core.lock
+	@$(EDITABLE)
+	@touch $@
+
+$(VENV)/full.stamp: requirements.lock pyproject.toml | $(BIN)/python
+	@echo "Installing all packages of requirements.lock into $(VENV) (once) ..."
+	@$(PIP) install --quiet --require-hashes -r requirements.lock
+	@$(EDITABLE)
+	@touch $(VENV)/core.stamp $@
+
+$(VENV)/oracle.stamp: requirements-oracle.lock $(VENV)/full.stamp
+	@echo "Installing the comparison libraries of requirements-oracle.lock into $(VENV) (once) ..."
+	@$(PIP) install --quiet --require-hashes -r requirements-oracle.lock
+	@touch $@

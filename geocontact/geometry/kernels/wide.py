@@ -1,0 +1,158 @@
+"""The binary tree made wide: 16 children a node, up to 32 triangles a leaf, laid out so that the processor takes
+several at a time. The inner loops have a count that the compiler does not know, or it would unroll instead."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.geometry.kernels.binary import DEPTH
+from geocontact.geometry.kernels.compile import kernel
+
+FAN = 16  # children of a node
+LEAF = 32  # triangles of a leaf
+ROWS = 17  # numbers of a triangle in a leaf: the first 15 of its record, 1/|AC|^2, 1/|BC|^2
+STACK = FAN * (DEPTH + 32)
+
+
+@kernel
+def widen(binary, records):  # type: ignore[no-untyped-def]
+    """Boxes, children, leaves and slots of the wide tree.
+
+    boxes (k, 6, FAN) flat: lower x, y, z, upper x, y, z of the children, empty ones beyond reach; child (k, FAN) flat:
+    node number, or -2 - leaf number; leaves (l, ROWS, LEAF) flat, the last triangle repeated in unused places;
+    slots (l, LEAF) flat: the slot of each place.
+    """
+    n = len(binary.first)
+    box, start, size = _extents(binary)
+    boxes = np.empty((n, 6, FAN))
+    child = np.full((n, FAN), -1)
+    leaves = np.empty((n, ROWS, LEAF))
+    slots = np.empty((n, LEAF), np.int64)
+    todo = np.zeros(n, np.int64)
+    fan = np.empty(FAN, np.int64)
+    used, made, leaf = 0, 1, 0
+    while used < made:
+        width = _gather(binary, box, size, todo[used], fan)
+        for i in range(FAN):
+            for k in range(6):
+                boxes[used, k, i] = box[fan[i], k] if i < width else (np.inf if k < 3 else -np.inf)
+            if i >= width:
+                continue
+            node = fan[i]
+            if size[node] > LEAF:
+                child[used, i] = made
+                todo[made] = node
+                made += 1
+            else:
+                child[used, i] = -2 - leaf
+                _fill(records, start[node], size[node], leaves[leaf], slots[leaf])
+                leaf += 1
+        used += 1
+    return boxes[:used].copy().ravel(), child[:used].copy().ravel(), leaves[:leaf].copy().ravel(), slots[:leaf].ravel()
+
+
+@kernel
+def _extents(binary):  # type: ignore[no-untyped-def]
+    """Box, first slot and number of slots below each node of the binary tree."""
+    n = len(binary.first)
+    box = np.empty((n, 6))
+    start = np.empty(n, np.int64)
+    size = np.empty(n, np.int64)
+    box[0] = binary.root
+    for node in range(n - 1, -1, -1):  # children come after their parents
+        first = binary.first[node]
+        if binary.count[node] > 0:
+            start[node] = first
+            size[node] = binary.count[node]
+            continue
+        box[first] = binary.pairs[12 * node : 12 * node + 6]
+        box[first + 1] = binary.pairs[12 * node + 6 : 12 * node + 12]
+        start[node] = min(start[first], start[first + 1])
+        size[node] = size[first] + size[first + 1]
+    return box, start, size
+
+
+@kernel
+def _gather(binary, box, size, node, fan):  # type: ignore[no-untyped-def]
+    """Up to FAN nodes that together make up `node`: the one with the largest surface is opened again and again."""
+    fan[0] = node
+    width = 1
+    while width < FAN:
+        largest = -1.0
+        place = -1
+        for i in range(width):
+            e = box[fan[i], 3:] - box[fan[i], :3]
+            surface = e[0] * e[1] + e[1] * e[2] + e[2] * e[0]
+            if size[fan[i]] > LEAF and surface > largest:
+                largest = surface
+                place = i
+        if place < 0:
+            break
+        first = binary.first[fan[place]]
+        fan[place] = first
+        fan[width] = first + 1
+        width += 1
+    return width
+
+
+@kernel
+def _fill(records, start, size, leaf, slots):  # type: ignore[no-untyped-def]
+    for j in range(LEAF):
+        slot = start + min(j, size - 1)
+        slots[j] = slot
+        r = records[slot]
+        leaf[:15, j] = r[:15]
+        ac = r[13] * r[13] + r[14] * r[14]
+        bc = (r[13] - r[12]) * (r[13] - r[12]) + r[14] * r[14]
+        leaf[15, j] = 1.0 / ac if ac > 0.0 else 0.0
+        leaf[16, j] = 1.0 / bc if bc > 0.0 else 0.0
+
+
+@kernel
+def box_distances(boxes, o, x, y, z, out, n):  # type: ignore[no-untyped-def]
+    """Squared distances of a point to the n = FAN boxes at offset o."""
+    x0, x1 = boxes[o : o + FAN], boxes[o + 3 * FAN : o + 4 * FAN]
+    y0, y1 = boxes[o + FAN : o + 2 * FAN], boxes[o + 4 * FAN : o + 5 * FAN]
+    z0, z1 = boxes[o + 2 * FAN : o + 3 * FAN], boxes[o + 5 * FAN : o + 6 * FAN]
+    for j in range(n):
+        dx = max(max(x0[j] - x, x - x1[j]), 0.0)
+        dy = max(max(y0[j] - y, y - y1[j]), 0.0)
+        dz = max(max(z0[j] - z, z - z1[j]), 0.0)
+        out[j] = dx * dx + dy * dy + dz * dz
+
+
+@kernel
+def leaf_distances(leaves, o, px, py, pz, out, n):  # type: ignore[no-untyped-def]
+    """Squared distances of a point to the n = LEAF triangles at offset o; the cases of `triangle`, without branches.
+
+    A point over the triangle is as far as its height; any other is as far as the nearest of the three edges.
+    """
+    ax, ay, az = _row(leaves, o, 0), _row(leaves, o, 1), _row(leaves, o, 2)
+    nx, ny, nz = _row(leaves, o, 3), _row(leaves, o, 4), _row(leaves, o, 5)
+    ux, uy, uz = _row(leaves, o, 6), _row(leaves, o, 7), _row(leaves, o, 8)
+    vx, vy, vz = _row(leaves, o, 9), _row(leaves, o, 10), _row(leaves, o, 11)
+    lengths, cxs, cys = _row(leaves, o, 12), _row(leaves, o, 13), _row(leaves, o, 14)
+    over_ac, over_bc = _row(leaves, o, 15), _row(leaves, o, 16)
+    for j in range(n):
+        dx, dy, dz = px - ax[j], py - ay[j], pz - az[j]
+        h = dx * nx[j] + dy * ny[j] + dz * nz[j]
+        x = dx * ux[j] + dy * uy[j] + dz * uz[j]
+        y = dx * vx[j] + dy * vy[j] + dz * vz[j]
+        length, cx, cy = lengths[j], cxs[j], cys[j]
+        ex = min(x, 0.0) + max(x - length, 0.0)
+        edge = ex * ex + y * y
+        t = min(max((x * cx + y * cy) * over_ac[j], 0.0), 1.0)
+        ex, ey = x - t * cx, y - t * cy
+        edge = min(edge, ex * ex + ey * ey)
+        bx, back = cx - length, x - length
+        t = min(max((back * bx + y * cy) * over_bc[j], 0.0), 1.0)
+        ex, ey = back - t * bx, y - t * cy
+        edge = min(edge, ex * ex + ey * ey)
+        over = min(min(y, x * cy - y * cx), y * bx - back * cy)
+        over = min(over, cy - 1e-300)  # nothing is over a collinear triangle
+        out[j] = h * h + (0.0 if over >= 0.0 else edge)
+
+
+@kernel
+def _row(leaves, o, k):  # type: ignore[no-untyped-def]
+    return leaves[o + k * LEAF : o + (k + 1) * LEAF]

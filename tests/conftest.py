@@ -1,0 +1,60 @@
+"""Shapes and types of the package's arguments are checked while tests run; real-data tests are counted."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+import hypothesis
+import pytest
+from jaxtyping import install_import_hook
+
+ROOT = Path(__file__).resolve().parents[1]
+REAL = ROOT / "tests" / "real"
+COMPILED = "geocontact.geometry.kernels"  # numba reads these functions' own source; nothing may be wrapped around them
+
+hypothesis.settings.register_profile("local", deadline=None)
+hypothesis.settings.register_profile("ci", deadline=None, derandomize=True)
+hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "local")
+
+
+def checked_modules() -> Iterator[str]:
+    """Modules of the package without its kernels; only leaves, because the hook takes prefixes."""
+    for file in sorted((ROOT / "geocontact").rglob("*.py")):
+        module = ".".join(file.relative_to(ROOT).with_suffix("").parts)
+        if file.name != "__init__.py" and not module.startswith(COMPILED):
+            yield module
+
+
+install_import_hook(list(checked_modules()), "beartype.beartype")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what lies below tests/real, and what asks for the comparison library opensim."""
+    for item in items:
+        if REAL in item.path.parents:
+            item.add_marker(pytest.mark.real)
+        if "opensim" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.oracle)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Say how many real-data tests ran, and why the others did not."""
+    ran = [r for key in ("passed", "failed") for r in terminalreporter.getreports(key) if below_real(r)]
+    skipped = Counter(reason(r) for r in terminalreporter.getreports("skipped") if below_real(r))
+    why = f" ({'; '.join(f'{n} x {r}' if len(skipped) > 1 else r for r, n in skipped.items())})" if skipped else ""
+    terminalreporter.write_line(f"real-data tests: {len(ran)} ran, {skipped.total()} skipped{why}")
+
+
+def below_real(report: pytest.TestReport) -> bool:
+    """Whether a report belongs to a test below tests/real."""
+    return report.nodeid.startswith("tests/real/")
+
+
+def reason(report: pytest.TestReport) -> str:
+    """Why a test was skipped."""
+    place = report.longrepr
+    return str(place[2]).removeprefix("Skipped: ") if isinstance(place, tuple) else "no reason given"

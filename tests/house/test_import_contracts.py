@@ -1,0 +1,75 @@
+"""The import contracts of pyproject.toml hold, and each of them fails on a copy of the package that breaks it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+IO = "Only cli, study and view use io"
+ROOMS = "Rooms know only the rooms below them"
+PLOTS = "Numerics do not plot"
+DOOR = "Rooms do not come in by the front door"
+ARRAYS = "Force laws take arrays, never a Surface"
+
+
+def lint(folder: Path) -> subprocess.CompletedProcess[str]:
+    """Outcome of lint-imports on the package in `folder`."""
+    command = [sys.executable, "-c", "from importlinter.cli import lint_imports_command as c; c()", "--no-cache"]
+    environment = os.environ | {"PYTHONPATH": str(folder), "PYTHONUTF8": "1", "NO_COLOR": "1"}
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, encoding="utf-8")
+
+
+@pytest.fixture
+def copy(tmp_path: Path) -> Path:
+    """Folder with a copy of the package and its contracts."""
+    ignored = shutil.ignore_patterns("__pycache__", "*.stl")
+    shutil.copytree(ROOT / "geocontact", tmp_path / "geocontact", ignore=ignored)
+    shutil.copy(ROOT / "pyproject.toml", tmp_path)
+    return tmp_path
+
+
+def append(folder: Path, module: str, line: str) -> None:
+    """Add a line to a module of the copy, making the room when it is not there yet."""
+    file = folder / "geocontact" / module
+    file.parent.mkdir(exist_ok=True)
+    (file.parent / "__init__.py").touch()
+    with file.open("a", encoding="utf-8") as text:
+        text.write(f"\n{line}\n")
+
+
+def test_contracts_hold() -> None:
+    result = lint(ROOT)
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+@pytest.mark.parametrize(
+    ("module", "line", "contract"),
+    [
+        ("data/mesh.py", "import geocontact.geometry.plane", ROOMS),
+        ("io/meshes.py", "import geocontact.geometry.plane", ROOMS),
+        ("geometry/plane.py", "def late():\n    import geocontact.view.area_figure", ROOMS),
+        ("geometry/plane.py", "import geocontact.contact.law", ROOMS),
+        ("effects/slip.py", "import geocontact.systems.knee", ROOMS),
+        ("identify/least_squares.py", "import geocontact.chain.links", ROOMS),
+        ("view/area_figure.py", "import geocontact.cli.main", ROOMS),
+        ("geometry/plane.py", "import geocontact.io.meshes", IO),
+        ("loads/resultant.py", "from geocontact.io.meshes import read_mesh", IO),
+        ("contact/law.py", "import geocontact.geometry.surface", ARRAYS),
+        ("geometry/plane.py", "import matplotlib.pyplot", PLOTS),
+        ("gap/locate.py", "def late():\n    import pyvista", PLOTS),
+        ("geometry/plane.py", "from geocontact import read_mesh", DOOR),
+    ],
+)
+def test_contract_fails_when_broken(copy: Path, module: str, line: str, contract: str) -> None:
+    for name in ("contact/law.py", "systems/knee.py", "chain/links.py"):
+        append(copy, name, "")
+    append(copy, module, line)
+    result = lint(copy)
+    assert result.returncode == 1, result.stdout + result.stderr
+    assert f"{contract} BROKEN" in result.stdout

@@ -1,0 +1,54 @@
+"""The command line starts without what it does not need; heavy packages are imported where they are used."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+HEAVY = {"casadi", "dask", "distributed", "ezc3d", "matplotlib", "open3d", "opensim", "pyvista", "trimesh", "vtk"}
+NUMERIC = {"fcl", "igl", "numba", "pandas", "scipy"}
+
+
+def loaded_by(program: str) -> set[str]:
+    """Top-level packages that a fresh interpreter has loaded after `program`."""
+    program += "\nimport sys\nsys.stdout.write('\\n@' + ' '.join({name.partition('.')[0] for name in sys.modules}))"
+    result = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+    return set(result.stdout.rpartition("@")[2].split())
+
+
+@pytest.mark.parametrize("program", ["import geocontact", "import geocontact.cli.main"])
+def test_importing_is_light(program: str) -> None:
+    assert not loaded_by(program) & (HEAVY | NUMERIC)
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"]])
+def test_help_is_light(arguments: list[str]) -> None:
+    assert not loaded_by(f"from geocontact.cli.main import run; run({arguments})") & (HEAVY | NUMERIC)
+
+
+def test_help_of_the_main_job_is_light() -> None:
+    assert not loaded_by("from geocontact.cli.main import run; run(['area', '--help'])") & HEAVY
+
+
+def imported_at_the_top(file: Path) -> set[str]:
+    """Top-level packages that a module imports when it is imported."""
+    names: set[str] = set()
+    for node in ast.parse(file.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.Import):
+            names |= {alias.name.partition(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names.add((node.module or "").partition(".")[0])
+    return names
+
+
+@pytest.mark.parametrize(
+    "file", sorted((ROOT / "geocontact").rglob("*.py")), ids=lambda f: f.relative_to(ROOT / "geocontact").as_posix()
+)
+def test_no_module_imports_a_heavy_package_at_the_top(file: Path) -> None:
+    assert not imported_at_the_top(file) & HEAVY
