@@ -13,6 +13,7 @@ from geocontact.data.evolution import AreaEvolution
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+GREY = "Greys_r"  # where nothing is known but that it is far
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # Okabe-Ito: told apart by colour-blind readers
 
 
@@ -102,10 +103,13 @@ def _patch(
     sign = 1.0 if view[axis] >= 0.0 else -1.0
     right, up = ((1, 2), (2, 0), (0, 1))[axis]
     visible = normal[:, axis] * sign > 0.0
-    seen = faces[visible]
+    height = corners[visible][:, :, axis].mean(axis=1) * sign
+    seen = faces[visible][np.argsort(height, kind="stable")]  # what lies on top is drawn last
     points = vertices * 1e3
+    far = ~np.isfinite(distance[seen]).all(axis=1)
+    axes.tripcolor(points[:, right], points[:, up], seen[far], np.full(far.sum(), 0.85), cmap=GREY, vmin=0.0, vmax=1.0, rasterized=True)
     colours = axes.tripcolor(
-        points[:, right], points[:, up], seen, np.clip(shown * 1e3, -span, span), cmap="viridis_r",
+        points[:, right], points[:, up], seen[~far], np.clip(shown * 1e3, -span, span), cmap="viridis_r",
         vmin=-span / 4.0, vmax=span, shading="gouraud", rasterized=True,
     )  # fmt: skip
     for k, threshold in enumerate(e.thresholds):

@@ -1,0 +1,155 @@
+"""`geocontact doctor`: what works on this machine, and the exact fix for what does not."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+
+PATIENCE = 25.0  # s for a child process
+
+
+@dataclass(frozen=True)
+class Feature:
+    """One thing that may or may not work here.
+
+    `probe` runs in a child process, because a missing driver kills the process instead of raising.
+    """
+
+    name: str
+    package: str
+    purpose: str
+    probe: str
+    fix: str
+    needed: bool = False
+
+
+SYSTEM_GL = "apt-get install libegl1 libgl1 (Debian/Ubuntu)"
+FEATURES = (
+    Feature(
+        "distances and areas",
+        "numba",
+        "everything",
+        "import numpy as np; from geocontact.geometry.surface import Surface;"
+        "s = Surface(np.eye(3), np.array([[0, 1, 2]]));"
+        "d = s.proximity(np.zeros((1, 3))).distance[0]; assert abs(d - 3 ** -0.5) < 1e-12",
+        "pip install --force-reinstall numba",
+        needed=True,
+    ),
+    Feature(
+        "inside or outside",
+        "libigl",
+        "signed distances",
+        "import igl, numpy as np; igl.FastWindingNumberBVH()",
+        "pip install libigl",
+        needed=True,
+    ),
+    Feature(
+        "exact separation",
+        "python-fcl",
+        "min_distance, settling",
+        "import fcl; fcl.CollisionRequest()",
+        "pip install python-fcl",
+        needed=True,
+    ),
+    Feature(
+        "figures",
+        "matplotlib",
+        "area.png, area.svg",
+        "from matplotlib.figure import Figure; Figure().savefig(__import__('io').BytesIO(), format='png')",
+        "pip install matplotlib",
+        needed=True,
+    ),
+    Feature(
+        "Parquet tables",
+        "pyarrow",
+        "--parquet",
+        "import pyarrow.parquet",
+        "pip install pyarrow",
+        needed=True,
+    ),
+    Feature(
+        "3-D off-screen",
+        "pyvista",
+        "3-D stills and VTP files",
+        "import pyvista as pv; p = pv.Plotter(off_screen=True, window_size=(64, 64)); p.add_mesh(pv.Sphere());"
+        "assert p.screenshot(return_img=True).std() > 0",
+        f'pip install "geocontact[view]" and {SYSTEM_GL}',
+    ),
+    Feature(
+        "scan registration",
+        "open3d",
+        "body scans",
+        "import open3d",
+        f'pip install "geocontact[scan]" (Python < 3.13) and {SYSTEM_GL[:-16]} libusb-1.0-0 (trixie: also libidn2-0)',
+    ),
+    Feature("optimal control", "casadi", "body models", "import casadi", 'pip install "geocontact[dynamics]"'),
+    Feature("motion capture", "ezc3d", ".c3d files", "import ezc3d", 'pip install "geocontact[mocap]"'),
+    Feature("many subjects", "dask", "cohorts", "import distributed", 'pip install "geocontact[cluster]"'),
+)
+
+
+def doctor() -> int:
+    """Say what works on this machine, feature by feature, with the exact fix for what does not.
+
+    Exit 1 when something that every analysis needs does not work.
+    """
+    print(f"geocontact {_version('geocontact')}, Python {platform.python_version()}, {platform.platform()}")
+    print(f"{os.cpu_count()} cores; compiled kernels are kept in {_cache_folder()}")
+    running = [(feature, _started(feature)) for feature in FEATURES]
+    sound = True
+    for feature, child in running:
+        trouble = "not installed" if child is None else _outcome(child)
+        installed = _version(feature.package)
+        if not trouble:
+            print(f"  ok       {feature.name:20} {feature.package} {installed}")
+            continue
+        sound = sound and not feature.needed
+        word = "MISSING " if feature.needed else "missing "
+        print(f"  {word} {feature.name:20} {feature.package} {installed} ({feature.purpose}): {trouble}")
+        print(f"           fix: {feature.fix}")
+    print("everything an analysis needs works" if sound else "an analysis cannot run here before the fixes above")
+    return 0 if sound else 1
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "-"
+
+
+def _cache_folder() -> str:
+    folder = os.environ.get("NUMBA_CACHE_DIR", "")
+    if folder:
+        return folder
+    package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    return package if os.access(package, os.W_OK) else "the user's cache folder"
+
+
+def _started(feature: Feature) -> subprocess.Popen[str] | None:
+    if _version(feature.package) == "-":
+        return None
+    command = [sys.executable, "-c", feature.probe]
+    return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
+
+
+def _outcome(child: subprocess.Popen[str]) -> str:
+    """Empty when the probe ended well, else what happened in a few words."""
+    try:
+        _, said = child.communicate(timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        child.kill()
+        child.communicate()
+        return f"no answer within {PATIENCE:g} s"
+    if child.returncode == 0:
+        return ""
+    if child.returncode < 0:
+        return f"ends the process (signal {-child.returncode}): a system library or driver is missing"
+    lines = [line for line in said.strip().splitlines() if line.strip()]
+    return lines[-1][:160] if lines else f"exit code {child.returncode}"
+
+
