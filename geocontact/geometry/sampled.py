@@ -13,6 +13,7 @@ from geocontact.geometry.plane import Plane
 from geocontact.geometry.sides import resolve_sides
 from geocontact.geometry.surface import Surface
 
+
 @dataclass(frozen=True, eq=False)
 class Distances:
     """Distance of each sampled point to the other surface, in the other surface's frame about its centre.

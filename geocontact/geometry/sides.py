@@ -1,4 +1,8 @@
-"""Inside or outside, where normals alone cannot be trusted: the winding number decides, or says that it cannot."""
+"""Inside or outside, where normals alone cannot be trusted: the winding number decides, or says that it cannot.
+
+libigl evaluates winding numbers in single precision: within about 1e-7 of the body's size of the surface they may give
+the wrong side, an error of the signed distance of 1e-8 m on an implant.
+"""
 
 from __future__ import annotations
 
@@ -6,26 +10,58 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int8
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
-from geocontact.geometry.kernels.binary import Binary
 from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
+from geocontact.geometry.kernels.binary import Binary
 from geocontact.geometry.kernels.tangle import pierced
 
 if TYPE_CHECKING:
     from geocontact.geometry.surface import Surface
 
 UNDECIDED = 0.2  # |w - 0.5| below which a winding number gives no side
-PROBES = 4000  # points at which normals are compared with winding numbers before they are trusted
+WITNESSES = 5  # faces that speak for a patch
+PROBES = 2000  # points at which normals are compared with winding numbers before they are trusted
 
 
-def tangled(
-    binary: Binary, corners: Float[np.ndarray, "m 3 3"], merged: Int[np.ndarray, "m 3"]
-) -> Bool[np.ndarray, " m"]:
-    """Faces that touch a self-intersection: their normals would misplace points, winding numbers do not."""
-    marked = pierced(binary, corners, merged)
-    near = np.zeros(int(merged.max()) + 1, bool)
-    near[merged[marked].ravel()] = True
-    return np.asarray(near[merged].any(axis=1))
+def doubtful_faces(surface: Surface, binary: Binary) -> Bool[np.ndarray, " m"]:
+    """Faces whose normals would misplace points: those at a self-intersection, and patches that are no boundary.
+
+    Self-intersections cut a surface into patches. On either side of a patch the winding number is constant; where it is
+    not 0 in front and 1 behind, the patch is buried in another part or turned over. The segment from a point to its
+    nearest face crosses nothing, so the sides of all other points are read from normals without doubt.
+    """
+    merged = surface.topology.merged[surface.faces]
+    marked = pierced(binary, surface.corners, merged)
+    touched = np.zeros(len(surface.vertices), bool)
+    touched[merged[marked].ravel()] = True
+    doubtful = np.asarray(touched[merged].any(axis=1))
+    clear = np.flatnonzero(~doubtful)
+    if len(clear) == 0:
+        return doubtful
+    patch = _patches(merged[clear], len(surface.vertices))
+    for number in range(patch.max() + 1):
+        members = clear[patch == number]
+        doubtful[members] = not _is_boundary(surface, members)
+    return doubtful
+
+
+def _patches(faces: Int[np.ndarray, "k 3"], count: int) -> Int[np.ndarray, " k"]:
+    """Number of the connected patch of each face."""
+    ends = np.concatenate([faces[:, :2], faces[:, 1:]])
+    graph = coo_array((np.ones(len(ends), np.int8), (ends[:, 0], ends[:, 1])), shape=(count, count))
+    _, label = connected_components(graph, directed=False)
+    return np.asarray(np.unique(label[faces[:, 0]], return_inverse=True)[1])
+
+
+def _is_boundary(surface: Surface, members: Int[np.ndarray, " k"]) -> bool:
+    """Whether most of the largest faces of a patch have the outside in front and the inside behind."""
+    largest = members[np.argsort(-surface.face_area[members], kind="stable")[:WITNESSES]]
+    middle = surface.corners[largest].mean(axis=1)
+    step = 0.05 * np.sqrt(surface.face_area[largest])[:, None] * surface.face_normal[largest]
+    front, back = winding_sides(surface, middle + step), winding_sides(surface, middle - step)
+    return bool(2 * np.count_nonzero((front == 1) & (back == -1)) > len(largest))
 
 
 def winding_sides(surface: Surface, local: Float[np.ndarray, "n 3"]) -> Int8[np.ndarray, " n"]:

@@ -17,7 +17,7 @@ from geocontact.geometry.kernels.triangle import triangle_frames
 from geocontact.geometry.kernels.wide import widen
 from geocontact.geometry.proximity import Proximity
 from geocontact.geometry.pseudonormals import pseudonormals
-from geocontact.geometry.sides import normals_agree, resolve_sides, tangled
+from geocontact.geometry.sides import doubtful_faces, normals_agree, resolve_sides
 from geocontact.geometry.topology import Topology, signed_volume, topology
 
 
@@ -131,7 +131,7 @@ class Surface:
         normals = pseudonormals(records, self.faces[order], self.topology.merged)
         normals = -normals if self.inside_out else normals
         if self.topology.closed:
-            normals[tangled(binary, corners, self.topology.merged[self.faces])[order]] = 0.0
+            normals[doubtful_faces(self, binary)[order]] = 0.0
         return Tree(binary.root, *widen(binary, records), records.ravel(), order, normals)
 
     @cached_property

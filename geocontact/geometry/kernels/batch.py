@@ -59,6 +59,7 @@ def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-un
     slot = np.full(n, -1)
     closest = np.full((n, 3), np.nan)
     w = scratch()
+    tiny = 1e-12 * (tree.root[3:] - tree.root[:3]).sum()  # points on the surface itself must be found too
     for c in range(len(sphere)):
         first = c * CHUNK
         last = min(first + CHUNK, n)
@@ -78,7 +79,7 @@ def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-un
             away = np.sqrt((x - cx) ** 2 + (y - cy) ** 2 + (z - cz) ** 2)
             s = -1
             if middle - away <= limit[i]:
-                start = min(limit[i], (middle + away) * SLACK)
+                start = min(limit[i], (middle + away) * SLACK + tiny)
                 d2, s = nearest(tree, x, y, z, start * start, w)
             slot[i] = s
             if s < 0:
