@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.data.coincident import first_of_coincident
+
 
 @dataclass(frozen=True)
 class Topology:
@@ -39,21 +41,9 @@ class Topology:
         return ", ".join(reasons)
 
 
-def merge_coincident(vertices: Float[np.ndarray, "n 3"]) -> Int[np.ndarray, " n"]:
-    """For each vertex the lowest index of a vertex at exactly the same place."""
-    bits = np.ascontiguousarray(vertices + 0.0).view(np.uint64)  # + 0.0 turns -0.0 into 0.0
-    order = np.lexsort(bits.T[::-1])
-    new = np.ones(len(order), bool)
-    new[1:] = (bits[order[1:]] != bits[order[:-1]]).any(axis=1)
-    first = np.minimum.reduceat(order, np.flatnonzero(new)) if len(order) else order
-    merged = np.empty(len(order), np.int64)
-    merged[order] = first[np.cumsum(new) - 1]
-    return merged
-
-
 def topology(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"]) -> Topology:
     """Count shared, open and irregular edges."""
-    merged = merge_coincident(vertices)
+    merged = first_of_coincident(vertices)
     f = merged[faces]
     f = f[(f[:, 0] != f[:, 1]) & (f[:, 1] != f[:, 2]) & (f[:, 2] != f[:, 0])]
     start = f.ravel()

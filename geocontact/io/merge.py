@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.data.coincident import first_of_coincident
 from geocontact.data.errors import InputWarning
 
 
@@ -19,19 +20,11 @@ def merge_coincident(
     left out with a warning. `vertices` must be finite.
     """
     vertices = vertices + vertices.dtype.type(0)  # −0 + 0 is +0
-    order = np.lexsort(vertices.T)
-    opens = np.zeros(len(order), dtype=bool)  # whether a vertex differs from the one before it in that order
-    opens[:1] = True
-    for column in vertices.T:
-        ranked = column[order]
-        opens[1:] |= ranked[1:] != ranked[:-1]
-    first = order[opens].astype(np.int32)  # the sort is stable: the first of equals has the smallest index
-    representative = np.empty(len(order), dtype=np.int32)
-    representative[order] = first[np.cumsum(opens, dtype=np.int32) - 1]
-    del order, opens, ranked
+    representative = first_of_coincident(vertices)
     used = np.zeros(len(vertices), dtype=bool)
     used[representative[faces]] = True
-    unused = len(first) - int(np.count_nonzero(used))
+    distinct = np.count_nonzero(representative == np.arange(len(vertices)))
+    unused = int(distinct - np.count_nonzero(used))
     if unused:
         noun = "vertices belong" if unused > 1 else "vertex belongs"
         warnings.warn(InputWarning(f"{file}: {unused} {noun} to no face, left out"), stacklevel=3)
