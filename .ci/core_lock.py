@@ -49,7 +49,13 @@ def needed(requirements: list[str], constraints: str) -> list[str]:
         file, report = Path(folder, "pins.txt"), Path(folder, "report.json")
         file.write_text(constraints, encoding="utf-8")
         command = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input", "install", "--quiet"]
-        options = ["--dry-run", "--ignore-installed", "--only-binary=:all:", f"--report={report}", f"--constraint={file}"]
+        options = [
+            "--dry-run",
+            "--ignore-installed",
+            "--only-binary=:all:",
+            f"--report={report}",
+            f"--constraint={file}",
+        ]
         subprocess.run([*command, *options, *requirements], check=True, stdout=sys.stderr)
         found = json.loads(report.read_text(encoding="utf-8"))["install"]
     return [package["metadata"]["name"] for package in found]

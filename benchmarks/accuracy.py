@@ -89,7 +89,7 @@ def errors(case: Case, n: int, rule: str) -> tuple[list[int], Float[np.ndarray, 
 
 def root_mean_square(error: Float[np.ndarray, "*n k"]) -> Float[np.ndarray, "*n"]:
     """Over the turns."""
-    return np.sqrt(np.mean(error**2, axis=-1))
+    return np.asarray(np.sqrt(np.mean(error**2, axis=-1)))
 
 
 def order(faces: Float[np.ndarray, " k"], error: Float[np.ndarray, " k"]) -> float:

@@ -39,7 +39,7 @@ class Pair:
 
     def moved(self, k: int) -> Float[np.ndarray, "n 3"]:
         """A's vertices in frame k, about the centre of B [m]: float32 peers lose nothing there."""
-        return self.moving.vertices @ self.rotation[k].T + (self.translation[k] - self.fixed.centre)
+        return np.asarray(self.moving.vertices @ self.rotation[k].T + (self.translation[k] - self.fixed.centre))
 
 
 def knee(faces: int, frames: int) -> Pair:

@@ -29,7 +29,7 @@ def build(pair: Pair, bound: Callable[[Pair], float]) -> Query:
     def query(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
         answers = fcpw.interaction_3D_list()
         scene.find_closest_points(np.asfortranarray(points, dtype=np.float32), squared, answers)
-        return np.minimum(np.array([answer.d for answer in answers]), FAR)
+        return np.asarray(np.minimum([answer.d for answer in answers], FAR))
 
     return query
 

@@ -18,7 +18,7 @@ def build(pair: Pair) -> Query:
     tree.init(vertices, faces)
 
     def query(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
-        return np.sqrt(tree.squared_distance(vertices, faces, points)[0])
+        return np.asarray(np.sqrt(tree.squared_distance(vertices, faces, points)[0]))
 
     return query
 

@@ -20,7 +20,7 @@ def build(pair: Pair) -> Query:
     def query(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
         tensor = open3d.core.Tensor(points.astype(np.float32))
         closest = scene.compute_closest_points(tensor, nthreads=1)["points"].numpy()
-        return np.linalg.norm(points - closest, axis=1)
+        return np.asarray(np.linalg.norm(points - closest, axis=1))
 
     return query
 

@@ -12,7 +12,7 @@ from jaxtyping import Float
 from benchmarks.engines.engine import Engine, Frame, Step
 from benchmarks.pairs import THRESHOLD, Pair
 from geocontact.geometry.area import AS_GIVEN, Refinement, area_within
-from geocontact.geometry.sampled import Sampled
+from geocontact.geometry.sampled import Distances, Sampled
 
 OURS = "geocontact, map + clip"
 
@@ -35,6 +35,8 @@ def prepare(pair: Pair, refinement: Refinement) -> Step:
 
 def in_given_order(frame: Frame) -> Float[np.ndarray, " n"]:
     """Unsigned distance of A's vertices as the mesh numbers them; infinite beyond their limit."""
+    sampled: Sampled
+    found: Distances
     sampled, found = frame.distance  # type: ignore[misc]
     distance = np.full(len(sampled.surface.vertices), np.inf)
     distance[sampled.surface.walk] = np.where(found.slot >= 0, found.distance, np.inf)

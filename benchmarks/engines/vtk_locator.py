@@ -38,7 +38,7 @@ def implicit_distance(pair: Pair) -> Query:
     def query(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
         out = vtk.vtkDoubleArray()
         function.FunctionValue(numpy_to_vtk(np.ascontiguousarray(points), deep=1), out)
-        return np.abs(vtk_to_numpy(out))
+        return np.asarray(np.abs(vtk_to_numpy(out)))
 
     return query
 

@@ -64,7 +64,7 @@ class AreaOptions:
     rule
         How area is counted; the crude rules are for comparing with papers.
     bounds
-        Refine until (upper - lower) / upper is below: 0.02 or 2%.
+        Refine until (upper - lower) / upper is below: 0.02 or 2%; 10% unless given.
     compare
         Table of your own measured areas; exit 1 beyond the tolerance.
     tolerance

@@ -28,6 +28,7 @@ from geocontact.geometry.rules import REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.sweep import Axis
 from geocontact.geometry.sweep import sweep as swept
+from geocontact.geometry.warm_up import warm_up
 from geocontact.io.motion import read_motion
 from geocontact.io.results import write_table
 from geocontact.view.area_figure import draw_areas
@@ -60,7 +61,10 @@ def analyse(moving: Path, fixed: Path, more_motions: Sequence[str], o: AreaOptio
             read_body(record, "fixed", fixed, o.unit, o.place_fixed, o.assume_closed in ("fixed", "both")),
         )
         settings = settings_of(*bodies)
-        for name, motion in _motions(record, o, more_motions, bodies[0]):
+        motions = _motions(record, o, more_motions, bodies[0])
+        with preparing():
+            warm_up()
+        for name, motion in motions:
             folder = draft / name
             folder.mkdir(exist_ok=True)
             evolution = _evaluated(record, Analysis(*bodies, motion, settings, o, name), folder)
@@ -81,7 +85,7 @@ def _settings(o: AreaOptions) -> Callable[[Surface, Surface], Settings]:
         return Settings(
             thresholds=thresholds,
             rule=o.rule,
-            refinement=Refinement(bounds=bounds),
+            refinement=Refinement() if bounds is None else Refinement(bounds=bounds),
             fixed_faces=chosen_faces("--region", o.region, fixed, o.unit),
             moving_faces=chosen_faces("--region-moving", o.region_moving, moving, o.unit),
             split=split,
@@ -91,9 +95,7 @@ def _settings(o: AreaOptions) -> Callable[[Surface, Surface], Settings]:
     return completed
 
 
-def _motions(
-    record: Record, o: AreaOptions, more_motions: Sequence[str], moving: Surface
-) -> list[tuple[str, Motion]]:
+def _motions(record: Record, o: AreaOptions, more_motions: Sequence[str], moving: Surface) -> list[tuple[str, Motion]]:
     """Name of the sub-folder (empty when there is one motion) and motion."""
     files = [*(o.motion or []), *more_motions]
     if (o.sweep is None) == (not files):
@@ -152,7 +154,7 @@ def _swept(text: str, axis: str | None, unit: str, moving: Surface, record: Reco
 def _evaluated(record: Record, a: Analysis, folder: Path) -> AreaEvolution:
     o = a.options
     keep = DistanceMaps(a.moving, a.fixed)
-    with preparing(), progress(a.name or "frames", len(a.motion)) as step:
+    with progress(a.name or "frames", len(a.motion)) as step:
 
         def each(frame: int, contact: FrameContact) -> None:
             keep.add(frame, contact, everything=o.save_map)
@@ -188,7 +190,7 @@ def _warn_of_doubts(record: Record, e: AreaEvolution, settings: Settings) -> Non
         worst = int(e.undecided.max())
         record.warn(f"up to {worst} points per frame have no side (winding number near 0.5); they count as outside")
     wanted = settings.refinement.bounds
-    if wanted is not None and settings.rule == REFINED:
+    if settings.rule == REFINED:
         for side, name in ((e.fixed, "area_fixed"), (e.moving, "area_moving")):
             with np.errstate(invalid="ignore"):
                 width = np.nan_to_num((side.upper - side.lower) / side.upper)
@@ -204,7 +206,10 @@ def _summarise(record: Record, e: AreaEvolution, name: str) -> None:
     }
     for k, threshold in enumerate(e.thresholds):
         areas = e.fixed.area[:, k] * 1e6
-        lines[f"area_fixed_mm2_at_{threshold * 1e3:g}_mm"] = [round(float(areas.min()), 3), round(float(areas.max()), 3)]
+        lines[f"area_fixed_mm2_at_{threshold * 1e3:g}_mm"] = [
+            round(float(areas.min()), 3),
+            round(float(areas.max()), 3),
+        ]
         label = f"{name}: " if name else ""
         print(f"{label}area of FIXED within {threshold * 1e3:g} mm: {areas.min():.1f} … {areas.max():.1f} mm^2")
     record.results[name or "motion"] = lines

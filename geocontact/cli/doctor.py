@@ -151,5 +151,3 @@ def _outcome(child: subprocess.Popen[str]) -> str:
         return f"ends the process (signal {-child.returncode}): a system library or driver is missing"
     lines = [line for line in said.strip().splitlines() if line.strip()]
     return lines[-1][:160] if lines else f"exit code {child.returncode}"
-
-

@@ -13,14 +13,14 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from geocontact.geometry.kernels.certify import certify
+from geocontact.geometry.kernels.certify import certify, totals
 from geocontact.geometry.kernels.clip import clipped_parts
 from geocontact.geometry.sampled import Distances, Sampled
 from geocontact.geometry.subdivision import compact, quartered
 from geocontact.geometry.surface import Surface
 
 PIECES = 100_000  # at most this many triangles are divided at a time, the most doubtful first
-STALLED = 0.9  # a division that leaves more of the doubt than this will not end: surfaces exactly a threshold apart
+STALLED = 0.9  # three divisions that leave more of the doubt than this: the surfaces are exactly a threshold apart
 SMALLEST = 1e-10  # m^2; an upper bound below this is not refined further
 
 
@@ -30,17 +30,15 @@ class Refinement:
 
     accuracy
         Estimated error of the area relative to the area itself.
-    single
-        Largest undecided share of the upper bound that one triangle may keep.
     bounds
-        Largest (upper - lower) / upper; None leaves the bounds as the accuracy makes them.
+        Largest (upper - lower) / upper. Where all corners of a triangle lie on one side of the threshold the estimated
+        error does not see an iso-line that bulges into it; the bounds do.
     depth
         Largest number of divisions; 0 cuts the given triangles as they are.
     """
 
     accuracy: float = 5e-4
-    single: float = 0.01
-    bounds: float | None = None
+    bounds: float = 0.1
     depth: int = 16
 
 
@@ -75,9 +73,10 @@ class AreaWithin:
 
 @dataclass(frozen=True, eq=False)
 class _Pieces:
-    """Triangles under examination: corners in a set of measured points, area, certified shares and linear cut."""
+    """Triangles under examination: corners in a set of measured points, edges, area, certified shares, linear cut."""
 
     faces: Int[np.ndarray, "k 3"]
+    edges: Float[np.ndarray, "k 3"]
     area: Float[np.ndarray, " k"]
     lower: Float[np.ndarray, " k"]
     upper: Float[np.ndarray, " k"]
@@ -131,18 +130,18 @@ def area_within(
     """Area of `sampled` whose signed distance to `other` is <= threshold [m], at the pose of `distances`."""
     d = distances
     lower, upper = certify(
-        sampled.faces, d.points, d.distance, d.side, d.slot, d.closest, threshold, other.closed
+        sampled.faces, d.points, d.distance, d.side, d.slot, d.closest, sampled.edges, threshold, other.closed
     )
-    sure = lower >= 1.0
-    moment = sampled.moment[sure].sum(axis=0)
-    sums = _Sums(*[float(sampled.area[sure].sum())] * 3, negative=float(sampled.negative[sure].sum()))
-    doubtful = np.flatnonzero(~sure & (upper > 0.0))
+    whole, doubtful = totals(lower, upper, sampled.area, sampled.moment, sampled.negative)
     faces, points = compact(sampled.faces[doubtful], d)
-    pieces = _examined(faces, points, sampled.area[doubtful], threshold, other.closed)
-    sums = _refined(sums, pieces, points, other, threshold, refinement)
+    edges, area = sampled.edges[doubtful], sampled.area[doubtful]
+    start = _Sums(whole[0], whole[0], whole[0], negative=whole[4])
+    sums = _refined(
+        start, _examined(faces, points, edges, area, threshold, other.closed), points, other, threshold, refinement
+    )
     # the pieces' moment is about the other's centre and in its axes
     shift = rotation @ sampled.surface.centre + translation - other.centre
-    moment += (sums.moment - (sums.area - float(sampled.area[sure].sum())) * shift) @ rotation
+    moment = whole[1:4] + (sums.moment - (sums.area - whole[0]) * shift) @ rotation
     return AreaWithin(
         area=min(max(sums.area, sums.lower), sums.upper),
         lower=sums.lower,
@@ -155,44 +154,52 @@ def area_within(
 
 
 def _examined(
-    faces: Int[np.ndarray, "k 3"], points: Distances, area: Float[np.ndarray, " k"], threshold: float, signed: bool
+    faces: Int[np.ndarray, "k 3"],
+    points: Distances,
+    edges: Float[np.ndarray, "k 3"],
+    area: Float[np.ndarray, " k"],
+    threshold: float,
+    signed: bool,
 ) -> _Pieces:
     """Pieces with their bounds and their linear cut; the error of a piece never divided is taken as its whole doubt."""
     p = points
-    lower, upper = certify(faces, p.points, p.distance, p.side, p.slot, p.closest, threshold, signed)
+    lower, upper = certify(faces, p.points, p.distance, p.side, p.slot, p.closest, edges, threshold, signed)
     part, moment, negative = clipped_parts(faces, p.points, p.side * p.distance - threshold, p.across, area)
-    return _Pieces(faces, area, lower, upper, part, moment, negative, (upper - lower) * area)
+    return _Pieces(faces, edges, area, lower, upper, part, moment, negative, (upper - lower) * area)
 
 
 def _refined(
     settled: _Sums, pieces: _Pieces, points: Distances, other: Surface, threshold: float, rule: Refinement
 ) -> _Sums:
     """Divide the pieces as long as `rule` asks for it and return the totals."""
-    before = np.inf
+    gaps: list[float] = []
     for level in range(rule.depth):
         now = settled.with_(pieces)
-        wanted = _wanted(now, pieces, rule, first=level == 0)
-        if not wanted.any() or now.gap > STALLED * before:
+        stalled = level > 3 and now.gap > STALLED * gaps[-3]
+        gaps.append(now.gap)
+        wanted = _wanted(now, pieces, rule, first=level == 0, stalled=stalled)
+        if not wanted.any():
             break
-        before = now.gap
         settled = settled.with_(pieces[~wanted])
         faces, points = compact(pieces.faces[wanted], points)
         faces, points = quartered(faces, points, other, threshold)
-        child = _examined(faces, points, np.repeat(0.25 * pieces.area[wanted], 4), threshold, other.closed)
+        # the quarters are similar to their parent, so their edges are half of its edges
+        edges, area = np.repeat(0.5 * pieces.edges[wanted], 4, axis=0), np.repeat(0.25 * pieces.area[wanted], 4)
+        child = _examined(faces, points, edges, area, threshold, other.closed)
         change = np.abs(child.part.reshape(-1, 4).sum(axis=1) - pieces.part[wanted]) / 3.0  # order 2: a quarter is left
         pieces = replace(child, error=np.minimum(np.repeat(0.25 * change, 4), child.gap))
     return settled.with_(pieces)
 
 
-def _wanted(now: _Sums, pieces: _Pieces, rule: Refinement, first: bool) -> Bool[np.ndarray, " k"]:
+def _wanted(now: _Sums, pieces: _Pieces, rule: Refinement, first: bool, stalled: bool) -> Bool[np.ndarray, " k"]:
     """Which pieces to divide: all once, then those that hold more than their share of what is too much."""
     if now.upper < SMALLEST or len(pieces.area) == 0:
         return np.zeros(len(pieces.area), bool)
     gap = pieces.gap
-    wanted = np.full(len(gap), first) | (gap > rule.single * now.upper)
+    wanted = np.full(len(gap), first)
     if now.error > rule.accuracy * now.area:
         wanted |= pieces.error > 0.25 * rule.accuracy * now.area / len(gap)
-    if rule.bounds is not None and now.gap > rule.bounds * now.upper:
+    if now.gap > rule.bounds * now.upper and not stalled:
         wanted |= gap > 0.25 * rule.bounds * now.upper / len(gap)
     wanted &= gap > 0.0
     if np.count_nonzero(wanted) > PIECES:

@@ -80,7 +80,9 @@ def _evaluate(node: ast.expr, values: Mapping[str, Float[np.ndarray, " m"]]) -> 
             terms = [_number(_evaluate(term, values)) for term in (left, *rest)]
             pairs = zip(ops, terms, terms[1:], strict=False)
             return np.logical_and.reduce([np.asarray(_COMPARE[type(op)](a, b)) for op, a, b in pairs])
-    raise ValueError(f"{ast.unparse(node)!r} is not understood; only {', '.join(NAMES)}, numbers, and/or/not, abs, sqrt")
+    raise ValueError(
+        f"{ast.unparse(node)!r} is not understood; only {', '.join(NAMES)}, numbers, and/or/not, abs, sqrt"
+    )
 
 
 def _condition(value: Value) -> Bool[np.ndarray, " m"]:

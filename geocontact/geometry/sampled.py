@@ -52,7 +52,7 @@ class Sampled:
     """One surface prepared for queries against another; all positions about its own centre.
 
     points (n, 3) are its vertices in the order of `surface.walk`; faces (m, 3) index them and are those that count;
-    across (n,) is the signed distance to the splitting plane; area, moment, negative are sums over whole faces.
+    across (n,) is the signed distance to the splitting plane; edges (m, 3) opposite to each corner; area, moment, negative are sums over whole faces.
     """
 
     surface: Surface
@@ -60,6 +60,7 @@ class Sampled:
     faces: Int[np.ndarray, "m 3"]
     face_index: Int[np.ndarray, " m"]
     across: Float[np.ndarray, " n"]
+    edges: Float[np.ndarray, "m 3"]
     area: Float[np.ndarray, " m"]
     moment: Float[np.ndarray, "m 3"]
     negative: Float[np.ndarray, " m"]
@@ -92,6 +93,7 @@ class Sampled:
             faces=faces,
             face_index=index,
             across=across,
+            edges=surface.edge_length[index],
             area=area,
             moment=area[:, None] * corners.mean(axis=1),
             negative=area * _negative_share(across[faces]),

@@ -21,7 +21,7 @@ def compact(faces: Int[np.ndarray, "k 3"], points: Distances) -> tuple[Int[np.nd
 
 def quartered(
     faces: Int[np.ndarray, "k 3"], points: Distances, other: Surface, beyond: float
-) -> tuple[Int[np.ndarray, "4k 3"], Distances]:
+) -> tuple[Int[np.ndarray, "4*k 3"], Distances]:
     """Faces replaced by their four quarters (in this order per face) and the points with the new ones appended.
 
     A new point is measured up to the longest edge of its faces plus `beyond` [m], or as far as its neighbours allow

@@ -132,7 +132,8 @@ class Surface:
         normals = -normals if self.inside_out else normals
         if self.topology.closed:
             normals[doubtful_faces(self, binary)[order]] = 0.0
-        return Tree(binary.root, *widen(binary, records), records.ravel(), order, normals)
+        oriented = np.sign(np.einsum("ij,ij->i", records[:, 3:6], normals[:, 0]))
+        return Tree(binary.root, *widen(binary, records, oriented), order, normals)
 
     @cached_property
     def walk(self) -> Int[np.ndarray, " n"]:

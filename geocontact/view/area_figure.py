@@ -107,7 +107,16 @@ def _patch(
     seen = faces[visible][np.argsort(height, kind="stable")]  # what lies on top is drawn last
     points = vertices * 1e3
     far = ~np.isfinite(distance[seen]).all(axis=1)
-    axes.tripcolor(points[:, right], points[:, up], seen[far], np.full(far.sum(), 0.85), cmap=GREY, vmin=0.0, vmax=1.0, rasterized=True)
+    axes.tripcolor(
+        points[:, right],
+        points[:, up],
+        seen[far],
+        np.full(far.sum(), 0.85),
+        cmap=GREY,
+        vmin=0.0,
+        vmax=1.0,
+        rasterized=True,
+    )
     colours = axes.tripcolor(
         points[:, right], points[:, up], seen[~far], np.clip(shown * 1e3, -span, span), cmap="viridis_r",
         vmin=-span / 4.0, vmax=span, shading="gouraud", rasterized=True,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.geometry.kernels.tree import in_box, nearest, scratch, side_of
+from geocontact.geometry.kernels.tree import in_box, nearest, scratch, side_of, squared_distance
+from geocontact.geometry.kernels.wide import LEAF
 
 CHUNK = 32  # points that are dismissed together when none of them can be near
 SLACK = 1.0 + 1e-9  # so that rounding never excludes the nearest triangle itself
@@ -60,37 +61,43 @@ def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-un
     closest = np.full((n, 3), np.nan)
     w = scratch()
     tiny = 1e-12 * (tree.root[3:] - tree.root[:3]).sum()  # points on the surface itself must be found too
+    hint = -1  # place nearest to the point before: a good guess for the next
     for c in range(len(sphere)):
         first = c * CHUNK
         last = min(first + CHUNK, n)
         cx, cy, cz = sphere[c, 0], sphere[c, 1], sphere[c, 2]
         reach = sphere[c, 3] + sphere[c, 4]
-        d2, s = nearest(tree, cx, cy, cz, reach * reach, w)
-        if s < 0:
+        d2, place = nearest(tree, cx, cy, cz, reach * reach, w)
+        if place < 0:
             far = _side(tree, cx, cy, cz, signed, w)
             for i in range(first, last):
                 distance[i] = limit[i]
                 side[i] = far
             continue
         middle = np.sqrt(d2)
-        _, _, _, central = side_of(tree, s, cx, cy, cz)
+        hint = place
+        central = 1
+        if signed:
+            _, _, _, central = side_of(tree, place, cx, cy, cz)
         for i in range(first, last):
             x, y, z = points[i, 0], points[i, 1], points[i, 2]
             away = np.sqrt((x - cx) ** 2 + (y - cy) ** 2 + (z - cz) ** 2)
-            s = -1
+            place = -1
             if middle - away <= limit[i]:
-                start = min(limit[i], (middle + away) * SLACK + tiny)
-                d2, s = nearest(tree, x, y, z, start * start, w)
-            slot[i] = s
-            if s < 0:
+                guess = np.sqrt(squared_distance(tree, hint, x, y, z))
+                start = min(limit[i], guess * SLACK + tiny)
+                d2, place = nearest(tree, x, y, z, start * start, w)
+            if place < 0:
                 distance[i] = limit[i]
                 if away < limit[i]:  # nothing between the point and the middle of its chunk
-                    side[i] = central if signed else 1
+                    side[i] = central
                 else:
                     side[i] = _side(tree, x, y, z, signed, w)
                 continue
+            hint = place
+            slot[i] = tree.slots[place // LEAF, place % LEAF]
             distance[i] = np.sqrt(d2)
-            closest[i, 0], closest[i, 1], closest[i, 2], which = side_of(tree, s, x, y, z)
+            closest[i, 0], closest[i, 1], closest[i, 2], which = side_of(tree, place, x, y, z)
             if signed:
                 side[i] = which
     return distance, side, slot, closest
@@ -100,5 +107,5 @@ def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-un
 def _side(tree, x, y, z, signed, w):  # type: ignore[no-untyped-def]
     if not signed or not in_box(tree.root, x, y, z):
         return 1
-    slot = nearest(tree, x, y, z, np.inf, w)[1]
-    return side_of(tree, slot, x, y, z)[3]
+    place = nearest(tree, x, y, z, np.inf, w)[1]
+    return side_of(tree, place, x, y, z)[3]

@@ -24,33 +24,74 @@ ROUND = 1e-12  # relative allowance for rounding in the certificates
 
 
 @kernel
-def certify(faces, points, distance, side, slot, closest, threshold, signed):  # type: ignore[no-untyped-def]
+def certify(faces, points, distance, side, slot, closest, edges, threshold, signed):  # type: ignore[no-untyped-def]
     """Lower and upper bound of the part of each triangle within the threshold, as fractions of its area.
 
     faces (k, 3) index the point arrays, which are as `signed_distances` gives them: a point beyond its limit has
-    slot -1 and is at least as far as the distance given. Returns arrays (k,), (k,).
+    slot -1 and is at least as far as the distance given. edges (k, 3) are the lengths opposite to each corner.
+    Returns arrays (k,), (k,).
     """
     lower = np.zeros(len(faces))
     upper = np.zeros(len(faces))
     near = (slot >= 0) | (side <= 0)
     v = np.empty((3, 3))
     p = np.empty((3, 3))
-    d = np.empty(3)
-    s = np.empty(3, np.int8)
-    t = np.empty(3, np.int64)
     for f in range(len(faces)):
-        if not (near[faces[f, 0]] or near[faces[f, 1]] or near[faces[f, 2]]):
+        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
+        if not (near[i] or near[j] or near[k]):
             continue  # all corners farther than the threshold by more than the longest edge
+        e0, e1, e2 = edges[f, 0], edges[f, 1], edges[f, 2]
+        verdict = _by_one_corner(i, max(e1, e2), distance, side, slot, threshold, signed)
+        if verdict == 0:
+            verdict = _by_one_corner(j, max(e2, e0), distance, side, slot, threshold, signed)
+        if verdict == 0:
+            verdict = _by_one_corner(k, max(e0, e1), distance, side, slot, threshold, signed)
+        if verdict != 0:
+            lower[f] = upper[f] = 1.0 if verdict > 0 else 0.0
+            continue
         for c in range(3):
-            i = faces[f, c]
-            d[c] = distance[i]
-            s[c] = side[i]
-            t[c] = slot[i]
             for x in range(3):
-                v[c, x] = points[i, x]
-                p[c, x] = closest[i, x]
-        lower[f], upper[f] = _bounds(v, p, d, s, t, threshold, signed)
+                v[c, x] = points[faces[f, c], x]
+                p[c, x] = closest[faces[f, c], x]
+        lower[f], upper[f] = _second_order(
+            v, p, distance[faces[f]], side[faces[f]], slot[faces[f]], e0, e1, e2, threshold, signed
+        )
     return lower, upper
+
+
+@kernel
+def totals(lower, upper, area, moment, negative):  # type: ignore[no-untyped-def]
+    """Sums over the triangles that lie wholly within (area, moment, negative) and the numbers of the undecided ones."""
+    sums = np.zeros(5)
+    undecided = np.empty(len(lower), np.int64)
+    count = 0
+    for f in range(len(lower)):
+        if lower[f] >= 1.0:
+            sums[0] += area[f]
+            for k in range(3):
+                sums[1 + k] += moment[f, k]
+            sums[4] += negative[f]
+        elif upper[f] > 0.0:
+            undecided[count] = f
+            count += 1
+    return sums, undecided[:count].copy()
+
+
+@kernel
+def _by_one_corner(i, reach, distance, side, slot, threshold, signed):  # type: ignore[no-untyped-def]
+    """1 when the triangle lies within the threshold for certain, -1 when outside, 0 when one corner cannot tell.
+
+    1-Lipschitz property; a distance given for a point beyond its limit is not above the true one.
+    """
+    d = distance[i]
+    slack = ROUND * (reach + threshold + d)
+    if signed and side[i] < 0:
+        return 1 if reach - d <= threshold - slack else 0
+    if slot[i] >= 0 and d + reach <= threshold - slack:
+        return 1
+    if side[i] > 0 and d - reach > threshold + slack:
+        return -1
+    return 0
 
 
 @kernel
@@ -59,26 +100,9 @@ def _length(a, b):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _bounds(v, p, d, s, slot, threshold, signed):  # type: ignore[no-untyped-def]
-    e0 = _length(v[1], v[2])
-    e1 = _length(v[2], v[0])
-    e2 = _length(v[0], v[1])
+def _second_order(v, p, d, s, slot, e0, e1, e2, threshold, signed):  # type: ignore[no-untyped-def]
     slack = ROUND * (e0 + e1 + e2 + threshold)
-    reach0, reach1, reach2 = max(e1, e2), max(e2, e0), max(e0, e1)
-    # 1-Lipschitz: whole triangle decided by one corner
-    if (
-        _within(s[0], d[0], slot[0], reach0, threshold - slack, signed)
-        or _within(s[1], d[1], slot[1], reach1, threshold - slack, signed)
-        or _within(s[2], d[2], slot[2], reach2, threshold - slack, signed)
-    ):
-        return 1.0, 1.0
     outside = threshold + slack
-    if (
-        (s[0] > 0 and d[0] - reach0 > outside)
-        or (s[1] > 0 and d[1] - reach1 > outside)
-        or (s[2] > 0 and d[2] - reach2 > outside)
-    ):
-        return 0.0, 0.0
     lower = _surely_within(v, p, slot, threshold - slack)
     if lower >= 1.0:
         return 1.0, 1.0
@@ -94,13 +118,6 @@ def _bounds(v, p, d, s, slot, threshold, signed):  # type: ignore[no-untyped-def
         if outer and not inside:
             return lower, max(1.0 - beyond, lower)
     return lower, 1.0
-
-
-@kernel
-def _within(side, d, slot, reach, threshold, signed):  # type: ignore[no-untyped-def]
-    if signed and side < 0:
-        return reach - d <= threshold  # d is not above the true depth
-    return slot >= 0 and d + reach <= threshold
 
 
 @kernel

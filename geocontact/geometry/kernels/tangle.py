@@ -73,11 +73,7 @@ def _share(face, i, j):  # type: ignore[no-untyped-def]
 @kernel
 def _volume(a, b, c, d):  # type: ignore[no-untyped-def]
     u, v, w = b - a, c - a, d - a
-    return (
-        u[0] * (v[1] * w[2] - v[2] * w[1])
-        + u[1] * (v[2] * w[0] - v[0] * w[2])
-        + u[2] * (v[0] * w[1] - v[1] * w[0])
-    )
+    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0])
 
 
 @kernel

@@ -11,16 +11,14 @@ import numpy as np
 
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.geometry.kernels.triangle import closest_point
-from geocontact.geometry.kernels.wide import FAN, LEAF, ROWS, STACK, box_distances, leaf_distances
-
-RECORD = np.uint64(16)  # numbers in a triangle record
+from geocontact.geometry.kernels.wide import FAN, LEAF, STACK, box_distances, leaf_distances
 
 
 class Tree(NamedTuple):
     """Arrays of the tree; triangles are numbered by *slot*, their order along the leaves.
 
-    root (6,) lower and upper corner of everything; boxes, child, leaves, slots as `widen` makes them;
-    records (16 m,) triangles, flat, as `triangle_frames` lays them out; face (m,) the face of each slot;
+    root (6,) lower and upper corner of everything; boxes, child, leaves, slots, fill as `widen` makes them, a *place*
+    being a leaf times LEAF plus a position in it; face (m,) the face of each slot;
     normal (m, 7, 3) angle-weighted pseudo-normals of the seven features of each slot, zero where a feature touches a
     degenerate or tangled face and has no trustworthy normal.
     """
@@ -30,7 +28,7 @@ class Tree(NamedTuple):
     child: np.ndarray
     leaves: np.ndarray
     slots: np.ndarray
-    records: np.ndarray
+    fill: np.ndarray
     face: np.ndarray
     normal: np.ndarray
 
@@ -42,18 +40,17 @@ class Scratch(NamedTuple):
     key: np.ndarray
     square: np.ndarray
     fan: int
-    leaf: int
 
 
 @kernel
 def scratch():  # type: ignore[no-untyped-def]
     """Fresh working memory."""
-    return Scratch(np.empty(STACK, np.int64), np.empty(STACK), np.empty(max(FAN, LEAF)), FAN, LEAF)
+    return Scratch(np.empty(STACK, np.int64), np.empty(STACK), np.empty(max(FAN, LEAF)), FAN)
 
 
 @kernel
 def nearest(tree, x, y, z, limit2, w):  # type: ignore[no-untyped-def]
-    """Squared distance and slot of the nearest triangle; slot -1 when none is nearer than sqrt(limit2)."""
+    """Squared distance and place of the nearest triangle; place -1 when none is nearer than sqrt(limit2)."""
     best = limit2
     place = -1
     w.node[0] = 0
@@ -66,13 +63,13 @@ def nearest(tree, x, y, z, limit2, w):  # type: ignore[no-untyped-def]
         node = w.node[waiting]
         if node < 0:
             leaf = -2 - node
-            leaf_distances(tree.leaves, leaf * (ROWS * LEAF), x, y, z, w.square, w.leaf)
-            for j in range(LEAF):
+            leaf_distances(tree.leaves, leaf, x, y, z, w.square, tree.fill[leaf])
+            for j in range(tree.fill[leaf]):
                 if w.square[j] < best:
                     best = w.square[j]
                     place = leaf * LEAF + j
             continue
-        box_distances(tree.boxes, node * (6 * FAN), x, y, z, w.square, w.fan)
+        box_distances(tree.boxes, node, x, y, z, w.square, w.fan)
         base = waiting
         for j in range(FAN):
             d2 = w.square[j]
@@ -83,9 +80,9 @@ def nearest(tree, x, y, z, limit2, w):  # type: ignore[no-untyped-def]
                     w.node[k] = w.node[k - 1]
                     k -= 1
                 w.key[k] = d2
-                w.node[k] = tree.child[node * FAN + j]
+                w.node[k] = tree.child[node, j]
                 waiting += 1
-    return best, tree.slots[place] if place >= 0 else -1
+    return best, place
 
 
 @kernel
@@ -95,22 +92,28 @@ def in_box(box, x, y, z):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def side_of(tree, slot, px, py, pz):  # type: ignore[no-untyped-def]
-    """Closest point on a slot and the side the point is on: 1 outside, -1 inside, 0 where normals cannot tell.
+def squared_distance(tree, place, x, y, z):  # type: ignore[no-untyped-def]
+    """Squared distance of a point to the triangle at a place."""
+    qx, qy, qz, _, _ = closest_point(tree.leaves[place // LEAF], place % LEAF, x, y, z)
+    return (x - qx) ** 2 + (y - qy) ** 2 + (z - qz) ** 2
+
+
+@kernel
+def side_of(tree, place, px, py, pz):  # type: ignore[no-untyped-def]
+    """Closest point on a triangle and the side the point is on: 1 outside, -1 inside, 0 where normals cannot tell.
 
     Angle-weighted pseudo-normals: Baerentzen & Aanaes, Signed distance computation using the angle weighted
     pseudonormal, IEEE TVCG 11 (2005). Right for closed, consistently oriented surfaces without self-intersection.
     """
-    qx, qy, qz, feature = closest_point(tree.records, np.uint64(slot) * RECORD, px, py, pz)
-    n = tree.normal[slot, feature]
+    leaf, j = place // LEAF, place % LEAF
+    qx, qy, qz, feature, height = closest_point(tree.leaves[leaf], j, px, py, pz)
+    if feature == 0:
+        along = height * tree.leaves[leaf, 17, j]
+        return qx, qy, qz, (along > 0.0) - (along < 0.0)
+    n = tree.normal[tree.slots[leaf, j], feature]
     dx = px - qx
     dy = py - qy
     dz = pz - qz
     along = dx * n[0] + dy * n[1] + dz * n[2]
     doubt = 1e-9 * np.sqrt((dx * dx + dy * dy + dz * dz) * (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]))
-    side = 0
-    if along > doubt:
-        side = 1
-    elif along < -doubt:
-        side = -1
-    return qx, qy, qz, side
+    return qx, qy, qz, (along > doubt) - (along < -doubt)

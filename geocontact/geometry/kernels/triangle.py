@@ -13,7 +13,6 @@ import numpy as np
 
 from geocontact.geometry.kernels.compile import kernel
 
-ONE, TWO, N, U, V, LENGTH, CX, CY = (np.uint64(k) for k in (1, 2, 3, 6, 9, 12, 13, 14))  # places in a record
 FLAT = 1e-13  # height of a triangle over its longest edge below which it is treated as a segment
 
 
@@ -73,19 +72,22 @@ def _frame(vertices, face, out):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def closest_point(r, o, px, py, pz):  # type: ignore[no-untyped-def]
-    """Closest point of the record at offset o of r and the feature it lies on.
+def closest_point(r, j, px, py, pz):  # type: ignore[no-untyped-def]
+    """Closest point of a triangle, the feature it lies on and the height over the triangle's plane.
+
+    The triangle's numbers are the first 15 of column j of a leaf (ROWS, LEAF) of the wide tree.
 
     Features: 0 interior, 1 edge AB, 2 edge AC, 3 edge BC, 4 corner A, 5 corner B, 6 corner C (letters of the record).
     """
-    dx = px - r[o]
-    dy = py - r[o + ONE]
-    dz = pz - r[o + TWO]
-    x = dx * r[o + U] + dy * r[o + U + ONE] + dz * r[o + U + TWO]
-    y = dx * r[o + V] + dy * r[o + V + ONE] + dz * r[o + V + TWO]
-    length = r[o + LENGTH]
-    cx = r[o + CX]
-    cy = r[o + CY]
+    dx = px - r[0, j]
+    dy = py - r[1, j]
+    dz = pz - r[2, j]
+    height = dx * r[3, j] + dy * r[4, j] + dz * r[5, j]
+    x = dx * r[6, j] + dy * r[7, j] + dz * r[8, j]
+    y = dx * r[9, j] + dy * r[10, j] + dz * r[11, j]
+    length = r[12, j]
+    cx = r[13, j]
+    cy = r[14, j]
     feature = 0
     if y < 0.0 or cy == 0.0:
         feature = 1
@@ -127,8 +129,9 @@ def closest_point(r, o, px, py, pz):  # type: ignore[no-untyped-def]
         x = qx
         y = qy
     return (
-        r[o] + x * r[o + U] + y * r[o + V],
-        r[o + ONE] + x * r[o + U + ONE] + y * r[o + V + ONE],
-        r[o + TWO] + x * r[o + U + TWO] + y * r[o + V + TWO],
+        r[0, j] + x * r[6, j] + y * r[9, j],
+        r[1, j] + x * r[7, j] + y * r[10, j],
+        r[2, j] + x * r[8, j] + y * r[11, j],
         feature,
+        height,
     )

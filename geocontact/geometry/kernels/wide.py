@@ -10,17 +10,19 @@ from geocontact.geometry.kernels.compile import kernel
 
 FAN = 16  # children of a node
 LEAF = 32  # triangles of a leaf
-ROWS = 17  # numbers of a triangle in a leaf: the first 15 of its record, 1/|AC|^2, 1/|BC|^2
+ROWS = 18  # numbers of a triangle in a leaf: the first 15 of its record, 1/|AC|^2, 1/|BC|^2, orientation
+VECTOR = 16  # numbers per turn of the inner loop; fewer would go one by one
 STACK = FAN * (DEPTH + 32)
 
 
 @kernel
-def widen(binary, records):  # type: ignore[no-untyped-def]
-    """Boxes, children, leaves and slots of the wide tree.
+def widen(binary, records, orientation):  # type: ignore[no-untyped-def]
+    """Boxes, children, leaves, slots and fill of the wide tree.
 
-    boxes (k, 6, FAN) flat: lower x, y, z, upper x, y, z of the children, empty ones beyond reach; child (k, FAN) flat:
-    node number, or -2 - leaf number; leaves (l, ROWS, LEAF) flat, the last triangle repeated in unused places;
-    slots (l, LEAF) flat: the slot of each place.
+    boxes (k, 6, FAN): lower x, y, z, upper x, y, z of the children, empty ones beyond reach; child (k, FAN):
+    node number, or -2 - leaf number; leaves (l, ROWS, LEAF), the last triangle repeated in unused places;
+    slots (l, LEAF): the slot of each place; fill (l,): places in use, rounded up to whole vectors. orientation (m,): 1 where n points outside, -1 where it points inside,
+    0 where it cannot tell.
     """
     n = len(binary.first)
     box, start, size = _extents(binary)
@@ -28,6 +30,7 @@ def widen(binary, records):  # type: ignore[no-untyped-def]
     child = np.full((n, FAN), -1)
     leaves = np.empty((n, ROWS, LEAF))
     slots = np.empty((n, LEAF), np.int64)
+    fill = np.empty(n, np.int64)
     todo = np.zeros(n, np.int64)
     fan = np.empty(FAN, np.int64)
     used, made, leaf = 0, 1, 0
@@ -45,10 +48,11 @@ def widen(binary, records):  # type: ignore[no-untyped-def]
                 made += 1
             else:
                 child[used, i] = -2 - leaf
-                _fill(records, start[node], size[node], leaves[leaf], slots[leaf])
+                _fill(records, orientation, start[node], size[node], leaves[leaf], slots[leaf])
+                fill[leaf] = (size[node] + VECTOR - 1) // VECTOR * VECTOR
                 leaf += 1
         used += 1
-    return boxes[:used].copy().ravel(), child[:used].copy().ravel(), leaves[:leaf].copy().ravel(), slots[:leaf].ravel()
+    return boxes[:used].copy(), child[:used].copy(), leaves[:leaf].copy(), slots[:leaf].copy(), fill[:leaf].copy()
 
 
 @kernel
@@ -96,7 +100,7 @@ def _gather(binary, box, size, node, fan):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _fill(records, start, size, leaf, slots):  # type: ignore[no-untyped-def]
+def _fill(records, orientation, start, size, leaf, slots):  # type: ignore[no-untyped-def]
     for j in range(LEAF):
         slot = start + min(j, size - 1)
         slots[j] = slot
@@ -106,14 +110,15 @@ def _fill(records, start, size, leaf, slots):  # type: ignore[no-untyped-def]
         bc = (r[13] - r[12]) * (r[13] - r[12]) + r[14] * r[14]
         leaf[15, j] = 1.0 / ac if ac > 0.0 else 0.0
         leaf[16, j] = 1.0 / bc if bc > 0.0 else 0.0
+        leaf[17, j] = orientation[slot]
 
 
 @kernel
-def box_distances(boxes, o, x, y, z, out, n):  # type: ignore[no-untyped-def]
-    """Squared distances of a point to the n = FAN boxes at offset o."""
-    x0, x1 = boxes[o : o + FAN], boxes[o + 3 * FAN : o + 4 * FAN]
-    y0, y1 = boxes[o + FAN : o + 2 * FAN], boxes[o + 4 * FAN : o + 5 * FAN]
-    z0, z1 = boxes[o + 2 * FAN : o + 3 * FAN], boxes[o + 5 * FAN : o + 6 * FAN]
+def box_distances(boxes, node, x, y, z, out, n):  # type: ignore[no-untyped-def]
+    """Squared distances of a point to the n = FAN boxes of a node's children."""
+    x0, y0, z0, x1, y1, z1 = (
+        boxes[node, 0], boxes[node, 1], boxes[node, 2], boxes[node, 3], boxes[node, 4], boxes[node, 5],
+    )  # fmt: skip
     for j in range(n):
         dx = max(max(x0[j] - x, x - x1[j]), 0.0)
         dy = max(max(y0[j] - y, y - y1[j]), 0.0)
@@ -122,17 +127,17 @@ def box_distances(boxes, o, x, y, z, out, n):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def leaf_distances(leaves, o, px, py, pz, out, n):  # type: ignore[no-untyped-def]
-    """Squared distances of a point to the n = LEAF triangles at offset o; the cases of `triangle`, without branches.
+def leaf_distances(leaves, leaf, px, py, pz, out, n):  # type: ignore[no-untyped-def]
+    """Squared distances of a point to the first n triangles of a leaf; the cases of `triangle`, without branches.
 
     A point over the triangle is as far as its height; any other is as far as the nearest of the three edges.
     """
-    ax, ay, az = _row(leaves, o, 0), _row(leaves, o, 1), _row(leaves, o, 2)
-    nx, ny, nz = _row(leaves, o, 3), _row(leaves, o, 4), _row(leaves, o, 5)
-    ux, uy, uz = _row(leaves, o, 6), _row(leaves, o, 7), _row(leaves, o, 8)
-    vx, vy, vz = _row(leaves, o, 9), _row(leaves, o, 10), _row(leaves, o, 11)
-    lengths, cxs, cys = _row(leaves, o, 12), _row(leaves, o, 13), _row(leaves, o, 14)
-    over_ac, over_bc = _row(leaves, o, 15), _row(leaves, o, 16)
+    ax, ay, az = leaves[leaf, 0], leaves[leaf, 1], leaves[leaf, 2]
+    nx, ny, nz = leaves[leaf, 3], leaves[leaf, 4], leaves[leaf, 5]
+    ux, uy, uz = leaves[leaf, 6], leaves[leaf, 7], leaves[leaf, 8]
+    vx, vy, vz = leaves[leaf, 9], leaves[leaf, 10], leaves[leaf, 11]
+    lengths, cxs, cys = leaves[leaf, 12], leaves[leaf, 13], leaves[leaf, 14]
+    over_ac, over_bc = leaves[leaf, 15], leaves[leaf, 16]
     for j in range(n):
         dx, dy, dz = px - ax[j], py - ay[j], pz - az[j]
         h = dx * nx[j] + dy * ny[j] + dz * nz[j]
@@ -151,8 +156,3 @@ def leaf_distances(leaves, o, px, py, pz, out, n):  # type: ignore[no-untyped-de
         over = min(min(y, x * cy - y * cx), y * bx - back * cy)
         over = min(over, cy - 1e-300)  # nothing is over a collinear triangle
         out[j] = h * h + (0.0 if over >= 0.0 else edge)
-
-
-@kernel
-def _row(leaves, o, k):  # type: ignore[no-untyped-def]
-    return leaves[o + k * LEAF : o + (k + 1) * LEAF]
