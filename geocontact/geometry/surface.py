@@ -133,7 +133,7 @@ class Surface:
         if self.topology.closed:
             normals[doubtful_faces(self, binary)[order]] = 0.0
         oriented = np.sign(np.einsum("ij,ij->i", records[:, 3:6], normals[:, 0]))
-        return Tree(binary.root, *widen(binary, records, oriented), order, normals)
+        return Tree(binary.root, *widen(binary, records, oriented), order, normals.ravel())
 
     @cached_property
     def walk(self) -> Int[np.ndarray, " n"]:

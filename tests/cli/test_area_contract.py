@@ -8,10 +8,13 @@ import os
 import tomllib
 from importlib.metadata import version
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 import pytest
 
+from geocontact import __version__
+from geocontact.cli.main import main
 from tests.cli.calls import (
     FEMUR,
     FRAMES,
@@ -158,7 +161,7 @@ def test_record_makes_the_result_reproducible(knee: Call) -> None:
         assert files[role]["file"] == str(file)
         assert files[role]["sha256"] == hashlib.sha256(file.read_bytes()).hexdigest()
     assert {name: record["versions"][name] for name in ("numpy", "numba")} == {n: version(n) for n in ("numpy", "numba")}
-    assert record["geocontact"] == version("geocontact")
+    assert record["geocontact"] == __version__
     options = record["options"]
     assert (options["threshold"], options["split"], options["unit"], options["rule"]) == ("0.1,1,4", "z", "mm", "refined")
     assert record["warnings"] == [] and record["command"] == "area"
@@ -220,8 +223,6 @@ def test_a_failing_run_leaves_everything_as_it_was(
     before = inventory(out.parent)
     moving = SPHERE if picture else tmp_path / "no.stl"
     if picture:
-        from unittest import mock
-
         monkeypatch.setattr("geocontact.cli.area_analysis.draw_areas", mock.Mock(**picture))
     result = area(out, moving=moving, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0)), picture=True)
     assert (result.code, len(result.complaints)) == (code, 1), result.err
@@ -230,8 +231,6 @@ def test_a_failing_run_leaves_everything_as_it_was(
 
 
 def test_debug_adds_the_traceback_before_the_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    from geocontact.cli.main import main
-
     with pytest.raises(SystemExit) as left:
         main(["area", str(tmp_path / "no.stl"), str(PLATE), "--unit=mm", f"--out={tmp_path / 'out'}", "--sweep=a=0:1:1", "--debug"])
     lines = capsys.readouterr().err.splitlines()

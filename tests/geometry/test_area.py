@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import RigidTransform, Rotation
 
@@ -113,14 +113,14 @@ def test_area_of_sphere_pairs_converges_at_second_order(rule, gap, threshold):
 
 @pytest.mark.parametrize(("rule", "sign"), [("all-vertices", -1), ("any-vertex", 1)])
 def test_counting_whole_faces_converges_at_first_order(rule, sign):
-    cells, error = np.array([12, 24, 48, 96]), []
-    true = exact.sphere_sphere_on_first(R1, R2, -0.1, 4.0)
+    cells, error = np.array([8, 16, 32, 64]), []
+    true = exact.sphere_sphere_on_first(R1, R2, 0.3, 4.0)
     for n in cells:
-        error.append(contact(*spheres(n, -0.1), 4 * MM, rule=rule).fixed[0].area / MM2 / true - 1)
+        error.append(contact(*spheres(n, 0.3), 4 * MM, rule=rule).fixed[0].area / MM2 / true - 1)
     order = order_of(1 / cells, error)
     assert (np.sign(error) == sign).all(), f"relative errors {error}"
     assert order == pytest.approx(1.0, abs=0.25), f"observed order {order:.2f}, relative errors {error}"
-    assert abs(error[1]) > 0.02, f"{error[1]}: no cruder than cutting faces"
+    assert abs(error[1]) > 0.05, f"{error[1]}: no cruder than cutting faces"
 
 
 # --- flat faces: exact ------------------------------------------------------------------------------------------------
@@ -255,7 +255,7 @@ SMALL = {
 }
 
 
-@settings(max_examples=30, deadline=None, derandomize=True)
+@settings(max_examples=25, deadline=None, derandomize=True, phases=[Phase.generate])
 @given(
     names=st.tuples(st.sampled_from(list(SMALL)), st.sampled_from(list(SMALL))),
     seed=st.integers(0, 2**32 - 1),
@@ -270,24 +270,23 @@ def test_truth_lies_between_the_bounds(names, seed, apart, threshold):
     shift = 20.0 * apart * way / np.linalg.norm(way)
     placed_moving = moved(moving, rotation, shift)
     true = {
-        "fixed": reference.area_within(fixed, placed_moving, threshold, width=3e-3, most=60_000),
-        "moving": reference.area_within(placed_moving, fixed, threshold, width=3e-3, most=60_000),
+        "fixed": reference.area_within(fixed, placed_moving, threshold, width=3e-3, most=40_000),
+        "moving": reference.area_within(placed_moving, fixed, threshold, width=3e-3, most=40_000),
     }
     for refinement in (AS_GIVEN, Refinement(), Refinement(bounds=0.02)):
         found = contact(
             surface(moving), surface(fixed), pose_of(rotation, shift * MM), threshold * MM, refinement=refinement
         )
         for side in ("fixed", "moving"):
-            ours, known = getattr(found, side)[0], true[side]
-            doubt = 3 * known.uncertainty + 1e-9
-            what = f"{refinement}: {side} {ours.lower / MM2:.6g} <= {known} <= {ours.upper / MM2:.6g}"
-            assert ours.lower <= ours.area <= ours.upper, what
-            assert ours.lower / MM2 <= known.estimate + doubt, what
-            assert ours.upper / MM2 >= known.estimate - doubt, what
-            assert ours.lower / MM2 <= known.upper + 1e-9 and known.lower <= ours.upper / MM2 + 1e-9, what
-            assert refinement == AS_GIVEN or ours.area / MM2 == pytest.approx(known.estimate, rel=1e-3, abs=0.01), what
-            if refinement.bounds and ours.upper > 1e-8:
-                assert ours.upper - ours.lower <= 0.02 * ours.upper, what
+            known, doubt = true[side], 3 * true[side].uncertainty + 1e-9
+            lower, area, upper = (getattr(getattr(found, side)[0], x) / MM2 for x in ("lower", "area", "upper"))
+            what = f"{refinement}: {side} {lower:.6g} <= {area:.6g} <= {upper:.6g}, {known}"
+            assert lower <= area <= upper, what
+            assert lower <= known.upper + 1e-9 and known.lower <= upper + 1e-9, what
+            assert lower - doubt <= known.estimate <= upper + doubt, what
+            if refinement.bounds and upper > 0.01 and known.uncertainty < 1e-4 * known.estimate:
+                assert upper - lower <= 0.02 * upper, what
+                assert area == pytest.approx(known.estimate, rel=1e-3, abs=doubt), what
 
 
 def test_body_deep_inside_another_counts_as_a_whole():

@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.geometry.kernels.tree import in_box, nearest, scratch, side_of, squared_distance
-from geocontact.geometry.kernels.wide import LEAF
+from geocontact.geometry.kernels.tree import in_box, nearest, offset, scratch, side_of
+from geocontact.geometry.kernels.triangle import closest_point
 
 CHUNK = 32  # points that are dismissed together when none of them can be near
 SLACK = 1.0 + 1e-9  # so that rounding never excludes the nearest triangle itself
 
 
 @kernel
-def chunk_spheres(points, limit):  # type: ignore[no-untyped-def]
+def chunk_spheres(points, limit):
     """Centre, radius and largest limit of every CHUNK consecutive points; shape (ceil(n / CHUNK), 5)."""
     count = (len(points) + CHUNK - 1) // CHUNK
     sphere = np.empty((count, 5))
@@ -32,7 +32,7 @@ def chunk_spheres(points, limit):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def move(points, rotation, translation):  # type: ignore[no-untyped-def]
+def move(points, rotation, translation):
     """R p + t for every point."""
     out = np.empty_like(points)
     for i in range(len(points)):
@@ -47,7 +47,7 @@ def move(points, rotation, translation):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-untyped-def]
+def signed_distances(tree, points, limit, sphere, signed):
     """Distance, side, slot and closest point of every point.
 
     Beyond its limit a point has slot -1 and its limit as distance (the true distance is not smaller). side is 1
@@ -59,53 +59,48 @@ def signed_distances(tree, points, limit, sphere, signed):  # type: ignore[no-un
     side = np.ones(n, np.int8)
     slot = np.full(n, -1)
     closest = np.full((n, 3), np.nan)
-    w = scratch()
-    tiny = 1e-12 * (tree.root[3:] - tree.root[:3]).sum()  # points on the surface itself must be found too
-    hint = -1  # place nearest to the point before: a good guess for the next
+    root, boxes, child, leaves, fill = tree.root, tree.boxes, tree.child, tree.leaves, tree.fill
+    slots, normal = tree.slots, tree.normal
+    nodes, keys, square, fan = scratch()
+    tiny = 1e-12 * (root[3:] - root[:3]).sum()  # closer than this to a triangle, it is the nearest
     for c in range(len(sphere)):
         first = c * CHUNK
         last = min(first + CHUNK, n)
         cx, cy, cz = sphere[c, 0], sphere[c, 1], sphere[c, 2]
         reach = sphere[c, 3] + sphere[c, 4]
-        d2, place = nearest(tree, cx, cy, cz, reach * reach, w)
-        if place < 0:
-            far = _side(tree, cx, cy, cz, signed, w)
-            for i in range(first, last):
-                distance[i] = limit[i]
-                side[i] = far
-            continue
+        d2, hint = nearest(boxes, child, leaves, fill, cx, cy, cz, reach * reach, nodes, keys, square, fan)
         middle = np.sqrt(d2)
-        hint = place
-        central = 1
-        if signed:
-            _, _, _, central = side_of(tree, place, cx, cy, cz)
+        central = 1  # side of the middle of the chunk
+        if signed and hint >= 0:
+            _, _, _, central = side_of(leaves, slots, normal, hint, cx, cy, cz)
+        elif signed and in_box(root, cx, cy, cz):
+            _, place = nearest(boxes, child, leaves, fill, cx, cy, cz, np.inf, nodes, keys, square, fan)
+            _, _, _, central = side_of(leaves, slots, normal, place, cx, cy, cz)
         for i in range(first, last):
+            distance[i] = limit[i]
+            side[i] = central
+            if hint < 0:
+                continue
             x, y, z = points[i, 0], points[i, 1], points[i, 2]
             away = np.sqrt((x - cx) ** 2 + (y - cy) ** 2 + (z - cz) ** 2)
             place = -1
             if middle - away <= limit[i]:
-                guess = np.sqrt(squared_distance(tree, hint, x, y, z))
-                start = min(limit[i], guess * SLACK + tiny)
-                d2, place = nearest(tree, x, y, z, start * start, w)
-            if place < 0:
-                distance[i] = limit[i]
-                if away < limit[i]:  # nothing between the point and the middle of its chunk
-                    side[i] = central
-                else:
-                    side[i] = _side(tree, x, y, z, signed, w)
-                continue
-            hint = place
-            slot[i] = tree.slots[place // LEAF, place % LEAF]
-            distance[i] = np.sqrt(d2)
-            closest[i, 0], closest[i, 1], closest[i, 2], which = side_of(tree, place, x, y, z)
-            if signed:
-                side[i] = which
+                qx, qy, qz, _, _ = closest_point(leaves, offset(hint), x, y, z)
+                guess2 = (x - qx) ** 2 + (y - qy) ** 2 + (z - qz) ** 2
+                start = min(limit[i], np.sqrt(guess2) * SLACK)
+                d2, place = nearest(boxes, child, leaves, fill, x, y, z, start * start, nodes, keys, square, fan)
+                if place < 0 and guess2 <= tiny * tiny:
+                    d2, place = guess2, hint
+            if place >= 0:
+                hint = place  # a good guess for the next point
+                slot[i] = slots[place]
+                distance[i] = np.sqrt(d2)
+                closest[i, 0], closest[i, 1], closest[i, 2], which = side_of(leaves, slots, normal, place, x, y, z)
+                if signed:
+                    side[i] = which
+            elif signed and away >= limit[i]:  # something may lie between the point and the middle of its chunk
+                side[i] = 1
+                if in_box(root, x, y, z):
+                    _, place = nearest(boxes, child, leaves, fill, x, y, z, np.inf, nodes, keys, square, fan)
+                    _, _, _, side[i] = side_of(leaves, slots, normal, place, x, y, z)
     return distance, side, slot, closest
-
-
-@kernel
-def _side(tree, x, y, z, signed, w):  # type: ignore[no-untyped-def]
-    if not signed or not in_box(tree.root, x, y, z):
-        return 1
-    place = nearest(tree, x, y, z, np.inf, w)[1]
-    return side_of(tree, place, x, y, z)[3]

@@ -26,7 +26,7 @@ class Binary(NamedTuple):
 
 
 @kernel
-def build(lower, upper):  # type: ignore[no-untyped-def]
+def build(lower, upper):
     """The tree over triangles with these boxes, lower and upper corners (m, 3)."""
     m = len(lower)
     order = np.arange(m)
@@ -65,7 +65,7 @@ def build(lower, upper):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _enclose(lower, upper, order, first, last, out):  # type: ignore[no-untyped-def]
+def _enclose(lower, upper, order, first, last, out):
     for k in range(3):
         lo = np.inf
         hi = -np.inf
@@ -77,7 +77,7 @@ def _enclose(lower, upper, order, first, last, out):  # type: ignore[no-untyped-
 
 
 @kernel
-def _split(lower, upper, centre, order, first, last, depth):  # type: ignore[no-untyped-def]
+def _split(lower, upper, centre, order, first, last, depth):
     axis = 0
     extent = -1.0
     low = 0.0
@@ -106,7 +106,7 @@ def _split(lower, upper, centre, order, first, last, depth):  # type: ignore[no-
 
 
 @kernel
-def _cheapest_bin(lower, upper, centre, order, first, last, axis, low, extent):  # type: ignore[no-untyped-def]
+def _cheapest_bin(lower, upper, centre, order, first, last, axis, low, extent):
     lo = np.full((BINS, 3), np.inf)
     hi = np.full((BINS, 3), -np.inf)
     count = np.zeros(BINS, np.int64)

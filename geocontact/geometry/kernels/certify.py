@@ -24,7 +24,7 @@ ROUND = 1e-12  # relative allowance for rounding in the certificates
 
 
 @kernel
-def certify(faces, points, distance, side, slot, closest, edges, threshold, signed):  # type: ignore[no-untyped-def]
+def certify(faces, points, distance, side, slot, closest, edges, threshold, signed):
     """Lower and upper bound of the part of each triangle within the threshold, as fractions of its area.
 
     faces (k, 3) index the point arrays, which are as `signed_distances` gives them: a point beyond its limit has
@@ -60,7 +60,7 @@ def certify(faces, points, distance, side, slot, closest, edges, threshold, sign
 
 
 @kernel
-def totals(lower, upper, area, moment, negative):  # type: ignore[no-untyped-def]
+def totals(lower, upper, area, moment, negative):
     """Sums over the triangles that lie wholly within (area, moment, negative) and the numbers of the undecided ones."""
     sums = np.zeros(5)
     undecided = np.empty(len(lower), np.int64)
@@ -78,7 +78,7 @@ def totals(lower, upper, area, moment, negative):  # type: ignore[no-untyped-def
 
 
 @kernel
-def _by_one_corner(i, reach, distance, side, slot, threshold, signed):  # type: ignore[no-untyped-def]
+def _by_one_corner(i, reach, distance, side, slot, threshold, signed):
     """1 when the triangle lies within the threshold for certain, -1 when outside, 0 when one corner cannot tell.
 
     1-Lipschitz property; a distance given for a point beyond its limit is not above the true one.
@@ -95,12 +95,12 @@ def _by_one_corner(i, reach, distance, side, slot, threshold, signed):  # type: 
 
 
 @kernel
-def _length(a, b):  # type: ignore[no-untyped-def]
+def _length(a, b):
     return np.sqrt((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2)
 
 
 @kernel
-def _second_order(v, p, d, s, slot, e0, e1, e2, threshold, signed):  # type: ignore[no-untyped-def]
+def _second_order(v, p, d, s, slot, e0, e1, e2, threshold, signed):
     slack = ROUND * (e0 + e1 + e2 + threshold)
     outside = threshold + slack
     lower = _surely_within(v, p, slot, threshold - slack)
@@ -121,7 +121,7 @@ def _second_order(v, p, d, s, slot, e0, e1, e2, threshold, signed):  # type: ign
 
 
 @kernel
-def _surely_within(v, p, slot, threshold):  # type: ignore[no-untyped-def]
+def _surely_within(v, p, slot, threshold):
     best = 0.0
     for j in range(3):
         if slot[j] < 0:
@@ -134,7 +134,7 @@ def _surely_within(v, p, slot, threshold):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _circle2(a, b, c):  # type: ignore[no-untyped-def]
+def _circle2(a, b, c):
     """Squared radius of the smallest circle that contains a triangle of these edge lengths."""
     a2, b2, c2 = a * a, b * b, c * c
     longest2 = max(a2, b2, c2)

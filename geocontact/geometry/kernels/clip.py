@@ -8,7 +8,7 @@ from geocontact.geometry.kernels.compile import kernel
 
 
 @kernel
-def fraction_below(f0, f1, f2):  # type: ignore[no-untyped-def]
+def fraction_below(f0, f1, f2):
     """Share of a triangle's area where the linear function with corner values f is <= 0."""
     below = (f0 <= 0.0) + (f1 <= 0.0) + (f2 <= 0.0)
     if below == 0:
@@ -29,7 +29,7 @@ def fraction_below(f0, f1, f2):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _cut(polygon, count, f, out):  # type: ignore[no-untyped-def]
+def _cut(polygon, count, f, out):
     """Part of a convex polygon in barycentric coordinates where b @ f <= 0; returns its corner count."""
     kept = 0
     for i in range(count):
@@ -49,7 +49,7 @@ def _cut(polygon, count, f, out):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _moments(polygon, count, out):  # type: ignore[no-untyped-def]
+def _moments(polygon, count, out):
     """Share of the triangle's area inside the polygon and the barycentric first moments (3,) of that share."""
     share = 0.0
     out[:] = 0.0
@@ -63,7 +63,7 @@ def _moments(polygon, count, out):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def clipped_parts(faces, points, value, across, area):  # type: ignore[no-untyped-def]
+def clipped_parts(faces, points, value, across, area):
     """Area, first moment and area on the negative side of each triangle's part where `value` <= 0.
 
     faces (k, 3) index points (n, 3), value (n,) and across (n,), all linear in each triangle; across is the signed

@@ -8,7 +8,7 @@ from geocontact.geometry.kernels.compile import kernel
 
 
 @kernel
-def promising(faces, points, closest, signed, bar):  # type: ignore[no-untyped-def]
+def promising(faces, points, closest, signed, bar):
     """Faces that may reach below `bar` and, for each, a value that no point of it is below.
 
     signed (n,) is infinite beyond a point's limit, and such a point is outside by more than any edge at it.
@@ -40,14 +40,14 @@ def promising(faces, points, closest, signed, bar):  # type: ignore[no-untyped-d
 
 
 @kernel
-def _apart(points, i, j):  # type: ignore[no-untyped-def]
+def _apart(points, i, j):
     return np.sqrt(
         (points[i, 0] - points[j, 0]) ** 2 + (points[i, 1] - points[j, 1]) ** 2 + (points[i, 2] - points[j, 2]) ** 2
     )
 
 
 @kernel
-def _farthest(points, closest, i, j, k, foot):  # type: ignore[no-untyped-def]
+def _farthest(points, closest, i, j, k, foot):
     far2 = 0.0
     for v in (i, j, k):
         d2 = 0.0

@@ -11,7 +11,7 @@ SIDES = 3
 
 
 @kernel
-def pierced(tree, corner, faces):  # type: ignore[no-untyped-def]
+def pierced(tree, corner, faces):
     """Marks faces that take part in a self-intersection, (m,) bool.
 
     corner (m, 3, 3) positions, faces (m, 3) indices after merging coincident vertices. An edge is tested against every
@@ -28,7 +28,7 @@ def pierced(tree, corner, faces):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _pierce(tree, corner, faces, f, k, l, nodes, marked):  # type: ignore[no-untyped-def]
+def _pierce(tree, corner, faces, f, k, l, nodes, marked):
     p = corner[f, k]
     q = corner[f, l]
     lo = np.minimum(p, q)
@@ -55,7 +55,7 @@ def _pierce(tree, corner, faces, f, k, l, nodes, marked):  # type: ignore[no-unt
 
 
 @kernel
-def _meets(box, o, lo, hi):  # type: ignore[no-untyped-def]
+def _meets(box, o, lo, hi):
     for k in range(3):
         if box[o + k] > hi[k] or box[o + k + 3] < lo[k]:
             return False
@@ -63,7 +63,7 @@ def _meets(box, o, lo, hi):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _share(face, i, j):  # type: ignore[no-untyped-def]
+def _share(face, i, j):
     for k in range(SIDES):
         if face[k] == i or face[k] == j:
             return True
@@ -71,13 +71,13 @@ def _share(face, i, j):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _volume(a, b, c, d):  # type: ignore[no-untyped-def]
+def _volume(a, b, c, d):
     u, v, w = b - a, c - a, d - a
     return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0])
 
 
 @kernel
-def _crosses(p, q, a, b, c):  # type: ignore[no-untyped-def]
+def _crosses(p, q, a, b, c):
     """Whether segment pq passes through triangle abc (touching counts)."""
     above = _volume(a, b, c, p)
     below = _volume(a, b, c, q)

@@ -13,11 +13,13 @@ import numpy as np
 
 from geocontact.geometry.kernels.compile import kernel
 
+U = np.uint64
+LEAF = 32  # triangles in a leaf of the wide tree
 FLAT = 1e-13  # height of a triangle over its longest edge below which it is treated as a segment
 
 
 @kernel
-def triangle_frames(vertices, faces):  # type: ignore[no-untyped-def]
+def triangle_frames(vertices, faces):
     """Records of all faces, shape (m, 16)."""
     records = np.zeros((len(faces), 16))
     for i in range(len(faces)):
@@ -26,7 +28,7 @@ def triangle_frames(vertices, faces):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _frame(vertices, face, out):  # type: ignore[no-untyped-def]
+def _frame(vertices, face, out):
     shift = 0
     longest = -1.0
     for k in range(3):
@@ -72,22 +74,22 @@ def _frame(vertices, face, out):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def closest_point(r, j, px, py, pz):  # type: ignore[no-untyped-def]
+def closest_point(r, o, px, py, pz):
     """Closest point of a triangle, the feature it lies on and the height over the triangle's plane.
 
-    The triangle's numbers are the first 15 of column j of a leaf (ROWS, LEAF) of the wide tree.
+    The triangle's numbers are r[o], r[o + LEAF], r[o + 2 LEAF], …, as the leaves of the wide tree hold them.
 
     Features: 0 interior, 1 edge AB, 2 edge AC, 3 edge BC, 4 corner A, 5 corner B, 6 corner C (letters of the record).
     """
-    dx = px - r[0, j]
-    dy = py - r[1, j]
-    dz = pz - r[2, j]
-    height = dx * r[3, j] + dy * r[4, j] + dz * r[5, j]
-    x = dx * r[6, j] + dy * r[7, j] + dz * r[8, j]
-    y = dx * r[9, j] + dy * r[10, j] + dz * r[11, j]
-    length = r[12, j]
-    cx = r[13, j]
-    cy = r[14, j]
+    dx = px - r[o]
+    dy = py - r[o + U(1 * LEAF)]
+    dz = pz - r[o + U(2 * LEAF)]
+    height = dx * r[o + U(3 * LEAF)] + dy * r[o + U(4 * LEAF)] + dz * r[o + U(5 * LEAF)]
+    x = dx * r[o + U(6 * LEAF)] + dy * r[o + U(7 * LEAF)] + dz * r[o + U(8 * LEAF)]
+    y = dx * r[o + U(9 * LEAF)] + dy * r[o + U(10 * LEAF)] + dz * r[o + U(11 * LEAF)]
+    length = r[o + U(12 * LEAF)]
+    cx = r[o + U(13 * LEAF)]
+    cy = r[o + U(14 * LEAF)]
     feature = 0
     if y < 0.0 or cy == 0.0:
         feature = 1
@@ -129,9 +131,9 @@ def closest_point(r, j, px, py, pz):  # type: ignore[no-untyped-def]
         x = qx
         y = qy
     return (
-        r[0, j] + x * r[6, j] + y * r[9, j],
-        r[1, j] + x * r[7, j] + y * r[10, j],
-        r[2, j] + x * r[8, j] + y * r[11, j],
+        r[o] + x * r[o + U(6 * LEAF)] + y * r[o + U(9 * LEAF)],
+        r[o + U(1 * LEAF)] + x * r[o + U(7 * LEAF)] + y * r[o + U(10 * LEAF)],
+        r[o + U(2 * LEAF)] + x * r[o + U(8 * LEAF)] + y * r[o + U(11 * LEAF)],
         feature,
         height,
     )

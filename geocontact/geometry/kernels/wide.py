@@ -1,5 +1,6 @@
 """The binary tree made wide: 16 children a node, up to 32 triangles a leaf, laid out so that the processor takes
-several at a time. The inner loops have a count that the compiler does not know, or it would unroll instead."""
+several at a time. For that the inner loops run over flat arrays by unsigned offsets (views would be counted, signed
+indices wrapped) up to a count that the compiler does not know (it would unroll a known one)."""
 
 from __future__ import annotations
 
@@ -7,19 +8,19 @@ import numpy as np
 
 from geocontact.geometry.kernels.binary import DEPTH
 from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.triangle import LEAF, U
 
 FAN = 16  # children of a node
-LEAF = 32  # triangles of a leaf
 ROWS = 18  # numbers of a triangle in a leaf: the first 15 of its record, 1/|AC|^2, 1/|BC|^2, orientation
-VECTOR = 16  # numbers per turn of the inner loop; fewer would go one by one
+VECTOR = 8  # numbers that a processor takes at a time, at most
 STACK = FAN * (DEPTH + 32)
 
 
 @kernel
-def widen(binary, records, orientation):  # type: ignore[no-untyped-def]
+def widen(binary, records, orientation):
     """Boxes, children, leaves, slots and fill of the wide tree.
 
-    boxes (k, 6, FAN): lower x, y, z, upper x, y, z of the children, empty ones beyond reach; child (k, FAN):
+    All flat: boxes (k, 6, FAN), lower x, y, z, upper x, y, z of the children, empty ones beyond reach; child (k, FAN):
     node number, or -2 - leaf number; leaves (l, ROWS, LEAF), the last triangle repeated in unused places;
     slots (l, LEAF): the slot of each place; fill (l,): places in use, rounded up to whole vectors. orientation (m,): 1 where n points outside, -1 where it points inside,
     0 where it cannot tell.
@@ -52,11 +53,11 @@ def widen(binary, records, orientation):  # type: ignore[no-untyped-def]
                 fill[leaf] = (size[node] + VECTOR - 1) // VECTOR * VECTOR
                 leaf += 1
         used += 1
-    return boxes[:used].copy(), child[:used].copy(), leaves[:leaf].copy(), slots[:leaf].copy(), fill[:leaf].copy()
+    return boxes[:used].ravel(), child[:used].ravel(), leaves[:leaf].ravel(), slots[:leaf].ravel(), fill[:leaf].copy()
 
 
 @kernel
-def _extents(binary):  # type: ignore[no-untyped-def]
+def _extents(binary):
     """Box, first slot and number of slots below each node of the binary tree."""
     n = len(binary.first)
     box = np.empty((n, 6))
@@ -77,7 +78,7 @@ def _extents(binary):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _gather(binary, box, size, node, fan):  # type: ignore[no-untyped-def]
+def _gather(binary, box, size, node, fan):
     """Up to FAN nodes that together make up `node`: the one with the largest surface is opened again and again."""
     fan[0] = node
     width = 1
@@ -100,7 +101,7 @@ def _gather(binary, box, size, node, fan):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _fill(records, orientation, start, size, leaf, slots):  # type: ignore[no-untyped-def]
+def _fill(records, orientation, start, size, leaf, slots):
     for j in range(LEAF):
         slot = start + min(j, size - 1)
         slots[j] = slot
@@ -114,45 +115,38 @@ def _fill(records, orientation, start, size, leaf, slots):  # type: ignore[no-un
 
 
 @kernel
-def box_distances(boxes, node, x, y, z, out, n):  # type: ignore[no-untyped-def]
-    """Squared distances of a point to the n = FAN boxes of a node's children."""
-    x0, y0, z0, x1, y1, z1 = (
-        boxes[node, 0], boxes[node, 1], boxes[node, 2], boxes[node, 3], boxes[node, 4], boxes[node, 5],
-    )  # fmt: skip
+def box_distances(boxes, o, x, y, z, out, n):
+    """Squared distances of a point to the n = FAN boxes at offset o."""
     for j in range(n):
-        dx = max(max(x0[j] - x, x - x1[j]), 0.0)
-        dy = max(max(y0[j] - y, y - y1[j]), 0.0)
-        dz = max(max(z0[j] - z, z - z1[j]), 0.0)
-        out[j] = dx * dx + dy * dy + dz * dz
+        i = o + U(j)
+        dx = max(max(boxes[i] - x, x - boxes[i + U(3 * FAN)]), 0.0)
+        dy = max(max(boxes[i + U(FAN)] - y, y - boxes[i + U(4 * FAN)]), 0.0)
+        dz = max(max(boxes[i + U(2 * FAN)] - z, z - boxes[i + U(5 * FAN)]), 0.0)
+        out[U(j)] = dx * dx + dy * dy + dz * dz
 
 
 @kernel
-def leaf_distances(leaves, leaf, px, py, pz, out, n):  # type: ignore[no-untyped-def]
-    """Squared distances of a point to the first n triangles of a leaf; the cases of `triangle`, without branches.
+def leaf_distances(t, o, px, py, pz, out, n):
+    """Squared distances of a point to the first n triangles at offset o; the cases of `triangle`, without branches.
 
     A point over the triangle is as far as its height; any other is as far as the nearest of the three edges.
     """
-    ax, ay, az = leaves[leaf, 0], leaves[leaf, 1], leaves[leaf, 2]
-    nx, ny, nz = leaves[leaf, 3], leaves[leaf, 4], leaves[leaf, 5]
-    ux, uy, uz = leaves[leaf, 6], leaves[leaf, 7], leaves[leaf, 8]
-    vx, vy, vz = leaves[leaf, 9], leaves[leaf, 10], leaves[leaf, 11]
-    lengths, cxs, cys = leaves[leaf, 12], leaves[leaf, 13], leaves[leaf, 14]
-    over_ac, over_bc = leaves[leaf, 15], leaves[leaf, 16]
     for j in range(n):
-        dx, dy, dz = px - ax[j], py - ay[j], pz - az[j]
-        h = dx * nx[j] + dy * ny[j] + dz * nz[j]
-        x = dx * ux[j] + dy * uy[j] + dz * uz[j]
-        y = dx * vx[j] + dy * vy[j] + dz * vz[j]
-        length, cx, cy = lengths[j], cxs[j], cys[j]
+        i = o + U(j)
+        dx, dy, dz = px - t[i], py - t[i + U(LEAF)], pz - t[i + U(2 * LEAF)]
+        h = dx * t[i + U(3 * LEAF)] + dy * t[i + U(4 * LEAF)] + dz * t[i + U(5 * LEAF)]
+        x = dx * t[i + U(6 * LEAF)] + dy * t[i + U(7 * LEAF)] + dz * t[i + U(8 * LEAF)]
+        y = dx * t[i + U(9 * LEAF)] + dy * t[i + U(10 * LEAF)] + dz * t[i + U(11 * LEAF)]
+        length, cx, cy = t[i + U(12 * LEAF)], t[i + U(13 * LEAF)], t[i + U(14 * LEAF)]
         ex = min(x, 0.0) + max(x - length, 0.0)
         edge = ex * ex + y * y
-        t = min(max((x * cx + y * cy) * over_ac[j], 0.0), 1.0)
-        ex, ey = x - t * cx, y - t * cy
+        s = min(max((x * cx + y * cy) * t[i + U(15 * LEAF)], 0.0), 1.0)
+        ex, ey = x - s * cx, y - s * cy
         edge = min(edge, ex * ex + ey * ey)
         bx, back = cx - length, x - length
-        t = min(max((back * bx + y * cy) * over_bc[j], 0.0), 1.0)
-        ex, ey = back - t * bx, y - t * cy
+        s = min(max((back * bx + y * cy) * t[i + U(16 * LEAF)], 0.0), 1.0)
+        ex, ey = back - s * bx, y - s * cy
         edge = min(edge, ex * ex + ey * ey)
         over = min(min(y, x * cy - y * cx), y * bx - back * cy)
         over = min(over, cy - 1e-300)  # nothing is over a collinear triangle
-        out[j] = h * h + (0.0 if over >= 0.0 else edge)
+        out[U(j)] = h * h + (0.0 if over >= 0.0 else edge)
