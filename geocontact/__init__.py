@@ -57,8 +57,8 @@ _PLACES = {
 }
 
 __all__ = [
-    "Axis",
     "AreaEvolution",
+    "Axis",
     "ContactPair",
     "HalfSpace",
     "InputError",

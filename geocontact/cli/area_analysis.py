@@ -53,9 +53,11 @@ def analyse(moving: Path, fixed: Path, more_motions: Sequence[str], o: AreaOptio
     record = Record("area", {"moving": moving, "fixed": fixed, **asdict(o), "more_motions": list(more_motions)})
     reference = None if o.compare is None else read_reference(o.compare)
     tolerance = quantities.fraction(o.tolerance, "--tolerance")
+    if o.compare is not None:
+        record.add_input("--compare", o.compare)
     within = True
     with record.catching_warnings(), written_whole(o.out) as draft:
-        settings_of = _settings(o)
+        settings_of = _settings(record, o)
         bodies = (
             read_body(record, "moving", moving, o.unit, o.place_moving, o.assume_closed in ("moving", "both")),
             read_body(record, "fixed", fixed, o.unit, o.place_fixed, o.assume_closed in ("fixed", "both")),
@@ -75,7 +77,7 @@ def analyse(moving: Path, fixed: Path, more_motions: Sequence[str], o: AreaOptio
     return 0 if within else 1
 
 
-def _settings(o: AreaOptions) -> Callable[[Surface, Surface], Settings]:
+def _settings(record: Record, o: AreaOptions) -> Callable[[Surface, Surface], Settings]:
     """Settings as far as the command line gives them, before any file is read; the bodies complete them."""
     thresholds = quantities.thresholds(o.threshold)
     bounds = None if o.bounds is None else quantities.fraction(o.bounds, "--bounds")
@@ -86,8 +88,8 @@ def _settings(o: AreaOptions) -> Callable[[Surface, Surface], Settings]:
             thresholds=thresholds,
             rule=o.rule,
             refinement=Refinement() if bounds is None else Refinement(bounds=bounds),
-            fixed_faces=chosen_faces("--region", o.region, fixed, o.unit),
-            moving_faces=chosen_faces("--region-moving", o.region_moving, moving, o.unit),
+            fixed_faces=chosen_faces(record, "--region", o.region, fixed, o.unit),
+            moving_faces=chosen_faces(record, "--region-moving", o.region_moving, moving, o.unit),
             split=split,
             medial_side=1 if o.medial == "+" else -1,
         )
@@ -141,6 +143,9 @@ def _expanded(patterns: list[str]) -> list[Path]:
 def _swept(text: str, axis: str | None, unit: str, moving: Surface, record: Record) -> Motion:
     name, start, stop, step = quantities.sweep_range(text)
     if axis is not None:
+        file = quantities.named_file(axis)
+        if file is not None:
+            record.add_input("--axis", file)
         return swept(quantities.axis(axis, unit), start, stop, step, name)
     fit = fit_cylinder(moving.vertices[moving.used])
     record.warn(
@@ -166,7 +171,7 @@ def _evaluated(record: Record, a: Analysis, folder: Path) -> AreaEvolution:
     write_table(evolution.table(), folder, o.parquet)
     if o.save_map:
         keep.write(folder / "distances.npz", a.motion, evolution)
-    title = f"{a.moving.name} on {a.fixed.name} — {a.motion.source}"
+    title = f"MOVING {a.moving.name} on FIXED {a.fixed.name}" + (f", {a.name}" if a.name else "")
     label = "cycle [%]" if a.motion.time_unit == "%" else "time [s]"
     draw_areas(
         evolution, a.fixed.vertices, a.fixed.faces, keep.shown, keep.frame, title,

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool
 
+from geocontact.cli.quantities import named_file
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import Mesh
@@ -41,13 +42,17 @@ def read_body(record: Record, role: str, path: Path, unit: str, placement: str |
     return surface
 
 
-def chosen_faces(option: str, text: str | None, surface: Surface, unit: str) -> Bool[np.ndarray, " f"] | None:
+def chosen_faces(
+    record: Record, option: str, text: str | None, surface: Surface, unit: str
+) -> Bool[np.ndarray, " f"] | None:
     """Faces named by an expression or by a file of face numbers; None when all count."""
     if text is None:
         return None
-    if Path(text).is_file():
+    file = named_file(text)
+    if file is not None:
+        record.add_input(option, file)
         chosen = np.zeros(len(surface.faces), bool)
-        chosen[read_face_indices(text, len(surface.faces))] = True
+        chosen[read_face_indices(file, len(surface.faces))] = True
         return chosen
     try:
         chosen = faces_where(surface, text, LENGTH[unit])

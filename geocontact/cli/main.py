@@ -19,6 +19,7 @@ app = App(
     help="Contact areas, contact forces and material properties from meshes, motion and pressure data.",
     version=__version__,
     version_flags=["--version"],
+    suppress_keyboard_interrupt=False,
 )
 app.command("geocontact.cli.area:area", name="area")
 app.command("geocontact.cli.demo:demo", name="demo")

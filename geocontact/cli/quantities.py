@@ -12,6 +12,14 @@ from geocontact.geometry.sweep import Axis
 from geocontact.io.units import ANGLE, LENGTH
 
 
+def named_file(text: str) -> Path | None:
+    """The file of that name, None when the text is something else (an expression, a list of numbers)."""
+    try:
+        return Path(text) if Path(text).is_file() else None
+    except (OSError, ValueError):  # too long or impossible for a file name
+        return None
+
+
 def number(text: str, option: str, example: str) -> float:
     """A finite number, or one line that says what was expected."""
     try:
@@ -73,9 +81,9 @@ def sweep_range(text: str) -> tuple[str, float, float, float]:
 
 def axis(text: str, unit: str) -> Axis:
     """ "x,y,z,dx,dy,dz" (point in the mesh unit, direction), a text file of them, or a fit.json."""
-    file = Path(text)
+    file = named_file(text)
     source = text
-    if file.is_file():
+    if file is not None:
         source = file.read_text(encoding="utf-8", errors="replace")[:10_000]
         if file.suffix.lower() == ".json":
             return _axis_of_fit(file, source)

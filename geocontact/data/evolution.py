@@ -77,7 +77,7 @@ class AreaEvolution:
     @property
     def lateral(self) -> Float[np.ndarray, "t k"]:
         """Lateral part of FIXED's area [m^2]; medial and lateral add up to the whole."""
-        return self.fixed.area - self.medial
+        return np.asarray(self.fixed.area - self.medial)
 
     def table(self) -> pd.DataFrame:
         """Frames outer, thresholds inner, lengths in mm and areas in mm^2 as the column names say."""

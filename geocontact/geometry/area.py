@@ -1,7 +1,7 @@
 """Area of a surface within a threshold of another one, with certified bounds.
 
-The area of {x on A : sd(x) <= T} is what the two triangulated surfaces define; sd is the signed distance to B where B is
-closed, the plain distance where it is open. Faces that the certificates of `kernels.certify` decide are counted whole.
+The area of {x on A : sd(x) <= T} is what the two triangulated surfaces define; sd is the signed distance to B where B
+is closed, the plain distance where it is open. Faces that the certificates of `kernels.certify` decide are counted whole.
 The others are cut along the linear interpolation of sd between their corners (second order in the edge length) and
 divided into four as long as the cut still moves, or the bounds are wider than asked for.
 """
@@ -19,7 +19,8 @@ from geocontact.geometry.sampled import Distances, Sampled
 from geocontact.geometry.subdivision import compact, quartered
 from geocontact.geometry.surface import Surface
 
-PIECES = 100_000  # at most this many triangles are divided at a time, the most doubtful first
+BLIND = 0.05  # share of the doubt that counts as error where the cut cannot show any
+PIECES = 50_000  # at most this many triangles are divided at a time, the most doubtful first
 STALLED = 0.9  # three divisions that leave more of the doubt than this: the surfaces are exactly a threshold apart
 SMALLEST = 1e-10  # m^2; an upper bound below this is not refined further
 
@@ -91,7 +92,7 @@ class _Pieces:
     @property
     def gap(self) -> Float[np.ndarray, " k"]:
         """Area that is neither certainly within nor certainly outside [m^2]."""
-        return (self.upper - self.lower) * self.area
+        return np.asarray((self.upper - self.lower) * self.area)
 
 
 @dataclass
@@ -177,8 +178,8 @@ def _refined(
         now = settled.with_(pieces)
         stalled = level > 3 and now.gap > STALLED * gaps[-3]
         gaps.append(now.gap)
-        wanted = _wanted(now, pieces, rule, first=level == 0, stalled=stalled)
-        if not wanted.any():
+        wanted = _wanted(now, pieces, rule, first=level == 0)
+        if stalled or not wanted.any():
             break
         settled = settled.with_(pieces[~wanted])
         faces, points = compact(pieces.faces[wanted], points)
@@ -186,12 +187,22 @@ def _refined(
         # the quarters are similar to their parent, so their edges are half of its edges
         edges, area = np.repeat(0.5 * pieces.edges[wanted], 4, axis=0), np.repeat(0.25 * pieces.area[wanted], 4)
         child = _examined(faces, points, edges, area, threshold, other.closed)
-        change = np.abs(child.part.reshape(-1, 4).sum(axis=1) - pieces.part[wanted]) / 3.0  # order 2: a quarter is left
-        pieces = replace(child, error=np.minimum(np.repeat(0.25 * change, 4), child.gap))
+        pieces = replace(child, error=_error(pieces[wanted], child))
     return settled.with_(pieces)
 
 
-def _wanted(now: _Sums, pieces: _Pieces, rule: Refinement, first: bool, stalled: bool) -> Bool[np.ndarray, " k"]:
+def _error(parent: _Pieces, child: _Pieces) -> Float[np.ndarray, " k"]:
+    """Estimated error of the linear cut in each quarter [m^2].
+
+    A second-order cut that moved by x when the edges were halved is off by x / 3. A cut that leaves a quarter whole or
+    empty does not move when an iso-line bulges into it: there a share of what is not certain counts.
+    """
+    moved = np.abs(child.part.reshape(-1, 4).sum(axis=1) - parent.part) / 3.0
+    blind = (child.part <= 0.0) | (child.part >= child.area)
+    return np.asarray(np.where(blind, BLIND * child.gap, np.minimum(np.repeat(0.25 * moved, 4), child.gap)))
+
+
+def _wanted(now: _Sums, pieces: _Pieces, rule: Refinement, first: bool) -> Bool[np.ndarray, " k"]:
     """Which pieces to divide: all once, then those that hold more than their share of what is too much."""
     if now.upper < SMALLEST or len(pieces.area) == 0:
         return np.zeros(len(pieces.area), bool)
@@ -199,9 +210,11 @@ def _wanted(now: _Sums, pieces: _Pieces, rule: Refinement, first: bool, stalled:
     wanted = np.full(len(gap), first)
     if now.error > rule.accuracy * now.area:
         wanted |= pieces.error > 0.25 * rule.accuracy * now.area / len(gap)
-    if now.gap > rule.bounds * now.upper and not stalled:
+    if now.gap > rule.bounds * now.upper:
         wanted |= gap > 0.25 * rule.bounds * now.upper / len(gap)
     wanted &= gap > 0.0
     if np.count_nonzero(wanted) > PIECES:
-        wanted &= gap >= np.sort(gap[wanted])[-PIECES]
+        most = np.argsort(np.where(wanted, -gap, 0.0), kind="stable")[:PIECES]
+        wanted = np.zeros(len(gap), bool)
+        wanted[most] = True
     return np.asarray(wanted)

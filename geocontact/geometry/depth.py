@@ -12,7 +12,7 @@ from geocontact.geometry.subdivision import compact, quartered
 from geocontact.geometry.surface import Surface
 
 TOLERANCE = 1e-6  # m; depths closer together than this are not told apart
-DIVISIONS = 12
+DIVISIONS = 30  # a guard; edges halve each time
 CANDIDATES = 20_000  # at most this many triangles are divided at a time, the most promising first
 
 

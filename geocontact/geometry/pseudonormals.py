@@ -24,12 +24,12 @@ def pseudonormals(
         normals[:, place] = _edge_normals(turned, unit, flat, start, end)
     normals[:, 4:7] = _corner_normals(turned, records, unit, flat, len(merged))
     length = np.linalg.norm(normals, axis=2, keepdims=True)
-    return np.divide(normals, length, out=np.zeros_like(normals), where=length > 1e-12)
+    return np.asarray(np.divide(normals, length, out=np.zeros_like(normals), where=length > 1e-12))
 
 
 def _edge_key(turned: Int[np.ndarray, "m 3"], start: int, end: int) -> Int[np.ndarray, " m"]:
     a, b = turned[:, start], turned[:, end]
-    return np.minimum(a, b) * (turned.max() + 1) + np.maximum(a, b)
+    return np.asarray(np.minimum(a, b) * (turned.max() + 1) + np.maximum(a, b))
 
 
 def _edge_normals(

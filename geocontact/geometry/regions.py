@@ -67,7 +67,7 @@ def _evaluate(node: ast.expr, values: Mapping[str, Float[np.ndarray, " m"]]) -> 
             return values[name]
         case ast.BoolOp(op=op, values=parts):
             both = [_condition(_evaluate(part, values)) for part in parts]
-            return np.logical_and.reduce(both) if isinstance(op, ast.And) else np.logical_or.reduce(both)
+            return np.asarray(np.logical_and.reduce(both) if isinstance(op, ast.And) else np.logical_or.reduce(both))
         case ast.UnaryOp(op=ast.Not(), operand=inner):
             return ~_condition(_evaluate(inner, values))
         case ast.UnaryOp(op=ast.USub(), operand=inner):
@@ -79,7 +79,7 @@ def _evaluate(node: ast.expr, values: Mapping[str, Float[np.ndarray, " m"]]) -> 
         case ast.Compare(left=left, ops=ops, comparators=rest) if all(type(op) in _COMPARE for op in ops):
             terms = [_number(_evaluate(term, values)) for term in (left, *rest)]
             pairs = zip(ops, terms, terms[1:], strict=False)
-            return np.logical_and.reduce([np.asarray(_COMPARE[type(op)](a, b)) for op, a, b in pairs])
+            return np.asarray(np.logical_and.reduce([np.asarray(_COMPARE[type(op)](a, b)) for op, a, b in pairs]))
     raise ValueError(
         f"{ast.unparse(node)!r} is not understood; only {', '.join(NAMES)}, numbers, and/or/not, abs, sqrt"
     )

@@ -19,7 +19,8 @@ def counted_area(
     sampled: Sampled, other: Surface, distances: Distances, threshold: float, rule: str
 ) -> tuple[float, np.ndarray, float]:
     """Area [m^2] of the whole faces that a crude rule counts, its first moment (about the surface's own centre) [m^3]
-    and the part on the negative side of the splitting plane [m^2]."""
+    and the part on the negative side of the splitting plane [m^2].
+    """
     inside = _counts(sampled, other, distances, threshold, rule)
     return (
         float(sampled.area[inside].sum()),

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int8
@@ -32,19 +33,21 @@ class Distances:
     undecided: int = 0
 
     def __getitem__(self, chosen: np.ndarray) -> Distances:
-        return Distances(*(values[chosen] for values in self._arrays()), self.undecided)
+        return replace(self, **{name: values[chosen] for name, values in self._arrays().items()})
 
     def __add__(self, other: Distances) -> Distances:
-        joined = (np.concatenate(both) for both in zip(self._arrays(), other._arrays(), strict=True))
-        return Distances(*joined, self.undecided + other.undecided)
+        more = other._arrays()
+        joined = {name: np.concatenate([values, more[name]]) for name, values in self._arrays().items()}
+        return replace(self, **joined, undecided=self.undecided + other.undecided)
 
-    def _arrays(self) -> tuple[np.ndarray, ...]:
-        return self.points, self.distance, self.side, self.slot, self.closest, self.across
+    def _arrays(self) -> dict[str, Any]:
+        names = ("points", "distance", "side", "slot", "closest", "across")
+        return {name: getattr(self, name) for name in names}
 
     @property
     def signed(self) -> Float[np.ndarray, " n"]:
         """Signed distance [m]; infinite beyond the limit."""
-        return np.where(self.slot >= 0, self.distance, np.inf) * self.side
+        return np.asarray(np.where(self.slot >= 0, self.distance, np.inf) * self.side)
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +55,8 @@ class Sampled:
     """One surface prepared for queries against another; all positions about its own centre.
 
     points (n, 3) are its vertices in the order of `surface.walk`; faces (m, 3) index them and are those that count;
-    across (n,) is the signed distance to the splitting plane; edges (m, 3) opposite to each corner; area, moment, negative are sums over whole faces.
+    across (n,) is the signed distance to the splitting plane; edges (m, 3) are lengths opposite to each corner; area,
+    moment, negative are sums over whole faces.
     """
 
     surface: Surface
@@ -124,7 +128,7 @@ def measure(
         spheres = chunk_spheres(points, limit)
     signed = other.closed and other.normals_trusted
     distance, side, slot, closest = signed_distances(other.tree, points, limit, spheres, signed)
-    side, undecided = resolve_sides(other, points, side)
+    side, undecided = resolve_sides(other, points, side, distance)
     across = np.ones(len(points)) if across is None else across
     return Distances(points, distance, side, slot, closest, across, undecided)
 

@@ -74,7 +74,7 @@ class Sphere:
 
 @dataclass(frozen=True)
 class Tube:
-    """Hollow round tube of infinite length; the *material* is outside the bore, so a point on the axis is `radius` away.
+    """Hollow round tube of infinite length; the *material* is outside the bore: a point on the axis is `radius` away.
 
     Sphere-in-tube contact: a sphere of radius r touches when its centre is closer than r to the wall. Distance is
     positive in the bore and negative in the wall; the normal points to the axis.

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from geocontact.geometry.surface import Surface
 
 UNDECIDED = 0.2  # |w - 0.5| below which a winding number gives no side
+SINGLE = 1e-6  # share of the body's size that single precision resolves for certain
 WITNESSES = 5  # faces that speak for a patch
 PROBES = 2000  # points at which normals are compared with winding numbers before they are trusted
 
@@ -102,19 +103,22 @@ def disagreement(surface: Surface) -> float:
 
 
 def resolve_sides(
-    surface: Surface, local: Float[np.ndarray, "n 3"], side: Int8[np.ndarray, " n"]
+    surface: Surface, local: Float[np.ndarray, "n 3"], side: Int8[np.ndarray, " n"], distance: Float[np.ndarray, " n"]
 ) -> tuple[Int8[np.ndarray, " n"], int]:
-    """Sides with doubts settled by winding number, and how many points stayed undecided (taken as outside)."""
+    """Sides with doubts settled by winding number, and how many points off the surface stayed undecided.
+
+    Those are taken as outside, as are points on the surface itself, where the side does not matter.
+    """
     if not surface.closed:
         return side, 0
+    root = surface.tree.root
     ask = side == 0
     if not surface.normals_trusted:
-        box = surface.tree.root
-        ask = ((local > box[:3]) & (local < box[3:])).all(axis=1)
+        ask = ((local > root[:3]) & (local < root[3:])).all(axis=1)
     if not ask.any():
         return side, 0
     side = side.copy()
     side[ask] = winding_sides(surface, local[ask])
     undecided = side == 0
     side[undecided] = 1
-    return side, int(undecided.sum())
+    return side, int(np.count_nonzero(undecided & (distance > SINGLE * np.linalg.norm(root[3:] - root[:3]))))

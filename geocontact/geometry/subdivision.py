@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Int
 
 from geocontact.geometry.sampled import Distances, measure
 from geocontact.geometry.surface import Surface

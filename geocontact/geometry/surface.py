@@ -80,12 +80,12 @@ class Surface:
     @cached_property
     def local(self) -> Float[np.ndarray, "n 3"]:
         """Vertices about the centre [m]."""
-        return self.vertices - self.centre
+        return np.asarray(self.vertices - self.centre)
 
     @cached_property
     def corners(self) -> Float[np.ndarray, "m 3 3"]:
         """Corner positions of each face about the centre [m]."""
-        return self.local[self.faces]
+        return np.asarray(self.local[self.faces])
 
     @cached_property
     def face_area(self) -> Float[np.ndarray, " m"]:
@@ -133,14 +133,15 @@ class Surface:
         if self.topology.closed:
             normals[doubtful_faces(self, binary)[order]] = 0.0
         oriented = np.sign(np.einsum("ij,ij->i", records[:, 3:6], normals[:, 0]))
-        return Tree(binary.root, *widen(binary, records, oriented), order, normals.ravel())
+        boxes, child, leaves, slots, fill = widen(binary, records, oriented)
+        return Tree(binary.root, boxes, child, leaves, slots, fill, order, normals.ravel())
 
     @cached_property
     def walk(self) -> Int[np.ndarray, " n"]:
         """All vertices that belong to a face, neighbours close together in the list."""
         along = self.faces[self.tree.face].ravel()
         _, first = np.unique(along, return_index=True)
-        return along[np.sort(first)]
+        return np.asarray(along[np.sort(first)])
 
     @cached_property
     def normals_trusted(self) -> bool:
@@ -167,7 +168,7 @@ class Surface:
         limits = np.full(len(points), float(limit))
         spheres = chunk_spheres(local, limits)
         distance, side, slot, closest = signed_distances(self.tree, local, limits, spheres, self.closed)
-        side, _ = resolve_sides(self, local, side)
+        side, _ = resolve_sides(self, local, side, distance)
         found = slot >= 0
         signed = np.where(found, distance, np.inf) * side
         face = np.where(found, self.tree.face[slot], -1)
@@ -184,4 +185,4 @@ def _outward(
         gradient = offset / signed[:, None]
     on_it = np.abs(signed) < 1e-12
     gradient[on_it] = spare[on_it]
-    return gradient
+    return np.asarray(gradient)

@@ -1,4 +1,4 @@
-"""Before a mesh file is parsed: is it a regular, readable, non-empty file, and what does it look like?"""
+"""Before a mesh file is parsed: is it a regular, readable, non-empty file, and what does it look like."""
 
 from __future__ import annotations
 

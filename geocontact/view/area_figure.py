@@ -13,7 +13,6 @@ from geocontact.data.evolution import AreaEvolution
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-GREY = "Greys_r"  # where nothing is known but that it is far
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # Okabe-Ito: told apart by colour-blind readers
 
 
@@ -92,6 +91,8 @@ def _patch(
     frame: int,
 ) -> None:
     """FIXED seen along the direction in which its patch looks, coloured by distance, with the threshold's contour."""
+    from matplotlib.tri import Triangulation
+
     largest = max(e.thresholds)
     span = max(2.0 * largest, 1e-3) * 1e3
     corners = vertices[faces] * 1e3
@@ -105,32 +106,27 @@ def _patch(
     visible = normal[:, axis] * sign > 0.0
     height = corners[visible][:, :, axis].mean(axis=1) * sign
     seen = faces[visible][np.argsort(height, kind="stable")]  # what lies on top is drawn last
-    points = vertices * 1e3
+    x, y = vertices[:, right] * 1e3, vertices[:, up] * 1e3
     far = ~np.isfinite(distance[seen]).all(axis=1)
-    axes.tripcolor(
-        points[:, right],
-        points[:, up],
-        seen[far],
-        np.full(far.sum(), 0.85),
-        cmap=GREY,
-        vmin=0.0,
-        vmax=1.0,
-        rasterized=True,
-    )
-    colours = axes.tripcolor(
-        points[:, right], points[:, up], seen[~far], np.clip(shown * 1e3, -span, span), cmap="viridis_r",
-        vmin=-span / 4.0, vmax=span, shading="gouraud", rasterized=True,
-    )  # fmt: skip
+    grey = np.full(len(seen), 0.85)
+    if far.any():
+        axes.tripcolor(
+            Triangulation(x, y, seen[far]), facecolors=grey[far], cmap="Greys_r", vmin=0.0, vmax=1.0, rasterized=True
+        )
+    if not far.all():
+        colours = axes.tripcolor(
+            Triangulation(x, y, seen[~far]), np.clip(shown * 1e3, -span, span), shading="gouraud", rasterized=True,
+            cmap="viridis_r", vmin=-span / 4.0, vmax=span,
+        )  # fmt: skip
+        signed = "signed distance [mm]" if e.signed in ("both", "fixed") else "distance [mm]"
+        axes.figure.colorbar(colours, ax=axes, label=signed, shrink=0.7)
     for k, threshold in enumerate(e.thresholds):
         level = [threshold * 1e3]
         if near.any() and shown.min() < threshold < shown.max():
             axes.tricontour(
-                points[:, right], points[:, up], seen, shown * 1e3, levels=level, colors=COLOURS[k % len(COLOURS)],
-                linewidths=1.2,
+                Triangulation(x, y, seen), shown * 1e3, levels=level, colors=COLOURS[k % len(COLOURS)], linewidths=1.2,
             )  # fmt: skip
     axes.set_aspect("equal")
     axes.set_xlabel(f"{'xyz'[right]} [mm]")
     axes.set_ylabel(f"{'xyz'[up]} [mm]")
     axes.set_title(f"FIXED at t = {e.time[frame]:g}, seen along {'-' if sign > 0 else '+'}{'xyz'[axis]}", fontsize=9)
-    axes.figure.colorbar(colours, ax=axes, label="signed distance [mm]" if e.signed in ("both", "fixed") else
-                         "distance [mm]", shrink=0.7)  # fmt: skip

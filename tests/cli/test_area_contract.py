@@ -43,7 +43,7 @@ THRESHOLDS = [0.1, 1.0, 4.0]
 
 @pytest.fixture(scope="module")
 def knee(tmp_path_factory: pytest.TempPathFactory) -> Call:
-    """The coarse knee at three frames and three thresholds, split, with its picture."""
+    """The coarse knee at two frames and three thresholds, split, with its picture."""
     folder = tmp_path_factory.mktemp("knee")
     options = ("--threshold", "0.1,1,4", "--split", "z")
     return done(area(folder / "out", *options, motion=gait(folder), picture=True))

@@ -42,7 +42,7 @@ MAP = f"rz=-knee_flexion,rx=-knee_adduction,ry=-knee_rotation,{SHIFTS}"
 
 @pytest.fixture(scope="module")
 def knee(tmp_path_factory: pytest.TempPathFactory) -> Call:
-    """Three frames of the coarse knee with the default options."""
+    """Two frames of the coarse knee with the default options."""
     folder = tmp_path_factory.mktemp("knee")
     return done(area(folder / "out", motion=gait(folder)))
 
@@ -72,7 +72,7 @@ def test_thresholds_may_carry_a_unit(tmp_path: Path, knee: Call, text: str) -> N
 
 def test_thresholds_keep_their_order_and_do_not_disturb_each_other(tmp_path: Path, knee: Call) -> None:
     table = done(area(tmp_path / "out", "--threshold", "4,0.1", motion=gait(tmp_path))).table()
-    assert list(table["threshold [mm]"]) == [4.0, 0.1] * 3
+    assert list(table["threshold [mm]"]) == [4.0, 0.1] * 2
     agree(table[0::2].reset_index(drop=True), knee.table())
     assert (table[FIXED][1::2].to_numpy() < 0.1 * table[FIXED][0::2].to_numpy()).all()
 
@@ -164,7 +164,7 @@ def test_the_same_clinical_angles_move_a_left_knee_as_its_mirror_image(tmp_path:
     np.testing.assert_allclose(ours["centroid_z [mm]"], -right["centroid_z [mm]"], atol=1e-6)
 
 
-@pytest.mark.parametrize("order", ["XYZ", "ZXY", "yzx"])
+@pytest.mark.parametrize("order", ["XYZ", "zxy"])
 def test_euler_columns_with_their_order(tmp_path: Path, knee: Call, order: str) -> None:
     """--order XYZ is R = Rx Ry Rz: intrinsic rotations, capital letters for scipy."""
     table = pd.read_csv(gait(tmp_path), skipinitialspace=True)
@@ -187,7 +187,7 @@ def test_lengths_of_a_csv_are_in_the_unit_of_their_header(tmp_path: Path, knee: 
 
 @pytest.mark.parametrize("style", ["repeated option", "shell glob", "quoted pattern"])
 def test_several_motions_have_a_folder_each(tmp_path: Path, style: str) -> None:
-    first, second = gait(tmp_path, [0], "slow walk.csv"), gait(tmp_path, [30, 60], "slow run.csv")
+    first, second = gait(tmp_path, [0], "slow walk.csv"), gait(tmp_path, [30], "slow run.csv")
     given = {
         "repeated option": ["--motion", first, "--motion", second],
         "shell glob": ["--motion", second, first],
@@ -209,7 +209,7 @@ def test_a_name_with_brackets_is_a_file_before_it_is_a_pattern(tmp_path: Path, k
 # --- sweep ----------------------------------------------------------------------------------------------------------
 
 POINT, DIRECTION = np.array([2.0, 1.0, -3.0]), np.array([0.2, -0.1, 2.0])
-SWEEP = ("--sweep", "flexion=0:-10:-5")
+SWEEP = ("--sweep", "flexion=0:-10:-10")
 
 
 def lifted(folder: Path, height: float = 30.3) -> tuple[str, Path]:
@@ -223,7 +223,7 @@ def turned(tmp_path_factory: pytest.TempPathFactory) -> Call:
     """The same as --sweep by poses of our own: p + R (x - p)."""
     folder = tmp_path_factory.mktemp("turned")
     unit = DIRECTION / np.linalg.norm(DIRECTION)
-    rotation = Rotation.from_rotvec(np.radians([0.0, -5.0, -10.0])[:, None] * unit)
+    rotation = Rotation.from_rotvec(np.radians([0.0, -10.0])[:, None] * unit)
     rows = np.column_stack([POINT - rotation.apply(POINT), rotation.as_quat(scalar_first=True)])
     return done(area(folder / "out", *lifted(folder), motion=poses(folder, *rows)))
 
@@ -246,16 +246,16 @@ def test_sweep_turns_moving_about_the_axis(tmp_path: Path, turned: Call, given: 
 def test_sweep_without_an_axis_takes_the_cylinder_fitted_to_moving(tmp_path: Path) -> None:
     """A cylinder lying on a plate and turned about itself keeps its area; the fit is reported."""
     cylinder = MESHES / "cylinder_r15_l40.stl"
-    place = lifted(tmp_path, 15.0)
-    result = done(area(tmp_path / "out", "--sweep", "turn=0:40:20", *place, moving=cylinder, fixed=PLATE))
+    place = lifted(tmp_path, 15.3)
+    result = done(area(tmp_path / "out", "--sweep", "turn=0:40:40", *place, moving=cylinder, fixed=PLATE))
     (warning,) = result.warnings
     radius = float(warning.partition("radius ")[2].split()[0])
     assert radius == pytest.approx(15.0, abs=0.05) and cylinder.name in warning
     table = result.table()
-    assert list(table["time [s]"]) == [0.0, 1.0, 2.0]
+    assert list(table["time [s]"]) == [0.0, 1.0]
     along = next(row for row in np.eye(3) if np.ptp(corners(cylinder) @ row) > 35)
-    explicit = ",".join(map(str, [0, 15, 0, *along]))
-    same = done(area(tmp_path / "b", "--sweep", "turn=0:40:20", "--axis", explicit, *place, moving=cylinder, fixed=PLATE))
+    explicit = ",".join(map(str, [0, 15.3, 0, *along]))
+    same = done(area(tmp_path / "b", "--sweep", "turn=0:40:40", "--axis", explicit, *place, moving=cylinder, fixed=PLATE))
     np.testing.assert_allclose(table[FIXED], same.table()[FIXED], rtol=2e-3)
     assert np.ptp(table[FIXED]) < 0.01 * table[FIXED].mean()
 
@@ -460,9 +460,9 @@ def test_comparison_with_measured_areas(tmp_path: Path, knee: Call, factor: floa
     result = area(tmp_path / "out", "--compare", tmp_path / "measured.csv", *options, motion=gait(tmp_path))
     assert (result.code, result.complaints) == (code, []), result.err
     rows = result.table("comparison.csv")
-    relative = rows["relative [-]"].to_numpy().reshape(2, 3)
-    np.testing.assert_allclose(relative, [[1 / factor - 1] * 3, [0.0] * 3], atol=1e-9)
-    assert list(rows["quantity"]) == [FIXED] * 3 + [MOVING] * 3
+    relative = rows["relative [-]"].to_numpy().reshape(2, 2)
+    np.testing.assert_allclose(relative, [[1 / factor - 1] * 2, [0.0] * 2], atol=1e-9)
+    assert list(rows["quantity"]) == [FIXED] * 2 + [MOVING] * 2
     np.testing.assert_allclose(rows["difference [mm^2]"], rows["ours [mm^2]"] - rows["reference [mm^2]"], atol=1e-9)
     assert (result.folder / "area.csv").is_file(), "results are kept when they differ from the measured ones"
     assert ("beyond" if code else "within") in result.out
@@ -473,7 +473,7 @@ def test_comparison_between_frames_and_per_threshold(tmp_path: Path) -> None:
     motion, levels = gait(tmp_path), ("--threshold", "1,4")
     table = done(area(tmp_path / "a", *levels, motion=motion)).table()
     mean = table.loc[[1, 3], FIXED].mean()
-    text = f"# laboratory\ntime [s], threshold [mm], {FIXED}\n0.15, 4, {mean}\n0.3, 1, {table[FIXED][2]}\n0.6, 4,\n"
+    text = f"# laboratory\ntime [s], threshold [mm], {FIXED}\n0.15, 4, {mean}\n0.3, 1, {table[FIXED][2]}\n0.3, 4,\n"
     measured = written(tmp_path / "measured.csv", text)
     rows = done(area(tmp_path / "b", *levels, "--compare", measured, motion=motion)).table("comparison.csv")
     np.testing.assert_allclose(rows["relative [-]"], [0.0, 0.0], atol=1e-9)

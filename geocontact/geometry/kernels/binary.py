@@ -15,13 +15,14 @@ DEPTH = 40  # deeper than this nodes are halved by count, so that the stacks alw
 
 class Binary(NamedTuple):
     """root (6,) lower and upper corner of everything; pairs (12 k,) boxes of each node's two children, flat;
-    first, count (k,) first slot and number of slots of a leaf, else left child and 0 (the right child follows it);
-    order (m,) the face of each slot."""
+    first, size (k,) first slot and number of slots of a leaf, else left child and 0 (the right child follows it);
+    order (m,) the face of each slot.
+    """
 
     root: np.ndarray
     pairs: np.ndarray
     first: np.ndarray
-    count: np.ndarray
+    size: np.ndarray
     order: np.ndarray
 
 

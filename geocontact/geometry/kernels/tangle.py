@@ -38,7 +38,7 @@ def _pierce(tree, corner, faces, f, k, l, nodes, marked):
     while waiting > 0:
         waiting -= 1
         node = nodes[waiting]
-        first, count = tree.first[node], tree.count[node]
+        first, count = tree.first[node], tree.size[node]
         if count == 0:
             for child in range(2):
                 if _meets(tree.pairs, 12 * node + 6 * child, lo, hi):

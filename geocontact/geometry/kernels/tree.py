@@ -19,8 +19,8 @@ class Tree(NamedTuple):
 
     root (6,) lower and upper corner of everything; boxes, child, leaves, slots, fill as `widen` makes them, a *place*
     being a leaf times LEAF plus a position in it; face (m,) the face of each slot;
-    normal (m, 7, 3), flat, angle-weighted pseudo-normals of the seven features of each slot, zero where a feature touches a
-    degenerate or tangled face and has no trustworthy normal.
+    normal (m, 7, 3), flat, angle-weighted pseudo-normals of the seven features of each slot, zero where a feature
+    touches a degenerate or doubtful face and has no trustworthy normal.
     """
 
     root: np.ndarray

@@ -1,6 +1,7 @@
 """The binary tree made wide: 16 children a node, up to 32 triangles a leaf, laid out so that the processor takes
 several at a time. For that the inner loops run over flat arrays by unsigned offsets (views would be counted, signed
-indices wrapped) up to a count that the compiler does not know (it would unroll a known one)."""
+indices wrapped) up to a count that the compiler does not know (it would unroll a known one).
+"""
 
 from __future__ import annotations
 
@@ -22,8 +23,8 @@ def widen(binary, records, orientation):
 
     All flat: boxes (k, 6, FAN), lower x, y, z, upper x, y, z of the children, empty ones beyond reach; child (k, FAN):
     node number, or -2 - leaf number; leaves (l, ROWS, LEAF), the last triangle repeated in unused places;
-    slots (l, LEAF): the slot of each place; fill (l,): places in use, rounded up to whole vectors. orientation (m,): 1 where n points outside, -1 where it points inside,
-    0 where it cannot tell.
+    slots (l, LEAF): the slot of each place; fill (l,): places in use, rounded up to whole vectors.
+    orientation (m,): 1 where n points outside, -1 where it points inside, 0 where it cannot tell.
     """
     n = len(binary.first)
     box, start, size = _extents(binary)
@@ -66,9 +67,9 @@ def _extents(binary):
     box[0] = binary.root
     for node in range(n - 1, -1, -1):  # children come after their parents
         first = binary.first[node]
-        if binary.count[node] > 0:
+        if binary.size[node] > 0:
             start[node] = first
-            size[node] = binary.count[node]
+            size[node] = binary.size[node]
             continue
         box[first] = binary.pairs[12 * node : 12 * node + 6]
         box[first + 1] = binary.pairs[12 * node + 6 : 12 * node + 12]
