@@ -30,9 +30,12 @@ class Area:
 
 
 def signed_distance(points: np.ndarray, body: Body) -> np.ndarray:
-    """Signed distance [mm] of points to a closed surface, negative inside (pseudo-normals of Baerentzen and Aanaes)."""
-    kind = igl.SignedDistanceType.SIGNED_DISTANCE_TYPE_PSEUDONORMAL
-    return igl.signed_distance(points, *body, kind)[0] if len(points) else np.empty(0)
+    """Signed distance [mm] of points to a closed surface, negative inside (winding number above 1/2)."""
+    if len(points) == 0:
+        return np.empty(0)
+    squared = igl.point_mesh_squared_distance(points, *body)[0]
+    inside = igl.fast_winding_number(*body, points) > 0.5
+    return np.where(inside, -1.0, 1.0) * np.sqrt(squared)
 
 
 def quartered(triangles: np.ndarray) -> np.ndarray:

@@ -55,6 +55,7 @@ def analyse(moving: Path, fixed: Path, more_motions: Sequence[str], o: AreaOptio
     tolerance = quantities.fraction(o.tolerance, "--tolerance")
     if o.compare is not None:
         record.add_input("--compare", o.compare)
+    _refuse_idle(o)
     within = True
     with record.catching_warnings(), written_whole(o.out) as draft:
         settings_of = _settings(record, o)
@@ -71,10 +72,29 @@ def analyse(moving: Path, fixed: Path, more_motions: Sequence[str], o: AreaOptio
             folder.mkdir(exist_ok=True)
             evolution = _evaluated(record, Analysis(*bodies, motion, settings, o, name), folder)
             if reference is not None and o.compare is not None:
-                within &= _compare(evolution, reference, o.compare, folder, tolerance)
+                within &= _compare(record, evolution, reference, o.compare, folder, tolerance)
         record.write(draft)
-    print(f"results in {o.out}: area.csv, area.png, area.svg, run.json")
+    record.say(f"results in {o.out}: area.csv, area.png, area.svg, run.json")
+    record.speak()
     return 0 if within else 1
+
+
+def _refuse_idle(o: AreaOptions) -> None:
+    """Options that would do nothing are mistakes: the user believes that they did something."""
+    idle = (
+        (o.workers is not None and o.workers < 1, "--workers", "is less than one thread", "give 1 or more"),
+        (o.map is not None and o.osim is not None, "--map", "beside --osim names the columns twice", "give one of them"),
+        (o.moving_body == "parent" and o.osim is None and o.convention is None, "--moving",
+         "parent needs a joint or a knee convention to swap", "swap the two meshes, or give --osim and --joint"),
+        (o.axis is not None and o.sweep is None, "--axis", "does nothing without --sweep", "give --sweep, or leave it"),
+        (o.medial == "+" and o.split is None, "--medial", "does nothing without --split", "give --split"),
+        (o.side is not None and o.convention is None, "--side", "does nothing without --convention", "give it too"),
+        (o.order is not None and (o.osim is not None or o.convention is not None), "--order",
+         "does nothing here: the joint or the convention gives the order", "leave it"),
+    )  # fmt: skip
+    for wrong, option, what, remedy in idle:
+        if wrong:
+            raise InputError("", option, what, remedy)
 
 
 def _settings(record: Record, o: AreaOptions) -> Callable[[Surface, Surface], Settings]:
@@ -134,7 +154,9 @@ def _expanded(patterns: list[str]) -> list[Path]:
             raise InputError(pattern, "", "matches no file", "check the pattern")
         paths += [Path(match) for match in matches]
     names = [path.stem for path in paths]
-    for name in names:
+    for name in names if len(names) > 1 else ():
+        if name in ("", ".", "..") or name.lower() == "run.json":
+            raise InputError("", "--motion", f"a motion called {name!r} cannot name a folder", "rename its file")
         if names.count(name) > 1:
             raise InputError("", "--motion", f"two motions are called {name}", "their results would share a folder")
     return paths
@@ -167,7 +189,7 @@ def _evaluated(record: Record, a: Analysis, folder: Path) -> AreaEvolution:
 
         evolution = area_evolution(a.moving, a.fixed, a.motion, a.settings, o.workers, each)
     _refuse_strangers(evolution, o)
-    _warn_of_doubts(record, evolution, a.settings)
+    _warn_of_doubts(record, evolution, a.settings, o.bounds is not None)
     write_table(evolution.table(), folder, o.parquet)
     if o.save_map:
         keep.write(folder / "distances.npz", a.motion, evolution)
@@ -190,12 +212,12 @@ def _refuse_strangers(evolution: AreaEvolution, o: AreaOptions) -> None:
         raise InputError("", "", f"bodies are {closest * 1e3:.0f} mm apart in every frame", remedy)
 
 
-def _warn_of_doubts(record: Record, e: AreaEvolution, settings: Settings) -> None:
+def _warn_of_doubts(record: Record, e: AreaEvolution, settings: Settings, asked: bool) -> None:
     if e.undecided.any():
         worst = int(e.undecided.max())
         record.warn(f"up to {worst} points per frame have no side (winding number near 0.5); they count as outside")
     wanted = settings.refinement.bounds
-    if settings.rule == REFINED:
+    if settings.rule == REFINED or asked:
         for side, name in ((e.fixed, "area_fixed"), (e.moving, "area_moving")):
             with np.errstate(invalid="ignore"):
                 width = np.nan_to_num((side.upper - side.lower) / side.upper)
@@ -216,15 +238,17 @@ def _summarise(record: Record, e: AreaEvolution, name: str) -> None:
             round(float(areas.max()), 3),
         ]
         label = f"{name}: " if name else ""
-        print(f"{label}area of FIXED within {threshold * 1e3:g} mm: {areas.min():.1f} … {areas.max():.1f} mm^2")
+        record.say(f"{label}area of FIXED within {threshold * 1e3:g} mm: {areas.min():.1f} … {areas.max():.1f} mm^2")
     record.results[name or "motion"] = lines
 
 
-def _compare(evolution: AreaEvolution, reference: pd.DataFrame, path: Path, folder: Path, tolerance: float) -> bool:
+def _compare(
+    record: Record, evolution: AreaEvolution, reference: pd.DataFrame, path: Path, folder: Path, tolerance: float
+) -> bool:
     rows = compared(evolution.table(), reference, path)
     rows.to_csv(folder / "comparison.csv", index=False)
     worst = float(rows["relative [-]"].abs().max())
-    print(rows.to_string(index=False, max_rows=40))
+    record.say(rows.to_string(index=False, max_rows=40))
     verdict = "within" if worst <= tolerance else "beyond"
-    print(f"largest relative difference {worst:.2%}, {verdict} the tolerance of {tolerance:.2%}")
+    record.say(f"largest relative difference {worst:.2%}, {verdict} the tolerance of {tolerance:.2%}")
     return worst <= tolerance

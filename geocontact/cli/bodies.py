@@ -67,8 +67,9 @@ def _placed(record: Record, role: str, mesh: Mesh, placement: str, unit: str) ->
     model, colon, body = placement.partition(".osim:")
     if colon:
         name, _, file = body.partition(":")
+        matrix = mesh_placement(f"{model}.osim", name, file)
         record.add_input(f"placement of {role}", f"{model}.osim", body=name)
-        return placed(mesh, mesh_placement(f"{model}.osim", name, file), LENGTH[unit])
+        return placed(mesh, matrix, LENGTH[unit])
     pose = read_pose(placement, unit)
     record.add_input(f"placement of {role}", placement)
     return placed(mesh, pose.as_matrix())

@@ -18,8 +18,9 @@ def written_whole(out: Path) -> Iterator[Path]:
 
     A folder that is there already keeps its other files.
     """
-    if out.exists() and not out.is_dir():
-        raise InputError(out, "", "is a file", "--out names a folder")
+    for folder in (out, *out.parents):
+        if folder.exists() and not folder.is_dir():
+            raise InputError(folder, "", "is a file", "--out names a folder")
     base = next(folder for folder in (out, *out.absolute().parents) if folder.is_dir())
     try:
         draft = Path(tempfile.mkdtemp(prefix=".geocontact-", dir=base))

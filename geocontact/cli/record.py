@@ -30,6 +30,7 @@ class Record:
     inputs: list[dict[str, object]] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     results: dict[str, object] = field(default_factory=dict)
+    said: list[str] = field(default_factory=list)
     started: float = field(default_factory=time.perf_counter)
 
     def add_input(self, role: str, path: str | PathLike[str], **facts: object) -> None:
@@ -43,6 +44,15 @@ class Record:
         if line not in self.warnings:
             self.warnings.append(line)
             print(f"warning: {line}", file=sys.stderr)
+
+    def say(self, text: str) -> None:
+        """Keep a line for stdout; printed when the results are in place, so that a closed pipe costs nothing."""
+        self.said.append(text)
+
+    def speak(self) -> None:
+        """Print what was kept."""
+        for text in self.said:
+            print(text)
 
     @contextmanager
     def catching_warnings(self) -> Iterator[None]:

@@ -1,7 +1,7 @@
 """Area of a surface within a threshold of another one, with certified bounds.
 
 The area of {x on A : sd(x) <= T} is what the two triangulated surfaces define; sd is the signed distance to B where B
-is closed, the plain distance where it is open. Faces that the certificates of `kernels.certify` decide are counted whole.
+is closed, the plain distance where it is open. Faces that the certificates of `kernels.certify` decide count whole.
 The others are cut along the linear interpolation of sd between their corners (second order in the edge length) and
 divided into four as long as the cut still moves, or the bounds are wider than asked for.
 """
@@ -38,7 +38,7 @@ class Refinement:
         Largest number of divisions; 0 cuts the given triangles as they are.
     """
 
-    accuracy: float = 5e-4
+    accuracy: float = 2e-4
     bounds: float = 0.1
     depth: int = 16
 

@@ -12,7 +12,7 @@ from jaxtyping import Bool, Float
 from geocontact.geometry.surface import Surface
 
 NAMES = ("x", "y", "z", "nx", "ny", "nz")
-Value = np.ndarray | float
+Value = np.ndarray
 
 _COMPARE: Mapping[type, Callable[[Value, Value], Value]] = {
     ast.Gt: operator.gt,
@@ -52,9 +52,12 @@ def faces_where(surface: Surface, expression: str, metres_per_unit: float = 1.0)
         tree = ast.parse(expression.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ValueError(f"{expression!r} cannot be read; write for example ny>0.25 and abs(z)<30") from None
-    with np.errstate(all="ignore"):
-        chosen = _evaluate(tree.body, values)
-    if not isinstance(chosen, np.ndarray) or chosen.dtype != bool:
+    try:
+        with np.errstate(all="ignore"):
+            chosen = _evaluate(tree.body, values)
+    except (ArithmeticError, RecursionError, MemoryError):
+        raise ValueError(f"{expression!r} cannot be computed; write for example ny>0.25") from None
+    if chosen.dtype != bool or chosen.shape != (len(surface.faces),):
         raise ValueError(f"{expression!r} is not a condition on the faces; write for example ny>0.25")
     return chosen
 
@@ -62,7 +65,7 @@ def faces_where(surface: Surface, expression: str, metres_per_unit: float = 1.0)
 def _evaluate(node: ast.expr, values: Mapping[str, Float[np.ndarray, " m"]]) -> Value:
     match node:
         case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
-            return float(number)
+            return np.full(len(values["x"]), _finite(number))
         case ast.Name(id=name) if name in values:
             return values[name]
         case ast.BoolOp(op=op, values=parts):
@@ -85,13 +88,20 @@ def _evaluate(node: ast.expr, values: Mapping[str, Float[np.ndarray, " m"]]) -> 
     )
 
 
+def _finite(number: float) -> float:
+    value = float(number)
+    if not np.isfinite(value):
+        raise ValueError(f"{number!r} is not a finite number")
+    return value
+
+
 def _condition(value: Value) -> Bool[np.ndarray, " m"]:
-    if not isinstance(value, np.ndarray) or value.dtype != bool:
+    if value.dtype != bool:
         raise ValueError("and, or, not join conditions such as ny>0.25")
     return value
 
 
 def _number(value: Value) -> Value:
-    if isinstance(value, np.ndarray) and value.dtype == bool:
+    if value.dtype == bool:
         raise ValueError("a condition cannot be used as a number; join conditions with and, or")
     return value

@@ -10,6 +10,7 @@ from geocontact.geometry.surface import Surface
 
 # the four quarters of a triangle, from its corners 0 1 2 and the middles 3 4 5 of the edges opposite to them
 QUARTERS = np.array([[0, 5, 4], [5, 1, 3], [4, 3, 2], [3, 4, 5]])
+ROUNDING = 1e-12  # m; no distance is missed because of rounding
 OPPOSITE = np.array([[1, 2], [2, 0], [0, 1]])
 
 
@@ -36,7 +37,7 @@ def quartered(
     np.maximum.at(longest, which, np.repeat(length.reshape(-1, 3).max(axis=1), 3))
     known = np.where(points.slot >= 0, points.distance, np.inf)
     nearby = np.minimum(known[start], known[end]) + 0.5 * length[first]
-    limit = np.minimum(beyond + longest, nearby * (1.0 + 1e-9))
+    limit = np.minimum(beyond + longest, nearby * (1.0 + 1e-9) + ROUNDING)
     middle = 0.5 * (points.points[start] + points.points[end])
     across = 0.5 * (points.across[start] + points.across[end])
     new = measure(other, middle, limit, across)

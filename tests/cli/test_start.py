@@ -99,10 +99,27 @@ def test_refusal_with_a_name_that_the_terminal_cannot_show(tmp_path: Path) -> No
 
 def test_summary_on_a_terminal_without_unicode(tmp_path: Path) -> None:
     """Results are announced with an ellipsis and end up in an ASCII log all the same."""
-    command = [sys.executable, "cli.py", "area", SPHERE, PLATE, "--unit=mm", f"--motion={poses(tmp_path, (0, 20, 0))}"]
+    command = ["area", SPHERE, PLATE, f"--motion={poses(tmp_path, (0, 20, 0))}", "--unit=mm", f"--out={tmp_path / 'out'}"]
     environment = os.environ | {"PYTHONIOENCODING": "ascii"}
-    result = subprocess.run([*map(str, command), f"--out={tmp_path / 'out'}"], cwd=ROOT, env=environment, capture_output=True)
+    result = subprocess.run(
+        [sys.executable, "cli.py", *map(str, command)], cwd=ROOT, env=environment, capture_output=True
+    )
     assert result.returncode == 0, result.stderr
+    assert (tmp_path / "out/area.csv").is_file()
+
+
+def test_results_are_there_when_nobody_reads_the_summary(tmp_path: Path) -> None:
+    """`geocontact area … | head -1`: the pipe is closed before the run has said everything."""
+    if os.name != "posix":
+        pytest.skip("a pipe without a reader is made on Unix")
+    command = ["area", SPHERE, PLATE, f"--motion={poses(tmp_path, (0, 20, 0))}", "--unit=mm", f"--out={tmp_path / 'out'}"]
+    reader, writer = os.pipe()
+    os.close(reader)
+    result = subprocess.run(
+        [sys.executable, "-u", "cli.py", *map(str, command)], cwd=ROOT, stdout=writer, stderr=subprocess.PIPE
+    )
+    os.close(writer)
+    assert b"Traceback" not in result.stderr
     assert (tmp_path / "out/area.csv").is_file()
 
 

@@ -7,6 +7,7 @@ length zero (the facets cost area in proportion to its square), or by that order
 
 from functools import cache
 
+import igl
 import numpy as np
 import pytest
 from hypothesis import Phase, given, settings
@@ -162,7 +163,7 @@ def test_tilted_box_over_a_plate_is_exact(degrees, refinement):
     assert found.area / MM2 == pytest.approx(area, rel=1e-12)
     assert found.centroid / MM == pytest.approx(centroid, abs=1e-11)
     assert found.lower <= found.area <= found.upper
-    assert found.error <= 1e-12 * found.area or refinement == AS_GIVEN
+    assert found.error <= refinement.accuracy * found.area or refinement == AS_GIVEN
 
 
 @pytest.mark.parametrize("at", [-5.0, 0.0, 1.7, 7.9])
@@ -251,8 +252,17 @@ SMALL = {
     "box": cube((0, 0, 0), (8.0, 5.0, 6.0)),
     "ring": shapes.torus(8.0, 3.0, 6),
     "bowl": shapes.cup(9.0, 3.0, 3),
-    "two balls": joined(shapes.sphere(7.0, 3), moved(shapes.sphere(6.0, 3), turned(1, 2, 3), [0, 4.0, 9.0])),
+    "two balls in one": joined(shapes.sphere(7.0, 3), moved(shapes.sphere(6.0, 3), turned(1, 2, 3), [0, 4.0, 9.0])),
 }
+
+
+def distance_by_winding(points, body):
+    """Signed distance with the side by exact winding number, which overlapping parts do not disturb."""
+    if not len(points):
+        return np.zeros(0)
+    vertices, faces = body[0], body[1].astype(np.int64)
+    distance = np.sqrt(igl.point_mesh_squared_distance(points, vertices, faces)[0])
+    return np.where(igl.winding_number(vertices, faces, points) > 0.5, -distance, distance)
 
 
 @settings(max_examples=25, deadline=None, derandomize=True, phases=[Phase.generate])
@@ -269,10 +279,12 @@ def test_truth_lies_between_the_bounds(names, seed, apart, threshold):
     rotation, way = Rotation.random(rng=rng), rng.normal(size=3)
     shift = 20.0 * apart * way / np.linalg.norm(way)
     placed_moving = moved(moving, rotation, shift)
-    true = {
-        "fixed": reference.area_within(fixed, placed_moving, threshold, width=3e-3, most=40_000),
-        "moving": reference.area_within(placed_moving, fixed, threshold, width=3e-3, most=40_000),
-    }
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(reference, "signed_distance", distance_by_winding)
+        true = {
+            "fixed": reference.area_within(fixed, placed_moving, threshold, width=3e-3, most=40_000),
+            "moving": reference.area_within(placed_moving, fixed, threshold, width=3e-3, most=40_000),
+        }
     for refinement in (AS_GIVEN, Refinement(), Refinement(bounds=0.02)):
         found = contact(
             surface(moving), surface(fixed), pose_of(rotation, shift * MM), threshold * MM, refinement=refinement

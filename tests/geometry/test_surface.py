@@ -107,6 +107,19 @@ def test_single_point_on_the_surface_is_at_distance_zero(name):
         assert found.closest == pytest.approx(point, abs=1e-16)
 
 
+@each_body
+@pytest.mark.parametrize("off", [1e-6, 1e-8, 1e-10, 1e-12])
+def test_points_a_hair_off_the_surface(name, off):
+    """One by one, over and under the middles of faces: distance and side to 1e-16 m."""
+    vertices, faces = body(name)
+    surface = Surface(vertices, faces)
+    for k in range(0, len(faces), max(1, len(faces) // 100)):
+        for height in (off, -off):
+            point = vertices[faces[k]].mean(axis=0) + height * surface.face_normal[k]
+            found = surface.proximity(point[None]).distance[0]
+            assert abs(found - height) < 1e-16, f"{found} m instead of {height} m at face {k}"
+
+
 def test_points_on_the_surface_take_the_normal_of_their_face():
     vertices, faces = body("plate")
     on_top = np.column_stack([np.linspace(-0.033, 0.035, 50), np.zeros(50), np.linspace(-0.031, 0.029, 50)])

@@ -9,7 +9,6 @@ from geocontact.geometry.kernels.tree import in_box, nearest, offset, scratch, s
 from geocontact.geometry.kernels.triangle import closest_point
 
 CHUNK = 32  # points that are dismissed together when none of them can be near
-SLACK = 1.0 + 1e-9  # so that rounding never excludes the nearest triangle itself
 
 
 @kernel
@@ -62,7 +61,6 @@ def signed_distances(tree, points, limit, sphere, signed):
     root, boxes, child, leaves, fill = tree.root, tree.boxes, tree.child, tree.leaves, tree.fill
     slots, normal = tree.slots, tree.normal
     nodes, keys, square, fan = scratch()
-    tiny = 1e-12 * (root[3:] - root[:3]).sum()  # closer than this to a triangle, it is the nearest
     for c in range(len(sphere)):
         first = c * CHUNK
         last = min(first + CHUNK, n)
@@ -87,9 +85,9 @@ def signed_distances(tree, points, limit, sphere, signed):
             if middle - away <= limit[i]:
                 qx, qy, qz, _, _ = closest_point(leaves, offset(hint), x, y, z)
                 guess2 = (x - qx) ** 2 + (y - qy) ** 2 + (z - qz) ** 2
-                start = min(limit[i], np.sqrt(guess2) * SLACK)
-                d2, place = nearest(boxes, child, leaves, fill, x, y, z, start * start, nodes, keys, square, fan)
-                if place < 0 and guess2 <= tiny * tiny:
+                limit2 = min(limit[i] * limit[i], guess2)
+                d2, place = nearest(boxes, child, leaves, fill, x, y, z, limit2, nodes, keys, square, fan)
+                if place < 0 and guess2 <= limit[i] * limit[i]:  # nothing is nearer than the guess
                     d2, place = guess2, hint
             if place >= 0:
                 hint = place  # a good guess for the next point
