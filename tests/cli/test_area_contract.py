@@ -101,7 +101,9 @@ def test_bounds_enclose_the_area_and_areas_grow_with_the_threshold(knee: Call) -
 def test_penetration_and_distance_belong_together(knee: Call) -> None:
     """Both bodies closed: FIXED's depth is at most the overlap, and separation is the same at every threshold."""
     table = knee.table()
-    assert (table.groupby("time [s]")[["min_distance [mm]", "max_penetration_fixed [mm]"]].nunique() == 1).all(axis=None)
+    assert (table.groupby("time [s]")[["min_distance [mm]", "max_penetration_fixed [mm]"]].nunique() == 1).all(
+        axis=None
+    )
     assert (table["max_penetration_fixed [mm]"] >= 0.0).all()
     assert (table["max_penetration_fixed [mm]"] <= np.maximum(0.0, -table["min_distance [mm]"]) + 1e-9).all()
 
@@ -114,7 +116,9 @@ def test_centroid_is_empty_where_the_area_is_zero(tmp_path: Path) -> None:
     cells = (tmp_path / "out/area.csv").read_text(encoding="utf-8").splitlines()[1].split(",")
     first = COLUMNS.index("centroid_x [mm]")
     assert cells[2:4] == ["0", "0"] and cells[first : first + 3] == ["", "", ""]
-    np.testing.assert_allclose(table[["centroid_x [mm]", "centroid_y [mm]", "centroid_z [mm]"]].loc[1], [3, 0, -2], atol=0.02)
+    np.testing.assert_allclose(
+        table[["centroid_x [mm]", "centroid_y [mm]", "centroid_z [mm]"]].loc[1], [3, 0, -2], atol=0.02
+    )
 
 
 def test_nothing_in_contact_is_a_result(tmp_path: Path) -> None:
@@ -148,7 +152,9 @@ def test_signed_says_which_areas_are_signed(tmp_path: Path, moving_open: bool, f
     assert list(table["signed"]) == [word]
     disc, ring = (np.pi * ((20 + t) ** 2 - 19.5**2) for t in (0.1, -0.1))
     expected = disc - ring if moving_open else disc
-    assert table["area_fixed [mm^2]"][0] == pytest.approx(expected, rel=0.06), "facets of the sphere cost a few per cent"
+    assert table["area_fixed [mm^2]"][0] == pytest.approx(expected, rel=0.06), (
+        "facets of the sphere cost a few per cent"
+    )
     assert np.isnan(table["max_penetration_fixed [mm]"][0]) == moving_open
     assert table["min_distance [mm]"][0] == pytest.approx(0.0 if word == "none" else -0.5, abs=0.02)
     assert len(result.warnings) == moving_open + fixed_open
@@ -160,10 +166,17 @@ def test_record_makes_the_result_reproducible(knee: Call) -> None:
     for role, file in (("moving", FEMUR), ("fixed", INSERT), ("motion", knee.folder.parent / "gait.csv")):
         assert files[role]["file"] == str(file)
         assert files[role]["sha256"] == hashlib.sha256(file.read_bytes()).hexdigest()
-    assert {name: record["versions"][name] for name in ("numpy", "numba")} == {n: version(n) for n in ("numpy", "numba")}
+    assert {name: record["versions"][name] for name in ("numpy", "numba")} == {
+        n: version(n) for n in ("numpy", "numba")
+    }
     assert record["geocontact"] == __version__
     options = record["options"]
-    assert (options["threshold"], options["split"], options["unit"], options["rule"]) == ("0.1,1,4", "z", "mm", "refined")
+    assert (options["threshold"], options["split"], options["unit"], options["rule"]) == (
+        "0.1,1,4",
+        "z",
+        "mm",
+        "refined",
+    )
     assert record["warnings"] == [] and record["command"] == "area"
     assert 0.0 < record["seconds"] < 600.0
 
@@ -232,7 +245,17 @@ def test_a_failing_run_leaves_everything_as_it_was(
 
 def test_debug_adds_the_traceback_before_the_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as left:
-        main(["area", str(tmp_path / "no.stl"), str(PLATE), "--unit=mm", f"--out={tmp_path / 'out'}", "--sweep=a=0:1:1", "--debug"])
+        main(
+            [
+                "area",
+                str(tmp_path / "no.stl"),
+                str(PLATE),
+                "--unit=mm",
+                f"--out={tmp_path / 'out'}",
+                "--sweep=a=0:1:1",
+                "--debug",
+            ]
+        )
     lines = capsys.readouterr().err.splitlines()
     assert left.value.code == 2 and lines[0].startswith("Traceback") and "no such file" in lines[-1]
 

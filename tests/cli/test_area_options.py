@@ -179,7 +179,9 @@ def test_euler_columns_with_their_order(tmp_path: Path, knee: Call, order: str) 
 
 def test_lengths_of_a_csv_are_in_the_unit_of_their_header(tmp_path: Path, knee: Call) -> None:
     table = pd.read_csv(gait(tmp_path), skipinitialspace=True)
-    table = table.rename(columns={"tx [mm]": "tx [m]", "ty [mm]": "ty [cm]", "tz [mm]": "tz [in]", "time [s]": "time [ms]"})
+    table = table.rename(
+        columns={"tx [mm]": "tx [m]", "ty [mm]": "ty [cm]", "tz [mm]": "tz [in]", "time [s]": "time [ms]"}
+    )
     table[["tx [m]", "ty [cm]", "tz [in]", "time [ms]"]] *= [1e-3, 0.1, 1 / 25.4, 1e3]
     table.to_csv(tmp_path / "other.csv", index=False)
     agree(done(area(tmp_path / "out", motion=tmp_path / "other.csv")).table(), knee.table(), areas=1e-7)
@@ -255,7 +257,9 @@ def test_sweep_without_an_axis_takes_the_cylinder_fitted_to_moving(tmp_path: Pat
     assert list(table["time [s]"]) == [0.0, 1.0]
     along = next(row for row in np.eye(3) if np.ptp(corners(cylinder) @ row) > 35)
     explicit = ",".join(map(str, [0, 15.3, 0, *along]))
-    same = done(area(tmp_path / "b", "--sweep", "turn=0:40:40", "--axis", explicit, *place, moving=cylinder, fixed=PLATE))
+    same = done(
+        area(tmp_path / "b", "--sweep", "turn=0:40:40", "--axis", explicit, *place, moving=cylinder, fixed=PLATE)
+    )
     np.testing.assert_allclose(table[FIXED], same.table()[FIXED], rtol=2e-3)
     assert np.ptp(table[FIXED]) < 0.01 * table[FIXED].mean()
 
@@ -406,7 +410,9 @@ def test_crude_rules_count_whole_faces(tmp_path: Path) -> None:
     ball = corners(SPHERE)
     distance = np.sqrt(
         igl.point_mesh_squared_distance(
-            np.vstack([points, points.reshape(-1, 3, 3).mean(axis=1)]), ball.reshape(-1, 3), np.arange(ball.size // 3).reshape(-1, 3)
+            np.vstack([points, points.reshape(-1, 3, 3).mean(axis=1)]),
+            ball.reshape(-1, 3),
+            np.arange(ball.size // 3).reshape(-1, 3),
         )[0]
     )
     within, middle = (distance[: len(points)] <= 4.0).reshape(-1, 3), distance[len(points) :] <= 4.0
@@ -428,7 +434,10 @@ def test_bounds_are_as_narrow_as_asked_for(tmp_path: Path, text: str) -> None:
         assert ((upper - lower) / upper < 0.02).all()
         assert (lower <= table[f"area_{side} [mm^2]"]).all() and (table[f"area_{side} [mm^2]"] <= upper).all()
         # two intervals for the same true area
-        assert (np.maximum(lower, loose[f"area_{side}_lower [mm^2]"]) <= np.minimum(upper, loose[f"area_{side}_upper [mm^2]"])).all()
+        assert (
+            np.maximum(lower, loose[f"area_{side}_lower [mm^2]"])
+            <= np.minimum(upper, loose[f"area_{side}_upper [mm^2]"])
+        ).all()
 
 
 @pytest.mark.parametrize("word", ["moving", "both"])
@@ -453,7 +462,9 @@ def test_an_open_body_is_closed_on_the_users_word(tmp_path: Path, word: str) -> 
     ("factor", "options", "code"),
     [(1.0, [], 0), (1.01, [], 0), (1.05, [], 1), (0.97, [], 1), (1.05, ["--tolerance", "10%"], 0), (1.01, ["--tolerance", "0.005"], 1)],
 )  # fmt: skip
-def test_comparison_with_measured_areas(tmp_path: Path, knee: Call, factor: float, options: list[str], code: int) -> None:
+def test_comparison_with_measured_areas(
+    tmp_path: Path, knee: Call, factor: float, options: list[str], code: int
+) -> None:
     measured = knee.table()[["time [s]", FIXED, MOVING]]
     measured[FIXED] *= factor
     measured.to_csv(tmp_path / "measured.csv", index=False)

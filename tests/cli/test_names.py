@@ -44,7 +44,10 @@ def test_any_file_name_will_do(tmp_path: Path, name: str) -> None:
         area(out, f"--place-moving={place}", moving=Path(moving), fixed=Path(fixed), motion=motion, picture=True)
     )
     assert result.warnings == []
-    assert set(inventory(tmp_path / "results")) == {name, *(f"{name}/{f}" for f in ("area.csv", "area.png", "area.svg", "run.json"))}
+    assert set(inventory(tmp_path / "results")) == {
+        name,
+        *(f"{name}/{f}" for f in ("area.csv", "area.png", "area.svg", "run.json")),
+    }
     inputs = result.record()["inputs"]
     assert [Path(entry["file"]).name for entry in inputs if entry["role"] == "moving"] == [f"{name}0.stl"]
     assert b"<script" not in result.bytes("area.svg")

@@ -82,7 +82,9 @@ def test_from_another_folder_with_relative_paths(tmp_path: Path) -> None:
 
 
 def test_refusal_is_one_line_and_exit_2(tmp_path: Path) -> None:
-    result = process("area", tmp_path / "no.stl", PLATE, "--unit", "mm", "--sweep", "a=0:1:1", "--out", tmp_path / "out")
+    result = process(
+        "area", tmp_path / "no.stl", PLATE, "--unit", "mm", "--sweep", "a=0:1:1", "--out", tmp_path / "out"
+    )
     assert result.returncode == 2
     assert result.stderr.count("\n") == 1 and "no such file; check the path" in result.stderr
     assert inventory(tmp_path) == {}
@@ -90,7 +92,15 @@ def test_refusal_is_one_line_and_exit_2(tmp_path: Path) -> None:
 
 def test_refusal_with_a_name_that_the_terminal_cannot_show(tmp_path: Path) -> None:
     """Written with what the terminal has instead of failing on the way out."""
-    command = [sys.executable, "cli.py", "area", str(tmp_path / "膝 ≤ – é.stl"), str(PLATE), "--unit=mm", "--sweep=a=0:1:1"]
+    command = [
+        sys.executable,
+        "cli.py",
+        "area",
+        str(tmp_path / "膝 ≤ – é.stl"),
+        str(PLATE),
+        "--unit=mm",
+        "--sweep=a=0:1:1",
+    ]
     environment = os.environ | {"PYTHONIOENCODING": "ascii"}
     result = subprocess.run([*command, f"--out={tmp_path / 'out'}"], cwd=ROOT, env=environment, capture_output=True)
     assert result.returncode == 2
@@ -99,7 +109,14 @@ def test_refusal_with_a_name_that_the_terminal_cannot_show(tmp_path: Path) -> No
 
 def test_summary_on_a_terminal_without_unicode(tmp_path: Path) -> None:
     """Results are announced with an ellipsis and end up in an ASCII log all the same."""
-    command = ["area", SPHERE, PLATE, f"--motion={poses(tmp_path, (0, 20, 0))}", "--unit=mm", f"--out={tmp_path / 'out'}"]
+    command = [
+        "area",
+        SPHERE,
+        PLATE,
+        f"--motion={poses(tmp_path, (0, 20, 0))}",
+        "--unit=mm",
+        f"--out={tmp_path / 'out'}",
+    ]
     environment = os.environ | {"PYTHONIOENCODING": "ascii"}
     result = subprocess.run(
         [sys.executable, "cli.py", *map(str, command)], cwd=ROOT, env=environment, capture_output=True
@@ -112,7 +129,14 @@ def test_results_are_there_when_nobody_reads_the_summary(tmp_path: Path) -> None
     """`geocontact area … | head -1`: the pipe is closed before the run has said everything."""
     if os.name != "posix":
         pytest.skip("a pipe without a reader is made on Unix")
-    command = ["area", SPHERE, PLATE, f"--motion={poses(tmp_path, (0, 20, 0))}", "--unit=mm", f"--out={tmp_path / 'out'}"]
+    command = [
+        "area",
+        SPHERE,
+        PLATE,
+        f"--motion={poses(tmp_path, (0, 20, 0))}",
+        "--unit=mm",
+        f"--out={tmp_path / 'out'}",
+    ]
     reader, writer = os.pipe()
     os.close(reader)
     result = subprocess.run(
@@ -172,9 +196,17 @@ def test_doctor_on_this_machine() -> None:
 
 
 PROBES = {
-    "not installed": (Feature("a", "no-such-package-1", "x", "pass", "pip install a", needed=False), 0, "not installed"),
+    "not installed": (
+        Feature("a", "no-such-package-1", "x", "pass", "pip install a", needed=False),
+        0,
+        "not installed",
+    ),
     "needed": (Feature("b", "no-such-package-2", "x", "pass", "pip install b", needed=True), 1, "not installed"),
-    "raises": (Feature("c", "numpy", "x", "import no_such_module", "pip install c"), 0, "No module named 'no_such_module'"),
+    "raises": (
+        Feature("c", "numpy", "x", "import no_such_module", "pip install c"),
+        0,
+        "No module named 'no_such_module'",
+    ),
     "exits": (Feature("d", "numpy", "x", "raise SystemExit(3)", "pip install d"), 0, "exit code 3"),
     "hangs": (Feature("e", "numpy", "x", "import time; time.sleep(60)", "pip install e"), 0, "no answer within"),
     "crashes": (Feature("f", "numpy", "x", "import os; os.abort()", "apt install f"), 0, "a system library or driver"),

@@ -8,6 +8,7 @@ from geocontact.geometry.kernels.binary import DEPTH
 from geocontact.geometry.kernels.compile import kernel
 
 SIDES = 3
+ROUNDING = 1e-12  # share of the cube of the size below which a volume is none
 
 
 @kernel
@@ -78,10 +79,12 @@ def _volume(a, b, c, d):
 
 @kernel
 def _crosses(p, q, a, b, c):
-    """Whether segment pq passes through triangle abc (touching counts)."""
+    """Whether segment pq passes through triangle abc: its ends clearly on different sides, rounding apart."""
+    size = max(np.abs(q - p).max(), np.abs(b - a).max(), np.abs(c - a).max(), np.abs(a - p).max())
+    zero = ROUNDING * size * size * size
     above = _volume(a, b, c, p)
     below = _volume(a, b, c, q)
-    if (above > 0.0) == (below > 0.0):
+    if not ((above > zero and below < -zero) or (above < -zero and below > zero)):
         return False
     x, y, z = _volume(p, q, a, b), _volume(p, q, b, c), _volume(p, q, c, a)
-    return (x >= 0.0 and y >= 0.0 and z >= 0.0) or (x <= 0.0 and y <= 0.0 and z <= 0.0)
+    return (x >= -zero and y >= -zero and z >= -zero) or (x <= zero and y <= zero and z <= zero)
