@@ -12,6 +12,7 @@ from unittest import mock
 
 import numpy as np
 import pandas as pd
+from scipy.spatial.transform import Rotation
 
 from geocontact.cli.main import run
 from meshes.stl import FACET
@@ -110,6 +111,12 @@ def poses(folder: Path, *rows: Sequence[float], name: str = "poses.csv", head: s
     head = head or "time [s], tx [mm], ty [mm], tz [mm], qw, qx, qy, qz"
     cells = [[k, *row, *((1, 0, 0, 0) if len(row) == 3 else ())] for k, row in enumerate(rows)]
     return written(folder / name, "\n".join([head, *(",".join(map(repr, map(float, row))) for row in cells)]) + "\n")
+
+
+def placement(folder: Path, turn: Rotation, shift: Sequence[float], name: str) -> Path:
+    """A 4x4 matrix for --place-…; shift in the mesh unit."""
+    rows = np.vstack([np.column_stack([turn.as_matrix(), shift]), [0, 0, 0, 1]])
+    return written(folder / name, "# pose\n" + "\n".join(" ".join(map(repr, row)) for row in rows.tolist()) + "\n")
 
 
 def written(file: Path, content: str | bytes) -> Path:

@@ -33,10 +33,20 @@ from tests.cli.calls import (
     written,
 )
 
-COLUMNS = (
-    "time [s], threshold [mm], area_fixed [mm^2], area_moving [mm^2], min_distance [mm], max_penetration_fixed [mm], "
-    "centroid_x [mm], centroid_y [mm], centroid_z [mm], area_fixed_lower [mm^2], area_fixed_upper [mm^2], signed"
-).split(", ")
+COLUMNS = [
+    "time [s]",
+    "threshold [mm]",
+    "area_fixed [mm^2]",
+    "area_moving [mm^2]",
+    "min_distance [mm]",
+    "max_penetration_fixed [mm]",
+    "centroid_x [mm]",
+    "centroid_y [mm]",
+    "centroid_z [mm]",
+    "area_fixed_lower [mm^2]",
+    "area_fixed_upper [mm^2]",
+    "signed",
+]
 SPLIT = ["area_fixed_medial [mm^2]", "area_fixed_lateral [mm^2]"]
 THRESHOLDS = [0.1, 1.0, 4.0]
 

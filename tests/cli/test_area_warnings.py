@@ -82,12 +82,18 @@ WARNED: dict[str, tuple[Callable[[Path], dict], str, tuple[str, ...]]] = {
     "open body": (altered(without_a_far_face), "moving", ("changed.stl is open", "area_fixed is unsigned")),
     "faces pointing inwards": (altered(inside_out), "both", ("changed.stl: faces point inwards",)),
     "missing coordinate": (
-        knee("--osim", KNEE, "--joint", "knee_r"), "both", ("gait.mot: no column for 1 coordinate", "knee_rotation = 0")
+        knee("--osim", KNEE, "--joint", "knee_r"),
+        "both",
+        ("gait.mot: no column for 1 coordinate", "knee_rotation = 0"),
     ),
     "unmapped rotation": (knee("--map", MAP), "both", ("gait.mot: nothing is mapped to ry; taken as 0",)),
-    "quaternion a little long": (stretched(1.0009), "both", ("poses.csv: quaternion length up to 1.0009", "normalised")),
+    "quaternion a little long": (
+        stretched(1.0009),
+        "both",
+        ("poses.csv: quaternion length up to 1.0009", "normalised"),
+    ),
     "quaternion a little short": (stretched(0.9991), "both", ("poses.csv: quaternion length", "normalised")),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("made", "signed", "said"), WARNED.values(), ids=WARNED.keys())
@@ -154,8 +160,3 @@ def test_an_angle_unit_against_the_file_is_said(tmp_path: Path) -> None:
     options = ("--osim", KNEE, "--joint", "knee_r", "--angles", "rad")
     result = done(area(tmp_path / "out", *options, moving=INSERT, fixed=FEMUR, motion=file))
     assert any("says deg, read as rad as asked for" in line for line in result.warnings)
-
-
-def test_a_relative_default_axis_is_said(tmp_path: Path) -> None:
-    result = area(tmp_path / "out", "--sweep", "a=0:1:1", moving=SPHERE, fixed=PLATE)
-    assert any(line.startswith("no --axis: turned about the cylinder fitted") for line in done(result).warnings)

@@ -109,7 +109,7 @@ OPTIONS: Cases = {
     "bounds zero": ({"--bounds": "0"}, ("--bounds", "not positive", "2%")),
     "bounds a word": ({"--bounds": "tight"}, ("--bounds", "tight", "2%")),
     "tolerance negative": ({"--tolerance": "-2%"}, ("--tolerance", "-2%", "not positive")),
-    "workers negative": ({"--workers": "-2"}, ("--workers", "-2")),
+    "workers negative": ({"--workers": "-2"}, ("--workers",)),
     "workers a word": ({"--workers": "all"}, ("--workers", "all")),
     "sweep never arrives": (sweep("flexion=0:90:-1"), ("--sweep", "never arrives", "0:90:1")),
     "sweep with step 0": (sweep("flexion=0:90:0"), ("--sweep", "never arrives", "0:90:1")),

@@ -59,7 +59,7 @@ def test_example_of_the_contract(gait: Call) -> None:
 
 
 def test_contact_surfaces_are_open_and_said_to_be(data_dir: Path, tmp_path: Path, gait: Call) -> None:
-    """Without a sign overlap is no negative distance, and each surface has its warning; areas stay near the closed ones."""
+    """Without a sign overlap is no negative distance; each surface has its warning; areas stay near the closed ones."""
     result = done(dm(data_dir, tmp_path / "out", "contact"))
     table = result.table()
     assert len(table) == 101 and set(table["signed"]) == {"none"}
@@ -72,10 +72,9 @@ def test_contact_surfaces_are_open_and_said_to_be(data_dir: Path, tmp_path: Path
 def workshop(data_dir: Path, out: Path, *options: object, insert: str = "Tibial_Insert_simpler_superior.stl") -> Call:
     """JW's decimated pair, moved by the joint of the workshop's model."""
     folder = data_dir / WORKSHOP
-    return area(
-        out, "--osim", folder / "KneeProsthesis.osim", "--joint", "knee_joint", "--angles", "deg", *options,
-        moving=folder / "Femoral_Component_simpler.stl", fixed=folder / insert, motion=folder / "KneeProsthesis.mot", unit="m",
-    )  # fmt: skip
+    given = ("--osim", folder / "KneeProsthesis.osim", "--joint", "knee_joint", "--angles", "deg", *options)
+    bodies = {"moving": folder / "Femoral_Component_simpler.stl", "fixed": folder / insert}
+    return area(out, *given, **bodies, motion=folder / "KneeProsthesis.mot", unit="m")
 
 
 @pytest.mark.parametrize("insert", ["Tibial_Insert_simpler_superior.stl", "Tibial Insert simpler_superior_100.stl"])
@@ -92,7 +91,7 @@ def test_workshop_knee_agrees_with_libigl(data_dir: Path, tmp_path: Path, insert
 
 def sampled(folder: Path, insert: str, pose: RigidTransform) -> float:
     """Area [mm^2] of the insert within 4 mm of the femoral component, counted by small whole triangles."""
-    femur, tibia = (trimesh.load_mesh(folder / name) for name in ("Femoral_Component_simpler.stl", insert))  # noqa: TID251
+    femur, tibia = (trimesh.load_mesh(folder / name) for name in ("Femoral_Component_simpler.stl", insert))
     vertices, faces = trimesh.remesh.subdivide_to_size(tibia.vertices, tibia.faces, 7e-4, max_iter=20)
     a, b, c = np.asarray(vertices)[faces].swapaxes(0, 1)
     there = pose.inv().apply((a + b + c) / 3)
