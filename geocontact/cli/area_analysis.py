@@ -74,7 +74,8 @@ def analyse(moving: Path, fixed: Path, more_motions: Sequence[str], o: AreaOptio
             if reference is not None and o.compare is not None:
                 within &= _compare(record, evolution, reference, o.compare, folder, tolerance)
         record.write(draft)
-    record.say(f"results in {o.out}: area.csv, area.png, area.svg, run.json")
+        written = sorted(str(file.relative_to(draft)) for file in draft.rglob("*") if file.is_file())
+    record.say(f"results in {o.out}: {', '.join(written)}")
     record.speak()
     return 0 if within else 1
 
@@ -83,7 +84,7 @@ def _refuse_idle(o: AreaOptions) -> None:
     """Options that would do nothing are mistakes: the user believes that they did something."""
     idle = (
         (o.workers is not None and o.workers < 1, "--workers", "is less than one thread", "give 1 or more"),
-        (o.map is not None and o.osim is not None, "--map", "beside --osim names the columns twice", "give one of them"),
+        (o.map is not None and o.osim is not None, "--map", "beside --osim names the columns twice", "give one"),
         (o.moving_body == "parent" and o.osim is None and o.convention is None, "--moving",
          "parent needs a joint or a knee convention to swap", "swap the two meshes, or give --osim and --joint"),
         (o.axis is not None and o.sweep is None, "--axis", "does nothing without --sweep", "give --sweep, or leave it"),
@@ -190,7 +191,11 @@ def _evaluated(record: Record, a: Analysis, folder: Path) -> AreaEvolution:
         evolution = area_evolution(a.moving, a.fixed, a.motion, a.settings, o.workers, each)
     _refuse_strangers(evolution, o)
     _warn_of_doubts(record, evolution, a.settings, o.bounds is not None)
-    write_table(evolution.table(), folder, o.parquet)
+    table = evolution.table()
+    if a.motion.coordinate is not None:
+        name, angle = a.motion.coordinate
+        table[f"{name} [deg]"] = np.repeat(np.degrees(angle), len(evolution.thresholds))
+    write_table(table, folder, o.parquet)
     if o.save_map:
         keep.write(folder / "distances.npz", a.motion, evolution)
     title = f"MOVING {a.moving.name} on FIXED {a.fixed.name}" + (f", {a.name}" if a.name else "")

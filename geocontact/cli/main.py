@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import traceback
 from collections.abc import Sequence
 from io import TextIOWrapper
 
-from cyclopts import App, CycloptsError
+from cyclopts import App, CycloptsError, MissingArgumentError
 
 from geocontact import __version__
 from geocontact.data.errors import InputError
@@ -31,6 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit: 0 done, 2 for a mistake in the input, 1 for any other failure."""
     tokens = list(sys.argv[1:] if arguments is None else arguments)
     debug = "--debug" in tokens
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that a terminated run leaves nothing behind
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # a file name that the terminal cannot show costs no result
             stream.reconfigure(errors="backslashreplace")
@@ -42,6 +44,10 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
     try:
         result = app(list(tokens), exit_on_error=False, print_error=False, result_action="return_value")
         return result if isinstance(result, int) else 0
+    except MissingArgumentError as error:
+        name = str(error.argument.name) if error.argument else "an argument"
+        hint = "mesh files carry no unit; pass --unit mm, cm, m or in" if name == "--unit" else "see geocontact --help"
+        return _fail(f"{name} is missing: {hint}", USAGE_ERROR, debug)
     except CycloptsError as error:
         return _fail(_one_line(str(error)) + "; see geocontact --help", USAGE_ERROR, debug)
     except InputError as error:

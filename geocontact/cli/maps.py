@@ -32,8 +32,8 @@ class DistanceMaps:
             self.frame = frame
             self.shown = at_vertices(self.fixed, contact.fixed_distances.signed)
         if everything:
-            self._on_fixed.append(at_vertices(self.fixed, contact.fixed_distances.signed).astype(np.float32))
-            self._on_moving.append(at_vertices(self.moving, contact.moving_distances.signed).astype(np.float32))
+            self._on_fixed.append(at_vertices(self.fixed, contact.fixed_distances.signed))
+            self._on_moving.append(at_vertices(self.moving, contact.moving_distances.signed))
 
     def write(self, file: Path, motion: Motion, evolution: AreaEvolution) -> None:
         """Compressed numpy archive, SI units; distances are infinite (negative deep inside) beyond what was asked for.

@@ -56,6 +56,8 @@ def fraction(text: str, option: str) -> float:
     value = number(text.rstrip("% "), option, "2%") * (0.01 if text.strip().endswith("%") else 1.0)
     if value <= 0.0:
         raise InputError("", option, f"{text!r} is not positive", "write for example 2%")
+    if "%" not in text and 1.0 <= value <= 100.0:
+        raise InputError("", option, f"{text!r} may be meant in per cent", "write for example 2% or 0.02")
     return value
 
 
@@ -76,6 +78,9 @@ def sweep_range(text: str) -> tuple[str, float, float, float]:
     start, stop, step = (number(part, "--sweep", "flexion=0:90:1") for part in (*parts, "1")[:3])
     if step == 0.0 or (stop - start) * step < 0.0 or abs((stop - start) / step) > 1e5:
         raise InputError("", "--sweep", f"{text!r} never arrives", "write start:stop:step in degrees, as in 0:90:1")
+    steps = (stop - start) / step
+    if abs(steps - round(steps)) > 1e-6:
+        raise InputError("", "--sweep", f"steps of {step:g} from {start:g} do not end at {stop:g}", "change the step")
     return name.strip(), start * ANGLE["deg"], stop * ANGLE["deg"], step * ANGLE["deg"]
 
 

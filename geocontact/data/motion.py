@@ -42,12 +42,15 @@ class Motion:
         Where it came from, for the record ("gait.mot with joint knee_r of knee.osim").
     time_unit
         "s", or "%" where the file says that its cycle is normalised.
+    coordinate
+        Name and values [rad] of the angle that a prescribed motion sweeps; None for recorded motion.
     """
 
     time: Float[np.ndarray, " t"]
     poses: RigidTransform
     source: str = ""
     time_unit: str = "s"
+    coordinate: tuple[str, Float[np.ndarray, " t"]] | None = None
 
     def __len__(self) -> int:
         return len(self.time)

@@ -135,21 +135,24 @@ def area_within(
     )
     whole, doubtful = totals(lower, upper, sampled.area, sampled.moment, sampled.negative)
     faces, points = compact(sampled.faces[doubtful], d)
-    edges, area = sampled.edges[doubtful], sampled.area[doubtful]
+    edges, areas = sampled.edges[doubtful], sampled.area[doubtful]
     start = _Sums(whole[0], whole[0], whole[0], negative=whole[4])
     sums = _refined(
-        start, _examined(faces, points, edges, area, threshold, other.closed), points, other, threshold, refinement
+        start, _examined(faces, points, edges, areas, threshold, other.closed), points, other, threshold, refinement
     )
     # the pieces' moment is about the other's centre and in its axes
     shift = rotation @ sampled.surface.centre + translation - other.centre
     moment = whole[1:4] + (sums.moment - (sums.area - whole[0]) * shift) @ rotation
+    area = min(max(sums.area, sums.lower), sums.upper)
+    scale = area / sums.area if sums.area > 0.0 else 1.0  # the estimate is kept within its bounds, parts and all
+    moment = scale * (moment + sums.area * sampled.surface.centre)
     return AreaWithin(
-        area=min(max(sums.area, sums.lower), sums.upper),
+        area=area,
         lower=sums.lower,
         upper=sums.upper,
         error=sums.error,
-        moment=moment + sums.area * sampled.surface.centre,
-        negative=sums.negative,
+        moment=moment,
+        negative=scale * sums.negative,
         undecided=d.undecided,
     )
 

@@ -57,7 +57,8 @@ def faces_where(surface: Surface, expression: str, metres_per_unit: float = 1.0)
             chosen = _evaluate(tree.body, values)
     except (ArithmeticError, RecursionError, MemoryError):
         raise ValueError(f"{expression!r} cannot be computed; write for example ny>0.25") from None
-    if chosen.dtype != bool or chosen.shape != (len(surface.faces),):
+    named = any(isinstance(node, ast.Name) and node.id in NAMES for node in ast.walk(tree))
+    if not named or chosen.dtype != bool or chosen.shape != (len(surface.faces),):
         raise ValueError(f"{expression!r} is not a condition on the faces; write for example ny>0.25")
     return chosen
 
@@ -88,7 +89,7 @@ def _evaluate(node: ast.expr, values: Mapping[str, Float[np.ndarray, " m"]]) -> 
     )
 
 
-def _finite(number: float) -> float:
+def _finite(number: int | float) -> float:
     value = float(number)
     if not np.isfinite(value):
         raise ValueError(f"{number!r} is not a finite number")

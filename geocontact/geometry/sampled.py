@@ -84,7 +84,7 @@ class Sampled:
         place = np.full(len(surface.vertices), -1)
         place[walk] = np.arange(len(walk))
         index = np.arange(len(surface.faces)) if counts is None else np.flatnonzero(counts)
-        index = index[surface.face_area[index] > 0.0]
+        index = index[(surface.face_area[index] > 0.0) & ~surface.repeated[index]]
         points = np.ascontiguousarray(surface.local[walk])
         faces = np.ascontiguousarray(place[surface.faces[index]])
         across = np.ones(len(walk)) if split is None else split.height(surface.vertices[walk])

@@ -94,6 +94,15 @@ class Surface:
         return np.asarray(0.5 * np.linalg.norm(np.cross(c[:, 1] - c[:, 0], c[:, 2] - c[:, 0]), axis=1))
 
     @cached_property
+    def repeated(self) -> Bool[np.ndarray, " m"]:
+        """Faces with the same three corners as an earlier one: the same piece of surface, which counts once."""
+        corners = np.sort(self.topology.merged[self.faces], axis=1)
+        _, first = np.unique(corners, axis=0, return_index=True)
+        again = np.ones(len(self.faces), bool)
+        again[first] = False
+        return again
+
+    @cached_property
     def face_normal(self) -> Float[np.ndarray, "m 3"]:
         """Unit normal of each face, zero where it has no area."""
         records = triangle_frames(self.local, self.faces)

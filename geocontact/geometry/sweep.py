@@ -32,11 +32,12 @@ class Axis:
 
 
 def sweep(axis: Axis, start: float, stop: float, step: float, name: str = "angle") -> Motion:
-    """MOVING turned about `axis` from start to stop [rad] in steps, both ends included; one frame a second.
+    """MOVING turned about `axis` from start [rad] in steps up to stop, which is included when the steps meet it.
 
-    MOVING's own frame coincides with FIXED's at angle 0.
+    MOVING's own frame coincides with FIXED's at angle 0. One frame a second, so that there is a time.
     """
     if step == 0.0 or not np.isfinite([start, stop, step]).all() or (stop - start) * step < 0.0:
         raise ValueError(f"a sweep from {start} to {stop} cannot go in steps of {step}")
     angle = start + step * np.arange(int(np.floor((stop - start) / step + 1e-9)) + 1)
-    return Motion(np.arange(len(angle), dtype=float), axis.turned(angle), f"sweep of {name}")
+    time = np.arange(len(angle), dtype=float)
+    return Motion(time, axis.turned(angle), f"sweep of {name}", coordinate=(name, angle))

@@ -15,9 +15,9 @@ from geocontact.data.mesh import Mesh
 from geocontact.io.file_preflight import read_bytes
 from geocontact.io.merge import merge_coincident
 from geocontact.io.mesh_checks import metres_per, require_finite, require_plausible, warn_about_faces
-from geocontact.io.obj_preflight import read_obj
+from geocontact.io.obj import read_obj
 from geocontact.io.ply import read_ply
-from geocontact.io.stl_preflight import RECORD, read_stl
+from geocontact.io.stl import RECORD, read_stl
 from geocontact.io.vtp import read_vtp
 
 _Reader = Callable[[bytes, str], tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]]

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 from collections.abc import Iterable, Sequence
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
@@ -90,6 +93,13 @@ def done(result: Call) -> Call:
     """The same call, which must have succeeded without a word on stderr but warnings."""
     assert (result.code, result.complaints) == (0, []), result.err
     return result
+
+
+def process(*arguments: object, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
+    """The program as a user starts it from a checkout."""
+    command = [sys.executable, str(ROOT / "cli.py"), *map(str, arguments)]
+    environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
+    return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, encoding="utf-8", timeout=300)
 
 
 def gait(folder: Path, frames: Iterable[int] = FRAMES, name: str = "gait.csv") -> Path:

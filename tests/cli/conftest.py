@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 
 import pytest
 
-from geocontact.cli import patience
+from geocontact.cli import area_analysis, patience
 
 
 @pytest.fixture(scope="session", autouse=True)
 def unhurried() -> Iterator[None]:
-    """No word about compiling: whether it is said depends on the machine and its load; test_patience.py asks for it."""
+    """Kernels are loaded once for all calls, and without a word, which depends on the machine and its load.
+
+    test_process.py asks for the word.
+    """
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(patience, "SILENCE", 3600.0)
+        patch.setattr(area_analysis, "warm_up", cache(area_analysis.warm_up))
         yield

@@ -214,7 +214,9 @@ def test_sweep_turns_moving_about_the_axis(tmp_path: Path, turned: Call, given: 
         "fit.json": written(tmp_path / "fit.json", json.dumps(fit)),
     }
     result = done(area(tmp_path / "out", *SWEEP, "--axis", axis[given], *lifted(tmp_path)))
-    agree(result.table(), turned.table(), areas=1e-7)
+    table = result.table()
+    assert list(table.pop("flexion [deg]")) == [0.0, -10.0]
+    agree(table, turned.table(), areas=1e-7)
 
 
 def test_sweep_without_an_axis_takes_the_cylinder_fitted_to_moving(tmp_path: Path) -> None:

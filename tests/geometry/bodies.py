@@ -23,7 +23,7 @@ def cube(centre, half):
     """Twelve triangles about `centre`; `half` is one length or one per axis. Vertices and faces."""
     half = np.broadcast_to(np.asarray(half, float), 3)
     vertices, faces = simple_shapes.block(2.0, 2.0, 2.0, 1)
-    return (vertices + [0, 1, 0]) * half + centre, faces
+    return (vertices + np.array([0, 1, 0])) * half + centre, faces
 
 
 def joined(*bodies):

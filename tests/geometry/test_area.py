@@ -44,36 +44,41 @@ def spheres(n, gap):
     return surface(shapes.sphere(R2, n)), surface(shapes.sphere(R1, n)), pose_of(TURN, (R1 + R2 + gap) * along * MM)
 
 
-CASES = {  # (n, gap) -> moving, fixed, pose; (gap, T) -> area on fixed, on moving; n
+CASES = {  # (n, gap) -> moving, fixed, pose; (gap, T) -> area on fixed, on moving; n; relative error
     "sphere over plane": (
         lambda n, gap: over_plate(shapes.sphere(20.0, n), 20 + gap),
         lambda gap, t: exact.sphere_plane_on_plane(20, gap, t),
         lambda gap, t: exact.sphere_plane_on_sphere(20, gap, t),
         24,
+        1e-3,
     ),
     "cylinder on plane": (
         lambda n, gap: over_plate(shapes.cylinder(15.0, 40.0, n), 15 + gap, turned(0, 20, 0)),
         lambda gap, t: exact.cylinder_plane_on_plane(15, 40, gap, t),
         lambda gap, t: exact.cylinder_plane_on_cylinder(15, 40, gap, t),
         20,
+        1e-3,
     ),
     "sphere in cup": (
         in_cup,
         lambda gap, t: exact.sphere_cup_on_cup(18, 24, 6 - gap, t),
         lambda gap, t: exact.sphere_cup_on_sphere(18, 24, 6 - gap, t),
         24,
+        1e-3,
     ),
     "flat torus on plane": (
         lambda n, gap: over_plate(shapes.torus(25.0, 8.0, n), 8 + gap, turned(0, 25, 0)),
         lambda gap, t: exact.flat_torus_plane_on_plane(25, 8, gap, t),
         lambda gap, t: exact.flat_torus_plane_on_torus(25, 8, gap, t),
         64,
+        2e-3,
     ),
     "upright torus on plane": (
         lambda n, gap: over_plate(shapes.torus(25.0, 8.0, n), 33 + gap, turned(0, 25, 0) * turned(90, 0, 0)),
         lambda gap, t: exact.upright_torus_plane_on_plane(25, 8, gap, t),
         lambda gap, t: exact.upright_torus_plane_on_torus(25, 8, gap, t),
         40,
+        1e-3,
     ),
 }
 
@@ -88,15 +93,15 @@ def areas(case, gap, thresholds, n):
 @pytest.mark.parametrize("case", CASES)
 @pytest.mark.parametrize(("gap", "thresholds"), [(-0.3, (0.5, 1.0, 4.0)), (0.4, (2.0, 4.0))])
 def test_area_is_the_closed_form_beyond_what_the_facets_cost(case, gap, thresholds):
-    """Richardson: a third of the change from n to 2n cells is left to go; 0.1 % in the mean, 0.2 % at most.
+    """Richardson: a third of the change from n to 2n cells is left to go; 0.1 %, with the flat torus 0.2 %.
 
-    (Rows of facets that run along the edge of a patch cost now a little more, now a little less than their square.)
+    There rows of facets run along the edge of the patch and cost now more, now less than the square of their size.
     """
-    _, on_fixed, on_moving, n = CASES[case]
+    _, on_fixed, on_moving, n, within = CASES[case]
     coarse, fine = areas(case, gap, thresholds, n), areas(case, gap, thresholds, 2 * n)
     true = np.array([[form(gap, t) for t in thresholds] for form in (on_fixed, on_moving)])
     off = (fine + (fine - coarse) / 3) / true - 1
-    assert np.abs(off).mean() < 1e-3 and np.abs(off).max() < 2e-3, f"relative errors of the extrapolated areas:\n{off}"
+    assert np.abs(off).max() < within, f"relative errors of the extrapolated areas:\n{off}"
     assert np.abs(fine / true - 1).max() < 0.02, f"relative errors with facets:\n{fine / true - 1}"
 
 
@@ -111,15 +116,15 @@ def test_area_of_sphere_pairs_converges_at_second_order(rule, gap, threshold):
     for side, name in enumerate(("fixed", "moving")):
         errors = np.array(error)[:, side]
         order = order_of(1 / cells, errors)
-        assert order == pytest.approx(2.0, abs=0.2), f"area_{name}: observed order {order:.2f}, relative errors {errors}"
+        assert order == pytest.approx(2.0, abs=0.2), (
+            f"area_{name}: observed order {order:.2f}, relative errors {errors}"
+        )
 
 
 @pytest.mark.parametrize(("rule", "sign"), [("all-vertices", -1), ("any-vertex", 1)])
 def test_counting_whole_faces_converges_at_first_order(rule, sign):
-    cells, error = np.array([8, 16, 32, 64]), []
-    true = exact.sphere_sphere_on_first(R1, R2, 0.3, 4.0)
-    for n in cells:
-        error.append(contact(*spheres(n, 0.3), 4 * MM, rule=rule).fixed[0].area / MM2 / true - 1)
+    cells, true = np.array([8, 16, 32, 64]), exact.sphere_sphere_on_first(R1, R2, 0.3, 4.0)
+    error = [contact(*spheres(n, 0.3), 4 * MM, rule=rule).fixed[0].area / MM2 / true - 1 for n in cells]
     order = order_of(1 / cells, error)
     assert (np.sign(error) == sign).all(), f"relative errors {error}"
     assert order == pytest.approx(1.0, abs=0.25), f"observed order {order:.2f}, relative errors {error}"
@@ -204,7 +209,7 @@ def test_medial_part_of_a_disc_is_cut_by_its_chord():
 
 
 def test_flat_box_over_a_plate_covers_a_rounded_rectangle():
-    """Plate within T of a parallel box above it at g: (w + 2s)(d + 2s) - (4 - pi) s^2, s^2 = T^2 - g^2; box: floor and walls."""
+    """Plate within T of a box g above it: (w + 2s)(d + 2s) - (4 - pi) s^2, s^2 = T^2 - g^2; box: floor and walls."""
     box = shapes.block(W, D, H, 2)
     lifted = surface((box[0] + [0, H, 0], box[1]))
     for gap, threshold in ((0.5, 2.0), (1.0, 4.0), (0.0, 1.0)):
@@ -258,12 +263,12 @@ SMALL = {
 }
 
 
-@settings(max_examples=25, deadline=None, derandomize=True, phases=[Phase.generate])
+@settings(max_examples=12, deadline=None, derandomize=True, phases=[Phase.generate])
 @given(
     names=st.tuples(st.sampled_from(list(SMALL)), st.sampled_from(list(SMALL))),
     seed=st.integers(0, 2**32 - 1),
     apart=st.floats(0.0, 1.2),
-    threshold=st.floats(0.0, 5.0),
+    threshold=st.just(0.0) | st.floats(0.1, 5.0),
 )
 def test_truth_lies_between_the_bounds(names, seed, apart, threshold):
     """Random poses, from one body inside the other to just apart; the truth by subdivision with libigl."""
@@ -273,8 +278,8 @@ def test_truth_lies_between_the_bounds(names, seed, apart, threshold):
     shift = 20.0 * apart * way / np.linalg.norm(way)
     placed_moving = moved(moving, rotation, shift)
     true = {
-        "fixed": reference.area_within(fixed, placed_moving, threshold, width=3e-3, most=40_000),
-        "moving": reference.area_within(placed_moving, fixed, threshold, width=3e-3, most=40_000),
+        "fixed": reference.area_within(fixed, placed_moving, threshold, width=5e-3, most=20_000),
+        "moving": reference.area_within(placed_moving, fixed, threshold, width=5e-3, most=20_000),
     }
     for refinement in (AS_GIVEN, Refinement(), Refinement(bounds=0.02)):
         found = contact(
@@ -306,9 +311,7 @@ def test_surfaces_exactly_a_threshold_apart_end(gap, threshold):
     """Nothing can tell what counts there, so dividing must not go on for ever; the bounds still hold both answers."""
     box = shapes.block(W, D, H, 2)
     lifted = surface((box[0] + [0, H, 0], box[1]))
-    found = contact(
-        lifted, PLATE, pose_of(shift=[0, gap * MM, 0]), threshold * MM, refinement=Refinement(bounds=0.02)
-    )
+    found = contact(lifted, PLATE, pose_of(shift=[0, gap * MM, 0]), threshold * MM, refinement=Refinement(bounds=0.02))
     for side in (found.fixed[0], found.moving[0]):
         assert side.lower == 0
         assert side.upper / MM2 >= W * D * (1 - 1e-9)
@@ -404,7 +407,9 @@ def test_area_changes_little_with_a_little_shift(refinement, jump):
         area.append(contact(moving, fixed, pose_of(pose.rotation, shift), 4 * MM, refinement=refinement).fixed[0].area)
     rise = np.diff(area)
     expected = 2 * np.pi * 19.7 * MM * step
-    assert np.abs(rise - expected).max() < 0.5 * expected + jump * area[0], f"steps of {rise.min():.2e} .. {rise.max():.2e}"
+    assert np.abs(rise - expected).max() < 0.5 * expected + jump * area[0], (
+        f"steps of {rise.min():.2e} .. {rise.max():.2e}"
+    )
 
 
 def test_area_grows_with_the_threshold():
@@ -449,7 +454,13 @@ def test_unsigned_area_is_the_signed_one_without_what_lies_deeper():
     highest = ball[0][ball[1]][:, :, 1].mean(axis=1).argmax()
     shift = np.array([1.3, 18.0, -2.1])
     signed, unsigned = (
-        contact(surface((ball[0], faces)), PLATE, pose_of(shift=shift * MM), threshold * MM, refinement=Refinement(bounds=0.02))
+        contact(
+            surface((ball[0], faces)),
+            PLATE,
+            pose_of(shift=shift * MM),
+            threshold * MM,
+            refinement=Refinement(bounds=0.02),
+        )
         for faces in (ball[1], np.delete(ball[1], highest, axis=0))
     )
     deeper = reference.area_within(plate, (ball[0] + shift, ball[1]), -threshold, width=2e-3).estimate

@@ -38,7 +38,9 @@ def gait(frames=5):
     k = np.arange(frames)
     shift = np.column_stack([-3 + 0.1 * k, 30.47 - 0.05 * k, 0.05 * k]) * MM
     shift[-1, 1] += 0.1
-    return Motion(0.25 * k, RigidTransform.from_components(shift, Rotation.from_euler("z", (4.0 + k)[:, None], degrees=True)))
+    return Motion(
+        0.25 * k, RigidTransform.from_components(shift, Rotation.from_euler("z", (4.0 + k)[:, None], degrees=True))
+    )
 
 
 @pytest.fixture(scope="module")
@@ -118,7 +120,9 @@ def test_moving_and_fixed_change_places(evolution):
 
 def test_frames_are_handed_over_in_order():
     seen = []
-    area_evolution(FEMORAL, INSERT, gait(), Settings(refinement=AS_GIVEN), workers=3, each=lambda k, f: seen.append((k, f)))
+    area_evolution(
+        FEMORAL, INSERT, gait(), Settings(refinement=AS_GIVEN), workers=3, each=lambda k, f: seen.append((k, f))
+    )
     assert [k for k, _ in seen] == [0, 1, 2, 3, 4]
     assert seen[0][1].fixed_distances.signed.min() < 0.5 * MM < seen[4][1].fixed_distances.signed.min()
 

@@ -1,4 +1,4 @@
-"""Every pair of `meshes/manifest.toml` against its areas and distances converged by adaptive subdivision with libigl."""
+"""Every pair of `meshes/manifest.toml` against areas and distances converged by adaptive subdivision with libigl."""
 
 import tomllib
 from functools import cache
@@ -13,9 +13,12 @@ from tests.geometry.bodies import MM, MM2, contact, pose_of, surface
 
 FOLDER = Path(__file__).parents[2] / "meshes"
 MANIFEST = tomllib.loads((FOLDER / "manifest.toml").read_text(encoding="utf-8"))
-POSES = [pytest.param(pair, pose, id=f"{pair['name']}-{k}") for pair in MANIFEST["pair"] for k, pose in enumerate(pair["pose"])]
+POSES = [
+    pytest.param(pair, pose, id=f"{pair['name']}-{k}")
+    for pair in MANIFEST["pair"]
+    for k, pose in enumerate(pair["pose"])
+]
 each_pose = pytest.mark.parametrize(("pair", "pose"), POSES)
-NEAR = 0.1  # mm; below this thresholds leave patches of a few mm^2
 
 
 @cache
@@ -53,9 +56,7 @@ def test_bounds_are_as_tight_as_asked_for(name):
     pose = pair["pose"][0]
     known = references(pose)
     thresholds = [a["threshold_mm"] * MM for a in known]
-    found = contact(
-        read(pair["moving"]), read(pair["fixed"]), at(pose), thresholds, refinement=Refinement(bounds=0.02)
-    )
+    found = contact(read(pair["moving"]), read(pair["fixed"]), at(pose), thresholds, refinement=Refinement(bounds=0.02))
     for k, area in enumerate(known):
         for side, ours in (("fixed", found.fixed[k]), ("moving", found.moving[k])):
             width = (ours.upper - ours.lower) / ours.upper

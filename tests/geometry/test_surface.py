@@ -132,7 +132,7 @@ def test_points_on_the_surface_take_the_normal_of_their_face():
 
 
 def exact_distance(point, corners):
-    """Distance of a point to a triangle in rational arithmetic: interior if the foot lies in it, else three segments."""
+    """Distance of a point to a triangle in rational arithmetic: to its plane over it, else to three segments."""
     p, a, b, c = ([Fraction(float(x)) for x in q] for q in (point, *corners))
 
     def minus(u, v):

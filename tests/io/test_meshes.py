@@ -187,7 +187,7 @@ def test_text_is_read_the_same_whatever_the_block_size(tmp_path, monkeypatch):
     path = tmp_path / "ball.stl"
     path.write_bytes(ascii_stl(BALL.triangles, solids=2))
     whole = read_mesh(path, "mm")
-    monkeypatch.setattr("geocontact.io.stl_preflight.BLOCK", 700)
+    monkeypatch.setattr("geocontact.io.stl.BLOCK", 700)
     parts = read_mesh(path, "mm")
     np.testing.assert_array_equal(whole.vertices, parts.vertices)
     np.testing.assert_array_equal(whole.faces, parts.faces)

@@ -113,12 +113,13 @@ def test_every_joint_of_the_walking_model_agrees_with_opensim(
     """coordinates.sto is of another model: the six joints that have the same paths are compared."""
     file, table = data_dir / "opensim_walk/subject01_simbody.osim", quietly(data_dir / "opensim_walk" / motion)
     names = [str(joint.get("name")) for joint in read_model(file).findall("JointSet/objects/*")]
-    motions = {}
+    motions, refused = {}, []
     for name in names:
         try:
             motions[name] = motion_from_joint(table, read_joint(file, name))
         except InputError as error:
-            assert not degrees and "no column for any coordinate" in str(error)
+            refused.append(str(error))
+    assert all("no column for any coordinate" in line for line in refused)
     assert len(names) == 12 and len(motions) == (12 if degrees else 6)
     assert_poses_agree(opensim, file, motions, table, degrees)
 

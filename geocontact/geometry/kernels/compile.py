@@ -13,8 +13,3 @@ F = TypeVar("F", bound=Callable[..., object])
 def kernel(function: F) -> F:
     """Compile with numba on first call: cached on disk, without the interpreter lock, strict IEEE arithmetic."""
     return cast(F, numba.njit(cache=True, nogil=True, error_model="numpy")(function))
-
-
-def inlined(function: F) -> F:
-    """As `kernel`, copied into its callers: for the few lines inside the innermost loop."""
-    return cast(F, numba.njit(cache=True, nogil=True, error_model="numpy", inline="always")(function))

@@ -2,9 +2,9 @@
 
 Each triangle is stored as 16 numbers: corner A (3), unit vectors n, u, v (9), L, cx, cy, shift. The longest edge AB
 lies along u with length L; C is at (cx, cy) with cy >= 0; n = u x v points to the outside. `shift` tells which corner
-of the face became A. Because AB is the longest edge the angles at A and B are acute, which leaves few cases. A collinear
-triangle has cy = 0 and is the segment AB, a point has L = 0. The frame is orthonormal even for needles, so distances
-are isometric to the last digit there as well.
+of the face became A. Because AB is the longest edge the angles at A and B are acute, which leaves few cases. A
+collinear triangle has cy = 0 and is the segment AB, a point has L = 0. The frame is orthonormal even for needles, so
+distances are isometric to the last digit there as well.
 """
 
 from __future__ import annotations

@@ -1,0 +1,81 @@
+"""`geocontact demo` shows the main job; `geocontact doctor` says what works here and how to mend the rest."""
+
+from __future__ import annotations
+
+import shutil
+import time
+from pathlib import Path
+
+import pytest
+
+from geocontact.cli import demo, doctor
+from geocontact.cli.doctor import Feature
+from tests.cli.calls import FEMUR, INSERT, MESHES, call, gait, process
+
+
+def test_demo_runs_to_the_end_and_names_what_to_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The shipped pair, here coarser and with two frames, because all of it takes half a minute."""
+    small = tmp_path / "meshes"
+    small.mkdir()
+    shutil.copy(FEMUR, small / "femoral_component_right_medium.stl")
+    shutil.copy(INSERT, small / "tibial_insert_right_medium.stl")
+    gait(small)
+    monkeypatch.setattr(demo, "sample_folder", lambda: small)
+    monkeypatch.chdir(tmp_path)
+    result = call("demo")
+    assert (result.code, result.complaints) == (0, []), result.err
+    (named,) = [line for line in result.out.splitlines() if line.startswith("open ")]
+    opened = [Path(word) for word in named.split() if "." in word]
+    assert opened and all(file.is_file() for file in opened)
+    assert call("demo", "--out", tmp_path / "elsewhere").code == 0 and (tmp_path / "elsewhere/area.csv").is_file()
+
+
+def test_demo_finds_the_shipped_files() -> None:
+    assert demo.sample_folder() == MESHES
+    names = ("femoral_component_right_medium.stl", "tibial_insert_right_medium.stl", "gait.csv")
+    assert all((MESHES / name).is_file() for name in names)
+
+
+def test_doctor_on_this_machine() -> None:
+    """Every feature has its line; what is missing is followed by its fix; all that is needed works here."""
+    start = time.perf_counter()
+    result = process("doctor")
+    assert result.returncode == 0, result.stdout
+    assert result.stderr == ""
+    assert time.perf_counter() - start < 60.0
+    lines = result.stdout.splitlines()
+    for feature in doctor.FEATURES:
+        (at,) = [k for k, line in enumerate(lines) if line[11:].startswith(f"{feature.name:20} ")]
+        if lines[at].split()[0] != "ok":
+            assert lines[at + 1].split() == f"fix: {feature.fix}".split()
+    assert lines[-1] == "everything an analysis needs works"
+
+
+PROBES = {
+    "not installed": (
+        Feature("a", "no-such-package-1", "x", "pass", "pip install a", needed=False),
+        0,
+        "not installed",
+    ),
+    "needed": (Feature("b", "no-such-package-2", "x", "pass", "pip install b", needed=True), 1, "not installed"),
+    "raises": (
+        Feature("c", "numpy", "x", "import no_such_module", "pip install c"),
+        0,
+        "No module named 'no_such_module'",
+    ),
+    "exits": (Feature("d", "numpy", "x", "raise SystemExit(3)", "pip install d"), 0, "exit code 3"),
+    "hangs": (Feature("e", "numpy", "x", "import time; time.sleep(60)", "pip install e"), 0, "no answer within"),
+    "crashes": (Feature("f", "numpy", "x", "import os; os.abort()", "apt install f"), 0, "a system library or driver"),
+}
+
+
+@pytest.mark.parametrize(("feature", "code", "said"), PROBES.values(), ids=PROBES.keys())
+def test_doctor_names_the_fix_for_what_is_missing(
+    monkeypatch: pytest.MonkeyPatch, feature: Feature, code: int, said: str
+) -> None:
+    monkeypatch.setattr(doctor, "FEATURES", (feature,))
+    monkeypatch.setattr(doctor, "PATIENCE", 1.0)
+    result = call("doctor")
+    assert result.code == code
+    assert said in result.out and f"fix: {feature.fix}\n" in result.out
+    assert ("cannot run here" in result.out) == bool(code)

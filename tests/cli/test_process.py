@@ -1,0 +1,138 @@
+"""The program as a process of its own: its streams, its folder, its exit code; what it says while one waits."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from geocontact.cli import area_analysis, patience
+from geocontact.cli.maps import DistanceMaps
+from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, ROOT, SPHERE, area, done, gait, inventory, poses, process
+
+
+def test_from_another_folder_with_relative_paths(tmp_path: Path) -> None:
+    """Inputs, the result folder and a path that looks like an option are relative to where the user stands."""
+    for file, name in ((FEMUR, "-x.stl"), (INSERT, "insert.stl")):
+        shutil.copy(file, tmp_path / name)
+    gait(tmp_path, [0])
+    result = process("area", "./-x.stl", "insert.stl", "--unit=mm", "--motion=gait.csv", "--out=out/1", cwd=tmp_path)
+    assert (result.returncode, result.stderr) == (0, ""), result.stderr
+    assert set(inventory(tmp_path / "out/1")) == {"area.csv", "area.png", "area.svg", "run.json"}
+    assert "out/1" in result.stdout
+
+
+def test_refusal_is_one_line_and_exit_2(tmp_path: Path) -> None:
+    result = process(
+        "area", tmp_path / "no.stl", PLATE, "--unit", "mm", "--sweep", "a=0:1:1", "--out", tmp_path / "out"
+    )
+    assert result.returncode == 2
+    assert result.stderr.count("\n") == 1 and "no such file; check the path" in result.stderr
+    assert inventory(tmp_path) == {}
+
+
+def test_refusal_with_a_name_that_the_terminal_cannot_show(tmp_path: Path) -> None:
+    """Written with what the terminal has instead of failing on the way out."""
+    command = [
+        sys.executable,
+        "cli.py",
+        "area",
+        str(tmp_path / "膝 ≤ – é.stl"),
+        str(PLATE),
+        "--unit=mm",
+        "--sweep=a=0:1:1",
+    ]
+    environment = os.environ | {"PYTHONIOENCODING": "ascii"}
+    result = subprocess.run([*command, f"--out={tmp_path / 'out'}"], cwd=ROOT, env=environment, capture_output=True)
+    assert result.returncode == 2
+    assert result.stderr.count(b"\n") == 1 and b"no such file" in result.stderr
+
+
+def test_summary_on_a_terminal_without_unicode(tmp_path: Path) -> None:
+    """Results are announced with an ellipsis and end up in an ASCII log all the same."""
+    command = [
+        "area",
+        SPHERE,
+        PLATE,
+        f"--motion={poses(tmp_path, (0, 20, 0))}",
+        "--unit=mm",
+        f"--out={tmp_path / 'out'}",
+    ]
+    environment = os.environ | {"PYTHONIOENCODING": "ascii"}
+    result = subprocess.run(
+        [sys.executable, "cli.py", *map(str, command)], cwd=ROOT, env=environment, capture_output=True
+    )
+    assert result.returncode == 0, result.stderr
+    assert (tmp_path / "out/area.csv").is_file()
+
+
+def test_results_are_there_when_nobody_reads_the_summary(tmp_path: Path) -> None:
+    """`geocontact area … | head -1`: the pipe is closed before the run has said everything."""
+    if os.name != "posix":
+        pytest.skip("a pipe without a reader is made on Unix")
+    command = [
+        "area",
+        SPHERE,
+        PLATE,
+        f"--motion={poses(tmp_path, (0, 20, 0))}",
+        "--unit=mm",
+        f"--out={tmp_path / 'out'}",
+    ]
+    reader, writer = os.pipe()
+    os.close(reader)
+    result = subprocess.run(
+        [sys.executable, "-u", "cli.py", *map(str, command)], cwd=ROOT, stdout=writer, stderr=subprocess.PIPE
+    )
+    os.close(writer)
+    assert b"Traceback" not in result.stderr
+    assert (tmp_path / "out/area.csv").is_file()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a terminated process cannot tidy up elsewhere")
+def test_a_terminated_run_leaves_nothing_behind(tmp_path: Path) -> None:
+    """As a queueing system ends it: once its draft is there."""
+    place = tmp_path / "place"
+    place.mkdir()
+    motion = MESHES / "gait.csv"
+    command = ["area", FEMUR, INSERT, f"--motion={motion}", "--unit=mm", "--threshold=0.1,4", f"--out={place / 'out'}"]
+    child = subprocess.Popen(
+        [sys.executable, "cli.py", *map(str, command)], cwd=ROOT, stderr=subprocess.PIPE, text=True
+    )
+    until = time.monotonic() + 60.0
+    while not inventory(place) and child.poll() is None and time.monotonic() < until:
+        time.sleep(0.01)
+    assert inventory(place), "no draft was seen"
+    child.terminate()
+    _, said = child.communicate(timeout=120)
+    assert child.returncode not in (0, None)
+    assert "Traceback" not in said and len(said.splitlines()) == 1, said
+    assert inventory(place) == {}
+
+
+def test_module_and_script_are_the_same_program() -> None:
+    """The installed command calls what cli.py calls."""
+    pyproject = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    assert 'geocontact = "geocontact.cli.main:main"' in pyproject
+    assert "from geocontact.cli.main import main" in (ROOT / "cli.py").read_text(encoding="utf-8")
+
+
+def test_compiling_is_announced_when_it_keeps_the_user_waiting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(patience, "SILENCE", 0.1)
+    monkeypatch.setattr(area_analysis, "warm_up", lambda: time.sleep(1.0))
+    result = area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0)))
+    (line,) = result.complaints
+    assert line.startswith("compiling the distance kernels, once on this machine") and result.code == 0
+
+
+def test_many_frames_are_not_mistaken_for_compiling(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Once the kernels are there nothing is said, however long the frames take."""
+    add = DistanceMaps.add
+    monkeypatch.setattr(DistanceMaps, "add", lambda *given, **named: (time.sleep(1.0), add(*given, **named))[1])
+    monkeypatch.setattr(patience, "SILENCE", 1.0)
+    monkeypatch.setattr(area_analysis, "warm_up", lambda: None)
+    done(area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0), (0, 20.1, 0))))
