@@ -19,8 +19,7 @@ from geocontact.geometry.sampled import Distances, Sampled
 from geocontact.geometry.subdivision import compact, quartered
 from geocontact.geometry.surface import Surface
 
-BLIND = 0.05  # share of the doubt that counts as error where the cut cannot show any
-PIECES = 50_000  # at most this many triangles are divided at a time, the most doubtful first
+BLIND = 0.01  # share of the doubt that counts as error where the cut cannot show any
 STALLED = 0.9  # three divisions that leave more of the doubt than this: the surfaces are exactly a threshold apart
 SMALLEST = 1e-10  # m^2; an upper bound below this is not refined further
 
@@ -36,11 +35,15 @@ class Refinement:
         error does not see an iso-line that bulges into it; the bounds do.
     depth
         Largest number of divisions; 0 cuts the given triangles as they are.
+    pieces
+        Largest number of triangles divided in all, the most doubtful first: a bound on the time where thresholds are
+        small against the triangles. What is left undecided shows in the bounds.
     """
 
     accuracy: float = 2e-4
     bounds: float = 0.1
     depth: int = 16
+    pieces: int = 40_000
 
 
 AS_GIVEN = Refinement(depth=0)
@@ -177,13 +180,16 @@ def _refined(
 ) -> _Sums:
     """Divide the pieces as long as `rule` asks for it and return the totals."""
     gaps: list[float] = []
+    left = rule.pieces
     for level in range(rule.depth):
         now = settled.with_(pieces)
         stalled = level > 3 and now.gap > STALLED * gaps[-3]
         gaps.append(now.gap)
         wanted = _wanted(now, pieces, rule, first=level == 0)
-        if stalled or not wanted.any():
+        if stalled or left <= 0 or not wanted.any():
             break
+        wanted = _most(wanted, pieces.gap, left)
+        left -= int(np.count_nonzero(wanted))
         settled = settled.with_(pieces[~wanted])
         faces, points = compact(pieces.faces[wanted], points)
         faces, points = quartered(faces, points, other, threshold)
@@ -216,8 +222,13 @@ def _wanted(now: _Sums, pieces: _Pieces, rule: Refinement, first: bool) -> Bool[
     if now.gap > rule.bounds * now.upper:
         wanted |= gap > 0.25 * rule.bounds * now.upper / len(gap)
     wanted &= gap > 0.0
-    if np.count_nonzero(wanted) > PIECES:
-        most = np.argsort(np.where(wanted, -gap, 0.0), kind="stable")[:PIECES]
-        wanted = np.zeros(len(gap), bool)
-        wanted[most] = True
     return np.asarray(wanted)
+
+
+def _most(wanted: Bool[np.ndarray, " k"], gap: Float[np.ndarray, " k"], count: int) -> Bool[np.ndarray, " k"]:
+    """At most `count` of the wanted pieces, those with the largest gap."""
+    if np.count_nonzero(wanted) <= count:
+        return wanted
+    chosen = np.zeros(len(gap), bool)
+    chosen[np.argsort(np.where(wanted, -gap, 0.0), kind="stable")[:count]] = True
+    return chosen

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from unittest import mock
 
 import igl
 import numpy as np
@@ -10,6 +11,7 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation
 
+from geocontact.geometry import evolution
 from tests.cli.calls import (
     INSERT,
     PLATE,
@@ -297,8 +299,22 @@ def test_parquet_holds_the_same_table(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("workers", [1, 2, 3])
-def test_results_do_not_depend_on_the_number_of_workers(tmp_path: Path, knee: Call, workers: int) -> None:
+def test_results_do_not_depend_on_the_number_of_workers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, knee: Call, workers: int
+) -> None:
+    started = mock.Mock(side_effect=evolution.ThreadPoolExecutor)
+    monkeypatch.setattr(evolution, "ThreadPoolExecutor", started)
     assert done(area(tmp_path / "out", "--workers", workers, motion=gait(tmp_path))).bytes() == knee.bytes()
+    started.assert_called_with(workers)
+
+
+def test_picture_shows_the_frame_of_the_largest_area(tmp_path: Path) -> None:
+    motion = poses(tmp_path, (0, 22, 0), (0, 20, 0), (0, 21, 0))
+    with mock.patch("geocontact.cli.area_analysis.draw_areas") as drawn:
+        area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=motion, picture=True)
+    distance, frame = drawn.call_args.args[3:5]
+    assert frame == 1
+    assert np.min(distance) == pytest.approx(0.0, abs=1e-5)
 
 
 def test_every_option_is_tried_here() -> None:

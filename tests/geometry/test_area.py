@@ -208,16 +208,22 @@ def test_medial_part_of_a_disc_is_cut_by_its_chord():
         assert abs(off) < 1.5e-3 * area, f"chord at {c}: {off:.3f} mm^2 off {segment:.1f}"
 
 
-def test_flat_box_over_a_plate_covers_a_rounded_rectangle():
-    """Plate within T of a box g above it: (w + 2s)(d + 2s) - (4 - pi) s^2, s^2 = T^2 - g^2; box: floor and walls."""
+@pytest.mark.parametrize("accuracy", [2e-4, 1e-5])
+@pytest.mark.parametrize(("gap", "threshold"), [(0.5, 2.0), (1.0, 4.0), (0.0, 1.0)])
+def test_flat_box_over_a_plate_covers_a_rounded_rectangle(gap, threshold, accuracy):
+    """Plate within T of a box g above it: (w + 2s)(d + 2s) - (4 - pi) s^2, s^2 = T^2 - g^2; box: floor and walls.
+
+    The facets cost nothing, so the accuracy asked for is what must come back, and be known.
+    """
     box = shapes.block(W, D, H, 2)
-    lifted = surface((box[0] + [0, H, 0], box[1]))
-    for gap, threshold in ((0.5, 2.0), (1.0, 4.0), (0.0, 1.0)):
-        found = contact(lifted, PLATE, pose_of(shift=[0, gap * MM, 0]), threshold * MM)
-        s, rise = (threshold**2 - gap**2) ** 0.5, threshold - gap
-        rounded = (W + 2 * s) * (D + 2 * s) - (4 - np.pi) * s**2
-        assert found.fixed[0].area / MM2 == pytest.approx(rounded, rel=1e-3)
-        assert found.moving[0].area / MM2 == pytest.approx(W * D + 2 * (W + D) * rise, rel=1e-12)
+    lifted, pose = surface((box[0] + [0, H, 0], box[1])), pose_of(shift=[0, gap * MM, 0])
+    found = contact(lifted, PLATE, pose, threshold * MM, refinement=Refinement(accuracy))
+    s, rise, ours = (threshold**2 - gap**2) ** 0.5, threshold - gap, found.fixed[0]
+    rounded = (W + 2 * s) * (D + 2 * s) - (4 - np.pi) * s**2
+    off, estimate = ours.area / MM2 / rounded - 1, ours.error / ours.area
+    assert abs(off) < 2 * accuracy, f"relative error {off:.1e}, estimated {estimate:.1e}"
+    assert abs(off) < 3 * estimate, f"relative error {off:.1e}, estimated {estimate:.1e}"
+    assert found.moving[0].area / MM2 == pytest.approx(W * D + 2 * (W + D) * rise, rel=1e-12)
 
 
 # --- centroids --------------------------------------------------------------------------------------------------------
@@ -368,10 +374,10 @@ def test_nothing_changes_when_everything_moves(scene, refinement, seed):
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_nothing_changes_with_the_unit(scene):
-    """Thresholds and all as if inches had been read as metres: areas go with the square."""
+@pytest.mark.parametrize("scale", [25.4, 25.4e-3])
+def test_nothing_changes_with_the_unit(scene, scale):
+    """Thresholds and all in inches taken for millimetres, and for metres: areas go with the square."""
     moving, fixed, pose = SCENES[scene]()
-    scale = 25.4
     larger = [Surface(body.vertices * scale, body.faces) for body in (moving, fixed)]
     there = contact(*larger, pose_of(pose.rotation, pose.translation * scale), THRESHOLDS * scale)
     assert_same(numbers(contact(moving, fixed, pose, THRESHOLDS)), numbers(there) / scale**2)

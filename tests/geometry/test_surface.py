@@ -336,6 +336,30 @@ def test_assumed_closed_box_without_lid_has_sides_where_they_are_clear():
     assert np.array_equal(found.distance < 0, (np.abs(points) < 1).all(axis=1))
 
 
+def pyramid(slivers):
+    """Sharp: four sides over a square, the one at x = 1 cut into slivers that all end at the tip."""
+    edge = np.column_stack([np.ones(slivers + 1), np.zeros(slivers + 1), np.linspace(1, -1, slivers + 1)])
+    vertices = np.vstack([[[0, 4, 0], [0, 0, 0]], edge, [[-1, 0, -1], [-1, 0, 1]]])
+    around = np.append(np.arange(2, len(vertices)), 2)
+    sides = np.column_stack([np.zeros(len(around) - 1, int), around[:-1], around[1:]])
+    floor = np.column_stack([np.ones(len(around) - 1, int), around[1:], around[:-1]])
+    return vertices, np.vstack([sides, floor])
+
+
+@pytest.mark.parametrize("slivers", [1, 40])
+def test_sides_around_a_tip_do_not_depend_on_how_a_side_is_cut(slivers):
+    """Normals at the tip count by their angles; counted by faces, points off the uncut sides would lie inside."""
+    vertices, faces = pyramid(slivers)
+    surface = Surface(vertices, faces)
+    assert surface.closed and not surface.inside_out
+    points = [0, 4, 0] + 0.05 * np.random.default_rng(8).normal(size=(3000, 3))
+    found = surface.proximity(points)
+    at_tip = np.linalg.norm(found.closest - [0, 4, 0], axis=1) == 0
+    assert at_tip.sum() > 1000, "points whose nearest feature is the tip are outside"
+    assert (found.distance[at_tip] > 0).all(), f"{(found.distance[at_tip] < 0).sum()} of {at_tip.sum()} inside"
+    assert_sides_follow_the_winding_number(vertices, faces, points)
+
+
 # --- bodies that overlap themselves -----------------------------------------------------------------------------------
 
 
