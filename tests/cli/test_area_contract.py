@@ -270,6 +270,7 @@ def test_debug_adds_the_traceback_before_the_line(tmp_path: Path, capsys: pytest
     assert left.value.code == 2 and lines[0].startswith("Traceback") and "no such file" in lines[-1]
 
 
+@pytest.mark.skipif(os.name != "posix", reason="permission bits are those of Unix")
 def test_written_files_can_be_read_by_others(knee: Call) -> None:
     """A folder made for the results is an ordinary one, not the private one that the draft was."""
     mask = os.umask(0)

@@ -36,7 +36,10 @@ NAMES = [
 @pytest.mark.parametrize("name", NAMES)
 def test_any_file_name_will_do(tmp_path: Path, name: str) -> None:
     """Meshes, motion, model, placement and result folder of that name, with the picture whose title shows it."""
-    moving, fixed = (shutil.copy(mesh, tmp_path / f"{name}{k}.stl") for k, mesh in enumerate((SPHERE, PLATE)))
+    try:
+        moving, fixed = (shutil.copy(mesh, tmp_path / f"{name}{k}.stl") for k, mesh in enumerate((SPHERE, PLATE)))
+    except OSError as error:
+        pytest.skip(f"no file system for this name: {error.strerror}")
     place = written(tmp_path / f"{name}.txt", "1 0 0 0\n0 1 0 20\n0 0 1 0\n0 0 0 1\n")
     motion = poses(tmp_path, (0, 0, 0), name=f"{name}.csv")
     out = tmp_path / "results" / name
