@@ -14,7 +14,6 @@ from io import BytesIO
 
 import numpy as np
 from jaxtyping import Float, Int
-from trimesh.exchange.stl import load_stl_binary
 
 from geocontact.data.errors import InputError
 from geocontact.io import limits
@@ -43,6 +42,8 @@ def read_stl(data: bytes, file: str) -> tuple[Float[np.ndarray, "n 3"], Int[np.n
     float32 from binary, float64 from ASCII: the precision the file carries. A binary header may start with "solid".
     """
     if _is_binary(data, file):
+        from trimesh.exchange.stl import load_stl_binary  # half a second, and only binary files need it
+
         corners = np.asarray(load_stl_binary(BytesIO(data))["vertices"])
         if len(corners) != 3 * ((len(data) - HEAD) // RECORD.itemsize):
             raise InputError(file, "", "trimesh read another number of facets than the file holds", _AGAIN)

@@ -1,7 +1,7 @@
 """The one place that says how kernels are compiled, and where the result is kept.
 
-numba notices a change of the file a kernel stands in, not of the kernels it calls in other files; so the folder is named
-after the text of all of them.
+numba notices a change of the file a kernel stands in, not of the kernels it calls in other files; so the folder is
+named after the text of all of them.
 """
 
 from __future__ import annotations
