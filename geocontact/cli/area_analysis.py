@@ -33,7 +33,7 @@ from geocontact.io.motion import read_motion
 from geocontact.io.results import write_table
 from geocontact.view.area_figure import draw_areas
 
-PATIENT = 1_000_000  # triangles divided per area when bounds were asked for
+BRIEF, PATIENT = 40_000, 1_000_000  # triangles divided per area, without and with bounds asked for
 NEAR = 20e-3  # m; bodies that never come this close are a mistake in the input
 
 
@@ -109,7 +109,7 @@ def _settings(record: Record, o: AreaOptions) -> Callable[[Surface, Surface], Se
         return Settings(
             thresholds=thresholds,
             rule=o.rule,
-            refinement=Refinement() if bounds is None else Refinement(bounds=bounds, pieces=PATIENT),
+            refinement=Refinement(pieces=BRIEF) if bounds is None else Refinement(bounds=bounds, pieces=PATIENT),
             fixed_faces=chosen_faces(record, "--region", o.region, fixed, o.unit),
             moving_faces=chosen_faces(record, "--region-moving", o.region_moving, moving, o.unit),
             split=split,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 import traceback
@@ -11,6 +12,7 @@ from io import TextIOWrapper
 from cyclopts import App, CycloptsError, MissingArgumentError
 
 from geocontact import __version__
+from geocontact.cli.output import discard_drafts
 from geocontact.data.errors import InputError
 
 USAGE_ERROR = 2
@@ -32,7 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit: 0 done, 2 for a mistake in the input, 1 for any other failure."""
     tokens = list(sys.argv[1:] if arguments is None else arguments)
     debug = "--debug" in tokens
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that a terminated run leaves nothing behind
+    signal.signal(signal.SIGTERM, _terminated)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # a file name that the terminal cannot show costs no result
             stream.reconfigure(errors="backslashreplace")
@@ -62,6 +64,13 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
         return _fail("not enough memory; decimate the meshes or evaluate fewer frames", FAILURE, debug)
     except Exception as error:  # the last line of defence: one line for the user, --debug for us
         return _fail(f"{type(error).__name__}: {error} (run again with --debug for the details)", FAILURE, debug)
+
+
+def _terminated(*_: object) -> None:
+    """End at once and leave nothing behind; an exception could be lost in compiled code."""
+    discard_drafts()
+    os.write(2, b"terminated; nothing was written\n")
+    os._exit(143)
 
 
 def _one_line(text: str) -> str:

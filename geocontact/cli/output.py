@@ -12,6 +12,15 @@ from pathlib import Path
 from geocontact.data.errors import InputError
 
 
+_drafts: set[Path] = set()
+
+
+def discard_drafts() -> None:
+    """Remove what is half-written."""
+    for draft in tuple(_drafts):
+        shutil.rmtree(draft, ignore_errors=True)
+
+
 @contextmanager
 def written_whole(out: Path) -> Iterator[Path]:
     """Folder to write into; its files move to `out` when the block ends well, and vanish when it does not.
@@ -26,6 +35,7 @@ def written_whole(out: Path) -> Iterator[Path]:
         draft = Path(tempfile.mkdtemp(prefix=".geocontact-", dir=base))
     except OSError as error:
         raise InputError(base, "", f"cannot be written to ({error.strerror})", "choose another --out") from error
+    _drafts.add(draft)
     try:
         yield draft
         os.chmod(draft, 0o755)
@@ -35,3 +45,4 @@ def written_whole(out: Path) -> Iterator[Path]:
             os.replace(file, target)
     finally:
         shutil.rmtree(draft, ignore_errors=True)
+        _drafts.discard(draft)

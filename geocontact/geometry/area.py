@@ -43,7 +43,7 @@ class Refinement:
     accuracy: float = 2e-4
     bounds: float = 0.1
     depth: int = 16
-    pieces: int = 40_000
+    pieces: int = 200_000
 
 
 AS_GIVEN = Refinement(depth=0)
