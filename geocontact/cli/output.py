@@ -11,7 +11,6 @@ from pathlib import Path
 
 from geocontact.data.errors import InputError
 
-
 _drafts: set[Path] = set()
 
 
