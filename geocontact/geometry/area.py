@@ -21,6 +21,7 @@ from geocontact.geometry.surface import Surface
 
 BLIND = 0.01  # share of the doubt that counts as error where the cut cannot show any
 STALLED = 0.9  # three divisions that leave more of the doubt than this: the surfaces are exactly a threshold apart
+SAME = 1e-9  # doubts of symmetric pieces differ by rounding, which follows the order of their corners
 SMALLEST = 1e-10  # m^2; an upper bound below this is not refined further
 
 
@@ -36,8 +37,8 @@ class Refinement:
     depth
         Largest number of divisions; 0 cuts the given triangles as they are.
     pieces
-        Largest number of triangles divided in all, the most doubtful first: a bound on the time where thresholds are
-        small against the triangles. What is left undecided shows in the bounds.
+        Largest number of triangles divided in all, the most doubtful first (equally doubtful ones together): a bound on
+        the time where thresholds are small against the triangles. What is left undecided shows in the bounds.
     """
 
     accuracy: float = 2e-4
@@ -140,9 +141,8 @@ def area_within(
     faces, points = compact(sampled.faces[doubtful], d)
     edges, areas = sampled.edges[doubtful], sampled.area[doubtful]
     start = _Sums(whole[0], whole[0], whole[0], negative=whole[4])
-    sums = _refined(
-        start, _examined(faces, points, edges, areas, threshold, other.closed), points, other, threshold, refinement
-    )
+    pieces = _cut(faces, points, edges, areas, lower[doubtful], upper[doubtful], threshold)
+    sums = _refined(start, pieces, points, other, threshold, refinement)
     # the pieces' moment is about the other's centre and in its axes
     shift = rotation @ sampled.surface.centre + translation - other.centre
     moment = whole[1:4] + (sums.moment - (sums.area - whole[0]) * shift) @ rotation
@@ -160,18 +160,18 @@ def area_within(
     )
 
 
-def _examined(
+def _cut(
     faces: Int[np.ndarray, "k 3"],
     points: Distances,
     edges: Float[np.ndarray, "k 3"],
     area: Float[np.ndarray, " k"],
+    lower: Float[np.ndarray, " k"],
+    upper: Float[np.ndarray, " k"],
     threshold: float,
-    signed: bool,
 ) -> _Pieces:
-    """Pieces with their bounds and their linear cut; the error of a piece never divided is taken as its whole doubt."""
-    p = points
-    lower, upper = certify(faces, p.points, p.distance, p.side, p.slot, p.closest, edges, threshold, signed)
-    part, moment, negative = clipped_parts(faces, p.points, p.side * p.distance - threshold, p.across, area)
+    """Pieces with their linear cut; the error of a piece never divided is taken as its whole doubt."""
+    signed = points.side * points.distance - threshold
+    part, moment, negative = clipped_parts(faces, points.points, signed, points.across, area)
     return _Pieces(faces, edges, area, lower, upper, part, moment, negative, (upper - lower) * area)
 
 
@@ -195,7 +195,9 @@ def _refined(
         faces, points = quartered(faces, points, other, threshold)
         # the quarters are similar to their parent, so their edges are half of its edges
         edges, area = np.repeat(0.5 * pieces.edges[wanted], 4, axis=0), np.repeat(0.25 * pieces.area[wanted], 4)
-        child = _examined(faces, points, edges, area, threshold, other.closed)
+        p = points
+        bounds = certify(faces, p.points, p.distance, p.side, p.slot, p.closest, edges, threshold, other.closed)
+        child = _cut(faces, points, edges, area, *bounds, threshold)
         pieces = replace(child, error=_error(pieces[wanted], child))
     return settled.with_(pieces)
 
@@ -226,9 +228,8 @@ def _wanted(now: _Sums, pieces: _Pieces, rule: Refinement, first: bool) -> Bool[
 
 
 def _most(wanted: Bool[np.ndarray, " k"], gap: Float[np.ndarray, " k"], count: int) -> Bool[np.ndarray, " k"]:
-    """At most `count` of the wanted pieces, those with the largest gap."""
+    """The `count` wanted pieces with the largest gap, and those that equal the last of them but for rounding."""
     if np.count_nonzero(wanted) <= count:
         return wanted
-    chosen = np.zeros(len(gap), bool)
-    chosen[np.argsort(np.where(wanted, -gap, 0.0), kind="stable")[:count]] = True
-    return chosen
+    last = -np.partition(-gap[wanted], count - 1)[count - 1]
+    return np.asarray(wanted & (gap >= last * (1.0 - SAME)))

@@ -16,8 +16,12 @@ OPPOSITE = np.array([[1, 2], [2, 0], [0, 1]])
 
 def compact(faces: Int[np.ndarray, "k 3"], points: Distances) -> tuple[Int[np.ndarray, "k 3"], Distances]:
     """Only the points these faces use, and the faces renumbered to them."""
-    used, renumbered = np.unique(faces, return_inverse=True)
-    return renumbered.reshape(-1, 3), points[used]
+    named = np.zeros(len(points.distance), bool)
+    named[faces] = True
+    used = np.flatnonzero(named)
+    place = np.empty(len(named), np.int64)
+    place[used] = np.arange(len(used))
+    return place[faces], points[used]
 
 
 def quartered(

@@ -36,6 +36,9 @@ def certify(faces, points, distance, side, slot, closest, edges, threshold, sign
     near = (slot >= 0) | (side <= 0)
     v = np.empty((3, 3))
     p = np.empty((3, 3))
+    d = np.empty(3)
+    s = np.empty(3, np.int8)
+    found = np.empty(3, np.bool_)
     for f in range(len(faces)):
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         if not (near[i] or near[j] or near[k]):
@@ -50,12 +53,14 @@ def certify(faces, points, distance, side, slot, closest, edges, threshold, sign
             lower[f] = upper[f] = 1.0 if verdict > 0 else 0.0
             continue
         for c in range(3):
+            corner = faces[f, c]
             for x in range(3):
-                v[c, x] = points[faces[f, c], x]
-                p[c, x] = closest[faces[f, c], x]
-        lower[f], upper[f] = _second_order(
-            v, p, distance[faces[f]], side[faces[f]], slot[faces[f]], e0, e1, e2, threshold, signed
-        )
+                v[c, x] = points[corner, x]
+                p[c, x] = closest[corner, x]
+            d[c] = distance[corner]
+            s[c] = side[corner]
+            found[c] = slot[corner] >= 0
+        lower[f], upper[f] = _second_order(v, p, d, s, found, e0, e1, e2, threshold, signed)
     return lower, upper
 
 
@@ -95,15 +100,15 @@ def _by_one_corner(i, reach, distance, side, slot, threshold, signed):
 
 
 @kernel
-def _length(a, b):
-    return np.sqrt((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2)
+def _length(v, i, p, j):
+    return np.sqrt((v[i, 0] - p[j, 0]) ** 2 + (v[i, 1] - p[j, 1]) ** 2 + (v[i, 2] - p[j, 2]) ** 2)
 
 
 @kernel
-def _second_order(v, p, d, s, slot, e0, e1, e2, threshold, signed):
+def _second_order(v, p, d, s, found, e0, e1, e2, threshold, signed):
     slack = ROUND * (e0 + e1 + e2 + threshold)
     outside = threshold + slack
-    lower = _surely_within(v, p, slot, threshold - slack)
+    lower = _surely_within(v, p, found, threshold - slack)
     if lower >= 1.0:
         return 1.0, 1.0
     # the part certainly farther than T: linear interpolation of d^2 above T^2 + q
@@ -121,13 +126,13 @@ def _second_order(v, p, d, s, slot, e0, e1, e2, threshold, signed):
 
 
 @kernel
-def _surely_within(v, p, slot, threshold):
+def _surely_within(v, p, found, threshold):
     best = 0.0
     for j in range(3):
-        if slot[j] < 0:
+        if not found[j]:
             continue
         part = fraction_below(
-            _length(v[0], p[j]) - threshold, _length(v[1], p[j]) - threshold, _length(v[2], p[j]) - threshold
+            _length(v, 0, p, j) - threshold, _length(v, 1, p, j) - threshold, _length(v, 2, p, j) - threshold
         )
         best = max(best, part)
     return best
