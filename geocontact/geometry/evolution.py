@@ -37,6 +37,9 @@ class Settings:
         Plane in FIXED's frame between medial and lateral.
     medial_side
         +1 or -1, the side of the plane that is medial.
+    sensitivity
+        Further thresholds [m] at which FIXED's area is wanted to see how much the choice matters: triangles cut once as
+        given, no bounds. Distances reach as far as the largest of all thresholds.
     """
 
     thresholds: tuple[float, ...] = (4e-3,)
@@ -46,9 +49,11 @@ class Settings:
     moving_faces: Bool[np.ndarray, " g"] | None = None
     split: Plane | None = None
     medial_side: int = -1
+    sensitivity: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        if not self.thresholds or min(self.thresholds) < 0.0 or not np.isfinite(self.thresholds).all():
+        every = (*self.thresholds, *self.sensitivity)
+        if not self.thresholds or min(every) < 0.0 or not np.isfinite(every).all():
             raise ValueError("thresholds must be finite and not negative")
         if self.rule not in RULES:
             raise ValueError(f"rule must be one of {', '.join(RULES)}, not {self.rule!r}")
@@ -56,10 +61,14 @@ class Settings:
 
 @dataclass(frozen=True)
 class FrameContact:
-    """One frame: areas per threshold, separation, and the distances they come from."""
+    """One frame: areas per threshold, separation, and the distances they come from.
+
+    sensitivity (s,) is FIXED's area [m^2] at the thresholds of `Settings.sensitivity`.
+    """
 
     fixed: list[AreaWithin]
     moving: list[AreaWithin]
+    sensitivity: Float[np.ndarray, " s"]
     min_distance: float
     max_penetration_fixed: float
     fixed_distances: Distances
@@ -81,7 +90,7 @@ class ContactPair:
         self.moving = moving
         self.fixed = fixed
         self.settings = settings
-        largest = max(settings.thresholds)
+        largest = max((*settings.thresholds, *settings.sensitivity))
         self._fixed = Sampled.of(fixed, largest, settings.fixed_faces, settings.split)
         self._moving = Sampled.of(moving, largest, settings.moving_faces)
         self._whole_fixed = self._fixed if settings.fixed_faces is None else Sampled.of(fixed, largest)
@@ -109,9 +118,14 @@ class ContactPair:
             _in_frame(self._area(self._moving, self.fixed, on_moving, t, rotation, translation), rotation, translation)
             for t in self.settings.thresholds
         ]
+        clipped = [
+            area_within(self._fixed, self.moving, on_fixed, t, back, origin, AS_GIVEN).area
+            for t in self.settings.sensitivity
+        ]
         return FrameContact(
             fixed=[self._area(self._fixed, self.moving, on_fixed, t, back, origin) for t in self.settings.thresholds],
             moving=moving,
+            sensitivity=np.array(clipped),
             min_distance=lowest,
             max_penetration_fixed=penetration,
             fixed_distances=on_fixed,
@@ -198,6 +212,7 @@ def area_evolution(
     translation = np.asarray(motion.poses.translation).reshape(-1, 3)
     on_fixed: list[list[AreaWithin]] = []
     on_moving: list[list[AreaWithin]] = []
+    sensitivity: list[np.ndarray] = []
     lowest: list[float] = []
     deepest: list[float] = []
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
@@ -206,6 +221,7 @@ def area_evolution(
                 each(k, frame)
             on_fixed.append(frame.fixed)
             on_moving.append(frame.moving)
+            sensitivity.append(frame.sensitivity)
             lowest.append(frame.min_distance)
             deepest.append(frame.max_penetration_fixed)
     return AreaEvolution(
@@ -217,6 +233,8 @@ def area_evolution(
         max_penetration_fixed=np.array(deepest),
         signed=pair.signed,
         medial_side=settings.medial_side if settings.split is not None else 0,
+        sensitivity_thresholds=settings.sensitivity,
+        sensitivity=np.array(sensitivity),
         undecided=np.array([a[0].undecided + b[0].undecided for a, b in zip(on_fixed, on_moving, strict=True)]),
     )
 

@@ -160,3 +160,20 @@ def test_settings_that_mean_nothing_are_refused(settings, message):
 def test_pose_that_is_not_finite_is_refused(bad):
     with pytest.raises(ValueError, match="finite"):
         ContactPair(FEMORAL, INSERT).at(np.eye(3), np.array([0.0, bad, 0.0]))
+
+
+def test_sensitivity_is_the_clipped_area_at_further_thresholds(evolution):
+    """Below and above the threshold that is asked for; the areas themselves stay what they are."""
+    further = (0.0, 0.5 * MM, 2 * MM, 6 * MM)
+    found = area_evolution(FEMORAL, INSERT, gait(), Settings((4 * MM,), split=SPLIT.split, sensitivity=further))
+    clipped = area_evolution(FEMORAL, INSERT, gait(), Settings(further, rule="clip"))
+    assert found.sensitivity_thresholds == further
+    assert found.sensitivity == pytest.approx(clipped.fixed.area, rel=1e-12)
+    assert (found.sensitivity[0, -1] > found.fixed.area[0, 0]) and (found.sensitivity[0, 2] < found.fixed.area[0, 0])
+    assert found.fixed.area[:, 0] == pytest.approx(evolution.fixed.area[:, 1], rel=4e-4)
+
+
+@pytest.mark.parametrize("wrong", [(-1e-3,), (np.nan,), (np.inf,)])
+def test_thresholds_of_the_sensitivity_are_checked_too(wrong):
+    with pytest.raises(ValueError, match="finite and not negative"):
+        Settings(sensitivity=wrong)
