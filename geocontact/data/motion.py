@@ -44,6 +44,8 @@ class Motion:
         "s", or "%" where the file says that its cycle is normalised.
     coordinate
         Name and values [rad] of the angle that a prescribed motion sweeps; None for recorded motion.
+    heeded
+        Which of the reader's options "order", "angles" and "convention" had a say in it.
     """
 
     time: Float[np.ndarray, " t"]
@@ -51,6 +53,7 @@ class Motion:
     source: str = ""
     time_unit: str = "s"
     coordinate: tuple[str, Float[np.ndarray, " t"]] | None = None
+    heeded: frozenset[str] = frozenset()
 
     def __len__(self) -> int:
         return len(self.time)

@@ -196,8 +196,8 @@ def _refined(
         # the quarters are similar to their parent, so their edges are half of its edges
         edges, area = np.repeat(0.5 * pieces.edges[wanted], 4, axis=0), np.repeat(0.25 * pieces.area[wanted], 4)
         p = points
-        bounds = certify(faces, p.points, p.distance, p.side, p.slot, p.closest, edges, threshold, other.closed)
-        child = _cut(faces, points, edges, area, *bounds, threshold)
+        lower, upper = certify(faces, p.points, p.distance, p.side, p.slot, p.closest, edges, threshold, other.closed)
+        child = _cut(faces, points, edges, area, lower, upper, threshold)
         pieces = replace(child, error=_error(pieces[wanted], child))
     return settled.with_(pieces)
 

@@ -21,8 +21,8 @@ def placed(mesh: Mesh, placement: Float[np.ndarray, "4 4"], metres_per_number: f
         factors of a model file, which act on the numbers in the mesh file.
     """
     linear, shift = placement[:3, :3], placement[:3, 3]
-    volume = float(np.linalg.det(linear))
-    if volume == 0.0 or not np.isfinite(placement).all():
+    volume = float(np.linalg.det(linear)) if np.isfinite(placement).all() else 0.0
+    if volume == 0.0:
         raise ValueError("the placement is singular or not finite")
     vertices = mesh.vertices / metres_per_number @ linear.T + shift
     faces = mesh.faces if volume > 0.0 else np.ascontiguousarray(mesh.faces[:, ::-1])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -33,14 +32,6 @@ class Proximity:
     normal: Float[np.ndarray, "n 3"]
     face: Int[np.ndarray, " n"]
     signed: bool = True
-
-
-class Shape(Protocol):
-    """Anything that answers `proximity(points)`."""
-
-    def proximity(self, points: Float[np.ndarray, "n 3"], limit: float = np.inf) -> Proximity:
-        """Nearest boundary point, signed distance and outward normal of each point, up to `limit` [m]."""
-        ...
 
 
 def within(limit: float, exact: Proximity) -> Proximity:

@@ -31,7 +31,8 @@ def angles_of(table: Table, names: Sequence[str], angles: str | None = None) -> 
     Parameters
     ----------
     angles
-        "deg" or "rad" where the user says so; it overrules what the file says, with a warning when they disagree.
+        "deg" or "rad" where the user says so; it overrules what the file says, with a warning when they disagree or
+        when "rad" makes more than two turns of it.
 
     A file that says nothing or contradicts itself is refused, and so is one that says rad and holds more than two
     turns. One that says deg and never exceeds 0.2 is used with a warning.
@@ -43,9 +44,8 @@ def angles_of(table: Table, names: Sequence[str], angles: str | None = None) -> 
     units = [angles or unit or _ask(table, name) for name, unit in zip(names, said, strict=True)]
     if angles is None:
         _check_size(table, names, values, units)
-    elif other := {unit for unit in said if unit not in (None, angles)}:
-        what = f"says {other.pop()}, read as {angles} as asked for"
-        warnings.warn(InputWarning(f"{table.file}: {what}"), stacklevel=3)
+    else:
+        _warn_of_doubts(table, names, values, said, angles)
     return np.asarray(values * np.array([ANGLE[unit] for unit in units]))
 
 
@@ -133,12 +133,36 @@ def _ask(table: Table, name: str) -> NoReturn:
 
 
 def _check_size(table: Table, names: Sequence[str], values: Float[np.ndarray, "t k"], units: list[str]) -> None:
-    size = np.max(np.abs(values), axis=0)
-    for name, unit, most in zip(names, units, size, strict=True):
-        if unit == "rad" and most > LARGEST_RADIANS:
-            place = f"line {table.lines[int(np.argmax(np.abs(values[:, list(names).index(name)])))]}"
-            what = f"column '{name}' reaches {most:.4g}, too much for the radians that the header declares"
-            raise InputError(table.file, place, what, "pass --angles deg or rad")
-    if set(units) == {"deg"} and 0.0 < np.max(size) < _FEW_DEGREES:
-        what = f"no angle exceeds {np.max(size):.3g} deg; if they are radians pass --angles rad"
+    if found := _beyond_two_turns(table, names, values, units):
+        what = f"{found[1]}, too much for the radians that the header declares"
+        raise InputError(table.file, found[0], what, "pass --angles deg or rad")
+    size = np.max(np.abs(values))
+    if set(units) == {"deg"} and 0.0 < size < _FEW_DEGREES:
+        what = f"no angle exceeds {size:.3g} deg; if they are radians pass --angles rad"
         warnings.warn(InputWarning(f"{table.file}: {what}"), stacklevel=4)
+
+
+def _warn_of_doubts(
+    table: Table, names: Sequence[str], values: Float[np.ndarray, "t k"], said: list[str | None], angles: str
+) -> None:
+    """The user's word is followed; say where the file says otherwise, and where the size of the numbers does."""
+    doubts = []
+    if other := {unit for unit in said if unit not in (None, angles)}:
+        doubts.append(f"{table.file}: says {other.pop()}, read as {angles} as asked for")
+    elif table.angles.conflict:
+        doubts.append(f"{table.file} line {table.angles.line}: {table.angles.conflict}; read as {angles} as asked for")
+    if found := _beyond_two_turns(table, names, values, [angles] * len(names)):
+        doubts.append(f"{table.file} {found[0]}: {found[1]}, much for radians; if these are degrees pass --angles deg")
+    for doubt in doubts:
+        warnings.warn(InputWarning(doubt), stacklevel=4)
+
+
+def _beyond_two_turns(
+    table: Table, names: Sequence[str], values: Float[np.ndarray, "t k"], units: list[str]
+) -> tuple[str, str] | None:
+    """Place and words for the first column in rad that exceeds two turns; None when there is none."""
+    for name, unit, column in zip(names, units, np.abs(values).T, strict=True):
+        row = int(np.argmax(column))
+        if unit == "rad" and column[row] > LARGEST_RADIANS:
+            return f"line {table.lines[row]}", f"column '{name}' reaches {column[row]:.4g}"
+    return None

@@ -44,22 +44,6 @@ def tibia_in_femur(
     return Rotation.from_matrix(np.moveaxis(np.array(rows, dtype=float), (0, 1), (-2, -1)))
 
 
-def knee_angles(tibia: Rotation, side: str) -> Float[np.ndarray, "t 3"]:
-    """Flexion, adduction and internal rotation [rad] from `R_FT`, by the definition with the floating axis.
-
-    Adduction within ±90°; at ±90° flexion and rotation turn about the same axis and cannot be told apart.
-    """
-    matrix = np.atleast_3d(tibia.as_matrix()).reshape(-1, 3, 3)
-    e3 = matrix[:, :, 1]
-    e2 = np.cross(e3, np.array([0.0, 0.0, 1.0]))
-    e2 = e2 / np.linalg.norm(e2, axis=1, keepdims=True)
-    in_tibia = np.einsum("tij,ti->tj", matrix, e2)
-    flexion = np.arctan2(-e2[:, 1], e2[:, 0])
-    adduction = np.arcsin(np.clip(e3[:, 2], -1.0, 1.0))
-    rotation = np.arctan2(in_tibia[:, 2], in_tibia[:, 0])
-    return np.column_stack([flexion, _sign(side) * adduction, _sign(side) * rotation])
-
-
 def motion_from_grood_suntay(
     table: Table,
     mapping: str | None,
@@ -88,11 +72,13 @@ def motion_from_grood_suntay(
     text = mapping or ",".join(f"{name}={name}" for name in present)
     if not text:
         raise InputError(table.file, "", "no columns flexion, adduction, rotation", "name them with --map")
-    turned, moved = mapped(table, parse_map(text, _ANGLES + _SHIFTS), _ANGLES, _SHIFTS, angles)
+    parsed = parse_map(text, _ANGLES + _SHIFTS)
+    turned, moved = mapped(table, parsed, _ANGLES, _SHIFTS, angles)
     rotation = tibia_in_femur(turned[:, 0], turned[:, 1], turned[:, 2], side)
     poses = RigidTransform.from_components(moved, rotation if moving == "tibia" else rotation.inv())
     source = f"{table.file} with {text} (Grood-Suntay, {side} knee, {moving} moving)"
-    return Motion(table.time, poses, source, table.time_unit)
+    heeded = frozenset({"angles", "convention"} if set(parsed) & set(_ANGLES) else ())
+    return Motion(table.time, poses, source, table.time_unit, heeded=heeded)
 
 
 def _sign(side: str) -> float:

@@ -1,4 +1,4 @@
-"""Surface meshes: STL, PLY, OBJ and VTP to vertices in metres and faces, and back to STL."""
+"""Surface meshes: STL, PLY, OBJ and VTP to vertices in metres and faces."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from geocontact.io.merge import merge_coincident
 from geocontact.io.mesh_checks import metres_per, require_finite, require_plausible, warn_about_faces
 from geocontact.io.obj import read_obj
 from geocontact.io.ply import read_ply
-from geocontact.io.stl import RECORD, read_stl
+from geocontact.io.stl import read_stl
 from geocontact.io.vtp import read_vtp
 
 _Reader = Callable[[bytes, str], tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]]
@@ -65,23 +65,3 @@ def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, f
     metres = vertices.astype(np.float64) * scale
     warn_about_faces(metres, faces, name)
     return Mesh(metres, faces, name, unit, sha256)
-
-
-def write_stl(
-    path: str | PathLike[str], vertices_in_m: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"], unit: str
-) -> None:
-    """Write a binary STL file whose numbers are in `unit`; the same mesh gives the same bytes.
-
-    Coordinates are rounded to float32 (7 digits), as the format wants it. Degenerate faces get the normal 0 0 0.
-    """
-    name = Path(fspath(path)).name
-    corners = (np.asarray(vertices_in_m, dtype=np.float64) / metres_per(unit, name))[faces]
-    if not np.isfinite(corners).all() or np.abs(corners).max(initial=0.0) > np.finfo(np.float32).max:
-        raise InputError(name, "", "a vertex is not a finite float32 number", "repair the mesh before writing it")
-    records = np.zeros(len(faces), RECORD)
-    records["corners"] = corners
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.linalg.norm(normal, axis=1, keepdims=True)
-    records["normal"] = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
-    head = f"geocontact binary STL, unit {unit}".encode().ljust(80, b"\0")
-    Path(path).write_bytes(head + len(faces).to_bytes(4, "little") + records.tobytes())

@@ -52,9 +52,9 @@ def motion_from_csv(path: str | PathLike[str], order: str | None = None, angles:
         turned = Rotation.from_euler(_sequence(order, "XYZ"), _in_order(angles_of(table, _TURNS, angles), order))
     else:
         turned = _quaternions(table)
-    return Motion(
-        table.time, RigidTransform.from_components(lengths(table, _SHIFTS), turned), table.file, table.time_unit
-    )
+    poses = RigidTransform.from_components(lengths(table, _SHIFTS), turned)
+    heeded = frozenset({"order", "angles"} if euler else ())
+    return Motion(table.time, poses, table.file, table.time_unit, heeded=heeded)
 
 
 def motion_from_joint(table: Table, joint: JointModel, moving: str = "child", angles: str | None = None) -> Motion:
@@ -75,7 +75,9 @@ def motion_from_joint(table: Table, joint: JointModel, moving: str = "child", an
         raise InputError(table.file, "", f"pose of joint {joint.name} is not finite", "coordinates or model are absurd")
     _warn_of_defaults(table, joint, [c for c in joint.coordinates if c.name not in columns])
     poses = pose.inv() if moving == "parent" else pose
-    return Motion(table.time, poses, f"{table.file} with joint {joint.name} of {joint.file}", table.time_unit)
+    source = f"{table.file} with joint {joint.name} of {joint.file}"
+    heeded = {"angles" for c in joint.coordinates if c.name in columns and c.kind == "rotational"}
+    return Motion(table.time, poses, source, table.time_unit, heeded=frozenset(heeded))
 
 
 def motion_from_map(table: Table, mapping: str, order: str | None = None, angles: str | None = None) -> Motion:
@@ -92,9 +94,9 @@ def motion_from_map(table: Table, mapping: str, order: str | None = None, angles
     for axis in sequence:
         place = "XYZ".index(axis)
         rotation = rotation * Rotation.from_rotvec(turned[:, place, None] * np.eye(3)[place])
-    return Motion(
-        table.time, RigidTransform.from_components(moved, rotation), f"{table.file} with map {mapping}", table.time_unit
-    )
+    poses = RigidTransform.from_components(moved, rotation)
+    heeded = frozenset(("angles", "order")[: len(written)])  # one rotation has no order
+    return Motion(table.time, poses, f"{table.file} with map {mapping}", table.time_unit, heeded=heeded)
 
 
 def read_pose(path: str | PathLike[str], unit: str = "m") -> RigidTransform:

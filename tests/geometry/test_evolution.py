@@ -12,25 +12,11 @@ from geocontact.geometry.plane import Plane
 from geocontact.geometry.rules import RULES
 from geocontact.geometry.surface import Surface
 from meshes.total_knee import total_knee
+from tests.contract import COLUMNS, SPLIT
 from tests.geometry.bodies import MM, cube, surface
 
 INSERT, FEMORAL = (surface(body, name) for body, name in zip(total_knee(1.0), ("insert", "femoral"), strict=True))
-SPLIT = Settings(thresholds=(0.1 * MM, 4 * MM), split=Plane.across("z"))
-
-COLUMNS = [
-    "time [s]",
-    "threshold [mm]",
-    "area_fixed [mm^2]",
-    "area_moving [mm^2]",
-    "min_distance [mm]",
-    "max_penetration_fixed [mm]",
-    "centroid_x [mm]",
-    "centroid_y [mm]",
-    "centroid_z [mm]",
-    "area_fixed_lower [mm^2]",
-    "area_fixed_upper [mm^2]",
-    "signed",
-]
+SETTINGS = Settings(thresholds=(0.1 * MM, 4 * MM), split=Plane.across("z"))
 
 
 def gait(frames=5):
@@ -45,19 +31,18 @@ def gait(frames=5):
 
 @pytest.fixture(scope="module")
 def evolution():
-    return area_evolution(FEMORAL, INSERT, gait(), SPLIT, workers=1)
+    return area_evolution(FEMORAL, INSERT, gait(), SETTINGS, workers=1)
 
 
 def test_table_has_the_columns_of_the_contract(evolution):
     """COMMANDS.md: frames outer, thresholds inner; medial and lateral only with a split."""
     table = evolution.table()
-    halves = ["area_fixed_medial [mm^2]", "area_fixed_lateral [mm^2]"]
-    assert list(table.columns[: len(COLUMNS) + 2]) == COLUMNS + halves
+    assert list(table.columns[: len(COLUMNS) + 2]) == COLUMNS + SPLIT
     assert list(table["time [s]"]) == [t for t in 0.25 * np.arange(5) for _ in range(2)]
     assert table["threshold [mm]"].to_numpy() == pytest.approx(np.tile([0.1, 4.0], 5))
     plain = area_evolution(FEMORAL, INSERT, gait(2), Settings(refinement=AS_GIVEN)).table()
     assert list(plain.columns[: len(COLUMNS)]) == COLUMNS
-    assert not set(halves) & set(plain.columns)
+    assert not set(SPLIT) & set(plain.columns)
 
 
 def test_table_is_in_mm(evolution):
@@ -77,7 +62,7 @@ def test_table_is_in_mm(evolution):
 def test_halves_add_up_and_the_medial_one_is_where_it_is_said(evolution):
     assert evolution.medial + evolution.lateral == pytest.approx(evolution.fixed.area, rel=1e-12)
     assert (evolution.medial[0] > 0).all() and (evolution.lateral[0] > 0).all()
-    other = area_evolution(FEMORAL, INSERT, gait(), Settings(SPLIT.thresholds, split=SPLIT.split, medial_side=1))
+    other = area_evolution(FEMORAL, INSERT, gait(), Settings(SETTINGS.thresholds, split=SETTINGS.split, medial_side=1))
     assert np.array_equal(other.medial, evolution.fixed.area - evolution.medial)
     assert np.array_equal(other.fixed.area, evolution.fixed.area)
 
@@ -91,13 +76,13 @@ def test_frame_out_of_reach_has_no_area_and_no_centroid(evolution):
 
 @pytest.mark.parametrize("workers", [2, 3])
 def test_threads_change_no_bit(evolution, workers):
-    other = area_evolution(FEMORAL, INSERT, gait(), SPLIT, workers=workers)
+    other = area_evolution(FEMORAL, INSERT, gait(), SETTINGS, workers=workers)
     pd.testing.assert_frame_equal(evolution.table(), other.table(), check_exact=True)
     assert np.array_equal(evolution.undecided, other.undecided)
 
 
 def test_one_frame_is_that_frame_of_all(evolution):
-    pair, poses = ContactPair(FEMORAL, INSERT, SPLIT), gait().poses
+    pair, poses = ContactPair(FEMORAL, INSERT, SETTINGS), gait().poses
     for k in (4, 0, 2, 0):  # out of order, and once more: nothing is carried over
         frame = pair.at(poses.rotation.as_matrix()[k], poses.translation[k])
         assert [a.area for a in frame.fixed] == list(evolution.fixed.area[k])
@@ -109,7 +94,7 @@ def test_one_frame_is_that_frame_of_all(evolution):
 
 def test_moving_and_fixed_change_places(evolution):
     motion = gait()
-    other = area_evolution(INSERT, FEMORAL, Motion(motion.time, motion.poses.inv()), Settings(SPLIT.thresholds))
+    other = area_evolution(INSERT, FEMORAL, Motion(motion.time, motion.poses.inv()), Settings(SETTINGS.thresholds))
     assert other.moving.area == pytest.approx(evolution.fixed.area, rel=1e-9)
     assert other.fixed.area == pytest.approx(evolution.moving.area, rel=1e-9)
     assert other.min_distance == pytest.approx(evolution.min_distance, abs=1e-12)
@@ -165,7 +150,7 @@ def test_pose_that_is_not_finite_is_refused(bad):
 def test_sensitivity_is_the_clipped_area_at_further_thresholds(evolution):
     """Below and above the threshold that is asked for; the areas themselves stay what they are."""
     further = (0.0, 0.5 * MM, 2 * MM, 6 * MM)
-    found = area_evolution(FEMORAL, INSERT, gait(), Settings((4 * MM,), split=SPLIT.split, sensitivity=further))
+    found = area_evolution(FEMORAL, INSERT, gait(), Settings((4 * MM,), split=SETTINGS.split, sensitivity=further))
     clipped = area_evolution(FEMORAL, INSERT, gait(), Settings(further, rule="clip"))
     assert found.sensitivity_thresholds == further
     assert found.sensitivity == pytest.approx(clipped.fixed.area, rel=1e-12)

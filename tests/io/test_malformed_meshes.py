@@ -16,7 +16,7 @@ import trimesh
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io import limits
-from geocontact.io.meshes import read_mesh, write_stl
+from geocontact.io.meshes import read_mesh
 from geocontact.io.ply_preflight import read_header
 
 BALL = trimesh.creation.icosphere(subdivisions=1, radius=31.4159)
@@ -287,13 +287,6 @@ def test_missing_last_line_end_is_warned_about(tmp_path, name, data):
     path.write_bytes(data)
     with pytest.warns(InputWarning, match=f"^{name}: the last line has no line end"):
         read_mesh(path, "mm")
-
-
-def test_what_cannot_be_stored_as_float32_is_not_written(tmp_path):
-    vertices = np.array([[0.0, 0, 0], [1e39, 0, 0], [0, 1, 0]])
-    with pytest.raises(InputError, match="not a finite float32"):
-        write_stl(tmp_path / "far.stl", vertices, np.array([[0, 1, 2]]), "m")
-    assert not (tmp_path / "far.stl").exists()
 
 
 def ball_vtp() -> bytes:

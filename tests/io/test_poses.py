@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.grood_suntay import knee_angles, tibia_in_femur
+from geocontact.io.grood_suntay import tibia_in_femur
 from geocontact.io.joint_model import JointModel
 from geocontact.io.osim import read_joint
 from geocontact.io.poses import (
@@ -228,10 +228,17 @@ def test_a_wrong_degree_flag_is_noticed_by_size(tmp_path: Path) -> None:
 
 @settings(deadline=None)
 @given(st.floats(-3.1, 3.1), ANGLE, st.floats(-3.1, 3.1), st.sampled_from(SIDES))
-def test_knee_angles_survive_the_round_trip(flexion: float, adduction: float, turn: float, side: str) -> None:
-    given_angles = np.array([[flexion, adduction, turn]])
-    back = knee_angles(tibia_in_femur(given_angles[:, 0], given_angles[:, 1], given_angles[:, 2], side), side)
-    np.testing.assert_allclose(back, given_angles, atol=1e-12)
+def test_knee_angles_by_the_definition_with_the_floating_axis(
+    flexion: float, adduction: float, turn: float, side: str
+) -> None:
+    """Read back from the axes: e1 = z of the femur, e3 = y of the tibia, e2 = e3 x e1; a left knee is mirrored."""
+    tibia = tibia_in_femur(np.array([flexion]), np.array([adduction]), np.array([turn]), side).as_matrix()[0]
+    sign = 1.0 if side == "right" else -1.0
+    e3 = tibia[:, 1]
+    e2 = np.cross(e3, [0.0, 0.0, 1.0]) / np.hypot(e3[0], e3[1])
+    in_tibia = tibia.T @ e2
+    found = [np.arctan2(-e2[1], e2[0]), sign * np.arcsin(e3[2]), sign * np.arctan2(in_tibia[2], in_tibia[0])]
+    np.testing.assert_allclose(found, [flexion, adduction, turn], atol=1e-12)
 
 
 @settings(deadline=None)
@@ -277,7 +284,8 @@ def test_knee_angle_columns_by_their_own_names(tmp_path: Path) -> None:
     table = knee(tmp_path, KNEE.replace("fe\taa\tie", "flexion\tadduction\trotation"))
     with pytest.warns(InputWarning, match="nothing is mapped to tx, ty, tz; taken as 0"):
         motion = motion_from_grood_suntay(table, None, "right")
-    np.testing.assert_allclose(knee_angles(motion.poses.rotation, "right")[0], np.radians([30, 4, -6]), atol=1e-14)
+    expected = rotation("z", np.radians(-30)) @ rotation("x", np.radians(4)) @ rotation("y", np.radians(-6))
+    np.testing.assert_allclose(motion.poses.rotation.as_matrix()[0], expected, atol=1e-15)
     with pytest.raises(InputError, match="no columns flexion, adduction, rotation; name them with --map"):
         motion_from_grood_suntay(knee(tmp_path), None, "right")
 

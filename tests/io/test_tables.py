@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -213,8 +214,20 @@ def test_contradictory_units_are_refused_until_the_user_decides(
     read = table(tmp_path, V1.format(flag=flag, text=text))
     with pytest.raises(InputError, match=message):
         angles_of(read, ["knee"])
-    np.testing.assert_array_equal(angles_of(read, ["knee"], "rad")[:, 0], [10.0, 20.0, 30.0])
-    np.testing.assert_array_equal(angles_of(read, ["knee"], "deg")[:, 0], np.radians([10.0, 20.0, 30.0]))
+    line = message.partition("; pass")[0]
+    with pytest.warns(InputWarning, match=rf"^\S*gait\.mot {line}.*; read as deg as asked for$"):
+        np.testing.assert_array_equal(angles_of(read, ["knee"], "deg")[:, 0], np.radians([10.0, 20.0, 30.0]))
+
+
+def said_when_read(read: Table, columns: list[str], angles: str) -> list[str]:
+    """Warnings when the angles are read as the user says, after which the values are those of the file in that unit."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        values = angles_of(read, columns, angles)
+    scale = {"deg": np.pi / 180.0, "rad": 1.0}[angles]
+    np.testing.assert_array_equal(values, np.column_stack([read.column(name) for name in columns]) * scale)
+    assert all(w.category is InputWarning for w in caught)
+    return [str(w.message).replace(read.file, "gait.mot") for w in caught]
 
 
 def test_degrees_declared_as_radians_are_noticed(tmp_path: Path) -> None:
@@ -233,10 +246,27 @@ def test_radians_declared_as_degrees_are_only_warned_of(tmp_path: Path) -> None:
 
 def test_user_overrules_the_header_with_a_warning(tmp_path: Path) -> None:
     read = table(tmp_path, GOOD)
-    with pytest.warns(InputWarning, match="says deg, read as rad as asked for"):
-        np.testing.assert_array_equal(angles_of(read, ["knee"], "rad")[:, 0], [10.0, 20.0, 30.0])
+    assert said_when_read(read, ["knee_tx"], "rad") == ["gait.mot: says deg, read as rad as asked for"]
+    assert said_when_read(read, ["knee", "knee_tx"], "deg") == []
     with pytest.raises(InputError, match="--angles: 'turns' is not a unit"):
         angles_of(read, ["knee"], "turns")
+
+
+def test_user_overrules_one_of_the_headers_of_a_csv(tmp_path: Path) -> None:
+    read = table(tmp_path, CSV.replace("knee_tx [mm]", "turn [rad]").replace("300", "3"), "gait.csv")
+    (line,) = said_when_read(read, ["knee", "turn"], "deg")
+    assert line.endswith("says rad, read as deg as asked for")
+
+
+def test_degrees_read_as_radians_on_the_users_word_are_noticed_by_size(tmp_path: Path) -> None:
+    """Beyond two turns (4 pi) in any column; a file that says nothing is the usual case."""
+    silent = GOOD.replace("inDegrees=yes\n", "")
+    line = "column 'knee' reaches 30, much for radians; if these are degrees pass --angles deg"
+    assert said_when_read(table(tmp_path, silent), ["knee_tx", "knee"], "rad") == [f"gait.mot line 9: {line}"]
+    assert said_when_read(table(tmp_path, silent), ["knee"], "deg") == []
+    for most, count in (("12.56", 0), ("-12.56", 0), ("12.57", 1), ("-12.57", 1)):
+        text = silent.replace("20", "2").replace("30", "3").replace("10", most)
+        assert len(said_when_read(table(tmp_path, text), ["knee"], "rad")) == count, most
 
 
 @pytest.mark.parametrize(
