@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from geocontact.data.motion import Motion
     from geocontact.geometry.area import Refinement
     from geocontact.geometry.evolution import ContactPair, Settings, area_evolution
+    from geocontact.geometry.maps import DistanceMaps
     from geocontact.geometry.plane import Plane
     from geocontact.geometry.proximity import Proximity
     from geocontact.geometry.regions import faces_where
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from geocontact.geometry.sweep import Axis, sweep
     from geocontact.io.meshes import read_mesh
     from geocontact.io.motion import read_motion
+    from geocontact.view.contact_page import write_report
 
 __version__ = "0.1.0"
 
@@ -41,6 +43,7 @@ _PLACES = {
     "ContactPair": "geometry.evolution",
     "Settings": "geometry.evolution",
     "area_evolution": "geometry.evolution",
+    "DistanceMaps": "geometry.maps",
     "Plane": "geometry.plane",
     "Proximity": "geometry.proximity",
     "faces_where": "geometry.regions",
@@ -54,12 +57,14 @@ _PLACES = {
     "sweep": "geometry.sweep",
     "read_mesh": "io.meshes",
     "read_motion": "io.motion",
+    "write_report": "view.contact_page",
 }
 
 __all__ = [
     "AreaEvolution",
     "Axis",
     "ContactPair",
+    "DistanceMaps",
     "HalfSpace",
     "InputError",
     "InputWarning",
@@ -79,6 +84,7 @@ __all__ = [
     "separation",
     "settle",
     "sweep",
+    "write_report",
 ]
 
 

@@ -32,7 +32,7 @@ class AreaOptions:
     joint
         Name of that joint.
     moving_body
-        parent: MOVING is the joint's parent body.
+        parent: MOVING is the joint's parent body, or the femur of a knee convention; child unless given.
     map
         Columns instead of a model: rz=knee_flexion,rx=knee_adduction,ry=-knee_rotation,tx=knee_tx
     order
@@ -56,7 +56,7 @@ class AreaOptions:
     split
         x, y or z (or z=1.5): medial and lateral parts of FIXED apart.
     medial
-        Side of the splitting plane that is medial.
+        Side of the splitting plane that is medial; - unless given.
     region
         Faces of FIXED that count: "ny>0.25" in x y z nx ny nz (mesh unit), or a file of face numbers.
     region_moving
@@ -68,9 +68,13 @@ class AreaOptions:
     compare
         Table of your own measured areas; exit 1 beyond the tolerance.
     tolerance
-        Largest relative difference.
+        Largest relative difference from the areas compared; 2% unless given.
     save_map
         Also write the distance of every vertex in every frame (distances.npz).
+    paraview
+        Also write both bodies with their distances over time for ParaView (folder paraview).
+    stills
+        Also write 3-D pictures of the frame with the largest area (still_superior.png and others).
     parquet
         Also write area.parquet.
     workers
@@ -83,7 +87,7 @@ class AreaOptions:
     threshold: str = "4"
     osim: Path | None = None
     joint: str | None = None
-    moving_body: Annotated[Literal["child", "parent"], Parameter(name="--moving")] = "child"
+    moving_body: Annotated[Literal["child", "parent"] | None, Parameter(name="--moving")] = None
     map: Annotated[str | None, Dashed] = None
     order: str | None = None
     angles: Literal["deg", "rad"] | None = None
@@ -95,14 +99,16 @@ class AreaOptions:
     place_fixed: str | None = None
     assume_closed: Literal["moving", "fixed", "both"] | None = None
     split: str | None = None
-    medial: Annotated[Literal["-", "+"], Dashed] = "-"
+    medial: Annotated[Literal["-", "+"] | None, Dashed] = None
     region: Annotated[str | None, Dashed] = None
     region_moving: Annotated[str | None, Dashed] = None
     rule: Literal["refined", "clip", "all-vertices", "any-vertex", "centroid"] = "refined"
     bounds: str | None = None
     compare: Path | None = None
-    tolerance: str = "2%"
+    tolerance: str | None = None
     save_map: Annotated[bool, Flag] = False
+    paraview: Annotated[bool, Flag] = False
+    stills: Annotated[bool, Flag] = False
     parquet: Annotated[bool, Flag] = False
     workers: int | None = None
 

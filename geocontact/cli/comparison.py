@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,20 @@ import pandas as pd
 
 from geocontact.data.errors import InputError
 
-TIME, THRESHOLD = "time [s]", "threshold [mm]"
+TIME, THRESHOLD, RELATIVE = "time [s]", "threshold [mm]", "relative [-]"
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The user's table and the largest relative difference to it that is acceptable."""
+
+    path: Path
+    table: pd.DataFrame
+    tolerance: float
+
+    def accepts(self, rows: pd.DataFrame) -> bool:
+        """Whether no row of a comparison is beyond the tolerance."""
+        return largest_difference(rows) <= self.tolerance
 
 
 def read_reference(path: Path) -> pd.DataFrame:
@@ -51,6 +65,11 @@ def compared(ours: pd.DataFrame, reference: pd.DataFrame, path: Path) -> pd.Data
     return pd.DataFrame(rows)
 
 
+def largest_difference(rows: pd.DataFrame) -> float:
+    """Largest relative difference of a comparison."""
+    return float(rows[RELATIVE].abs().max())
+
+
 def _row(ours: pd.DataFrame, row: pd.Series, name: str, path: Path) -> dict[str, object]:
     if name not in ours:
         raise InputError(path, name, "is not among our columns", f"ours are {', '.join(ours.columns)}")
@@ -71,5 +90,5 @@ def _row(ours: pd.DataFrame, row: pd.Series, name: str, path: Path) -> dict[str,
         "ours [mm^2]": mine,
         "reference [mm^2]": theirs,
         "difference [mm^2]": mine - theirs,
-        "relative [-]": (mine - theirs) / theirs if theirs else (0.0 if mine == 0.0 else np.inf),
+        RELATIVE: (mine - theirs) / theirs if theirs else (0.0 if mine == 0.0 else np.inf),
     }

@@ -24,7 +24,7 @@ def demo(*, out: Path = Path("demo-result")) -> int:
         meshes / "tibial_insert_right_medium.stl",
         options=AreaOptions(motion=[str(meshes / "gait.csv")], unit="mm", out=out, threshold="1,4", split="z"),
     )
-    print(f"open {out / 'area.png'} and {out / 'area.csv'}")
+    print(f"open {out / 'report.html'} in a browser (geocontact view {out}); the numbers are in {out / 'area.csv'}")
     return code
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 import platform
 import subprocess
-import sys
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
-from pathlib import Path
 
-PATIENCE = 8.0  # s for a child process
+from geocontact.view.surfaces import child, probe
+
+PATIENCE = 8.0  # s for all child processes together
+LATER = "try again when the machine is less busy; if it stays: "
 
 
 @dataclass(frozen=True)
@@ -74,9 +75,8 @@ FEATURES = (
         "3-D off-screen",
         "pyvista",
         "3-D stills and VTP files",
-        "import pyvista as pv; p = pv.Plotter(off_screen=True, window_size=(64, 64)); p.add_mesh(pv.Sphere());"
-        "assert p.screenshot(return_img=True).std() > 0",
-        f"pip install pyvista, and apt-get install {SYSTEM_GL} (Debian, Ubuntu)",
+        probe.PROGRAM,
+        probe.REMEDY,
     ),
     Feature(
         "scan registration",
@@ -100,16 +100,17 @@ def doctor() -> int:
     print(f"{os.cpu_count()} cores; compiled kernels are kept in {_cache_folder()}")
     running = [(feature, _started(feature)) for feature in FEATURES]
     sound = True
-    for feature, child in running:
-        trouble = "not installed" if child is None else _outcome(child)
+    for feature, started in running:
+        trouble = "not installed" if started is None else child.outcome(started, PATIENCE)
+        slow = trouble.startswith(child.SLOW)
         installed = _version(feature.package)
         if not trouble:
             print(f"  ok       {feature.name:20} {feature.package} {installed}")
             continue
-        sound = sound and not feature.needed
-        word = "MISSING " if feature.needed else "missing "
+        sound = sound and (not feature.needed or slow)
+        word = "unclear " if slow else "MISSING " if feature.needed else "missing "
         print(f"  {word} {feature.name:20} {feature.package} {installed} ({feature.purpose}): {trouble}")
-        print(f"           fix: {feature.fix}")
+        print(f"           fix: {LATER if slow else ''}{feature.fix}")
     print("everything an analysis needs works" if sound else "an analysis cannot run here before the fixes above")
     return 0 if sound else 1
 
@@ -132,30 +133,4 @@ def _cache_folder() -> str:
 def _started(feature: Feature) -> subprocess.Popen[str] | None:
     if _version(feature.package) == "-":
         return None
-    command = [sys.executable, "-c", feature.probe]
-    here = str(Path(__file__).resolve().parents[2])  # a child finds the package wherever it was started from
-    paths = os.pathsep.join(part for part in (here, os.environ.get("PYTHONPATH", "")) if part)
-    return subprocess.Popen(
-        command,
-        env={**os.environ, "PYTHONPATH": paths},
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-        errors="replace",
-    )
-
-
-def _outcome(child: subprocess.Popen[str]) -> str:
-    """Empty when the probe ended well, else what happened in a few words."""
-    try:
-        _, said = child.communicate(timeout=PATIENCE)
-    except subprocess.TimeoutExpired:
-        child.kill()
-        child.communicate()
-        return f"no answer within {PATIENCE:g} s"
-    if child.returncode == 0:
-        return ""
-    if child.returncode < 0:
-        return f"ends the process (signal {-child.returncode}): a system library or driver is missing"
-    lines = [line for line in said.strip().splitlines() if line.strip()]
-    return lines[-1][:160] if lines else f"exit code {child.returncode}"
+    return child.start(feature.probe)

@@ -28,6 +28,7 @@ app = App(
 app.command("geocontact.cli.area:area", name="area")
 app.command("geocontact.cli.demo:demo", name="demo")
 app.command("geocontact.cli.doctor:doctor", name="doctor")
+app.command("geocontact.cli.view:view", name="view")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -51,7 +52,7 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
         hint = "mesh files carry no unit; pass --unit mm, cm, m or in" if name == "--unit" else "see geocontact --help"
         return _fail(f"{name} is missing: {hint}", USAGE_ERROR, debug)
     except CycloptsError as error:
-        return _fail(_one_line(str(error)) + "; see geocontact --help", USAGE_ERROR, debug)
+        return _fail(_with_hint(_one_line(str(error)), "see geocontact --help"), USAGE_ERROR, debug)
     except InputError as error:
         return _fail(str(error), USAGE_ERROR, debug)
     except KeyboardInterrupt:
@@ -75,6 +76,11 @@ def _terminated(*_: object) -> None:
 
 def _one_line(text: str) -> str:
     return " ".join(text.split())
+
+
+def _with_hint(text: str, hint: str) -> str:
+    """Sentence and remedy; a question keeps its mark and the remedy follows as a sentence of its own."""
+    return f"{text} {hint.capitalize()}" if text.endswith("?") else f"{text.rstrip('.')}; {hint}"
 
 
 def _fail(line: str, code: int, debug: bool) -> int:

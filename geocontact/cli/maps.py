@@ -1,64 +1,68 @@
-"""Distance maps of all frames, gathered while the frames are computed."""
+"""Distance maps of all frames as a file, written and read."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from zipfile import BadZipFile
 
 import numpy as np
+from scipy.spatial.transform import RigidTransform
 
+from geocontact.data.errors import InputError
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
-from geocontact.geometry.evolution import FrameContact
+from geocontact.geometry.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
+from geocontact.view.surfaces.scene import ContactSeries, MappedBody
+
+FILE = "distances.npz"
 
 
-class DistanceMaps:
-    """Keeps the map of the frame with the largest area for the figure, and on request all maps for a file."""
+def write_maps(
+    file: Path, moving: Surface, fixed: Surface, motion: Motion, evolution: AreaEvolution, maps: DistanceMaps
+) -> None:
+    """Compressed numpy archive, SI units; distances are infinite (negative deep inside) beyond what was asked for.
 
-    def __init__(self, moving: Surface, fixed: Surface) -> None:
-        self.moving = moving
-        self.fixed = fixed
-        self.frame = 0
-        self.shown = np.full(len(fixed.vertices), np.inf)
-        self._largest = -1.0
-        self._on_fixed: list[np.ndarray] = []
-        self._on_moving: list[np.ndarray] = []
-
-    def add(self, frame: int, contact: FrameContact, everything: bool) -> None:
-        """Take in one frame."""
-        area = contact.fixed[-1].area
-        if area > self._largest:
-            self._largest = area
-            self.frame = frame
-            self.shown = at_vertices(self.fixed, contact.fixed_distances.signed)
-        if everything:
-            self._on_fixed.append(at_vertices(self.fixed, contact.fixed_distances.signed))
-            self._on_moving.append(at_vertices(self.moving, contact.moving_distances.signed))
-
-    def write(self, file: Path, motion: Motion, evolution: AreaEvolution) -> None:
-        """Compressed numpy archive, SI units; distances are infinite (negative deep inside) beyond what was asked for.
-
-        Arrays: time (t,), thresholds (k,), X_FM (t, 4, 4), signed, and for each body vertices (n, 3), faces (m, 3),
-        distance (t, n) of its vertices to the other body.
-        """
-        np.savez_compressed(
-            file,
-            allow_pickle=False,
-            time=motion.time,
-            thresholds=np.asarray(evolution.thresholds),
-            X_FM=motion.poses.as_matrix().reshape(-1, 4, 4),
-            signed=np.asarray(evolution.signed),
-            fixed_vertices=self.fixed.vertices,
-            fixed_faces=self.fixed.faces,
-            fixed_distance=np.asarray(self._on_fixed),
-            moving_vertices=self.moving.vertices,
-            moving_faces=self.moving.faces,
-            moving_distance=np.asarray(self._on_moving),
-        )
+    Arrays: time (t,), time_unit, thresholds (k,), X_FM (t, 4, 4), signed, and for each body vertices (n, 3), faces
+    (m, 3), distance (t, n) of its vertices to the other body.
+    """
+    np.savez_compressed(
+        file,
+        allow_pickle=False,
+        time=motion.time,
+        time_unit=np.asarray(motion.time_unit),
+        thresholds=np.asarray(evolution.thresholds),
+        X_FM=motion.poses.as_matrix().reshape(-1, 4, 4),
+        signed=np.asarray(evolution.signed),
+        fixed_vertices=fixed.vertices,
+        fixed_faces=fixed.faces,
+        fixed_distance=maps.fixed,
+        moving_vertices=moving.vertices,
+        moving_faces=moving.faces,
+        moving_distance=maps.moving,
+    )
 
 
-def at_vertices(surface: Surface, along_walk: np.ndarray) -> np.ndarray:
-    """Values in the order of `surface.walk` brought to vertex order; infinite for vertices without a face."""
-    values = np.full(len(surface.vertices), np.inf)
-    values[surface.walk] = along_walk
-    return values
+def read_series(result: Path) -> ContactSeries:
+    """Bodies, motion and distances from the folder of a result (or the file itself)."""
+    file = result / FILE if result.is_dir() else result
+    if not file.is_file():
+        raise InputError(file, "", "is not there", "run the analysis again with --save-map")
+    try:
+        with file.open("rb") as stream, np.load(stream, allow_pickle=False) as maps:
+            fixed, moving = (
+                MappedBody(*(maps[f"{body}_{what}"] for what in ("vertices", "faces", "distance")))
+                for body in ("fixed", "moving")
+            )
+            return ContactSeries(
+                time=maps["time"],
+                poses=RigidTransform.from_matrix(maps["X_FM"]),
+                fixed=fixed,
+                moving=moving,
+                thresholds=tuple(maps["thresholds"].tolist()),
+                signed=str(maps["signed"]),
+                time_unit=str(maps["time_unit"]),
+            )
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
+        what = f"is not what --save-map writes ({' '.join(str(error).split())})"
+        raise InputError(file, "", what, "run the analysis again with --save-map") from error

@@ -16,6 +16,7 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from geocontact import __version__
+from geocontact.cli.left_over import PARAVIEW
 from geocontact.data.errors import InputWarning
 
 LIBRARIES = ("numpy", "scipy", "numba", "libigl", "python-fcl", "pandas", "matplotlib")
@@ -64,19 +65,31 @@ class Record:
             )
             yield
 
-    def write(self, folder: Path) -> None:
-        """Write `run.json`."""
+    def plain_options(self) -> dict[str, object]:
+        """Options given or in force, as JSON holds them."""
+        return {key: _plain(value) for key, value in self.options.items() if value is not None}
+
+    def versions(self) -> dict[str, str]:
+        """What it ran on."""
+        return {"python": platform.python_version(), "platform": platform.platform(), **_versions()}
+
+    def write(self, *folders: Path) -> None:
+        """Write `run.json` into each folder of results; they differ only in `files`, which lists those beside it."""
         content = {
             "geocontact": __version__,
             "command": self.command,
-            "options": {key: _plain(value) for key, value in self.options.items() if value is not None},
+            "options": self.plain_options(),
             "inputs": self.inputs,
             "results": self.results,
             "warnings": self.warnings,
-            "versions": {"python": platform.python_version(), "platform": platform.platform(), **_versions()},
+            "versions": self.versions(),
             "seconds": round(time.perf_counter() - self.started, 3),
         }
-        (folder / "run.json").write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+        for folder in dict.fromkeys(folders):
+            inside = [*folder.iterdir(), *(folder / PARAVIEW).rglob("*")]
+            files = sorted({"run.json", *(p.relative_to(folder).as_posix() for p in inside if p.is_file())})
+            text = json.dumps({**content, "files": files}, indent=2, ensure_ascii=False)
+            (folder / "run.json").write_text(text + "\n", encoding="utf-8")
 
 
 def _plain(value: object) -> object:

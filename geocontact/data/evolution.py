@@ -55,6 +55,8 @@ class AreaEvolution:
         Which areas are signed: "both", "fixed", "moving" or "none".
     medial_side
         +1 or -1: side of the splitting plane that is medial; 0 without a split.
+    split_normal
+        Unit normal of the splitting plane; zero without a split.
     sensitivity_thresholds, sensitivity
         Further thresholds [m] and FIXED's area within them [m^2], triangles cut as given, without bounds.
     undecided
@@ -69,6 +71,7 @@ class AreaEvolution:
     max_penetration_fixed: Float[np.ndarray, " t"]
     signed: str
     medial_side: int = 0
+    split_normal: tuple[float, float, float] = (0.0, 0.0, 0.0)
     sensitivity_thresholds: tuple[float, ...] = ()
     sensitivity: Float[np.ndarray, "t s"] = field(default_factory=lambda: np.zeros((0, 0)))
     undecided: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))

@@ -233,6 +233,7 @@ def area_evolution(
         max_penetration_fixed=np.array(deepest),
         signed=pair.signed,
         medial_side=settings.medial_side if settings.split is not None else 0,
+        split_normal=settings.split.normal if settings.split is not None else (0.0, 0.0, 0.0),
         sensitivity_thresholds=settings.sensitivity,
         sensitivity=np.array(sensitivity),
         undecided=np.array([a[0].undecided + b[0].undecided for a, b in zip(on_fixed, on_moving, strict=True)]),

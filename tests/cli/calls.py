@@ -6,8 +6,8 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Iterable, Sequence
-from contextlib import redirect_stderr, redirect_stdout
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
@@ -80,13 +80,21 @@ def area(
     unit: str = "mm",
     picture: bool = False,
 ) -> Call:
-    """`geocontact area` into `folder`; most of its time is the picture, which only some tests look at."""
+    """`geocontact area` into `folder`; most of its time are figure and page, which only some tests look at."""
     given = [] if motion is None else ["--motion", motion]
     arguments = ["area", moving, fixed, "--unit", unit, "--out", folder, *given, *options]
     if picture:
         return call(*arguments, folder=folder)
-    with mock.patch("geocontact.cli.area_analysis.draw_areas"):
+    with unpictured():
         return call(*arguments, folder=folder)
+
+
+@contextmanager
+def unpictured() -> Iterator[None]:
+    """Neither figure nor page are made."""
+    places = ("geocontact.cli.area_results.draw_areas", "geocontact.cli.area_results.write_report")
+    with mock.patch(places[0]), mock.patch(places[1]):
+        yield
 
 
 def done(result: Call) -> Call:
@@ -127,6 +135,11 @@ def placement(folder: Path, turn: Rotation, shift: Sequence[float], name: str) -
     """A 4x4 matrix for --place-…; shift in the mesh unit."""
     rows = np.vstack([np.column_stack([turn.as_matrix(), shift]), [0, 0, 0, 1]])
     return written(folder / name, "# pose\n" + "\n".join(" ".join(map(repr, row)) for row in rows.tolist()) + "\n")
+
+
+def shifted(folder: Path, shift: Sequence[float], name: str = "place.txt") -> Path:
+    """A placement that only shifts, in the mesh unit."""
+    return placement(folder, Rotation.identity(), shift, name)
 
 
 def written(file: Path, content: str | bytes) -> Path:

@@ -8,6 +8,7 @@ from functools import cache
 import pytest
 
 from geocontact.cli import area_analysis, patience
+from tests.cli.calls import Call, area, done, gait
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -20,3 +21,10 @@ def unhurried() -> Iterator[None]:
         patch.setattr(patience, "SILENCE", 3600.0)
         patch.setattr(area_analysis, "warm_up", cache(area_analysis.warm_up))
         yield
+
+
+@pytest.fixture(scope="session")
+def knee(tmp_path_factory: pytest.TempPathFactory, unhurried: None) -> Call:
+    """Two frames of the coarse knee with the default options."""
+    folder = tmp_path_factory.mktemp("knee")
+    return done(area(folder / "out", motion=gait(folder)))

@@ -9,7 +9,7 @@ import pytest
 
 from meshes.simple_shapes import block, sphere
 from meshes.stl import stl_bytes
-from tests.cli.calls import KNEE, call, inventory, poses, storage, written
+from tests.cli.calls import KNEE, call, inventory, poses, shifted, storage, written
 
 BALL = stl_bytes(*sphere(20.0, 4), "ball")
 FLOOR = stl_bytes(*block(80.0, 80.0, 12.0, 8), "floor")
@@ -36,6 +36,21 @@ def made(name: str) -> Callable[[Path], Path]:
         return parent / name
 
     return make
+
+
+def placed(rows: str) -> Given:
+    """The moving body is placed by these rows."""
+    return {"--place-moving": file("place.txt", rows)}
+
+
+def lifted() -> Given:
+    """The ball is placed on the floor."""
+    return {"--place-moving": lambda folder: shifted(folder, (0, 20, 0))}
+
+
+def sweep(text: str, axis: str = "0,0,0,0,0,1") -> Given:
+    """A sweep in place of the motion."""
+    return {"--motion": None, "--sweep": text, "--axis": axis, **lifted()}
 
 
 def sound(folder: Path) -> Given:

@@ -29,25 +29,12 @@ from tests.cli.calls import (
     gait,
     inventory,
     poses,
+    shifted,
     stl,
     written,
 )
+from tests.contract import COLUMNS, FILES, SPLIT
 
-COLUMNS = [
-    "time [s]",
-    "threshold [mm]",
-    "area_fixed [mm^2]",
-    "area_moving [mm^2]",
-    "min_distance [mm]",
-    "max_penetration_fixed [mm]",
-    "centroid_x [mm]",
-    "centroid_y [mm]",
-    "centroid_z [mm]",
-    "area_fixed_lower [mm^2]",
-    "area_fixed_upper [mm^2]",
-    "signed",
-]
-SPLIT = ["area_fixed_medial [mm^2]", "area_fixed_lateral [mm^2]"]
 THRESHOLDS = [0.1, 1.0, 4.0]
 
 
@@ -60,10 +47,10 @@ def knee(tmp_path_factory: pytest.TempPathFactory) -> Call:
 
 
 def test_files_are_the_promised_ones(knee: Call) -> None:
-    assert {p.name for p in knee.folder.iterdir()} == {"area.csv", "area.png", "area.svg", "run.json"}
+    assert {p.name for p in knee.folder.iterdir()} == FILES
     assert knee.bytes("area.png").startswith(b"\x89PNG\r\n\x1a\n")
     assert b"<svg" in knee.bytes("area.svg")[:1000]
-    assert all(name in knee.out for name in ("area.csv", "area.png", "area.svg", "run.json", str(knee.folder)))
+    assert all(name in knee.out for name in (*FILES, str(knee.folder)))
 
 
 def test_columns_are_those_of_the_contract_in_their_order(knee: Call) -> None:
@@ -192,12 +179,11 @@ def test_record_makes_the_result_reproducible(knee: Call) -> None:
 
 
 def test_record_lists_every_file_that_was_read(tmp_path: Path) -> None:
-    place = written(tmp_path / "place.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")
+    place, up = shifted(tmp_path, (0, 0, 0)), shifted(tmp_path, (0, -30, 0), "up.txt")
     faces = written(tmp_path / "faces.txt", "0 1 2\n")
     axis = written(tmp_path / "axis.txt", "0 0 0 0 0 1\n")
     reference = written(tmp_path / "measured.csv", "time [s],area_moving [mm^2]\n0,1\n")
     options = ("--sweep", "flexion=0:1:1", "--axis", axis, "--place-moving", place, "--region", faces)
-    up = written(tmp_path / "up.txt", "1 0 0 0\n0 1 0 -30\n0 0 1 0\n0 0 0 1\n")
     result = area(tmp_path / "out", *options, "--place-fixed", up, "--compare", reference)
     given = {Path(entry["file"]).name: entry["sha256"] for entry in result.record()["inputs"]}
     for file in (place, faces, axis, reference, up):
@@ -246,7 +232,7 @@ def test_a_failing_run_leaves_everything_as_it_was(
     before = inventory(out.parent)
     moving = SPHERE if picture else tmp_path / "no.stl"
     if picture:
-        monkeypatch.setattr("geocontact.cli.area_analysis.draw_areas", mock.Mock(**picture))
+        monkeypatch.setattr("geocontact.cli.area_results.draw_areas", mock.Mock(**picture))
     result = area(out, moving=moving, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0)), picture=True)
     assert (result.code, len(result.complaints)) == (code, 1), result.err
     assert all(part in result.err for part in said), result.err

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from tests.cli.calls import (
     inventory,
     placement,
     poses,
+    shifted,
     storage,
     written,
 )
@@ -32,13 +34,6 @@ from tests.cli.calls import (
 FIXED, MOVING = "area_fixed [mm^2]", "area_moving [mm^2]"
 SHIFTS = "tx=knee_tx,ty=knee_ty,tz=knee_tz"
 MAP = f"rz=-knee_flexion,rx=-knee_adduction,ry=-knee_rotation,{SHIFTS}"
-
-
-@pytest.fixture(scope="module")
-def knee(tmp_path_factory: pytest.TempPathFactory) -> Call:
-    """Two frames of the coarse knee with the default options."""
-    folder = tmp_path_factory.mktemp("knee")
-    return done(area(folder / "out", motion=gait(folder)))
 
 
 @pytest.fixture(scope="module")
@@ -168,12 +163,27 @@ def test_several_motions_have_a_folder_each(tmp_path: Path, style: str) -> None:
         "quoted pattern": ["--motion", tmp_path / "slow*.csv"],
     }
     result = done(area(tmp_path / "out", *given[style]))
+    motions = {"slow walk": first, "slow run": second}
     assert set(inventory(result.folder)) == {
-        "slow walk", "slow walk/area.csv", "slow run", "slow run/area.csv", "run.json"
+        "run.json", *motions, *(f"{name}/{file}" for name in motions for file in ("area.csv", "run.json"))
     }  # fmt: skip
-    for name, file in (("slow walk", first), ("slow run", second)):
+    for name, file in motions.items():
         assert result.bytes(f"{name}/area.csv") == done(area(tmp_path / name, motion=file)).bytes()
-    assert [Path(i["file"]).name for i in result.record()["inputs"]].count("slow walk.csv") == 1
+
+
+def test_each_folder_of_a_motion_has_the_record_of_the_whole_run(tmp_path: Path) -> None:
+    """Which motion, by its hash, went into which folder; the records differ in the files beside them only."""
+    motions = {"walk": gait(tmp_path, [0], "walk.csv"), "run": gait(tmp_path, [30], "run.csv")}
+    result = done(area(tmp_path / "out", *(word for file in motions.values() for word in ("--motion", file))))
+    record = result.record()
+    told = {i["folder"]: (i["file"], i["sha256"]) for i in record["inputs"] if i["role"] == "motion"}
+    assert told == {n: (str(f), hashlib.sha256(f.read_bytes()).hexdigest()) for n, f in motions.items()}
+    assert set(record["results"]) == set(motions) and record.pop("files") == ["run.json"]
+    for name in motions:
+        beside = json.loads(result.bytes(f"{name}/run.json"))
+        assert (beside.pop("files"), beside) == (["area.csv", "run.json"], record)
+    alone = done(area(tmp_path / "alone", motion=motions["walk"])).record()
+    assert [i["folder"] for i in alone["inputs"] if i["role"] == "motion"] == ["."]
 
 
 def test_a_name_with_brackets_is_a_file_before_it_is_a_pattern(tmp_path: Path, knee: Call) -> None:
@@ -188,8 +198,7 @@ SWEEP = ("--sweep", "flexion=0:-10:-10")
 
 def lifted(folder: Path, height: float = 30.3) -> tuple[str, Path]:
     """The femoral component placed above the insert."""
-    rows = f"1 0 0 0\n0 1 0 {height}\n0 0 1 0\n0 0 0 1\n"
-    return "--place-moving", written(folder / "lifted.txt", rows)
+    return "--place-moving", shifted(folder, (0, height, 0), "lifted.txt")
 
 
 @pytest.fixture(scope="module")

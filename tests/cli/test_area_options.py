@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from unittest import mock
 
@@ -9,12 +10,12 @@ import igl
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.spatial.transform import Rotation
 
 from geocontact.geometry import evolution
 from tests.cli.calls import (
     INSERT,
     PLATE,
+    ROOT,
     SPHERE,
     Call,
     agree,
@@ -23,8 +24,8 @@ from tests.cli.calls import (
     corners,
     done,
     gait,
-    placement,
     poses,
+    shifted,
     stl,
     written,
 )
@@ -33,13 +34,6 @@ FIXED, MOVING = "area_fixed [mm^2]", "area_moving [mm^2]"
 LOWER, UPPER = "area_fixed_lower [mm^2]", "area_fixed_upper [mm^2]"
 MEDIAL, LATERAL = "area_fixed_medial [mm^2]", "area_fixed_lateral [mm^2]"
 CLIP = ("--rule", "clip")  # exact on the triangles as given: parts add up to rounding
-
-
-@pytest.fixture(scope="module")
-def knee(tmp_path_factory: pytest.TempPathFactory) -> Call:
-    """Two frames of the coarse knee with the default options."""
-    folder = tmp_path_factory.mktemp("knee")
-    return done(area(folder / "out", motion=gait(folder)))
 
 
 @pytest.fixture(scope="module")
@@ -102,16 +96,16 @@ def test_medial_side_swaps_the_columns(tmp_path: Path, halves: Call) -> None:
 def test_split_elsewhere(tmp_path: Path, halves: Call, plane: str) -> None:
     """The plane in FIXED's frame and the mesh unit; with both bodies shifted by as much the halves are the old ones."""
     shift = -15.0 if "-" in plane else 15.0
-    there = placement(tmp_path, Rotation.identity(), np.array([0, 0, shift]), "there.txt")
+    there = shifted(tmp_path, (0, 0, shift))
     table = pd.read_csv(gait(tmp_path), skipinitialspace=True)
     table["tz [mm]"] += shift
     table.to_csv(tmp_path / "there.csv", index=False)
     result = area(tmp_path / "out", "--split", plane, "--place-fixed", there, motion=tmp_path / "there.csv")
-    shifted = done(result).table()
-    shifted["centroid_z [mm]"] -= shift
-    agree(shifted, halves.table(), areas=1e-6)
+    elsewhere = done(result).table()
+    elsewhere["centroid_z [mm]"] -= shift
+    agree(elsewhere, halves.table(), areas=1e-6)
     at_zero = done(area(tmp_path / "b", "--split", "z", "--place-fixed", there, motion=tmp_path / "there.csv")).table()
-    assert (np.sign(shift) * (shifted[MEDIAL] - at_zero[MEDIAL]) > 10.0).all()
+    assert (np.sign(shift) * (elsewhere[MEDIAL] - at_zero[MEDIAL]) > 10.0).all()
 
 
 def up(mesh: Path) -> np.ndarray:
@@ -268,8 +262,8 @@ def test_saved_maps(tmp_path: Path) -> None:
     with np.load(result.folder / "distances.npz", allow_pickle=False) as archive:
         maps = {name: archive[name] for name in archive.files}
     assert set(maps) == {
-        "time", "thresholds", "X_FM", "signed", "fixed_vertices", "fixed_faces", "fixed_distance", "moving_vertices",
-        "moving_faces", "moving_distance",
+        "time", "time_unit", "thresholds", "X_FM", "signed", "fixed_vertices", "fixed_faces", "fixed_distance",
+        "moving_vertices", "moving_faces", "moving_distance",
     }  # fmt: skip
     np.testing.assert_array_equal(maps["time"], [0.0, 1.0])
     np.testing.assert_allclose(maps["thresholds"], [1e-3, 4e-3])
@@ -292,6 +286,23 @@ def test_saved_maps(tmp_path: Path) -> None:
             assert (distance < 0).any() == (frame == 0)
 
 
+def test_saved_maps_are_read_as_the_reference_shows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The lines of docs/reference, run where the result is, against libigl: plate corners within 4 mm of the ball."""
+    shifts = np.array([(1.0, 19.7, -2.0), (0.0, 22.0, 3.0)])
+    done(area(tmp_path / "result", "--save-map", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, *shifts)))
+    page = (ROOT / "docs/reference/area_csv.md").read_text(encoding="utf-8")
+    (lines,) = [block for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "distances.npz" in block]
+    assert len([line for line in lines.splitlines() if line]) == 4
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, np.ndarray] = {}
+    exec(lines, names)  # the reader's own lines
+    names["maps"].close()
+    ball, plate = corners(SPHERE), np.unique(corners(PLATE).reshape(-1, 3), axis=0)
+    faces = np.arange(3 * len(ball)).reshape(-1, 3)
+    squared = [igl.point_mesh_squared_distance(plate - shift, ball.reshape(-1, 3), faces)[0] for shift in shifts]
+    assert list(names["within"]) == [np.count_nonzero(distance <= 16.0) for distance in squared]
+
+
 def test_parquet_holds_the_same_table(tmp_path: Path) -> None:
     result = done(area(tmp_path / "out", "--parquet", motion=gait(tmp_path, [0, 30])))
     agree(pd.read_parquet(result.folder / "area.parquet"), result.table(), areas=1e-11, lengths=1e-11)
@@ -310,7 +321,7 @@ def test_results_do_not_depend_on_the_number_of_workers(
 
 def test_picture_shows_the_frame_of_the_largest_area(tmp_path: Path) -> None:
     motion = poses(tmp_path, (0, 22, 0), (0, 20, 0), (0, 21, 0))
-    with mock.patch("geocontact.cli.area_analysis.draw_areas") as drawn:
+    with mock.patch("geocontact.cli.area_results.draw_areas") as drawn:
         area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=motion, picture=True)
     distance, frame = drawn.call_args.args[3:5]
     assert frame == 1
@@ -320,7 +331,7 @@ def test_picture_shows_the_frame_of_the_largest_area(tmp_path: Path) -> None:
 def test_every_option_is_tried_here() -> None:
     """A new option is named in this folder's tests, or this fails."""
     told = call("area", "--help").out
-    options = {word.strip("│*.,:") for word in told.split() if word.startswith("--")}
+    options = {word.strip("│*.,:;") for word in told.split() if word.startswith("--")}
     here = "".join(p.read_text(encoding="utf-8") for p in Path(__file__).parent.glob("*.py"))
     assert {"--unit", "--out", "--threshold", "--save-map"} <= options
     assert not {option for option in options if f'"{option}"' not in here}

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.calls import FEMUR, INSERT, Call, agree, area, corners, done, gait, stl, written
+from tests.cli.calls import FEMUR, INSERT, Call, agree, area, corners, done, gait, shifted, stl, written
 
 PER_MM = {"m": 1e-3, "cm": 0.1, "mm": 1.0, "in": 1 / 25.4}
 WORDS = {"m": "metres", "cm": "centimetres", "mm": "millimetres", "in": "inches"}
@@ -22,8 +22,7 @@ def knee(tmp_path_factory: pytest.TempPathFactory) -> Call:
 
 def placed(folder: Path, unit: str) -> tuple[str, Path]:
     """MOVING half a millimetre to the front."""
-    rows = f"1 0 0 {0.5 * PER_MM[unit]!r}\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"
-    return "--place-moving", written(folder / "place.txt", rows)
+    return "--place-moving", shifted(folder, (0.5 * PER_MM[unit], 0, 0))
 
 
 def rewritten(folder: Path, mesh: Path, unit: str) -> Path:

@@ -76,6 +76,23 @@ def stretched(length: float) -> Callable[[Path], dict]:
     return lambda folder: {"moving": SPHERE, "fixed": PLATE, "motion": poses(folder, (1, 19.8, 2, length, 0, 0, 0))}
 
 
+def euler(unit: str, angle: float) -> Callable[[Path], dict]:
+    """The sphere turned by Euler angles whose header says `unit`, read as radians on the user's word."""
+    text = f"time [s],tx [mm],ty [mm],tz [mm],rx{unit},ry{unit},rz{unit}\n0,1,19.8,2,0.1,{angle},0.2\n"
+    options = ("--order", "XYZ", "--angles", "rad")
+    return lambda folder: {
+        "moving": SPHERE, "fixed": PLATE, "motion": written(folder / "turned.csv", text), "options": options
+    }  # fmt: skip
+
+
+def contradictory(folder: Path) -> dict:
+    """The cycle whose text says radians where its flag says degrees, read as degrees on the user's word."""
+    file = storage(folder, [30])
+    text = file.read_text(encoding="utf-8").replace("inDegrees=yes\n", "inDegrees=yes\nAngles are in radians.\n")
+    options = ("--osim", KNEE, "--joint", "knee_r", "--angles", "deg")
+    return {"moving": INSERT, "fixed": FEMUR, "motion": written(file, text), "options": options}
+
+
 WARNED: dict[str, tuple[Callable[[Path], dict], str, tuple[str, ...]]] = {
     "degenerate face": (altered(with_flat_face), "both", ("changed.stl: 1 degenerate face", "first is face 2880")),
     "duplicate face": (altered(with_face_again), "moving", ("changed.stl: 1 duplicate face", "first is face 2880")),
@@ -93,6 +110,17 @@ WARNED: dict[str, tuple[Callable[[Path], dict], str, tuple[str, ...]]] = {
         ("poses.csv: quaternion length up to 1.0009", "normalised"),
     ),
     "quaternion a little short": (stretched(0.9991), "both", ("poses.csv: quaternion length", "normalised")),
+    "angles against the header": (euler(" [deg]", 0.3), "both", ("turned.csv: says deg, read as rad as asked for",)),
+    "angles where the header contradicts itself": (
+        contradictory,
+        "both",
+        ("gait.mot line", "inDegrees=yes but the text says radians", "read as deg as asked for"),
+    ),
+    "degrees read as radians": (
+        euler("", -45.0),
+        "both",
+        ("turned.csv line 2: column 'ry' reaches 45, much for radians", "pass --angles deg"),
+    ),
 }
 
 
@@ -106,6 +134,11 @@ def test_doubtful_input_is_used_with_a_warning(
     assert result.record()["warnings"] == result.warnings
     assert len(set(result.warnings)) == len(result.warnings)
     assert list(result.table()["signed"]) == [signed]
+
+
+def test_radians_of_an_ordinary_size_are_not_warned_of(tmp_path: Path) -> None:
+    given = euler("", 3.1)(tmp_path)
+    assert done(area(tmp_path / "out", *given.pop("options"), **given)).warnings == []
 
 
 @pytest.fixture(scope="module")

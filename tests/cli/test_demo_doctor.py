@@ -47,7 +47,7 @@ def test_doctor_on_this_machine() -> None:
     for feature in doctor.FEATURES:
         (at,) = [k for k, line in enumerate(lines) if line[11:].startswith(f"{feature.name:20} ")]
         if lines[at].split()[0] != "ok":
-            assert lines[at + 1].split() == f"fix: {feature.fix}".split()
+            assert lines[at + 1].split() in (f"fix: {later}{feature.fix}".split() for later in ("", doctor.LATER))
     assert lines[-1] == "everything an analysis needs works"
 
 
@@ -64,7 +64,11 @@ PROBES = {
         "No module named 'no_such_module'",
     ),
     "exits": (Feature("d", "numpy", "x", "raise SystemExit(3)", "pip install d"), 0, "exit code 3"),
-    "hangs": (Feature("e", "numpy", "x", "import time; time.sleep(60)", "pip install e"), 0, "no answer within"),
+    "hangs": (
+        Feature("e", "numpy", "x", "import time; time.sleep(60)", "pip install e", needed=True),
+        0,
+        "no answer within 1 s\n           fix: try again when the machine is less busy; if it stays: ",
+    ),
     "crashes": (Feature("f", "numpy", "x", "import os; os.abort()", "apt install f"), 0, "a system library or driver"),
 }
 
@@ -77,5 +81,5 @@ def test_doctor_names_the_fix_for_what_is_missing(
     monkeypatch.setattr(doctor, "PATIENCE", 1.0)
     result = call("doctor")
     assert result.code == code
-    assert said in result.out and f"fix: {feature.fix}\n" in result.out
+    assert said in result.out and f"{feature.fix}\n" in result.out
     assert ("cannot run here" in result.out) == bool(code)

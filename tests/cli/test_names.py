@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.calls import PLATE, SPHERE, area, call, done, inventory, poses, written
+from tests.cli.calls import PLATE, SPHERE, area, call, done, inventory, poses, shifted, written
+from tests.contract import FILES
 
 NAMES = [
     "two words",
@@ -40,7 +41,7 @@ def test_any_file_name_will_do(tmp_path: Path, name: str) -> None:
         moving, fixed = (shutil.copy(mesh, tmp_path / f"{name}{k}.stl") for k, mesh in enumerate((SPHERE, PLATE)))
     except OSError as error:
         pytest.skip(f"no file system for this name: {error.strerror}")
-    place = written(tmp_path / f"{name}.txt", "1 0 0 0\n0 1 0 20\n0 0 1 0\n0 0 0 1\n")
+    place = shifted(tmp_path, (0, 20, 0), f"{name}.txt")
     motion = poses(tmp_path, (0, 0, 0), name=f"{name}.csv")
     out = tmp_path / "results" / name
     result = done(
@@ -49,11 +50,12 @@ def test_any_file_name_will_do(tmp_path: Path, name: str) -> None:
     assert result.warnings == []
     assert set(inventory(tmp_path / "results")) == {
         name,
-        *(f"{name}/{f}" for f in ("area.csv", "area.png", "area.svg", "run.json")),
+        *(f"{name}/{f}" for f in FILES),
     }
     inputs = result.record()["inputs"]
     assert [Path(entry["file"]).name for entry in inputs if entry["role"] == "moving"] == [f"{name}0.stl"]
     assert b"<script" not in result.bytes("area.svg")
+    assert b"<script>alert" not in result.bytes("report.html")
 
 
 @pytest.mark.parametrize("name", ["two words", "$x$", "line\nbreak", "-x", "膝"])

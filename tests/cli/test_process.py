@@ -14,6 +14,7 @@ import pytest
 from geocontact.cli import area_analysis, patience
 from geocontact.cli.maps import DistanceMaps
 from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, ROOT, SPHERE, area, done, gait, inventory, poses, process
+from tests.contract import FILES
 
 
 def test_from_another_folder_with_relative_paths(tmp_path: Path) -> None:
@@ -23,7 +24,7 @@ def test_from_another_folder_with_relative_paths(tmp_path: Path) -> None:
     gait(tmp_path, [0])
     result = process("area", "./-x.stl", "insert.stl", "--unit=mm", "--motion=gait.csv", "--out=out/1", cwd=tmp_path)
     assert (result.returncode, result.stderr) == (0, ""), result.stderr
-    assert set(inventory(tmp_path / "out/1")) == {"area.csv", "area.png", "area.svg", "run.json"}
+    assert set(inventory(tmp_path / "out/1")) == FILES
     assert "out/1" in result.stdout
 
 
@@ -53,19 +54,17 @@ def test_refusal_with_a_name_that_the_terminal_cannot_show(tmp_path: Path) -> No
     assert result.stderr.count(b"\n") == 1 and b"no such file" in result.stderr
 
 
+def ball_on_plate(folder: Path) -> list[str]:
+    """A quick call that works."""
+    motion = poses(folder, (0, 20, 0))
+    return ["area", str(SPHERE), str(PLATE), f"--motion={motion}", "--unit=mm", f"--out={folder / 'out'}"]
+
+
 def test_summary_on_a_terminal_without_unicode(tmp_path: Path) -> None:
     """Results are announced with an ellipsis and end up in an ASCII log all the same."""
-    command = [
-        "area",
-        SPHERE,
-        PLATE,
-        f"--motion={poses(tmp_path, (0, 20, 0))}",
-        "--unit=mm",
-        f"--out={tmp_path / 'out'}",
-    ]
     environment = os.environ | {"PYTHONIOENCODING": "ascii"}
     result = subprocess.run(
-        [sys.executable, "cli.py", *map(str, command)], cwd=ROOT, env=environment, capture_output=True
+        [sys.executable, "cli.py", *ball_on_plate(tmp_path)], cwd=ROOT, env=environment, capture_output=True
     )
     assert result.returncode == 0, result.stderr
     assert (tmp_path / "out/area.csv").is_file()
@@ -75,18 +74,10 @@ def test_results_are_there_when_nobody_reads_the_summary(tmp_path: Path) -> None
     """`geocontact area … | head -1`: the pipe is closed before the run has said everything."""
     if os.name != "posix":
         pytest.skip("a pipe without a reader is made on Unix")
-    command = [
-        "area",
-        SPHERE,
-        PLATE,
-        f"--motion={poses(tmp_path, (0, 20, 0))}",
-        "--unit=mm",
-        f"--out={tmp_path / 'out'}",
-    ]
     reader, writer = os.pipe()
     os.close(reader)
     result = subprocess.run(
-        [sys.executable, "-u", "cli.py", *map(str, command)], cwd=ROOT, stdout=writer, stderr=subprocess.PIPE
+        [sys.executable, "-u", "cli.py", *ball_on_plate(tmp_path)], cwd=ROOT, stdout=writer, stderr=subprocess.PIPE
     )
     os.close(writer)
     assert b"Traceback" not in result.stderr

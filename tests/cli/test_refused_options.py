@@ -3,29 +3,20 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import pytest
 
 from tests.cli.calls import KNEE, call, written
-from tests.cli.spoilt import JOINT, Cases, Given, each, file, refuse
+from tests.cli.spoilt import JOINT, Cases, Given, each, file, placed, refuse, sweep
 
 RIGID = "1 0 0 0\n0 1 0 0\n0 0 1 0\n"
-
-
-def placed(rows: str) -> Given:
-    """The moving body is placed by these rows."""
-    return {"--place-moving": file("place.txt", rows)}
 
 
 def compared(text: str, **options: str) -> Given:
     """Measured areas of this text."""
     return {"--compare": file("measured.csv", text), **{f"--{key}": value for key, value in options.items()}}
-
-
-def sweep(text: str, axis: str = "0,0,0,0,0,1") -> Given:
-    """A sweep in place of the motion."""
-    return {"--motion": None, "--sweep": text, "--axis": axis, **placed("1 0 0 0\n0 1 0 20\n0 0 1 0\n0 0 0 1\n")}
 
 
 OPTIONS: Cases = {
@@ -68,13 +59,6 @@ OPTIONS: Cases = {
         {"--map": "tx=knee_tx,tx=knee_ty", "--motion": JOINT["--motion"]},
         ("--map", "'tx'", "twice"),
     ),
-    "--map beside --osim": ({**JOINT, "--map": "tx=knee_tx"}, ("--map", "--osim", "one")),
-    "--moving parent without a joint": ({"--moving": "parent"}, ("--moving", "swap the two meshes")),
-    "--axis without --sweep": ({"--axis": "0,0,0,0,0,1"}, ("--axis", "--sweep")),
-    "--medial without --split": ({"--medial": "+"}, ("--medial", "--split")),
-    "--side without --convention": ({"--side": "left"}, ("--side", "--convention")),
-    "--order beside --osim": ({**JOINT, "--order": "XYZ"}, ("--order", "joint")),
-    "--convention without --side": ({"--convention": "grood-suntay"}, ("--side", "right or left")),
     "unknown convention": ({"--convention": "isb"}, ("--convention", "isb", "grood-suntay")),
     "region that cannot be read": ({"--region": "ny >"}, ("--region", "ny >", "ny>0.25")),
     "region with an unknown name": ({"--region": "nw > 0"}, ("--region", "'nw'", "nx, ny, nz")),
@@ -115,6 +99,7 @@ OPTIONS: Cases = {
     "bounds zero": ({"--bounds": "0"}, ("--bounds", "'0'", "2%")),
     "bounds a word": ({"--bounds": "tight"}, ("--bounds", "tight", "2%")),
     "tolerance negative": ({"--tolerance": "-2%"}, ("--tolerance", "'-2%'", "2%")),
+    "tolerance empty": ({"--tolerance": ""}, ("--tolerance", "''", "2%")),
     "workers negative": ({"--workers": "-2"}, ("--workers",)),
     "workers a word": ({"--workers": "all"}, ("--workers", "all")),
     "sweep never arrives": (sweep("flexion=0:90:-1"), ("--sweep", "never arrives", "0:90:1")),
@@ -210,7 +195,31 @@ def test_a_read_only_parent_is_refused_at_once(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("tokens", [["aera"], ["aera", "--unit", "mm"], ["--unit", "mm"], ["area"]])
-def test_unknown_commands_and_bare_ones_are_refuse(tmp_path: Path, tokens: list[str]) -> None:
+def test_unknown_commands_and_bare_ones_are_refused(tmp_path: Path, tokens: list[str]) -> None:
     result = call(*tokens)
     assert (result.code, len(result.complaints)) == (2, 1), result.err
     assert "--help" in result.err
+
+
+AREA = ["area", "a.stl", "b.stl", "--unit", "mm", "--out", "x"]
+SLIPS = {
+    "unknown option": ([*AREA, "--zzz"], "Unknown option: --zzz; see geocontact --help"),
+    "misspelt option": (
+        [*AREA, "--treshold", "4"],
+        "Unknown option: --treshold. Did you mean --threshold? See geocontact --help",
+    ),
+    "unknown command": (["zzz"], 'Unknown command "zzz". Available commands: '),
+    "choice": ([*AREA, "--medial", "left"], 'Invalid value "left" for --medial. Choose from: "-", "+"; see'),
+    "type": ([*AREA, "--workers", "all"], 'Invalid value for --workers: unable to convert "all" into int; see'),
+    "twice": ([*AREA, "--unit", "m"], "Parameter --unit specified multiple times; see geocontact --help"),
+    "too much": (["demo", "x"], "Unused Tokens: ['x']; see geocontact --help"),
+}
+
+
+@pytest.mark.parametrize(("tokens", "line"), SLIPS.values(), ids=SLIPS.keys())
+def test_slips_are_named_in_one_well_formed_line(tokens: list[str], line: str) -> None:
+    """The parser's own sentence and the remedy, with one mark between them."""
+    result = call(*tokens)
+    (said,) = result.complaints
+    assert result.code == 2 and said.startswith(line), said
+    assert not re.search(r"[.?!;:,][.?!;:,]", said), said

@@ -1,0 +1,91 @@
+"""Everything the area analysis writes for one motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from geocontact.cli.area import AreaOptions
+from geocontact.cli.left_over import PARAVIEW
+from geocontact.cli.maps import FILE, write_maps
+from geocontact.cli.pictures import write_paraview, write_stills
+from geocontact.cli.record import Record
+from geocontact.data.evolution import AreaEvolution
+from geocontact.data.motion import Motion
+from geocontact.geometry.evolution import Settings
+from geocontact.geometry.maps import DistanceMaps
+from geocontact.geometry.surface import Surface
+from geocontact.io.results import write_table
+from geocontact.view.area_figure import draw_areas
+from geocontact.view.contact_page import inputs_table, write_report
+from geocontact.view.page.content import Table
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """One motion of two bodies and how it is to be counted."""
+
+    moving: Surface
+    fixed: Surface
+    motion: Motion
+    settings: Settings
+    options: AreaOptions
+    name: str
+
+    @property
+    def title(self) -> str:
+        """Heading of figure and page."""
+        return f"MOVING {self.moving.name} on FIXED {self.fixed.name}" + (f", {self.name}" if self.name else "")
+
+
+def write_results(
+    record: Record,
+    a: Analysis,
+    evolution: AreaEvolution,
+    maps: DistanceMaps,
+    comparison: pd.DataFrame | None,
+    folder: Path,
+) -> None:
+    """Table, static figure, page, and what was asked for beside them."""
+    write_table(_with_coordinate(evolution, a.motion), folder, a.options.parquet)
+    if comparison is not None:
+        comparison.to_csv(folder / "comparison.csv", index=False)
+    if a.options.save_map:
+        write_maps(folder / FILE, a.moving, a.fixed, a.motion, evolution, maps)
+    draw_areas(
+        evolution, a.fixed.vertices, a.fixed.faces, maps.fixed_at_largest, maps.largest, a.title,
+        (folder / "area.png", folder / "area.svg"), "cycle [%]" if a.motion.time_unit == "%" else "time [s]",
+    )  # fmt: skip
+    if a.options.paraview:
+        write_paraview(folder / PARAVIEW, a.moving, a.fixed, a.motion, evolution, maps)
+    if a.options.stills:
+        for note in write_stills(folder, a.moving, a.fixed, a.motion, evolution, maps, a.title):
+            record.warn(note)
+    tables = [inputs_table(record.inputs), _options_table(record)]
+    if comparison is not None:
+        tables.insert(0, _comparison_table(comparison))
+    write_report(folder / "report.html", a.moving, a.fixed, a.motion, evolution, maps, a.title, tables, record.warnings)
+
+
+def _with_coordinate(evolution: AreaEvolution, motion: Motion) -> pd.DataFrame:
+    """The table, with the angle that a sweep prescribes."""
+    table = evolution.table()
+    if motion.coordinate is not None:
+        name, angle = motion.coordinate
+        table[f"{name} [deg]"] = np.repeat(np.degrees(angle), len(evolution.thresholds))
+    return table
+
+
+def _options_table(record: Record) -> Table:
+    given: Mapping[str, object] = record.plain_options()
+    rows = [("command", f"geocontact {record.command}"), *((key, str(value)) for key, value in given.items())]
+    return Table("How it was made", ("option", "value"), rows + list(record.versions().items()))
+
+
+def _comparison_table(rows: pd.DataFrame) -> Table:
+    texts = rows.map(lambda value: f"{value:.6g}" if isinstance(value, float) else str(value))
+    return Table("Beside the measured areas", tuple(map(str, rows.columns)), texts.to_numpy().tolist())

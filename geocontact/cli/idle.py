@@ -1,0 +1,60 @@
+"""Options that would do nothing are mistakes: the user believes that they did something."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from geocontact.cli.area import AreaOptions
+from geocontact.data.errors import InputError
+from geocontact.data.motion import Motion
+
+Idle = tuple[bool, str, str, str]
+"""Whether it is so, the option, what is wrong with it, the remedy."""
+
+
+def refuse_idle(o: AreaOptions, files: Sequence[str]) -> None:
+    """Refuse what the command line alone shows to do nothing or to be incomplete; `files` are the motions named."""
+    reading = {
+        "--osim": o.osim, "--joint": o.joint, "--map": o.map, "--order": o.order, "--angles": o.angles,
+        "--convention": o.convention, "--side": o.side, "--moving": o.moving_body,
+    }  # fmt: skip
+    _refuse(
+        ((o.sweep is None) == (not files), "--motion", "give either --motion or --sweep", "see geocontact area --help"),
+        (o.workers is not None and o.workers < 1, "--workers", "is less than one thread", "give 1 or more"),
+        *((o.sweep is not None and value is not None, option, "does nothing beside --sweep, which reads no motion file",
+           "leave it out") for option, value in reading.items()),
+        (o.axis is not None and o.sweep is None, "--axis", "does nothing without --sweep", "give --sweep"),
+        (o.map is not None and o.osim is not None, "--map", "beside --osim names the columns twice", "give one"),
+        (o.convention is not None and o.osim is not None, "--convention",
+         "does nothing beside --osim: the joint says what its coordinates are", "give one"),
+        (o.moving_body is not None and o.osim is None and o.convention is None, "--moving",
+         f"{o.moving_body} needs a joint or a knee convention", "swap the two meshes, or give --osim and --joint"),
+        (o.side is not None and o.convention is None, "--side", "does nothing without --convention", "give it too"),
+        (o.convention is not None and o.side is None, "--side", "is missing beside --convention", "give right or left"),
+        (o.order is not None and (o.osim is not None or o.convention is not None), "--order",
+         "does nothing here: the joint or the convention gives the order", "leave it out"),
+        (o.medial is not None and o.split is None, "--medial", "does nothing without --split", "give --split"),
+        (o.tolerance is not None and o.compare is None, "--tolerance", "does nothing without --compare",
+         "give your measured areas too, or leave it out"),
+    )  # fmt: skip
+
+
+def refuse_unheeded(o: AreaOptions, motions: Mapping[Path, Motion]) -> None:
+    """Refuse options of reading that had no say in any of the motions read."""
+    heeded = frozenset[str]().union(*(motion.heeded for motion in motions.values()))
+    files = ", ".join(map(str, motions))
+    _refuse(
+        (o.convention is not None and "convention" not in heeded, "--convention",
+         f"does nothing here: no knee angle is read from {files}", "name its columns with --map"),
+        (o.order is not None and "order" not in heeded, "--order",
+         f"does nothing here: no two angles to put in order are read from {files}", "leave it out"),
+        (o.angles is not None and "angles" not in heeded, "--angles",
+         f"does nothing here: no angle is read from {files}", "leave it out"),
+    )  # fmt: skip
+
+
+def _refuse(*rows: Idle) -> None:
+    for wrong, option, what, remedy in rows:
+        if wrong:
+            raise InputError("", option, what, remedy)

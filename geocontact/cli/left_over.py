@@ -1,0 +1,61 @@
+"""What an earlier run wrote into a folder of results and the present run does not write again."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+RUN = "run.json"
+NAMES = ("area.csv", "area.parquet", "area.png", "area.svg", "comparison.csv", "distances.npz", "report.html", RUN)
+PARAVIEW = "paraview"
+PICTURES = re.compile(
+    r"still_[a-z_0-9.,−-]+\.png|paraview/(both|fixed|moving)\.pvd|paraview/frames/(fixed|moving)_\d+\.vtp"
+)
+"""The only files that are ever removed: those that a run writes, and only where its run.json lists them."""
+
+
+def left_over(out: Path, draft: Path) -> list[Path]:
+    """Files of earlier runs of the same command that would stand in `out` beside the results in `draft`.
+
+    Looked at are `out`, the sub-folders that the draft fills again, and those that the earlier run of `out` filled and
+    no other run has since; nothing in them but what their run.json lists.
+    """
+    command = _told(draft).get("command")
+    before = _told(out)
+    children = [p for p in out.iterdir() if p.is_dir() and not p.is_symlink()] if out.is_dir() else []
+    filled = [p for p in children if (draft / p.name).is_dir() or (p.name in _folders(before) and _same(p, before))]
+    found = []
+    for place in (out, *filled):
+        told = _told(place)
+        if told and told.get("command") == command:
+            again = draft / place.relative_to(out)
+            found += [place / name for name in _files(told) if (place / name).is_file() and not (again / name).exists()]
+    return found
+
+
+def _told(folder: Path) -> dict[str, object]:
+    """Content of the folder's run.json; empty when there is none that can be read."""
+    try:
+        content = json.loads((folder / RUN).read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return {}
+    return content if isinstance(content, dict) else {}
+
+
+def _files(told: dict[str, object]) -> list[str]:
+    listed = told.get("files")
+    if not isinstance(listed, list):
+        return []
+    return [name for name in listed if isinstance(name, str) and (name in NAMES or PICTURES.fullmatch(name))]
+
+
+def _folders(told: dict[str, object]) -> list[object]:
+    inputs = told.get("inputs")
+    return [entry.get("folder") for entry in inputs if isinstance(entry, dict)] if isinstance(inputs, list) else []
+
+
+def _same(folder: Path, before: dict[str, object]) -> bool:
+    """Whether the results in a sub-folder are those of the run that `before` tells of."""
+    told = _told(folder)
+    return bool(told) and {**told, "files": None} == {**before, "files": None}

@@ -1,0 +1,85 @@
+"""The words that a reviewer of a contact-area analysis looks for, with this analysis's own numbers in them.
+
+The order follows ASME V&V 40 (question of interest, context of use, credibility of the model, its numerical error).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from geocontact.data.evolution import MM, MM2, AreaEvolution
+from geocontact.geometry.surface import Surface
+from geocontact.view.page.content import Words
+
+NOT_A_DEVICE = (
+    "A research result, not a clinical device: it must not be used to diagnose, "
+    "to plan treatment or to select an implant for a patient."
+)
+
+
+def reviewers_words(
+    moving: Surface, fixed: Surface, e: AreaEvolution, main: int, frames: int, shown: int, warnings: Sequence[str]
+) -> list[Words]:
+    """Question, context of use, numerical error, what was not checked, and reservations."""
+    words = [
+        Words("Question", [_question(moving, fixed, e, main)]),
+        Words("Context of use", [_context(e), NOT_A_DEVICE]),
+        Words("Numerical error", _error(e, main)),
+        Words("What the numbers do not contain", _missing(frames, shown)),
+    ]
+    if warnings:
+        words.append(Words("Reservations of this run", list(warnings)))
+    return words
+
+
+def _question(moving: Surface, fixed: Surface, e: AreaEvolution, main: int) -> str:
+    return (
+        f"How much of the surface of {fixed.name} (fixed) lies within {e.thresholds[main] * MM:g} mm of {moving.name} "
+        f"(moving), where, and how does it change over the motion? Parts that overlap count as contact."
+    )
+
+
+def _context(e: AreaEvolution) -> str:
+    signs = {
+        "both": "Both surfaces are closed, so distances carry a sign and overlap is known on both.",
+        "fixed": "The moving surface is closed, the fixed one is not: overlap is known on the fixed surface only.",
+        "moving": "The fixed surface is closed, the moving one is not: overlap is known on the moving surface only.",
+        "none": "Neither surface is closed: distances are unsigned and overlap cannot be told from closeness.",
+    }
+    return (
+        "Geometric contact of two rigid triangulated surfaces in given poses: nothing deforms, no force is computed. "
+        "An area within a threshold is a measure of congruence; it is the area that carries load only as far as the "
+        f"threshold stands for the deformation. {signs[e.signed]}"
+    )
+
+
+def _error(e: AreaEvolution, main: int) -> list[str]:
+    area, lower, upper = (values[:, main] * MM2 for values in (e.fixed.area, e.fixed.lower, e.fixed.upper))
+    widest = int(np.argmax(upper - lower))
+    bounds = (
+        f"The true area of the two triangulated surfaces lies between the bounds shown in every frame; they are "
+        f"{upper[widest] - lower[widest]:.1f} mm² apart at most (frame {widest + 1}, area {area[widest]:.1f} mm²). "
+        f"The estimated error of the area is {e.fixed.error[:, main].max() * MM2:.2g} mm² at most. "
+        "Both follow from the 1-Lipschitz property of the distance and from dividing the triangles in doubt."
+    )
+    sides = f"Up to {int(e.undecided.max(initial=0))} points per frame have no decidable side and count as outside."
+    picture = (
+        "The colours and the threshold contour on the picture interpolate 8-bit distances between vertices; the "
+        "numbers do not come from the picture."
+    )
+    return [bounds, sides, picture] if e.undecided.any() else [bounds, picture]
+
+
+def _missing(frames: int, shown: int) -> list[str]:
+    inputs = (
+        "How well the triangles resemble the parts, how well the parts resemble worn or loaded ones, and how well the "
+        "motion was measured: tenths of a millimetre there matter more than all of the above. Repeat with another mesh "
+        "resolution and see the strip of thresholds before concluding."
+    )
+    validation = (
+        "Validation against measured contact areas is not part of this page unless a comparison table is shown."
+    )
+    thinned = f"The page shows {shown} of {frames} frames; the table file holds all of them."
+    return [inputs, validation, thinned] if shown < frames else [inputs, validation]

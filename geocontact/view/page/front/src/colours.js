@@ -1,0 +1,37 @@
+// Distance → colour, for the surface, the legend and the saved picture alike.
+
+// viridis (van der Walt and Smith, CC0), near to far: lightness falls evenly, also for colour-blind eyes
+const NEAR_TO_FAR = [
+  "#fde725", "#b5de2b", "#6ece58", "#35b779", "#1f9e89", "#26828e", "#31688e", "#3e4989", "#482878", "#440154",
+];
+// what overlaps is told apart by hue, by lightness and by hatching
+const SHALLOW_TO_DEEP = ["#ff9a3c", "#e8590c", "#b3261e", "#6a040f"];
+export const BEYOND = "#c9cdd2";
+export const PLAIN = "#b9bec6";
+
+const rgb = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+
+function between(stops, part) {
+  const at = Math.min(Math.max(part, 0), 1) * (stops.length - 1);
+  const k = Math.min(Math.floor(at), stops.length - 2);
+  const [from, to] = [rgb(stops[k]), rgb(stops[k + 1])];
+  return from.map((c, i) => Math.round(c + (to[i] - c) * (at - k)));
+}
+
+/** sRGB triple 0 … 255 of a distance, colours spread over the span. */
+export function colourOf(distance, [lower, upper]) {
+  if (distance < 0 && lower < 0) return between(SHALLOW_TO_DEEP, distance / lower);
+  const from = Math.max(lower, 0);
+  return between(NEAR_TO_FAR, (distance - from) / (upper - from));
+}
+
+/** Colours of the span from lower to upper end, RGBA bytes. */
+export function ramp(span, count) {
+  const bytes = new Uint8Array(4 * count);
+  for (let i = 0; i < count; i++) {
+    bytes.set([...colourOf(span[0] + ((span[1] - span[0]) * (i + 0.5)) / count, span), 255], 4 * i);
+  }
+  return bytes;
+}
+
+export const css = (triple) => `rgb(${triple.join(",")})`;

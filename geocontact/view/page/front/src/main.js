@@ -1,0 +1,67 @@
+// Starts the page: cursor first, then what follows it. Without WebGL the curves, tables and words still work.
+import { curves, strip } from "./charts.js";
+import { cursor, keys, player } from "./controls.js";
+import { legend, scaleBar, triad } from "./overlays.js";
+import { openScene } from "./scene.js";
+import { tools } from "./tools.js";
+
+const element = (id) => document.getElementById(id);
+const state = (window.__geocontact = { ready: false, frame: 0 });
+
+function notice(text) {
+  element("notice").textContent = text;
+  element("notice").hidden = false;
+}
+
+function readout(panel, part) {
+  const cells = panel.querySelectorAll("td.value bdi");
+  return (frame) => part.texts.forEach((texts, row) => (cells[row].textContent = texts[frame]));
+}
+
+async function picture(data, time) {
+  const canvas = element("canvas");
+  canvas.addEventListener("webglcontextlost", () => notice("The 3-D picture was lost (graphics driver); reload the page to get it back."));
+  const scene = await openScene(data.scene, canvas);
+  scene.presets = data.scene.directions.length;
+  legend(element("legend"), data.scene);
+  const overlays = [triad(element("triad"), data.scene, scene.view), scaleBar(element("scale"), scene.view)];
+  for (const draw of overlays) scene.drawn(draw);
+  const drawings = () => ({ legend: element("legend").firstChild, triad: element("triad").firstChild, scale: element("scale") });
+  tools(scene, drawings, () => [data.title, `${data.scene.valueName} [mm], ${time.words(time.frame())}`]);
+  time.listen(scene.show);
+  return scene;
+}
+
+async function start() {
+  const data = JSON.parse(element("page-data").textContent);
+  const time = cursor(data);
+  const play = player(time);
+  const pointed = (frame) => {
+    play.pause();
+    time.go(frame);
+  };
+  const makers = { curves: (f, p) => curves(f, p, data.time, data.timeLabel, pointed), strip, readout };
+  for (const part of data.parts) time.listen(makers[part.kind](element(part.id), part));
+  time.listen((frame) => (state.frame = frame));
+  element("timeline").hidden = element("keys").hidden = false;
+  let scene = null;
+  if (data.scene) {
+    try {
+      scene = await picture(data, time);
+    } catch (problem) {
+      element("scene").classList.add("absent");
+      notice("No 3-D picture: this browser offers no WebGL 2. Curves, tables and words work.");
+      state.problem = String(problem);
+    }
+  }
+  keys(time, play, scene);
+  time.go(data.start);
+  scene?.draw();
+  state.ready = true;
+  document.documentElement.dataset.ready = "true";
+}
+
+start().catch((problem) => {
+  notice(`The page could not start: ${problem.message}. A newer browser may help; tables and words are complete.`);
+  throw problem;
+});

@@ -1,0 +1,77 @@
+// What lies over the picture: colour legend, directions, scale bar.
+import { Vector3 } from "three";
+import { BEYOND, colourOf, css } from "./colours.js";
+import { html, svg } from "./svg.js";
+import { brief, ticks } from "./ticks.js";
+
+const [LEFT, WIDTH, HIGH] = [10, 250, 14];
+
+/** Colours with ticks in mm; bold marks are the thresholds, hatched is overlap, the box beside is beyond. */
+export function legend(place, scene) {
+  const [lower, upper] = scene.span;
+  const x = (value) => LEFT + ((value - lower) / (upper - lower)) * WIDTH;
+  const bar = svg("svg", { viewBox: "0 0 310 38", width: 310, height: 38, role: "img", "aria-label": label(scene) });
+  const stripes = svg("pattern", { id: "hatch", width: 5, height: 5, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" });
+  stripes.append(svg("rect", { width: 5, height: 1.6, fill: "#000", "fill-opacity": 0.55 }));
+  bar.append(svg("defs", {}, stripes));
+  const count = 125;
+  for (let k = 0; k < count; k++) {
+    const value = lower + ((upper - lower) * (k + 0.5)) / count;
+    bar.append(svg("rect", { y: 4, height: HIGH, x: LEFT + (k * WIDTH) / count, width: WIDTH / count + 0.5, fill: css(colourOf(value, scene.span)) }));
+  }
+  if (lower < 0) bar.append(svg("rect", { y: 4, height: HIGH, x: LEFT, width: x(Math.min(0, upper)) - LEFT, fill: "url(#hatch)" }));
+  const taken = [];
+  const mark = (value, kind) => {
+    if (taken.some((other) => Math.abs(other - x(value)) < 20)) return;
+    taken.push(x(value));
+    bar.append(svg("text", { class: `tick ${kind}`, x: x(value), y: 33, "text-anchor": "middle" }, brief(value)));
+  };
+  for (const [k, threshold] of scene.thresholds.entries()) {
+    bar.append(svg("line", { class: k ? "minor" : "main", y1: 1, y2: 22, x1: x(threshold), x2: x(threshold) }));
+    mark(threshold, "main");
+  }
+  for (const value of [lower, upper, ...ticks(lower, upper, 6)]) {
+    bar.append(svg("line", { class: "grid", y1: 4 + HIGH, y2: 22, x1: x(value), x2: x(value) }));
+    mark(value, "");
+  }
+  bar.append(svg("rect", { x: 276, width: 22, y: 4, height: HIGH, fill: BEYOND }));
+  bar.append(svg("text", { class: "tick", x: 287, y: 33, "text-anchor": "middle" }, "beyond"));
+  place.append(bar, html("p", "", html("bdi", "", scene.valueName), ` [mm]; ${lines(scene)}${lower < 0 ? ", hatched: overlap" : ""}`));
+}
+
+const lines = (scene) => `line${scene.thresholds.length > 1 ? "s" : ""}: ${scene.thresholds.map((t) => brief(t)).join(", ")} mm`;
+
+const label = (scene) =>
+  `Colours from ${brief(scene.span[0])} to ${brief(scene.span[1])} mm, ${lines(scene)}, hatched where bodies overlap, grey beyond`;
+
+/** Arrows of the named directions as seen now. */
+export function triad(place, scene, view) {
+  const frame = svg("svg", { viewBox: "-76 -46 152 92", width: 152, height: 92 });
+  place.append(frame);
+  const named = scene.directions.map(([name, vector]) => [name.replace(/\s*\(.*$/, ""), new Vector3(...vector).normalize()]);
+  const shown = named.filter(([, v], k) => !named.slice(0, k).some(([, other]) => other.dot(v) < -0.9));
+  return () => {
+    frame.replaceChildren();
+    const towards = new Vector3();
+    const arrows = shown.map(([name, vector]) => [name, towards.clone().copy(vector).transformDirection(view.camera.matrixWorldInverse)]);
+    for (const [name, seen] of arrows.sort((a, b) => a[1].z - b[1].z)) {
+      const [x, y] = [seen.x * 26, -seen.y * 26];
+      if (Math.hypot(x, y) < 7) continue; // towards the reader: the button says it better
+      frame.append(svg("line", { class: seen.z < -0.2 ? "arrow away" : "arrow", x1: 0, y1: 0, x2: x, y2: y }));
+      const anchor = x > 8 ? "start" : x < -8 ? "end" : "middle";
+      frame.append(svg("text", { class: "tick", x: x * 1.15, y: y * 1.25 + 3.5, "text-anchor": anchor }, name));
+    }
+    frame.append(svg("circle", { class: "hub", r: 2.5 }));
+  };
+}
+
+/** A bar of a round length; the camera has no perspective, so it holds everywhere in the picture. */
+export function scaleBar(place, view) {
+  const [text, bar] = place.children;
+  return () => {
+    const size = view.pixelSize();
+    const length = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000].findLast((mm) => mm / size < 110) ?? 0.1;
+    bar.style.width = `${length / size}px`;
+    text.textContent = `${length} mm`;
+  };
+}

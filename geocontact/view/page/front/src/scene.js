@@ -1,0 +1,165 @@
+// Bodies over time: poses, colours, visibility, opacity, section plane. Draws only when something changed.
+import { Color, Group, LessEqualDepth, Matrix4, Mesh, Scene, Vector3, WebGLRenderer } from "three";
+import { cameraFor } from "./camera.js";
+import { geometryOf } from "./geometry.js";
+import { materialOf, sharedUniforms } from "./material.js";
+import { unpack } from "./unpack.js";
+
+const INSIDES = ["#8a6d52", "#5b6b80", "#7a5a70", "#5f7a5a"];
+
+/** The drawn scene, or an error where the browser cannot. */
+export async function openScene(data, canvas) {
+  const renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+  const shared = sharedUniforms(data);
+  const world = new Scene();
+  world.background = new Color(getComputedStyle(canvas).getPropertyValue("--scene").trim());
+  const bodies = [];
+  for (const [k, described] of data.bodies.entries()) {
+    bodies.push(await bodyOf(described, shared, data, INSIDES[k % INSIDES.length]));
+    world.add(bodies[k].group);
+  }
+  const reach = reachOf(bodies);
+  const view = cameraFor(data, canvas, reach, pointsOf(bodies));
+  let waiting = 0;
+  let shown = -1;
+  const listeners = [];
+
+  function draw() {
+    waiting = 0;
+    renderer.render(world, view.camera);
+    for (const listen of listeners) listen();
+  }
+  const later = () => (waiting ||= requestAnimationFrame(draw));
+
+  function fit() {
+    const { clientWidth: width, clientHeight: height } = canvas.parentElement;
+    if (!width || !height) return;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    renderer.setPixelRatio(ratio);
+    renderer.setSize(width, height, false);
+    shared.pixel.value = ratio;
+    view.fit(width, height);
+    draw();
+  }
+  new ResizeObserver(fit).observe(canvas.parentElement);
+  view.changed(later);
+  window.addEventListener("beforeprint", draw);
+
+  const scene = {
+    view,
+    canvas,
+    bodies,
+    reach,
+    draw,
+    drawn: (listen) => listeners.push(listen),
+    show(frame) {
+      if (frame === shown) return;
+      shown = frame;
+      for (const body of bodies) body.show(frame);
+      later();
+    },
+    setVisible(k, visible) {
+      bodies[k].group.visible = visible;
+      later();
+    },
+    setOpacity(k, opacity) {
+      bodies[k].setOpacity(opacity);
+      later();
+    },
+    /** Axis 0, 1, 2 or null for none; part 0 … 1 of the scene's extent; which side is cut away. */
+    setSection(axis, part, flipped) {
+      shared.sectioned.value = axis !== null;
+      if (axis !== null) {
+        const normal = [0, 0, 0];
+        normal[axis] = flipped ? -1 : 1;
+        const at = reach.lower.getComponent(axis) + part * (reach.upper.getComponent(axis) - reach.lower.getComponent(axis));
+        shared.section.value.set(...normal, flipped ? -at : at);
+      }
+      later();
+    },
+  };
+  fit();
+  return scene;
+}
+
+async function bodyOf(described, shared, data, inside) {
+  const [steps, faces, poses, codes] = await Promise.all(
+    [described.positions, described.faces, described.poses, described.distance].map((block) => block && unpack(block)),
+  );
+  const geometry = geometryOf(steps, faces, described.size);
+  const material = materialOf(shared, data, Boolean(codes), inside);
+  const group = new Group();
+  const depth = material.clone(); // drawn first where see-through, so that only the nearest layer is seen
+  Object.assign(depth.uniforms, material.uniforms);
+  Object.assign(depth, { colorWrite: false });
+  const [before, surface] = [new Mesh(geometry, depth), new Mesh(geometry, material)];
+  group.add(before, surface);
+  for (const mesh of group.children) mesh.frustumCulled = false;
+  group.matrixAutoUpdate = false;
+  const vertices = steps.length / 3;
+  const code = geometry.getAttribute("code");
+
+  function setOpacity(opacity) {
+    const solid = opacity >= 0.99;
+    material.uniforms.opacity.value = opacity;
+    material.transparent = !solid;
+    material.depthFunc = LessEqualDepth;
+    material.needsUpdate = true;
+    before.visible = !solid;
+    depth.transparent = true; // after everything solid
+    before.renderOrder = 1;
+    surface.renderOrder = solid ? 0 : 2;
+  }
+
+  function show(frame) {
+    matrixOf(poses, Math.min(frame, poses.length / 12 - 1), group.matrix);
+    group.matrixWorldNeedsUpdate = true;
+    if (!codes) return;
+    const from = vertices * frame;
+    for (let i = 0; i < faces.length; i++) code.array[i] = codes[from + faces[i]];
+    code.needsUpdate = true;
+  }
+  setOpacity(described.opacity);
+  return { group, geometry, poses, setOpacity, show, size: described.size };
+}
+
+function matrixOf(poses, k, matrix = new Matrix4()) {
+  const p = poses.subarray(12 * k, 12 * k + 12);
+  return matrix.set(p[0], p[1], p[2], p[9], p[3], p[4], p[5], p[10], p[6], p[7], p[8], p[11], 0, 0, 0, 1);
+}
+
+/** Box around all bodies in all frames (corners of their boxes), mm about the scene's middle. */
+function reachOf(bodies) {
+  const lower = new Vector3().setScalar(Infinity);
+  const upper = new Vector3().setScalar(-Infinity);
+  const matrix = new Matrix4();
+  const point = new Vector3();
+  for (const { poses, size } of bodies) {
+    for (let k = 0; k < poses.length / 12; k++) {
+      matrixOf(poses, k, matrix);
+      for (let corner = 0; corner < 8; corner++) {
+        point.set(...size.map((edge, a) => (corner & (1 << a) ? 0.5 : -0.5) * edge)).applyMatrix4(matrix);
+        lower.min(point);
+        upper.max(point);
+      }
+    }
+  }
+  return { lower, upper };
+}
+
+/** Some points of all bodies in some frames, for the camera to fit. */
+function pointsOf(bodies) {
+  const found = [];
+  const matrix = new Matrix4();
+  for (const { poses, geometry } of bodies) {
+    const position = geometry.getAttribute("position");
+    const frames = poses.length / 12;
+    for (let k = 0; k < frames; k += Math.max(1, Math.floor(frames / 9))) {
+      matrixOf(poses, k, matrix);
+      for (let i = 0; i < position.count; i += Math.max(1, Math.floor(position.count / 1500))) {
+        found.push(new Vector3().fromBufferAttribute(position, i).applyMatrix4(matrix));
+      }
+    }
+  }
+  return found;
+}

@@ -1,0 +1,31 @@
+// Buttons and sliders of the picture: views, bodies, section plane, PNG.
+import { savePicture } from "./picture.js";
+
+const element = (id) => document.getElementById(id);
+const each = (name, act) => document.querySelectorAll(`[data-${name}]`).forEach((e) => act(e, Number(e.dataset[name])));
+
+export function tools(scene, overlays, caption) {
+  each("view", (button, k) => button.addEventListener("click", () => scene.view.look(k)));
+  each("show", (box, k) => box.addEventListener("change", () => scene.setVisible(k, box.checked)));
+  each("opacity", (slider, k) => slider.addEventListener("input", () => scene.setOpacity(k, Number(slider.value))));
+  element("reset").addEventListener("click", scene.view.reset);
+  element("png").addEventListener("click", () => savePicture(scene, overlays(), caption(), "picture.png"));
+
+  const [axis, at, other] = ["cut", "cut-at", "cut-flip"].map(element);
+  let flipped = false;
+  const cut = () => {
+    at.disabled = other.disabled = axis.value === "";
+    scene.setSection(axis.value === "" ? null : Number(axis.value), Number(at.value), flipped);
+  };
+  axis.addEventListener("input", () => {
+    flipped = axis.value !== "" && scene.view.towards(Number(axis.value)) < 0; // the near half is cut away
+    cut();
+  });
+  at.addEventListener("input", cut);
+  other.addEventListener("click", () => {
+    flipped = !flipped;
+    cut();
+  });
+  element("more").open = !window.matchMedia("(max-width: 860px)").matches;
+  element("tools").hidden = false;
+}

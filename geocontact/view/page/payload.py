@@ -1,0 +1,157 @@
+"""What the page's script needs, as plain data and packed arrays. Lengths in mm, about the middle of the scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.view.page.content import Body, Curves, Page, Readout, Scene, Strip
+from geocontact.view.page.levels import Levels, across
+from geocontact.view.page.opening import opacities, opening_view
+from geocontact.view.page.pack import Block, Grid, face_words, packed
+
+MM = 1e3
+
+
+@dataclass(frozen=True)
+class Payload:
+    """Data for JSON, the arrays it refers to, and what quantising them costs at most [m]."""
+
+    data: dict[str, object]
+    blocks: list[Block]
+    position_error: float = 0.0
+    distance_error: float = 0.0
+
+
+def payload(page: Page) -> Payload:
+    """Everything the script draws; texts that the HTML holds already are left out."""
+    blocks: list[Block] = []
+    data: dict[str, object] = {
+        "time": _numbers(page.time),
+        "timeLabel": page.time_label,
+        "title": page.title,
+        "start": page.start_frame,
+    }
+    parts: list[dict[str, object]] = []
+    position_error = distance_error = 0.0
+    for k, section in enumerate(page.sections):
+        place = {"id": f"section-{k}"}
+        match section:
+            case Scene():
+                levels = _levels(section)
+                data["scene"] = _scene(section, page.start_frame, levels, blocks)
+                position_error = max(Grid.around(body.vertices).error for body in section.bodies)
+                distance_error = levels.error
+            case Curves():
+                parts.append(place | {"kind": "curves"} | _curves(section))
+            case Strip():
+                parts.append(place | {"kind": "strip"} | _strip(section))
+            case Readout():
+                texts = [list(row.texts) for row in section.rows]
+                parts.append(place | {"kind": "readout", "texts": texts})
+    data["parts"] = parts
+    return Payload(data, blocks, position_error, distance_error)
+
+
+def _levels(scene: Scene) -> Levels:
+    lower, upper = scene.span
+    most = upper + (upper - lower)  # a few far corners shall not make everything coarse
+    reach = [across(body.faces, body.distance, upper, most) for body in scene.bodies if body.distance is not None]
+    return Levels.of(scene.span, scene.threshold, max(reach, default=upper))
+
+
+def _scene(scene: Scene, frame: int, levels: Levels, blocks: list[Block]) -> dict[str, object]:
+    middle = _middle(scene, frame)
+    return {
+        "bodies": [
+            _body(body, k, opacity, middle, levels, blocks)
+            for k, (body, opacity) in enumerate(zip(scene.bodies, opacities(scene), strict=True))
+        ],
+        "thresholds": sorted((float(t) * MM for t in scene.thresholds), reverse=True),
+        "span": [float(limit) * MM for limit in scene.span],
+        "first": levels.first * MM,
+        "step": levels.step * MM,
+        "valueName": scene.value_name,
+        "directions": [[name, [float(x) for x in vector]] for name, vector in scene.directions.items()],
+        "up": [float(x) for x in scene.up],
+        "view": opening_view(scene, frame).tolist(),
+    }
+
+
+def _middle(scene: Scene, frame: int) -> Float[np.ndarray, " 3"]:
+    """Middle of the bodies at the opening frame [m]: single precision in the browser loses nothing about it."""
+    corners = []
+    for body in scene.bodies:
+        placed = body.vertices if body.poses is None else body.poses[frame].apply(body.vertices)
+        corners += [placed.min(axis=0), placed.max(axis=0)]
+    return np.asarray(0.5 * (np.min(corners, axis=0) + np.max(corners, axis=0)))
+
+
+def _body(
+    body: Body, k: int, opacity: float, middle: Float[np.ndarray, " 3"], levels: Levels, blocks: list[Block]
+) -> dict[str, object]:
+    grid = Grid.around(body.vertices)
+    centre = grid.corner + 0.5 * grid.size
+
+    def stored(what: str, array: np.ndarray) -> dict[str, object]:
+        blocks.append(packed(f"body-{k}-{what}", array))
+        return blocks[-1].described()
+
+    described: dict[str, object] = {
+        "name": body.name,
+        "opacity": opacity,
+        "size": (grid.size * MM).tolist(),
+        "positions": stored("positions", grid.steps(body.vertices)),
+        "faces": stored("faces", face_words(_outward(body, centre))),
+        "poses": stored("poses", _poses(body, centre, middle)),
+    }
+    if body.distance is not None:
+        described["distance"] = stored("distance", levels.codes(body.distance))
+    return described
+
+
+def _outward(body: Body, centre: Float[np.ndarray, " 3"]) -> np.ndarray:
+    """Faces turned so that the body's volume is positive: a section shows its inside as inside."""
+    a, b, c = (body.vertices[body.faces[:, corner]] - centre for corner in range(3))
+    volume = np.einsum("ij,ij->", a, np.cross(b, c))
+    return body.faces if volume >= 0.0 else body.faces[:, ::-1]
+
+
+def _poses(body: Body, centre: Float[np.ndarray, " 3"], middle: Float[np.ndarray, " 3"]) -> np.ndarray:
+    """Rotation (row-major) and shift [mm] of the centred body about the scene's middle, (t, 12); (1, 12) if fixed."""
+    if body.poses is None:
+        rotation, shift = np.eye(3)[None], (centre - middle)[None]
+    else:
+        rotation = body.poses.rotation.as_matrix().reshape(-1, 3, 3)
+        shift = np.asarray(body.poses.apply(centre)).reshape(-1, 3) - middle
+    return np.concatenate([rotation.reshape(-1, 9), shift * MM], axis=1).astype(np.float32)
+
+
+def _curves(panel: Curves) -> dict[str, object]:
+    curves = [
+        {
+            "name": curve.name,
+            "values": _numbers(curve.values),
+            "lower": None if curve.lower is None else _numbers(curve.lower),
+            "upper": None if curve.upper is None else _numbers(curve.upper),
+        }
+        for curve in panel.curves
+    ]
+    return {"title": panel.title, "unit": panel.unit, "curves": curves}
+
+
+def _strip(strip: Strip) -> dict[str, object]:
+    return {
+        "title": strip.title,
+        "unit": strip.unit,
+        "current": strip.current,
+        "thresholds": _numbers(strip.thresholds),
+        "values": [_numbers(row) for row in strip.values],
+    }
+
+
+def _numbers(values: Float[np.ndarray, " t"]) -> list[float | None]:
+    """Seven digits are more than a picture shows; what is not finite is a gap."""
+    return [float(f"{value:.7g}") if np.isfinite(value) else None for value in values]

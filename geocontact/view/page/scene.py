@@ -1,0 +1,87 @@
+"""Bodies over time, coloured by distance."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.spatial.transform import RigidTransform
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A triangle surface, possibly moving, possibly coloured.
+
+    Parameters
+    ----------
+    name
+        Any text; it stays text.
+    vertices, faces
+        Surface in the body's own frame B [m]; corners counter-clockwise seen from outside.
+    poses
+        `X_SB`, one per frame: maps the body's frame into the scene's frame S [m]. None: fixed, S is its own frame.
+    distance
+        Signed distance of each vertex to the other body per frame [m]; +inf (-inf) where it is farther (deeper) than
+        was asked, NaN where unknown. None: the body is drawn plain.
+    opacity
+        At the start, 0 … 1. None: moving bodies are see-through where a fixed one is there to be seen.
+    """
+
+    name: str
+    vertices: Float[np.ndarray, "n 3"]
+    faces: Int[np.ndarray, "m 3"]
+    poses: RigidTransform | None = None
+    distance: Float[np.ndarray, "t n"] | None = None
+    opacity: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Bodies over time in the frame S.
+
+    Parameters
+    ----------
+    thresholds
+        Distances at which a contour is drawn [m], in any order; the largest is the main one.
+    span
+        Limits of the colours [m], the same in all frames.
+    value_name
+        What the colours mean: "signed distance to the other body".
+    directions
+        Camera presets: name and vector from which to look, in S: {"anterior (+x)": (1, 0, 0)}. Keys 1, 2, … in order.
+    up
+        Upwards in S.
+    view
+        Direction from which the page opens; None: the one from which the contact patch is seen.
+    """
+
+    bodies: Sequence[Body]
+    thresholds: Sequence[float]
+    span: tuple[float, float]
+    value_name: str
+    directions: Mapping[str, Sequence[float]]
+    up: Sequence[float] = (0.0, 1.0, 0.0)
+    view: Sequence[float] | None = None
+
+    def __post_init__(self) -> None:
+        if not self.bodies:
+            raise ValueError("a scene needs a body")
+        if not self.thresholds:
+            raise ValueError("a threshold is missing")
+        lower, upper = self.span
+        if not lower < self.threshold <= upper:
+            raise ValueError(f"span {lower:g} … {upper:g} m does not hold the threshold {self.threshold:g} m")
+        for body in self.bodies:
+            if len(body.faces) == 0 or not np.isfinite(body.vertices).all():
+                raise ValueError(f"{body.name}: a body needs at least one face and finite vertices")
+            if body.faces.min() < 0 or body.faces.max() >= len(body.vertices):
+                raise ValueError(f"{body.name}: a face names a vertex that is not there")
+            if body.distance is not None and body.distance.shape[1] != len(body.vertices):
+                raise ValueError(f"{body.name}: {body.distance.shape[1]} distances for {len(body.vertices)} vertices")
+
+    @property
+    def threshold(self) -> float:
+        """The main threshold [m]."""
+        return float(max(self.thresholds))

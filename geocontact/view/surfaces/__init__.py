@@ -1,0 +1,1 @@
+"""Both bodies in space: stills, an interactive window, and a time series for ParaView."""

@@ -1,0 +1,56 @@
+"""A Python program in a process of its own: what ends that process does not end this one.
+
+A missing graphics driver kills the process that asks for it (segmentation fault) instead of raising, so whatever
+renders runs here, and so does the question whether rendering works.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+SLOW = "no answer within"
+_FATAL_ON_WINDOWS = 0xC0000000  # status codes from here on are crashes; elsewhere a crash is a negative code
+
+
+def start(program: str, *arguments: str) -> subprocess.Popen[str]:
+    """Run `program` by this Python; it finds the modules that this process finds, and sees `arguments` as sys.argv[1:].
+
+    The current folder is not searched for modules (-P): a file called numpy.py beside the data is not run.
+    """
+    here = str(Path(__file__).resolve().parents[3])
+    paths = os.pathsep.join(dict.fromkeys([*(path for path in sys.path if path), here]))
+    return subprocess.Popen(
+        [sys.executable, "-P", "-c", program, *arguments],
+        env={**os.environ, "PYTHONPATH": paths},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        errors="replace",
+    )
+
+
+def outcome(child: subprocess.Popen[str], patience: float | None) -> str:
+    """Empty when the program ended well within `patience` [s] (None: however long), else what happened in a few words.
+
+    A program that takes longer is ended, and so is one whose caller is interrupted.
+    """
+    try:
+        _, said = child.communicate(timeout=patience)
+    except subprocess.TimeoutExpired:
+        return f"{SLOW} {patience:g} s"
+    finally:
+        if child.poll() is None:
+            child.kill()
+            child.communicate()
+    code = child.returncode
+    if code == 0:
+        return ""
+    if code < 0 or code >= _FATAL_ON_WINDOWS:
+        signal = f"signal {-code}" if code < 0 else f"status {code:#x}"
+        return f"ends the process ({signal}): a system library or driver is missing"
+    lines = [line.strip() for line in said.splitlines() if line.strip()]
+    return lines[-1][:160] if lines else f"exit code {code}"

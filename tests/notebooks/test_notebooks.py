@@ -1,0 +1,54 @@
+"""Every notebook runs from top to bottom, and is kept without outputs."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+ROOT = Path(__file__).resolve().parents[2]
+NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Execute a notebook with a folder of its own as the place where it writes; returns what its cells said."""
+
+    def executed(notebook: Path, **environment: str) -> str:
+        for name, value in environment.items():
+            monkeypatch.setenv(name, value)
+        os.symlink(ROOT / "meshes", tmp_path / "meshes")
+        book = nbformat.read(notebook, as_version=4)
+        NotebookClient(book, timeout=600, resources={"metadata": {"path": str(tmp_path)}}).execute()
+        outputs = [output for cell in book.cells if cell.cell_type == "code" for output in cell.outputs]
+        return "".join(output.get("text", "") for output in outputs)
+
+    return executed
+
+
+def test_there_is_one_for_the_contact_area():
+    assert "contact_area" in [notebook.stem for notebook in NOTEBOOKS]
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+def test_kept_without_outputs_and_with_any_python(notebook):
+    book = json.loads(notebook.read_text(encoding="utf-8"))
+    nbformat.validate(nbformat.from_dict(book))
+    for cell in book["cells"]:
+        assert not cell.get("outputs") and cell.get("execution_count") is None
+        assert cell["metadata"] == {}
+    assert book["metadata"]["kernelspec"]["name"] == "python3"
+    assert "version" not in book["metadata"].get("language_info", {})
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")  # of the notebook machinery itself
+def test_contact_area_runs_on_the_shipped_meshes(run, tmp_path):
+    said = run(ROOT / "notebooks" / "contact_area.ipynb", GEOCONTACT_DATA=str(tmp_path / "none"))
+    assert "101 frames" in said and "no real data here; everything above is synthetic" in said
+    page = (tmp_path / "contact-area-result" / "report.html").read_text(encoding="utf-8")
+    assert "Synthetic knee over gait" in page

@@ -1,0 +1,106 @@
+"""One headless browser for all tests of the page; skipped, with the reason, where there is none."""
+
+from __future__ import annotations
+
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from geocontact.view.page.content import Page
+from geocontact.view.page.write import write_page
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, BrowserContext
+    from playwright.sync_api import Page as Tab
+
+CHROMIUM = ("chromium", "chromium-browser", "google-chrome")
+SOFTWARE = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+DESKTOP = {"viewport": {"width": 1280, "height": 800}}
+PHONE = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True, "device_scale_factor": 2}
+READY = 60_000  # ms; a busy machine without a graphics card
+
+
+@dataclass
+class Opened:
+    """A page in the browser and everything it said and asked for."""
+
+    tab: Tab
+    requests: list[str] = field(default_factory=list)
+    complaints: list[str] = field(default_factory=list)
+
+    def picture(self) -> str:
+        """What the canvas shows once it has been drawn."""
+        return str(
+            self.tab.evaluate(
+                "new Promise(done => requestAnimationFrame(() => requestAnimationFrame("
+                "() => done(document.getElementById('canvas').toDataURL()))))"
+            )
+        )
+
+    def frame(self) -> int:
+        return int(self.tab.evaluate("window.__geocontact.frame"))
+
+    def until(self, condition: str, seconds: float = 20.0) -> None:
+        """Wait for a condition; the page's policy forbids the evaluation that playwright's own waiting needs."""
+        end = time.monotonic() + seconds
+        while not self.tab.evaluate(condition):
+            assert time.monotonic() < end, condition
+            self.tab.wait_for_timeout(30)
+
+    def text(self, selector: str) -> str:
+        return str(self.tab.locator(selector).first.text_content())
+
+
+Open = Callable[..., Opened]
+
+
+def set_range(opened: Opened, selector: str, value: float) -> None:
+    """Put a slider at a value and tell the page, as a reader's hand does."""
+    opened.tab.locator(selector).evaluate("(e, v) => { e.value = v; e.dispatchEvent(new Event('input')); }", value)
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    executable = next(filter(None, map(shutil.which, CHROMIUM)), None)
+    if executable is None:
+        pytest.skip("no chromium on PATH: apt install chromium")
+    with sync_api.sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=executable, args=SOFTWARE)
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture
+def opened(browser: Browser, tmp_path: Path) -> Iterator[Open]:
+    """Writes a page, opens it from disk and waits until it is ready."""
+    contexts: list[BrowserContext] = []
+
+    def open_page(
+        page: Page, name: str = "page.html", device: dict[str, Any] = DESKTOP, before: str = "", **more: Any
+    ) -> Opened:
+        file = tmp_path / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_page(page, file)
+        context = browser.new_context(**device, **more)
+        contexts.append(context)
+        found = Opened(context.new_page())
+        found.tab.on("request", lambda request: found.requests.append(request.url))
+        found.tab.on("console", lambda message: found.complaints.append(f"{message.type}: {message.text}"))
+        found.tab.on("pageerror", lambda error: found.complaints.append(f"error: {error}"))
+        found.tab.on("dialog", lambda dialog: (found.complaints.append("dialog"), dialog.dismiss()))
+        if before:
+            found.tab.add_init_script(before)
+        found.tab.goto(file.as_uri())
+        if more.get("java_script_enabled", True):
+            found.tab.wait_for_selector("html[data-ready]", timeout=READY)
+        return found
+
+    yield open_page
+    for context in contexts:
+        context.close()

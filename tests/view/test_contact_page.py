@@ -1,0 +1,191 @@
+"""The page of a contact-area analysis says what the table says."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.data.motion import Motion
+from geocontact.geometry.area import AS_GIVEN
+from geocontact.geometry.evolution import Settings, area_evolution
+from geocontact.geometry.maps import DistanceMaps
+from geocontact.geometry.plane import Plane
+from geocontact.geometry.surface import Surface
+from geocontact.view import contact_page
+from geocontact.view.contact_page import inputs_table, write_report
+from geocontact.view.contact_words import NOT_A_DEVICE
+from geocontact.view.directions import camera_directions
+from geocontact.view.page.content import Curves, Readout, Scene, Strip, Table, Words
+from meshes.simple_shapes import block, sphere
+
+MM = 1e-3
+R, T = 20.0, 4.0
+WIDE = tuple(0.5 * k * MM for k in range(13))
+
+
+def moved(heights):
+    """The ball over the plate, its centre at these heights [mm]."""
+    shift = np.zeros((len(heights), 3))
+    shift[:, 1] = np.asarray(heights) * MM
+    return Motion(0.1 * np.arange(len(heights)), RigidTransform.from_translation(shift))
+
+
+def analysed(heights=(22.0, 21.0, 20.5, 30.0), every=1, settings=None):
+    """Bodies, motion, evolution and maps."""
+    ball, ground = (
+        Surface(v * MM, f, name) for (v, f), name in ((sphere(R, 8), "ball"), (block(40.0, 40.0, 10.0, 16), "plate"))
+    )
+    motion = moved(heights)
+    settings = settings or Settings((1 * MM, T * MM), refinement=AS_GIVEN, split=Plane.across("z"), sensitivity=WIDE)
+    maps = DistanceMaps(ball, ground, every)
+    evolution = area_evolution(ball, ground, motion, settings, each=maps.add)
+    return ball, ground, motion, evolution, maps
+
+
+def page(*args, **kwargs):
+    """The page before it becomes HTML."""
+    ball, ground, motion, evolution, maps = analysed(*args, **kwargs)
+    kept = np.arange(len(maps.frames))
+    return contact_page._page(ball, ground, motion, evolution, maps, kept, "", (), ("a reservation",)), evolution
+
+
+def section(found, kind, n=0):
+    return [s for s in found.sections if isinstance(s, kind)][n]
+
+
+def test_where_how_much_and_when_are_said_at_the_top():
+    found, evolution = page()
+    said = dict(found.headline)
+    largest = evolution.fixed.area[2, 1] * 1e6
+    assert found.start_frame == 2
+    assert said["Largest contact area on the fixed body"] == f"{largest:.0f} mm² at 0.2 s (frame 3 of 4)"
+    assert said["Range over the motion"].startswith(f"0 … {largest:.0f} mm²")
+    assert said["Smallest distance"] == f"{evolution.min_distance[2] * 1e3:.2f} mm at 0.2 s (frame 3 of 4)"
+    assert "50% medial, 50% lateral" in said["Where, in that frame"]
+
+
+def test_overlap_is_called_overlap():
+    found, _ = page((20.5, 19.5))
+    assert dict(found.headline)["Deepest overlap"].startswith("0.50 mm at 0.1 s (frame 2 of 2)")
+
+
+def test_no_contact_at_all_has_no_place():
+    found, _ = page((30.0, 31.0))
+    assert not any(label.startswith("Where") for label, _ in found.headline)
+    assert section(found, Readout).rows[-1].texts == ["–", "–"]
+
+
+def test_numbers_under_the_cursor_are_those_of_the_table():
+    found, evolution = page()
+    table = evolution.table().query("`threshold [mm]` == 4").reset_index(drop=True)
+    rows = {row.label: row for row in section(found, Readout).rows}
+    for label, column, digits in (
+        ("area of the fixed body", "area_fixed [mm^2]", 2),
+        ("certainly at most", "area_fixed_upper [mm^2]", 2),
+        ("medial part", "area_fixed_medial [mm^2]", 2),
+        ("area of the moving body", "area_moving [mm^2]", 2),
+        ("smallest distance", "min_distance [mm]", 3),
+        ("centroid y", "centroid_y [mm]", 2),
+    ):
+        expected = ["–" if np.isnan(x) else f"{x:.{digits}f}" for x in table[column]]
+        assert list(rows[label].texts) == expected, label
+    assert rows["area of the fixed body"].unit == "mm²" and rows["smallest distance"].unit == "mm"
+
+
+def test_curves_are_the_areas_with_their_bounds():
+    found, evolution = page()
+    areas, distance = (section(found, Curves, n) for n in range(2))
+    names = [curve.name for curve in areas.curves]
+    assert names == ["fixed body, 4 mm", "medial, 4 mm", "lateral, 4 mm", "fixed body, 1 mm"]
+    np.testing.assert_allclose(areas.curves[0].values, evolution.fixed.area[:, 1] * 1e6)
+    np.testing.assert_allclose(areas.curves[0].upper, evolution.fixed.upper[:, 1] * 1e6)
+    np.testing.assert_allclose(areas.curves[1].values + areas.curves[2].values, areas.curves[0].values)
+    np.testing.assert_allclose(areas.curves[3].lower, evolution.fixed.lower[:, 0] * 1e6)
+    np.testing.assert_allclose(distance.curves[0].values, evolution.min_distance * 1e3)
+
+
+def test_strip_meets_the_area_at_the_threshold():
+    found, evolution = page()
+    strip = section(found, Strip)
+    assert strip.current == 4.0
+    at = int(np.flatnonzero(np.isclose(strip.thresholds, 4.0))[0])
+    np.testing.assert_allclose(strip.values[:, at], evolution.fixed.area[:, 1] * 1e6, rtol=1e-9)
+    assert (np.diff(strip.values, axis=1) >= 0).all()
+
+
+def test_scene_holds_both_bodies_and_their_maps():
+    found, _ = page()
+    scene = section(found, Scene)
+    ground, ball = scene.bodies
+    assert (ground.name, ball.name) == ("plate", "ball")
+    assert ground.poses is None and len(ball.poses) == 4
+    assert ball.poses[1].apply([0, 0, 0]) == pytest.approx([0, 21.0 * MM, 0])
+    assert ball.distance[2].min() == pytest.approx(0.5 * MM, abs=1e-5)
+    assert scene.thresholds == (1 * MM, T * MM)
+    assert scene.span[1] == pytest.approx(6 * MM)
+
+
+def test_words_hold_what_a_reviewer_looks_for():
+    found, evolution = page()
+    words = {s.title: " ".join(s.paragraphs) for s in found.sections if isinstance(s, Words)}
+    assert "not a clinical device" in words["Context of use"] and NOT_A_DEVICE in words["Context of use"]
+    assert "plate (fixed) lies within 4 mm of ball" in words["Question"]
+    width = ((evolution.fixed.upper - evolution.fixed.lower)[:, 1] * 1e6).max()
+    assert f"{width:.1f} mm² apart at most" in words["Numerical error"]
+    assert words["Reservations of this run"] == "a reservation"
+
+
+def test_mesh_statistics():
+    found, _ = page()
+    table = section(found, Table)
+    ball = dict(zip(table.header, table.rows[0], strict=True))
+    v, f = sphere(R, 8)
+    assert (ball["vertices"], ball["faces"], ball["closed"]) == (str(len(v)), str(len(f)), "yes")
+    assert ball["size [mm]"] == "40.0 × 40.0 × 40.0"
+
+
+def test_long_motions_are_thinned_and_the_page_says_so(tmp_path, monkeypatch):
+    seen = []
+    monkeypatch.setattr(contact_page, "write_page", lambda p, path: seen.append(p) or 1)
+    monkeypatch.setattr(contact_page, "FRAMES", 3)
+    write_report(tmp_path / "r.html", *analysed((22.0, 21.0, 20.5, 30.0, 21.0)))
+    (found,) = seen
+    assert list(found.time) == pytest.approx([0.0, 0.2, 0.4])
+    assert found.start_frame == 1
+    assert any("3 of 5 frames" in p for s in found.sections if isinstance(s, Words) for p in s.paragraphs)
+
+
+def test_without_maps_there_is_no_page(tmp_path):
+    *known, _ = analysed()
+    with pytest.raises(ValueError, match=r"each=maps\.add"):
+        write_report(tmp_path / "r.html", *known, DistanceMaps(*known[:2]))
+
+
+def test_maps_keep_every_so_many_frames_and_the_one_with_most_contact():
+    ball, ground, _, _, maps = analysed((22.0, 20.5, 21.0, 30.0), every=2)
+    assert maps.frames == [0, 2] and maps.largest == 1
+    assert maps.fixed.shape == (2, len(ground.vertices)) and maps.moving.shape == (2, len(ball.vertices))
+    none = analysed(every=0)[-1]
+    assert none.frames == [] and none.largest == 2 and np.isfinite(none.fixed_at_largest).any()
+
+
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_directions_are_named_after_anatomy_where_the_frame_is_known(sign):
+    named = camera_directions(np.array([0.0, 0.0, sign]))
+    assert named[f"medial ({'+' if sign > 0 else '−'}z)"] == (0, 0, sign)
+    assert named["anterior (+x)"] == (1, 0, 0) and named["plantar (−y)"] == (0, -1, 0)
+    assert [name.split()[0] for name in named] == ["anterior", "medial", "superior", "plantar"]
+
+
+def test_another_frame_names_its_axes_only():
+    named = camera_directions(np.array([-1.0, 0.0, 0.0]))
+    assert list(named) == ["medial (−x)", "+x", "+y", "−y", "+z", "−z"]
+    assert all(np.linalg.norm(way) == 1.0 for way in named.values())
+
+
+def test_unknown_side_is_left_and_not_medial():
+    assert "left (−z)" in camera_directions(np.zeros(3))
+
+
+def test_inputs_are_listed_with_their_hashes():
+    table = inputs_table([{"role": "moving", "file": "a/b.stl", "sha256": "00ff", "unit": "mm"}])
+    assert table.rows == [("moving", "b.stl", "mm", "00ff")]
