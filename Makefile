@@ -11,7 +11,7 @@ COMPILE := $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --gen
 	--no-annotate --no-header --group build --extra all --extra test
 
 .DELETE_ON_ERROR:
-.PHONY: demo test check lint types imports oracle lock clean
+.PHONY: demo test check lint types imports oracle lock page clean
 
 demo: $(VENV)/core.stamp
 	@$(BIN)/geocontact demo
@@ -40,8 +40,12 @@ lock: $(BIN)/python
 	$(COMPILE) $(UPGRADE) pyproject.toml -o requirements.lock
 	$(COMPILE) $(UPGRADE) --extra oracle -c requirements.lock pyproject.toml -o requirements-oracle.lock
 
+# The front end of the pages, for those who change it: needs Node; everybody else uses the built file in the package
+page:
+	cd geocontact/view/page/front && npm ci && npm run build
+
 clean:
-	rm -rf $(VENV) build dist demo-result .benchmarks .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) geocontact/view/page/front/node_modules build dist demo-result .benchmarks .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find geocontact meshes tests benchmarks -name __pycache__ -prune -exec rm -rf {} +
 
 $(BIN)/python:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
+from geocontact.cli import quantities
 from geocontact.cli.area import AreaOptions
 from geocontact.cli.left_over import PARAVIEW
 from geocontact.cli.maps import FILE, write_maps
@@ -58,7 +58,7 @@ def write_results(
         write_maps(folder / FILE, a.moving, a.fixed, a.motion, evolution, maps)
     draw_areas(
         evolution, a.fixed.vertices, a.fixed.faces, maps.fixed_at_largest, maps.largest, a.title,
-        (folder / "area.png", folder / "area.svg"), "cycle [%]" if a.motion.time_unit == "%" else "time [s]",
+        (folder / "area.png", folder / "area.svg"), a.motion.course,
     )  # fmt: skip
     if a.options.paraview:
         write_paraview(folder / PARAVIEW, a.moving, a.fixed, a.motion, evolution, maps)
@@ -81,9 +81,17 @@ def _with_coordinate(evolution: AreaEvolution, motion: Motion) -> pd.DataFrame:
 
 
 def _options_table(record: Record) -> Table:
-    given: Mapping[str, object] = record.plain_options()
-    rows = [("command", f"geocontact {record.command}"), *((key, str(value)) for key, value in given.items())]
-    return Table("How it was made", ("option", "value"), rows + list(record.versions().items()))
+    """Options without the folders of files: a page is passed on, and where its files lay is nobody's business."""
+    given = [(key, _shown(value)) for key, value in record.options.items() if value not in (None, False, [])]
+    rows = [("command", f"geocontact {record.command}"), *given, *record.versions().items()]
+    return Table("How it was made", ("option", "value"), rows)
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, (list, tuple)):
+        return ", ".join(_shown(item) for item in value)
+    text = str(value)
+    return Path(text).name if isinstance(value, Path) or quantities.named_file(text) is not None else text
 
 
 def _comparison_table(rows: pd.DataFrame) -> Table:

@@ -29,6 +29,25 @@ class Signals:
 
 
 @dataclass(frozen=True)
+class Course:
+    """Name, unit and value of what runs from frame to frame."""
+
+    name: str
+    unit: str
+    values: Float[np.ndarray, " t"]
+
+    @property
+    def label(self) -> str:
+        """For an axis: "time [s]"."""
+        return f"{self.name} [{self.unit}]"
+
+    def at(self, frame: int) -> str:
+        """In words: "0.56 s", "flexion 57 deg"."""
+        value = f"{self.values[frame]:g} {self.unit}"
+        return value if self.name == "time" else f"{self.name} {value}"
+
+
+@dataclass(frozen=True)
 class Motion:
     """Poses of MOVING in the frame of FIXED, one per time.
 
@@ -57,3 +76,11 @@ class Motion:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    @property
+    def course(self) -> Course:
+        """Along what the frames follow each other, as an axis shows it: time, the cycle, or the angle swept."""
+        if self.coordinate is not None:
+            name, angle = self.coordinate
+            return Course(name, "deg", np.degrees(angle))
+        return Course("cycle", "%", self.time) if self.time_unit == "%" else Course("time", "s", self.time)

@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.evolution import AreaEvolution
+from geocontact.data.motion import Course
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,16 +25,18 @@ def draw_areas(
     frame: int,
     title: str,
     files: tuple[Path, ...],
-    time_label: str = "time [s]",
+    course: Course,
 ) -> None:
     """Draw and save the figure, once per file name (png, svg, pdf by ending).
 
     Parameters
     ----------
     evolution
-        What to draw over time.
+        What to draw.
     vertices, faces, distance
         FIXED [m] and the signed distance of its vertices to MOVING at `frame` [m]; infinite where far.
+    course
+        Along what the frames follow each other.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -41,9 +44,10 @@ def draw_areas(
     figure = Figure(figsize=(11.0, 6.4), layout="constrained")
     FigureCanvasAgg(figure)
     panels = figure.subplot_mosaic([["area", "map"], ["gap", "map"]], height_ratios=[2, 1], width_ratios=[3, 2])
-    _areas(panels["area"], evolution)
-    _separation(panels["gap"], evolution, time_label)
-    _patch(panels["map"], evolution, vertices, faces, distance, frame)
+    _areas(panels["area"], evolution, course.values)
+    _separation(panels["gap"], evolution, course)
+    _patch(panels["map"], evolution, vertices, faces, distance)
+    panels["map"].set_title(f"FIXED at {_plain(course.at(frame))}, {panels['map'].get_title()}", fontsize=9)
     figure.suptitle(_plain(title), fontsize=11)
     for file in files:
         figure.savefig(file, dpi=150, metadata={"Date": None} if file.suffix == ".svg" else None)
@@ -54,17 +58,17 @@ def _plain(text: str) -> str:
     return text.replace("$", r"\$")
 
 
-def _areas(axes: Axes, e: AreaEvolution) -> None:
+def _areas(axes: Axes, e: AreaEvolution, along: Float[np.ndarray, " t"]) -> None:
     for k, threshold in enumerate(e.thresholds):
         colour = COLOURS[k % len(COLOURS)]
         label = f"FIXED, {threshold * 1e3:g} mm"
-        axes.fill_between(e.time, e.fixed.lower[:, k] * 1e6, e.fixed.upper[:, k] * 1e6, color=colour, alpha=0.25, lw=0)
-        axes.plot(e.time, e.fixed.area[:, k] * 1e6, color=colour, label=label)
-        axes.plot(e.time, e.moving.area[:, k] * 1e6, color=colour, lw=0.9, ls=":", label="MOVING" if k == 0 else None)
+        axes.fill_between(along, e.fixed.lower[:, k] * 1e6, e.fixed.upper[:, k] * 1e6, color=colour, alpha=0.25, lw=0)
+        axes.plot(along, e.fixed.area[:, k] * 1e6, color=colour, label=label)
+        axes.plot(along, e.moving.area[:, k] * 1e6, color=colour, lw=0.9, ls=":", label="MOVING" if k == 0 else None)
         if e.medial_side:
             sides = (("medial", e.medial, "--"), ("lateral", e.lateral, "-."))
             for name, part, style in sides:
-                axes.plot(e.time, part[:, k] * 1e6, color=colour, lw=0.9, ls=style, label=name if k == 0 else None)
+                axes.plot(along, part[:, k] * 1e6, color=colour, lw=0.9, ls=style, label=name if k == 0 else None)
     axes.set_ylabel("contact area [mm²]")
     axes.set_ylim(bottom=0.0)
     axes.set_title(f"signed: {e.signed}; shaded: certified bounds", fontsize=9)
@@ -72,12 +76,12 @@ def _areas(axes: Axes, e: AreaEvolution) -> None:
     axes.tick_params(labelbottom=False)
 
 
-def _separation(axes: Axes, e: AreaEvolution, time_label: str) -> None:
-    axes.plot(e.time, e.min_distance * 1e3, color="black", label="smallest distance")
+def _separation(axes: Axes, e: AreaEvolution, course: Course) -> None:
+    axes.plot(course.values, e.min_distance * 1e3, color="black", label="smallest distance")
     if np.isfinite(e.max_penetration_fixed).any():
-        axes.plot(e.time, -e.max_penetration_fixed * 1e3, color="grey", ls="--", label="− penetration of FIXED")
+        axes.plot(course.values, -e.max_penetration_fixed * 1e3, color="grey", ls="--", label="− penetration of FIXED")
     axes.axhline(0.0, color="grey", lw=0.6)
-    axes.set_xlabel(_plain(time_label))
+    axes.set_xlabel(_plain(course.label))
     axes.set_ylabel("distance [mm]")
     axes.legend(fontsize=8, frameon=False)
 
@@ -88,7 +92,6 @@ def _patch(
     vertices: Float[np.ndarray, "n 3"],
     faces: Int[np.ndarray, "m 3"],
     distance: Float[np.ndarray, " n"],
-    frame: int,
 ) -> None:
     """FIXED seen along the direction in which its patch looks, coloured by distance, with the threshold's contour."""
     from matplotlib.tri import Triangulation
@@ -129,4 +132,4 @@ def _patch(
     axes.set_aspect("equal")
     axes.set_xlabel(f"{'xyz'[right]} [mm]")
     axes.set_ylabel(f"{'xyz'[up]} [mm]")
-    axes.set_title(f"FIXED at t = {e.time[frame]:g}, seen along {'-' if sign > 0 else '+'}{'xyz'[axis]}", fontsize=9)
+    axes.set_title(f"seen along {'-' if sign > 0 else '+'}{'xyz'[axis]}")

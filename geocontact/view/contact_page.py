@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Int
 
 from geocontact.data.evolution import MM, MM2, AreaEvolution
-from geocontact.data.motion import Motion
+from geocontact.data.motion import Course, Motion
 from geocontact.geometry.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
 from geocontact.view.contact_words import reviewers_words
@@ -17,6 +17,7 @@ from geocontact.view.directions import camera_directions
 from geocontact.view.page.content import Body, Curve, Curves, Page, Readout, Row, Scene, Section, Strip, Table
 from geocontact.view.page.write import write_page
 
+TICK = 0.5e-3  # m; the colours end at a round number
 FRAMES = 201  # frames that the page animates at most; longer motions are thinned out, and the page says so
 
 
@@ -81,9 +82,9 @@ def _page(
     return Page(
         title=title or f"{moving.name} on {fixed.name}",
         subtitle=f"Contact area over {len(motion)} frames: what lies within {_mm(evolution, main)} of the other body",
-        time=motion.time[frames],
-        time_label="cycle [%]" if motion.time_unit == "%" else "time [s]",
-        headline=_headline(evolution, main, motion.time_unit),
+        time=motion.course.values[frames],
+        time_label=motion.course.label,
+        headline=_headline(evolution, main, motion.course),
         start_frame=int(np.argmax(shown)),
         sections=tuple(sections),
     )
@@ -93,13 +94,13 @@ def _mm(evolution: AreaEvolution, k: int) -> str:
     return f"{evolution.thresholds[k] * MM:g} mm"
 
 
-def _headline(e: AreaEvolution, main: int, unit: str) -> list[tuple[str, str]]:
+def _headline(e: AreaEvolution, main: int, course: Course) -> list[tuple[str, str]]:
     """How much, when, where."""
     area = e.fixed.area[:, main] * MM2
     largest, nearest = int(np.argmax(area)), int(np.argmin(e.min_distance))
 
     def when(frame: int) -> str:
-        return f"at {e.time[frame]:g} {unit} (frame {frame + 1} of {len(e.time)})"
+        return f"at {course.at(frame)} (frame {frame + 1} of {len(e.time)})"
 
     lines = [
         ("Largest contact area on the fixed body", f"{area[largest]:.0f} mm² {when(largest)}"),
@@ -127,6 +128,7 @@ def _scene(
 ) -> Scene:
     farthest = max((*e.thresholds, *e.sensitivity_thresholds))
     deepest = min(-0.25 * max(e.thresholds), float(e.min_distance.min()))
+    deepest = 0.0 if e.signed == "none" else -np.ceil(-deepest / TICK) * TICK
     frames = np.asarray(maps.frames, np.int64)[kept]
     word = "distance" if e.signed == "none" else "signed distance"
     return Scene(
@@ -135,7 +137,7 @@ def _scene(
             Body(moving.name, moving.vertices, moving.faces, motion.poses[frames], maps.moving[kept]),
         ),
         thresholds=e.thresholds,
-        span=(deepest, farthest),
+        span=(float(deepest), farthest),
         value_name=f"{word} to the other body",
         directions=camera_directions(np.asarray(e.split_normal) * e.medial_side),
     )
@@ -184,10 +186,13 @@ def _curves(e: AreaEvolution, frames: Int[np.ndarray, " k"], main: int) -> list[
 
 def _strip(e: AreaEvolution, frames: Int[np.ndarray, " k"], main: int) -> Strip:
     order = np.argsort(e.sensitivity_thresholds)
+    values = e.sensitivity[np.ix_(frames, order)] * MM2
+    thresholds = np.asarray(e.sensitivity_thresholds)[order]
+    values[:, np.isclose(thresholds, e.thresholds[main])] = e.fixed.area[frames, main, None] * MM2  # the better number
     return Strip(
         title="How much the threshold matters (fixed body)",
-        thresholds=np.asarray(e.sensitivity_thresholds)[order] * MM,
-        values=e.sensitivity[np.ix_(frames, order)] * MM2,
+        thresholds=thresholds * MM,
+        values=values,
         unit="mm²",
         current=e.thresholds[main] * MM,
     )

@@ -53,6 +53,13 @@ def test_files_are_the_promised_ones(knee: Call) -> None:
     assert all(name in knee.out for name in (*FILES, str(knee.folder)))
 
 
+def test_page_names_the_inputs_and_not_where_they_lay(knee: Call) -> None:
+    page = knee.bytes("report.html").decode()
+    for entry in knee.record()["inputs"]:
+        assert entry["sha256"] in page and Path(entry["file"]).name in page
+    assert str(knee.folder.parent) not in page and str(FEMUR.parent) not in page
+
+
 def test_columns_are_those_of_the_contract_in_their_order(knee: Call) -> None:
     assert list(knee.table().columns)[: len(COLUMNS) + 2] == COLUMNS + SPLIT
 

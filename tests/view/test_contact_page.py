@@ -1,11 +1,13 @@
 """The page of a contact-area analysis says what the table says."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.motion import Motion
-from geocontact.geometry.area import AS_GIVEN
+from geocontact.geometry.area import AS_GIVEN, Refinement
 from geocontact.geometry.evolution import Settings, area_evolution
 from geocontact.geometry.maps import DistanceMaps
 from geocontact.geometry.plane import Plane
@@ -22,6 +24,12 @@ R, T = 20.0, 4.0
 WIDE = tuple(0.5 * k * MM for k in range(13))
 
 
+def swept(degrees):
+    """The ball turned about its vertical axis at one height."""
+    motion = moved([20.5] * len(degrees))
+    return replace(motion, coordinate=("flexion", np.radians(degrees)))
+
+
 def moved(heights):
     """The ball over the plate, its centre at these heights [mm]."""
     shift = np.zeros((len(heights), 3))
@@ -29,12 +37,12 @@ def moved(heights):
     return Motion(0.1 * np.arange(len(heights)), RigidTransform.from_translation(shift))
 
 
-def analysed(heights=(22.0, 21.0, 20.5, 30.0), every=1, settings=None):
+def analysed(heights=(22.0, 21.0, 20.5, 30.0), every=1, settings=None, motion=None):
     """Bodies, motion, evolution and maps."""
     ball, ground = (
         Surface(v * MM, f, name) for (v, f), name in ((sphere(R, 8), "ball"), (block(40.0, 40.0, 10.0, 16), "plate"))
     )
-    motion = moved(heights)
+    motion = moved(heights) if motion is None else motion
     settings = settings or Settings((1 * MM, T * MM), refinement=AS_GIVEN, split=Plane.across("z"), sensitivity=WIDE)
     maps = DistanceMaps(ball, ground, every)
     evolution = area_evolution(ball, ground, motion, settings, each=maps.add)
@@ -189,3 +197,36 @@ def test_unknown_side_is_left_and_not_medial():
 def test_inputs_are_listed_with_their_hashes():
     table = inputs_table([{"role": "moving", "file": "a/b.stl", "sha256": "00ff", "unit": "mm"}])
     assert table.rows == [("moving", "b.stl", "mm", "00ff")]
+
+
+def test_colours_end_at_a_round_number_below_the_deepest_overlap():
+    found, evolution = page((20.5, 18.7))
+    lowest = section(found, Scene).span[0]
+    assert lowest == pytest.approx(-1.5 * MM) and lowest <= evolution.min_distance.min() == pytest.approx(-1.3 * MM)
+
+
+def test_a_sweep_runs_along_its_angle():
+    found, _ = page(motion=swept([0.0, 45.0, 90.0]))
+    assert found.time_label == "flexion [deg]" and list(found.time) == pytest.approx([0.0, 45.0, 90.0])
+    assert dict(found.headline)["Largest contact area on the fixed body"].endswith("at flexion 0 deg (frame 1 of 3)")
+
+
+def test_a_normalised_cycle_is_said():
+    found, _ = page(motion=replace(moved((22.0, 20.5)), time_unit="%"))
+    assert found.time_label == "cycle [%]"
+    assert "at cycle 0.1 % (frame 2 of 2)" in dict(found.headline)["Largest contact area on the fixed body"]
+
+
+def test_strip_holds_the_refined_area_where_it_has_one():
+    settings = Settings((T * MM,), refinement=Refinement(), sensitivity=WIDE)
+    found, evolution = page((20.5, 21.0), settings=settings)
+    at = int(np.flatnonzero(np.isclose(section(found, Strip).thresholds, 4.0))[0])
+    np.testing.assert_array_equal(section(found, Strip).values[:, at], evolution.fixed.area[:, 0] * 1e6)
+    assert (evolution.sensitivity[:, at] != evolution.fixed.area[:, 0]).all()
+
+
+def test_unsigned_distances_show_no_colours_below_zero():
+    ball, ground, motion, evolution, maps = analysed((20.5,))
+    unsigned = replace(evolution, signed="none")
+    found = contact_page._page(ball, ground, motion, unsigned, maps, np.array([0]), "", (), ())
+    assert section(found, Scene).span[0] == 0.0 and section(found, Scene).value_name == "distance to the other body"
