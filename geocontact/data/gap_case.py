@@ -1,0 +1,43 @@
+"""A gap case: a model that somebody trusts, trials that were measured, and what is known of both."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import pandas as pd
+
+from geocontact.data.parameter import Parameter
+from geocontact.data.trial import Trial
+
+
+@dataclass(frozen=True)
+class GapCase:
+    """Everything that goes into a diagnosis, SI units.
+
+    Parameters
+    ----------
+    name
+        Of the case; no part of the answer depends on it.
+    system
+        Name of the base model, or "package.module:OBJECT" for one of the user's own.
+    calibration, evaluation
+        Trials that parameters may be fitted to, and those held out.
+    parameters
+        Of the base model.
+    constants
+        Known and exact as far as anyone knows.
+    noise
+        Standard deviation of the sensor noise of some measured channels, in the channel's SI unit.
+    tables
+        Further tables by their key in case.toml ("spheres", "support"), units in the column names, SI.
+    """
+
+    name: str
+    system: str
+    calibration: tuple[Trial, ...]
+    evaluation: tuple[Trial, ...]
+    parameters: tuple[Parameter, ...]
+    constants: Mapping[str, float] = field(default_factory=dict)
+    noise: Mapping[str, float] = field(default_factory=dict)
+    tables: Mapping[str, pd.DataFrame] = field(default_factory=dict)

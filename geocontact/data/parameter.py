@@ -1,0 +1,38 @@
+"""A number that a model needs and data may tell."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """Name, unit, and what is known of the value beforehand.
+
+    Parameters
+    ----------
+    name, unit
+        As in the model; the unit is a label and nothing is converted by it.
+    start
+        Where a search begins; the value itself when `fixed`.
+    lower, upper
+        Bounds of the search; infinite where there is none.
+    fixed
+        Known from elsewhere, not to be fitted.
+    """
+
+    name: str
+    unit: str
+    start: float
+    lower: float = -math.inf
+    upper: float = math.inf
+    fixed: bool = False
+
+    def __post_init__(self) -> None:
+        if not math.isfinite(self.start):
+            raise ValueError(f"{self.name}: start is {self.start}, expected a finite number")
+        if not self.lower <= self.start <= self.upper:
+            raise ValueError(f"{self.name}: start {self.start:g} is not between {self.lower:g} and {self.upper:g}")
+        if not self.fixed and self.lower == self.upper:
+            raise ValueError(f"{self.name}: lower and upper bound are equal; say fixed = true instead")
