@@ -1,0 +1,106 @@
+"""Bland-Altman plot: how far two methods of measurement agree."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.view.curves.agreement import Agreement, limits_of_agreement, proportional_bias
+from geocontact.view.curves.given import array
+from geocontact.view.curves.quantity import Quantity
+from geocontact.view.curves.style import BLACK, GREY, PALETTE, SMALL, in_style, legend, on
+from geocontact.view.curves.text import number
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+LEAST = 3  # pairs
+APART = 0.17  # least distance of two notes beside the axes, as a share of its height
+
+
+@in_style
+def bland_altman(
+    first: Float[np.ndarray, " n"],
+    second: Float[np.ndarray, " n"],
+    quantity: Quantity,
+    names: tuple[str, str],
+    axes: Axes | None = None,
+    slope: bool = False,
+) -> Figure:
+    """Draw differences over means with bias, 95 % limits of agreement and their 95 % confidence intervals.
+
+    Formulas, sources and limits: see `agreement`. Bands are the confidence intervals; numbers in the margin are
+    the estimates with these intervals in brackets.
+
+    Parameters
+    ----------
+    first, second
+        One pair per subject, SI units; pairs with a NaN are left out and not counted.
+    quantity
+        What was measured; its unit is the one of the axes.
+    names
+        Names of the two methods; the difference is first minus second.
+    slope
+        Also draw the line of difference over mean, with the 95 % confidence interval of its slope in the legend.
+    """
+    a, b = array(names[0], first, ("n",)), array(names[1], second, ("n",))
+    if len(a) != len(b):
+        raise ValueError(f"{names[0]} has {len(a)} values, {names[1]} has {len(b)}; expected pairs")
+    there = np.isfinite(a) & np.isfinite(b)
+    if there.sum() < LEAST:
+        raise ValueError(f"{there.sum()} pairs without NaN, expected at least {LEAST}")
+    a, b = quantity.shown(a[there]), quantity.shown(b[there])
+    mean, difference = (a + b) / 2.0, a - b
+    found = limits_of_agreement(difference)
+    figure, axes = on(axes, height=0.065)
+    dots = axes.plot(mean, difference, "o", color=PALETTE[0], markersize=3.5, markeredgewidth=0.0, zorder=3)[0]
+    entries: list[tuple[Artist | tuple[Artist, ...], str]] = [(dots, f"pairs (n = {found.count})")]
+    entries += _lines(axes, found)
+    if slope:
+        trend = proportional_bias(mean, difference)
+        ends = np.array([mean.min(), mean.max()])
+        line = axes.plot(ends, trend.intercept + trend.slope * ends, color=PALETTE[1], ls="-.")[0]
+        low, high = (number(x, trend.slope) for x in trend.slope_interval)
+        entries.append((line, f"slope {number(trend.slope)}, 95 % CI [{low}, {high}]"))
+    axes.axhline(0.0, color=GREY, lw=0.5, ls=":", zorder=0)
+    axes.set_xlabel(replace(quantity, name=f"mean {quantity.name}").label)
+    axes.set_ylabel(replace(quantity, name=f"{names[0]} − {names[1]}").label)
+    axes.margins(x=0.06)
+    _notes(axes, found)
+    legend(axes, entries)
+    return figure
+
+
+def _lines(axes: Axes, found: Agreement) -> list[tuple[Artist | tuple[Artist, ...], str]]:
+    rows = (
+        (found.bias, found.bias_interval, "-", PALETTE[2]),
+        (found.lower, found.lower_interval, "--", BLACK),
+        (found.upper, found.upper_interval, "--", BLACK),
+    )
+    drawn = []
+    for value, interval, dashes, colour in rows:
+        band = axes.axhspan(*interval, color=colour, alpha=0.15, lw=0, zorder=0)
+        drawn.append((band, axes.axhline(value, color=colour, ls=dashes, lw=1.0, zorder=2)))
+    return [(drawn[0], "bias, 95 % CI"), (drawn[1], "bias ± 1.96 SD, 95 % CI")]
+
+
+def _notes(axes: Axes, found: Agreement) -> None:
+    """Numbers in the right margin, moved apart where the lines are close."""
+    low, high = axes.get_ylim()
+    least = APART * (high - low)
+    rows = (
+        ("bias", found.bias, found.bias_interval, found.bias),
+        ("−1.96 SD", found.lower, found.lower_interval, min(found.lower, found.bias - least)),
+        ("+1.96 SD", found.upper, found.upper_interval, max(found.upper, found.bias + least)),
+    )
+    for name, value, interval, height in rows:
+        ends = ", ".join(number(x, found.sd) for x in interval)
+        axes.text(
+            1.02, height, f"{name}: {number(value, found.sd)}\n[{ends}]", transform=axes.get_yaxis_transform(),
+            va="center", ha="left", fontsize=SMALL, linespacing=1.1,
+        )  # fmt: skip

@@ -1,0 +1,30 @@
+"""Figures into files: vector where the ending says so, the same bytes for the same figure."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from geocontact.view.curves.style import in_style
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}, ".png": None}
+
+
+@in_style
+def save(figure: Figure, path: str | Path) -> None:
+    """Write a figure as SVG or PDF (text stays text, can be searched and edited) or as PNG of 300 dots per inch.
+
+    Files carry no date: the same figure with the same version of matplotlib and the same fonts gives the same bytes.
+    An SVG file names its font and leaves it to the reader's machine; a PDF file brings it along (TrueType).
+    Saving fixes the layout: what is added to the figure afterwards does not move what is there.
+    """
+    ending = Path(path).suffix.lower()
+    if ending not in UNDATED:
+        raise ValueError(f"{Path(path).name}: figures are written as {', '.join(UNDATED)}; end the name in one of them")
+    if figure.get_layout_engine() is not None:
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")  # a second pass would move everything by a hair, and so change the file
+    figure.savefig(path, format=ending[1:], metadata=UNDATED[ending])
