@@ -96,6 +96,16 @@ def test_slope_is_that_of_least_squares_and_its_interval_covers() -> None:
     np.testing.assert_allclose(y, found.intercept + found.slope * x, rtol=1e-9)
 
 
+def test_numbers_in_the_margin_stay_apart_where_an_outlier_draws_the_lines_together() -> None:
+    rng = np.random.default_rng(2)
+    first = np.r_[rng.normal(100.0, 1.0, 400), 400.0]
+    figure = bland_altman(first, np.full(401, 100.0), Quantity("force", "N"), ("a", "b"))
+    figure.draw_without_rendering()
+    bias, lower, upper = (text.get_window_extent() for text in figure.axes[0].texts)
+    assert lower.y1 < bias.y0 and bias.y1 < upper.y0
+    assert lower.y0 > 0.0
+
+
 @pytest.mark.usefixtures("unchecked")
 def test_what_cannot_be_drawn_is_refused() -> None:
     with pytest.raises(ValueError, match="mesh has 17 values, film has 16; expected pairs"):

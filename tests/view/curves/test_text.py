@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from matplotlib.text import Text
 
@@ -13,6 +13,8 @@ from geocontact.view.curves.text import number, plain
 
 
 @given(st.text())
+@example("_hidden")
+@example("__$x_$")
 def test_no_name_becomes_a_formula_or_a_hidden_label(name: str) -> None:
     drawn, mathematics = Text(text=plain(name))._preprocess_math(plain(name))
     assert mathematics is False
