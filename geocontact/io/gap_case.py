@@ -1,0 +1,97 @@
+"""A gap case: the folder with case.toml, trials and tables, to SI units."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from os import PathLike
+from pathlib import Path
+
+import pandas as pd
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.gap_case import GapCase
+from geocontact.data.trial import Trial
+from geocontact.io.case_consistency import KNOWN_SYSTEMS, check_settings, parameters_of
+from geocontact.io.case_folder import SETTINGS, case_folder, check_trial_files, inside, trial_file
+from geocontact.io.case_settings import CaseSettings, read_settings
+from geocontact.io.side_table import read_side_table
+from geocontact.io.trial_set import alike, noise_in_si
+from geocontact.io.trial_table import TrialTable, read_trial
+
+
+def gap_case_folders(folder: str | PathLike[str]) -> list[Path]:
+    """Every sub-folder that holds a case.toml, by name; InputError when there is none."""
+    home = case_folder(folder)
+    try:
+        found = sorted(entry for entry in home.iterdir() if (entry / SETTINGS).is_file())
+    except OSError as error:
+        raise InputError(folder, "", f"cannot be read: {error.strerror or error}", "check its permissions") from error
+    if not found:
+        remedy = "it is a case itself" if (home / SETTINGS).is_file() else "name the folder that holds the cases"
+        raise InputError(folder, "", f"no sub-folder has a {SETTINGS}", remedy)
+    return found
+
+
+def read_gap_case(folder: str | PathLike[str], known_systems: tuple[str, ...] = KNOWN_SYSTEMS) -> GapCase:
+    """Case in a folder, in SI units.
+
+    Channels of all trials come in the order of the first calibration trial. Noise is converted like its channel, tables
+    like their headers say; parameters, constants and covariates are in SI units already. `tables` holds the layout of a
+    site of cells as "layout.<site>"; the cells themselves are not used, which is warned of, as are trial files that
+    case.toml does not list.
+
+    Parameters
+    ----------
+    folder
+        Holds case.toml, trials/<id>.csv and the tables that case.toml names.
+    known_systems
+        Names that `system` may have besides "package.module:OBJECT".
+    """
+    home = case_folder(folder)
+    file = home / SETTINGS
+    settings = read_settings(file)
+    check_settings(settings, file, known_systems)
+    parameters = parameters_of(settings, file)
+    check_trial_files(home, settings)
+    tables = {key: read_side_table(inside(home, name, key)) for key, name in settings.tables.items()}
+    trials = alike({name: read_trial(trial_file(home, name)) for name in settings.trials})
+    noise = noise_in_si(_told(settings.noise, file), trials, file)
+    return GapCase(
+        name=Path(os.path.abspath(home)).name,
+        system=settings.system,
+        calibration=tuple(_trial(name, trials[name], settings) for name in settings.calibration),
+        evaluation=tuple(_trial(name, trials[name], settings) for name in settings.evaluation),
+        parameters=parameters,
+        constants=dict(settings.constants),
+        noise=noise,
+        tables=tables | _layouts(home, settings),
+    )
+
+
+def _trial(name: str, table: TrialTable, settings: CaseSettings) -> Trial:
+    known = settings.trial.get(name, {})
+    covariates = {key: value for key, value in known.items() if isinstance(value, float)}
+    labels = {key: value for key, value in known.items() if isinstance(value, str)}
+    return Trial(name, table.signals, covariates, labels)
+
+
+def _told(noise: dict[str, float], file: Path) -> dict[str, float]:
+    """Noise that says something: a standard deviation of 0 is left out with a warning, a negative one refused."""
+    for channel, sd in noise.items():
+        if sd < 0.0:
+            raise InputError(file, f"[noise] {channel}", f"is {sd:g}", "a standard deviation is positive")
+        if sd == 0.0:
+            message = f"{file} [noise] {channel}: is 0; taken as not known"
+            warnings.warn(InputWarning(message), stacklevel=3)
+    return {channel: sd for channel, sd in noise.items() if sd > 0.0}
+
+
+def _layouts(home: Path, settings: CaseSettings) -> dict[str, pd.DataFrame]:
+    keyed = {f"layout.{site}": name for site, name in settings.layout.items()}
+    tables = {key: read_side_table(inside(home, name, key)) for key, name in keyed.items()}
+    if tables:
+        sites = ", ".join(settings.layout)
+        message = f"{home / SETTINGS} layout: cell channels are not used ({sites}); only the layout is read"
+        warnings.warn(InputWarning(message), stacklevel=3)
+    return tables
