@@ -1,0 +1,149 @@
+"""Parameters from several trials at once: bounded nonlinear least squares from several starts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.optimize import least_squares
+
+from geocontact.data.parameter import Parameter
+
+Predict = Callable[[Mapping[str, float]], list[Float[np.ndarray, "_ c"]]]
+"""Predicted channels of every trial at given values of the free parameters."""
+
+NO_VALUE = 3.0  # residual, in floors, where something was measured and the model has no value
+STEP = 1e-6  # of a parameter's scale, for differences
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Values of the free parameters, and how well they are known.
+
+    Parameters
+    ----------
+    values
+        By name.
+    names
+        Order of the columns of `jacobian`.
+    cost
+        Half the sum of squared residuals, each channel divided by its floor.
+    residuals
+        Measured minus predicted, in the channel's unit, per trial; NaN where one of them has no value.
+    jacobian
+        Derivative of the prediction with respect to each parameter, per trial.
+    converged
+        Whether the search of the best start ended by itself.
+    costs
+        Final cost of every start.
+    """
+
+    values: dict[str, float]
+    names: tuple[str, ...]
+    cost: float
+    residuals: list[Float[np.ndarray, "_ c"]]
+    jacobian: list[Float[np.ndarray, "_ c p"]]
+    converged: bool
+    costs: tuple[float, ...]
+
+
+def fit(
+    predict: Predict,
+    measured: Sequence[Float[np.ndarray, "_ c"]],
+    parameters: Sequence[Parameter],
+    floor: Float[np.ndarray, " c"],
+    starts: Sequence[Mapping[str, float]] = ({},),
+) -> Fit:
+    """Least squares over all trials and channels within the parameters' bounds, the best of several starts.
+
+    Parameters
+    ----------
+    predict
+        The model; called with the values of the free parameters.
+    measured
+        What it is to predict; NaN where nothing was measured.
+    parameters
+        Fixed ones are left alone.
+    floor
+        Standard deviation that each channel is divided by.
+    starts
+        Values that differ from the parameters' own starts; one search each. Values beyond the bounds are moved to them.
+    """
+    free = [p for p in parameters if not p.fixed]
+    names = tuple(p.name for p in free)
+    lower, upper = np.array([p.lower for p in free]), np.array([p.upper for p in free])
+    scale = np.array([_scale(p) for p in free])
+
+    def residual(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
+        predicted = predict(dict(zip(names, z * scale, strict=True)))
+        return np.concatenate([_divided(p, m, floor) for p, m in zip(predicted, measured, strict=True)])
+
+    if not free:
+        return _found(predict, measured, names, np.zeros(0), scale, residual(np.zeros(0)), True, ())
+    searches = []
+    for start in starts:
+        z = np.array([start.get(p.name, p.start) for p in free])
+        inside = np.clip(z, lower + 1e-9 * scale, upper - 1e-9 * scale) / scale
+        searches.append(
+            least_squares(
+                residual,
+                inside,
+                bounds=(lower / scale, upper / scale),
+                diff_step=np.array(STEP),
+                xtol=1e-10,
+                ftol=1e-10,
+            )
+        )
+    best = min(searches, key=lambda search: search.cost)
+    costs = tuple(float(search.cost) for search in searches)
+    return _found(predict, measured, names, best.x * scale, scale, best.fun, bool(best.status > 0), costs)
+
+
+def _scale(p: Parameter) -> float:
+    """Magnitude of a parameter: that of its start, or a share of its range."""
+    width = p.upper - p.lower
+    spare = 0.1 * width if np.isfinite(width) and width > 0.0 else 1.0
+    return abs(p.start) if abs(p.start) > 1e-3 * spare else spare
+
+
+def _divided(
+    predicted: Float[np.ndarray, "t c"], measured: Float[np.ndarray, "t c"], floor: Float[np.ndarray, " c"]
+) -> Float[np.ndarray, " n"]:
+    """Residuals in floors, without the cells that were not measured."""
+    off = (predicted - measured) / floor
+    off[np.isnan(predicted)] = NO_VALUE
+    return np.asarray(off[np.isfinite(measured)])
+
+
+def _found(
+    predict: Predict,
+    measured: Sequence[Float[np.ndarray, "_ c"]],
+    names: tuple[str, ...],
+    best: Float[np.ndarray, " p"],
+    scale: Float[np.ndarray, " p"],
+    residual: Float[np.ndarray, " n"],
+    converged: bool,
+    costs: tuple[float, ...],
+) -> Fit:
+    predicted = predict(dict(zip(names, best, strict=True)))
+    columns: list[list[np.ndarray]] = [[] for _ in measured]
+    for k in range(len(names)):
+        pair = []
+        for sign in (1.0, -1.0):
+            moved = best.copy()
+            moved[k] += sign * STEP * scale[k]
+            pair.append(predict(dict(zip(names, moved, strict=True))))
+        for trial, (above, below) in enumerate(zip(*pair, strict=True)):
+            columns[trial].append((above - below) / (2.0 * STEP * scale[k]))
+    jacobian = [np.stack(c, axis=-1) if c else np.zeros((*m.shape, 0)) for c, m in zip(columns, measured, strict=True)]
+    return Fit(
+        values=dict(zip(names, map(float, best), strict=True)),
+        names=names,
+        cost=0.5 * float(residual @ residual),
+        residuals=[m - p for m, p in zip(measured, predicted, strict=True)],
+        jacobian=jacobian,
+        converged=converged,
+        costs=costs,
+    )

@@ -1,0 +1,51 @@
+"""Jitter integrated out: equal to the dense covariance, and recovered."""
+
+import numpy as np
+import pytest
+from scipy.stats import multivariate_normal
+
+from geocontact.identify.trial_variation import Products, misfit, variation
+
+
+def trials(sd, count, rng, samples=40):
+    """Whitened residuals of trials whose q parameters vary with `sd`."""
+    designs = [rng.normal(size=(samples, len(sd))) for _ in range(count)]
+    deviations = rng.normal(size=(count, len(sd))) * sd
+    residuals = [b @ d + rng.normal(size=samples) for b, d in zip(designs, deviations, strict=True)]
+    return residuals, designs, deviations
+
+
+def test_misfit_is_that_of_the_dense_covariance():
+    sd = np.array([0.5, 2.0])
+    residuals, designs, _ = trials(sd, 3, np.random.default_rng(0))
+    found = misfit([Products.of(r, b) for r, b in zip(residuals, designs, strict=True)], sd)
+    dense = 0.0
+    for r, b in zip(residuals, designs, strict=True):
+        inner = np.eye(len(r)) + b @ np.diag(sd**2) @ b.T
+        dense += -2.0 * multivariate_normal(np.zeros(len(r)), inner).logpdf(r) - len(r) * np.log(2 * np.pi)
+    assert found == pytest.approx(dense, rel=1e-12)
+
+
+def test_variation_is_recovered_from_many_trials():
+    sd = np.array([0.5, 2.0, 0.0])
+    residuals, designs, deviations = trials(sd, 300, np.random.default_rng(1))
+    known = [Products.of(r, b) for r, b in zip(residuals, designs, strict=True)]
+    found = variation(known, np.array([1.0, 1.0, 1.0]), weight=1e-6, rounds=2000)
+    assert found.sd[:2] == pytest.approx(sd[:2], rel=0.12)
+    assert found.sd[2] < 0.1
+    assert np.corrcoef(found.deviations[:, 1], deviations[:, 1])[0, 1] > 0.99
+
+
+def test_few_trials_are_shrunk_towards_the_prior():
+    prior = np.array([0.3])
+    still = [Products.of(np.zeros(50), np.ones((50, 1))) for _ in range(3)]
+    strong, weak = (variation(still, prior, weight).sd[0] for weight in (400.0, 0.01))
+    assert strong == pytest.approx(0.3, rel=0.02) and weak < 0.1
+
+
+def test_the_estimate_is_where_the_likelihood_is_largest():
+    residuals, designs, _ = trials(np.array([1.0]), 40, np.random.default_rng(2))
+    known = [Products.of(r, b) for r, b in zip(residuals, designs, strict=True)]
+    sd = variation(known, np.array([1.0]), weight=1e-9, rounds=5000).sd
+    best = misfit(known, sd)
+    assert all(misfit(known, sd * factor) > best for factor in (0.9, 0.97, 1.03, 1.1))
