@@ -78,15 +78,16 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture
 def opened(browser: Browser, tmp_path: Path) -> Iterator[Open]:
-    """Writes a page, opens it from disk and waits until it is ready."""
+    """Writes a page (or takes the file of one), opens it from disk and waits until it is ready."""
     contexts: list[BrowserContext] = []
 
     def open_page(
-        page: Page, name: str = "page.html", device: dict[str, Any] = DESKTOP, before: str = "", **more: Any
+        page: Page | Path, name: str = "page.html", device: dict[str, Any] = DESKTOP, before: str = "", **more: Any
     ) -> Opened:
-        file = tmp_path / name
+        file = page if isinstance(page, Path) else tmp_path / name
         file.parent.mkdir(parents=True, exist_ok=True)
-        write_page(page, file)
+        if isinstance(page, Page):
+            write_page(page, file)
         context = browser.new_context(**device, **more)
         contexts.append(context)
         found = Opened(context.new_page())

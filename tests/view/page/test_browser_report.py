@@ -1,0 +1,72 @@
+"""The page that the command line writes, in a browser, against the table it writes beside it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from tests.cli.calls import FEMUR, INSERT, Call, area, done, gait
+from tests.view.page.conftest import DESKTOP, PHONE, Open
+
+SHOWN = {
+    "area of the fixed body": ("area_fixed [mm^2]", 2),
+    "certainly at least": ("area_fixed_lower [mm^2]", 2),
+    "certainly at most": ("area_fixed_upper [mm^2]", 2),
+    "medial part": ("area_fixed_medial [mm^2]", 2),
+    "lateral part": ("area_fixed_lateral [mm^2]", 2),
+    "area of the moving body": ("area_moving [mm^2]", 2),
+    "smallest distance": ("min_distance [mm]", 3),
+    "penetration of the fixed body": ("max_penetration_fixed [mm]", 3),
+    "centroid x": ("centroid_x [mm]", 2),
+    "centroid y": ("centroid_y [mm]", 2),
+    "centroid z": ("centroid_z [mm]", 2),
+}
+"""Label under the cursor, column of area.csv, decimals."""
+
+
+@pytest.fixture(scope="module")
+def result(tmp_path_factory: pytest.TempPathFactory) -> Call:
+    """The synthetic knee in five frames, in a folder of spaces and quotes."""
+    folder = tmp_path_factory.mktemp('it\'s a "knee" & more')
+    options = ("--split", "z", "--threshold", "1,4")
+    motion = gait(folder, (0, 20, 40, 60, 80))
+    return done(area(folder / "out", *options, moving=FEMUR, fixed=INSERT, motion=motion, picture=True))
+
+
+def rows(opened: Any) -> dict[str, str]:
+    """Numbers under the cursor by their labels."""
+    script = "[...document.querySelectorAll('.readout tr')].map(r => [...r.children].map(c => c.textContent.trim()))"
+    return {cells[0]: cells[1] for cells in opened.tab.evaluate(script) if len(cells) > 1}
+
+
+@pytest.mark.parametrize("device", [DESKTOP, PHONE], ids=["1280x800", "390x844"])
+def test_numbers_under_the_cursor_are_the_row_of_the_table(result: Call, opened: Open, device: dict[str, Any]) -> None:
+    table = pd.read_csv(result.folder / "area.csv").query("`threshold [mm]` == 4").reset_index(drop=True)
+    here = opened(result.folder / "report.html", device=device)
+    assert here.frame() == int(np.argmax(table["area_fixed [mm^2]"]))
+    here.tab.locator("#slider").focus()
+    here.tab.keyboard.press("Home")
+    pictures = set()
+    for frame in range(len(table)):
+        here.until(f"window.__geocontact.frame === {frame}")
+        said = rows(here)
+        for label, (column, digits) in SHOWN.items():
+            value = table[column][frame]
+            number = said[label].split()[0].replace("−", "-")
+            assert number == ("–" if np.isnan(value) else f"{value:.{digits}f}"), (frame, label)
+        pictures.add(here.picture())
+        here.tab.keyboard.press("ArrowRight")
+    assert len(pictures) == len(table), "every frame looks different"
+    assert here.complaints == [] and len(here.requests) == 1
+
+
+def test_inputs_are_on_the_page_with_their_hashes(result: Call, opened: Open) -> None:
+    here = opened(result.folder / "report.html")
+    text = here.text("body")
+    for entry in result.record()["inputs"]:
+        assert entry["sha256"] in text and Path(entry["file"]).name in text
+    assert "not a clinical device" in text
