@@ -7,7 +7,18 @@ import re
 from pathlib import Path
 
 RUN = "run.json"
-NAMES = ("area.csv", "area.parquet", "area.png", "area.svg", "comparison.csv", "distances.npz", "report.html", RUN)
+AREA = ("area.csv", "area.parquet", "area.png", "area.svg", "comparison.csv", "distances.npz", "report.html")
+COP = (
+    "cop.csv",
+    "cop.parquet",
+    "cop.png",
+    "cop.svg",
+    "comparison.csv",
+    "comparison.parquet",
+    "zones.csv",
+    "zones.parquet",
+)
+NAMES = frozenset({*AREA, *COP, RUN})
 PARAVIEW = "paraview"
 PICTURES = re.compile(
     r"still_[a-z_0-9.,−-]+\.png|paraview/(both|fixed|moving)\.pvd|paraview/frames/(fixed|moving)_\d+\.vtp"

@@ -1,0 +1,1 @@
+"""Force laws: what a depth, a rate or an area is worth in newtons."""

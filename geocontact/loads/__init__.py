@@ -1,0 +1,1 @@
+"""Many small loads become one: resultants, centres of pressure."""
