@@ -116,8 +116,9 @@ class AreaOptions:
 def area(moving: Path, fixed: Path, /, *more_motions: str, options: AreaOptions) -> int:
     """Contact area of two rigid surfaces over a motion, with certified bounds.
 
-    Writes area.csv, area.png, area.svg and run.json into OUT. A point counts as in contact when its signed distance to
-    the other body is not above the threshold; against an open body distances are unsigned, and the table says so.
+    Writes area.csv, report.html, area.png, area.svg and run.json into OUT. A point counts as in contact when its signed
+    distance to the other body is not above the threshold; against an open body distances are unsigned, and the table
+    says so.
 
     Parameters
     ----------

@@ -28,10 +28,12 @@ from geocontact.geometry.rules import REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.warm_up import warm_up
 from geocontact.view.contact_page import FRAMES
+from geocontact.view.surfaces.vtp_series import require_pyvista
 
 BRIEF, PATIENT = 40_000, 1_000_000  # triangles divided per area, without and with bounds asked for
 TOLERANCE = "2%"
 SENSITIVITY = np.linspace(0.0, 1.5, 13)  # shares of the largest threshold at which the page shows the area as well
+ZERO_REACH = 1e-3  # m; what these shares are of where the threshold is zero
 NEAR = 20e-3  # m; bodies that never come this close are a mistake in the input
 
 
@@ -45,6 +47,8 @@ def analyse(moving: Path, fixed: Path, more_motions: Sequence[str], o: AreaOptio
     files = [*(o.motion or []), *more_motions]
     refuse_idle(o, files)
     within = True
+    if o.paraview:
+        require_pyvista()
     with record.catching_warnings(), written_whole(o.out) as draft:
         settings_of = _settings(record, o)
         bodies = (
@@ -55,7 +59,9 @@ def analyse(moving: Path, fixed: Path, more_motions: Sequence[str], o: AreaOptio
         motions = motions_given(record, o, files, bodies[0])
         with preparing():
             warm_up()
+        shared = len(record.warnings)
         for name, motion in motions:
+            before = len(record.warnings)
             folder = draft / name
             folder.mkdir(exist_ok=True)
             analysis = Analysis(*bodies, motion, settings, o, name)
@@ -63,7 +69,8 @@ def analyse(moving: Path, fixed: Path, more_motions: Sequence[str], o: AreaOptio
             comparison = None if reference is None else _compared(record, evolution, reference)
             if reference is not None and comparison is not None:
                 within &= reference.accepts(comparison)
-            write_results(record, analysis, evolution, maps, comparison, folder)
+            reservations = record.warnings[:shared] + record.warnings[before:]
+            write_results(record, analysis, evolution, maps, comparison, reservations, folder)
         record.write(draft, *(draft / name for name, _ in motions))
         written = sorted(str(file.relative_to(draft)) for file in draft.rglob("*") if file.is_file())
     record.say(f"results in {o.out}: {', '.join(written)}")
@@ -86,7 +93,7 @@ def _settings(record: Record, o: AreaOptions) -> Callable[[Surface, Surface], Se
             moving_faces=chosen_faces(record, "--region-moving", o.region_moving, moving, o.unit),
             split=split,
             medial_side=1 if o.medial == "+" else -1,
-            sensitivity=tuple(max(thresholds) * SENSITIVITY),
+            sensitivity=tuple((max(thresholds) or ZERO_REACH) * SENSITIVITY),
         )
 
     return completed

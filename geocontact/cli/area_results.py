@@ -48,6 +48,7 @@ def write_results(
     evolution: AreaEvolution,
     maps: DistanceMaps,
     comparison: pd.DataFrame | None,
+    reservations: list[str],
     folder: Path,
 ) -> None:
     """Table, static figure, page, and what was asked for beside them."""
@@ -65,10 +66,14 @@ def write_results(
     if a.options.stills:
         for note in write_stills(folder, a.moving, a.fixed, a.motion, evolution, maps, a.title):
             record.warn(note)
-    tables = [inputs_table(record.inputs), _options_table(record)]
+            reservations = [*reservations, note]
+    inputs = [i for i in record.inputs if i.get("folder", a.name or ".") == (a.name or ".")]
+    tables = [inputs_table(inputs), _options_table(record)]
     if comparison is not None:
         tables.insert(0, _comparison_table(comparison))
-    write_report(folder / "report.html", a.moving, a.fixed, a.motion, evolution, maps, a.title, tables, record.warnings)
+    write_report(
+        folder / "report.html", a.moving, a.fixed, a.motion, a.settings, evolution, maps, a.title, tables, reservations
+    )
 
 
 def _with_coordinate(evolution: AreaEvolution, motion: Motion) -> pd.DataFrame:

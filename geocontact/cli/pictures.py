@@ -55,9 +55,9 @@ def write_stills(
         moving_vertices=motion.poses[k].apply(moving.vertices),
         moving_faces=moving.faces,
         thresholds=evolution.thresholds,
-        time=float(motion.time[k]),
+        time=float(motion.course.values[k]),
         signed=evolution.signed in ("both", "fixed"),
-        time_unit=motion.time_unit,
+        time_unit=motion.course.unit,
     )
     directions = camera_directions(np.asarray(evolution.split_normal) * evolution.medial_side)
     views = {folder / f"{STILL}{_word(name)}.png": View(name, way) for name, way in directions.items()}

@@ -20,52 +20,62 @@ class DistanceMaps:
     moving, fixed
         The two bodies of the evolution.
     every
-        Keep frames 0, every, 2 every, …; 0 keeps only the frame in which FIXED has most contact.
+        Keep frames 0, every, 2 every, …; 0 keeps none of these. The frame in which FIXED has most contact and the one
+        with the smallest distance are kept in any case.
 
     Attributes
     ----------
-    frames
-        Numbers of the frames kept.
-    largest
-        Number of the frame with the largest area on FIXED at the last threshold.
-    fixed_at_largest
-        FIXED's map in that frame, shape (n,).
+    largest, nearest
+        Numbers of these two frames.
     """
 
     def __init__(self, moving: Surface, fixed: Surface, every: int = 1) -> None:
         self.every = every
-        self.frames: list[int] = []
-        self.largest = 0
-        self.fixed_at_largest = np.full(len(fixed.vertices), np.inf)
+        self.largest = self.nearest = 0
         self._bodies = moving, fixed
-        self._area = -1.0
-        self._on_moving: list[np.ndarray] = []
-        self._on_fixed: list[np.ndarray] = []
+        self._area, self._distance = -1.0, np.inf
+        self._kept: dict[int, tuple[Float[np.ndarray, " n"], Float[np.ndarray, " m"]]] = {}
 
     def add(self, frame: int, contact: FrameContact) -> None:
         """Take in one frame."""
-        moving, fixed = self._bodies
-        area = contact.fixed[-1].area
-        kept = self.every > 0 and frame % self.every == 0
-        if not kept and area <= self._area:
+        area = max(side.area for side in contact.fixed)
+        largest, nearest = area > self._area, contact.min_distance < self._distance
+        if not (largest or nearest or self._regular(frame)):
             return
+        before = {self.largest, self.nearest}
+        if largest:
+            self._area, self.largest = area, frame
+        if nearest:
+            self._distance, self.nearest = contact.min_distance, frame
+        for old in before - {self.largest, self.nearest}:
+            if not self._regular(old):
+                self._kept.pop(old, None)
+        moving, fixed = self._bodies
         on_fixed = at_vertices(fixed, contact.fixed_distances.signed)
-        if area > self._area:
-            self._area, self.largest, self.fixed_at_largest = area, frame, on_fixed
-        if kept:
-            self.frames.append(frame)
-            self._on_fixed.append(on_fixed)
-            self._on_moving.append(at_vertices(moving, contact.moving_distances.signed))
+        self._kept[frame] = on_fixed, at_vertices(moving, contact.moving_distances.signed)
+
+    @property
+    def frames(self) -> list[int]:
+        """Numbers of the frames kept, in order."""
+        return sorted(self._kept)
 
     @property
     def fixed(self) -> Float[np.ndarray, "t n"]:
         """Maps on FIXED of the frames kept [m]."""
-        return np.array(self._on_fixed).reshape(-1, len(self._bodies[1].vertices))
+        return np.array([self._kept[k][0] for k in self.frames]).reshape(-1, len(self._bodies[1].vertices))
 
     @property
     def moving(self) -> Float[np.ndarray, "t m"]:
         """Maps on MOVING of the frames kept [m]."""
-        return np.array(self._on_moving).reshape(-1, len(self._bodies[0].vertices))
+        return np.array([self._kept[k][1] for k in self.frames]).reshape(-1, len(self._bodies[0].vertices))
+
+    @property
+    def fixed_at_largest(self) -> Float[np.ndarray, " n"]:
+        """FIXED's map in the frame with most contact [m]."""
+        return self._kept[self.largest][0]
+
+    def _regular(self, frame: int) -> bool:
+        return self.every > 0 and frame % self.every == 0
 
 
 def at_vertices(surface: Surface, along_walk: Float[np.ndarray, " k"]) -> Float[np.ndarray, " n"]:

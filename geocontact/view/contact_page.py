@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Bool, Float, Int
 
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Course, Motion
+from geocontact.geometry.evolution import Settings
 from geocontact.geometry.maps import DistanceMaps
+from geocontact.geometry.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.view.contact_words import reviewers_words
 from geocontact.view.directions import camera_directions
@@ -19,6 +22,8 @@ from geocontact.view.page.write import write_page
 
 TICK = 0.5e-3  # m; the colours end at a round number
 FRAMES = 201  # frames that the page animates at most; longer motions are thinned out, and the page says so
+FEWEST = 21  # frames below which a page is not thinned any further
+LARGEST_FILE = 5_000_000  # bytes; larger pages are thinned out until they fit
 
 
 def write_report(
@@ -26,6 +31,7 @@ def write_report(
     moving: Surface,
     fixed: Surface,
     motion: Motion,
+    settings: Settings,
     evolution: AreaEvolution,
     maps: DistanceMaps,
     title: str = "",
@@ -38,56 +44,98 @@ def write_report(
     ----------
     path
         HTML file to write.
-    moving, fixed, motion
-        What was analysed.
+    moving, fixed, motion, settings
+        What was analysed, and how.
     evolution
         The areas, from `area_evolution`; with `Settings.sensitivity` the page shows how much the threshold matters.
     maps
         Distance maps gathered by the same call (`each=maps.add`).
+    title
+        Heading of the page; the names of the bodies if not given.
     provenance
         Further tables: inputs with hashes, options, versions.
     warnings
         Reservations that came up on the way.
     """
-    frames = np.asarray(maps.frames, np.int64)
-    if len(frames) == 0:
+    if not maps.frames:
         raise ValueError("the distance maps hold no frame; gather them with area_evolution(..., each=maps.add)")
-    kept = np.arange(0, len(frames), -(-len(frames) // FRAMES))
-    return write_page(_page(moving, fixed, motion, evolution, maps, kept, title, provenance, warnings), Path(path))
+    most = FRAMES
+    while True:
+        told = Told(moving, fixed, motion, settings, evolution, maps, shown_frames(maps, most))
+        size = write_page(contact_page(told, title, provenance, warnings), Path(path))
+        most = min(most, len(told.kept)) // 2
+        if size <= LARGEST_FILE or most < FEWEST:
+            return size
 
 
-def _page(
-    moving: Surface,
-    fixed: Surface,
-    motion: Motion,
-    evolution: AreaEvolution,
-    maps: DistanceMaps,
-    kept: Int[np.ndarray, " k"],
-    title: str,
-    provenance: Sequence[Table],
-    warnings: Sequence[str],
-) -> Page:
-    frames = np.asarray(maps.frames, np.int64)[kept]
-    main = int(np.argmax(evolution.thresholds))
-    shown = evolution.fixed.area[frames, main]
+@dataclass(frozen=True, eq=False)
+class Told:
+    """What a page tells: an analysis, and which of the frames kept in `maps` are shown (`kept`, places in there)."""
+
+    moving: Surface
+    fixed: Surface
+    motion: Motion
+    settings: Settings
+    evolution: AreaEvolution
+    maps: DistanceMaps
+    kept: Int[np.ndarray, " k"]
+
+    @property
+    def frames(self) -> Int[np.ndarray, " k"]:
+        """Numbers of the frames shown."""
+        return np.asarray(self.maps.frames, np.int64)[self.kept]
+
+    @property
+    def main(self) -> int:
+        """Place of the largest threshold, which the page is about."""
+        return int(np.argmax(self.evolution.thresholds))
+
+    @property
+    def crude(self) -> bool:
+        """Whether areas were counted by a rule that does not cut triangles."""
+        return self.settings.rule not in (REFINED, CLIP)
+
+
+def shown_frames(maps: DistanceMaps, most: int) -> Int[np.ndarray, " k"]:
+    """Places in `maps` of about `most` frames, evenly spread, with that of most contact and of smallest distance."""
+    regular = np.arange(0, len(maps.frames), -(-len(maps.frames) // most))
+    return np.unique([*regular, maps.frames.index(maps.largest), maps.frames.index(maps.nearest)])
+
+
+def contact_page(told: Told, title: str, provenance: Sequence[Table], warnings: Sequence[str]) -> Page:
+    """The page before it becomes a file."""
+    e, frames, main = told.evolution, told.frames, told.main
     sections: list[Section] = [
-        _scene(moving, fixed, motion, evolution, maps, kept),
-        Readout(_rows(evolution, frames, main), title=f"This frame, threshold {_mm(evolution, main)}"),
-        *_curves(evolution, frames, main),
+        _scene(told),
+        Readout(_rows(told), title=f"This frame, threshold {_mm(e, main)}"),
+        *_curves(e, frames, main),
     ]
-    if evolution.sensitivity_thresholds:
-        sections.append(_strip(evolution, frames, main))
-    sections += [_meshes(moving, fixed), *provenance]
-    sections += reviewers_words(moving, fixed, evolution, main, len(motion), len(frames), warnings)
+    if e.sensitivity_thresholds:
+        sections.append(_strip(told))
+    sections += [_meshes(told.moving, told.fixed), *provenance]
+    sections += reviewers_words(told.moving, told.fixed, told.settings, e, main, len(frames), warnings)
     return Page(
-        title=title or f"{moving.name} on {fixed.name}",
-        subtitle=f"Contact area over {len(motion)} frames: what lies within {_mm(evolution, main)} of the other body",
-        time=motion.course.values[frames],
-        time_label=motion.course.label,
-        headline=_headline(evolution, main, motion.course),
-        start_frame=int(np.argmax(shown)),
+        title=title or f"{told.moving.name} on {told.fixed.name}",
+        subtitle=_subtitle(told),
+        time=told.motion.course.values[frames],
+        time_label=told.motion.course.label,
+        headline=_headline(e, main, told.motion.course),
+        start_frame=int(np.argmax(e.fixed.area[frames, main])),
         sections=tuple(sections),
+        numbers=frames + 1,
+        total=len(told.motion),
     )
+
+
+def _subtitle(told: Told) -> str:
+    count = len(told.motion)
+    said = f"Contact area over {count} frame{'s' if count != 1 else ''}: "
+    said += f"what lies within {_mm(told.evolution, told.main)} of the other body"
+    if told.crude:
+        said += f", counted in whole triangles ({told.settings.rule})"
+    if told.settings.fixed_faces is not None:
+        said += "; only a region of the fixed body counts"
+    return said
 
 
 def _mm(evolution: AreaEvolution, k: int) -> str:
@@ -118,37 +166,50 @@ def _headline(e: AreaEvolution, main: int, course: Course) -> list[tuple[str, st
     return lines
 
 
-def _scene(
-    moving: Surface,
-    fixed: Surface,
-    motion: Motion,
-    e: AreaEvolution,
-    maps: DistanceMaps,
-    kept: Int[np.ndarray, " k"],
-) -> Scene:
-    farthest = max((*e.thresholds, *e.sensitivity_thresholds))
-    deepest = min(-0.25 * max(e.thresholds), float(e.min_distance.min()))
-    deepest = 0.0 if e.signed == "none" else -np.ceil(-deepest / TICK) * TICK
-    frames = np.asarray(maps.frames, np.int64)[kept]
-    word = "distance" if e.signed == "none" else "signed distance"
+def _scene(told: Told) -> Scene:
+    e, kept = told.evolution, told.kept
+    farthest = max((*e.thresholds, *e.sensitivity_thresholds, TICK))
+    deepest = min(-0.25 * max(e.thresholds), float(e.min_distance.min()), -TICK)
+    signed = {"fixed": e.signed in ("both", "fixed"), "moving": e.signed in ("both", "moving")}
+    unsigned = 0.0 if min(e.thresholds) > 0.0 else -TICK
     return Scene(
         bodies=(
-            Body(fixed.name, fixed.vertices, fixed.faces, distance=maps.fixed[kept]),
-            Body(moving.name, moving.vertices, moving.faces, motion.poses[frames], maps.moving[kept]),
+            Body(
+                told.fixed.name, told.fixed.vertices, told.fixed.faces, signed=signed["fixed"],
+                distance=_counted(told.maps.fixed[kept], told.fixed, told.settings.fixed_faces),
+            ),
+            Body(
+                told.moving.name, told.moving.vertices, told.moving.faces, told.motion.poses[told.frames],
+                signed=signed["moving"],
+                distance=_counted(told.maps.moving[kept], told.moving, told.settings.moving_faces),
+            ),
         ),
         thresholds=e.thresholds,
-        span=(float(deepest), farthest),
-        value_name=f"{word} to the other body",
+        span=(unsigned if e.signed == "none" else float(-np.ceil(-deepest / TICK) * TICK), farthest),
+        value_name="distance to the other body" if e.signed == "none" else "signed distance to the other body",
         directions=camera_directions(np.asarray(e.split_normal) * e.medial_side),
-    )
+    )  # fmt: skip
 
 
-def _rows(e: AreaEvolution, frames: Int[np.ndarray, " k"], main: int) -> list[Row]:
+def _counted(
+    distance: Float[np.ndarray, "t n"], body: Surface, faces: Bool[np.ndarray, " f"] | None
+) -> Float[np.ndarray, "t n"]:
+    """Distances with vertices of no counted face taken as far away, so that only what counts is coloured."""
+    if faces is None:
+        return distance
+    counts = np.zeros(len(body.vertices), bool)
+    counts[body.faces[faces]] = True
+    return np.where(counts, distance, np.inf)
+
+
+def _rows(told: Told) -> list[Row]:
     """The table's row of each frame, rounded to what a reader can use."""
-    columns = e.table().iloc[frames * len(e.thresholds) + main]
+    e = told.evolution
+    columns = e.table().iloc[told.frames * len(e.thresholds) + told.main]
+    rule = f", {told.settings.rule}" if told.crude else ""
     rows = []
     for label, column, digits in (
-        ("area of the fixed body", "area_fixed [mm^2]", 2),
+        (f"area of the fixed body{rule}", "area_fixed [mm^2]", 2),
         ("certainly at least", "area_fixed_lower [mm^2]", 2),
         ("certainly at most", "area_fixed_upper [mm^2]", 2),
         ("medial part", "area_fixed_medial [mm^2]", 2),
@@ -184,17 +245,19 @@ def _curves(e: AreaEvolution, frames: Int[np.ndarray, " k"], main: int) -> list[
     return [Curves("Contact area", "mm²", areas), Curves("Smallest distance (negative: overlap)", "mm", distance)]
 
 
-def _strip(e: AreaEvolution, frames: Int[np.ndarray, " k"], main: int) -> Strip:
+def _strip(told: Told) -> Strip:
+    e = told.evolution
     order = np.argsort(e.sensitivity_thresholds)
-    values = e.sensitivity[np.ix_(frames, order)] * MM2
     thresholds = np.asarray(e.sensitivity_thresholds)[order]
-    values[:, np.isclose(thresholds, e.thresholds[main])] = e.fixed.area[frames, main, None] * MM2  # the better number
+    values = e.sensitivity[np.ix_(told.frames, order)] * MM2
+    if not told.crude:  # the refined area is the better number, where there is one
+        values[:, np.isclose(thresholds, e.thresholds[told.main])] = e.fixed.area[told.frames, told.main, None] * MM2
     return Strip(
-        title="How much the threshold matters (fixed body)",
+        title="How much the threshold matters (fixed body, triangles cut)",
         thresholds=thresholds * MM,
         values=values,
         unit="mm²",
-        current=e.thresholds[main] * MM,
+        current=e.thresholds[told.main] * MM,
     )
 
 

@@ -10,6 +10,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from geocontact.data.evolution import MM, MM2, AreaEvolution
+from geocontact.geometry.evolution import Settings
+from geocontact.geometry.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Words
 
@@ -20,25 +22,35 @@ NOT_A_DEVICE = (
 
 
 def reviewers_words(
-    moving: Surface, fixed: Surface, e: AreaEvolution, main: int, frames: int, shown: int, warnings: Sequence[str]
+    moving: Surface,
+    fixed: Surface,
+    settings: Settings,
+    e: AreaEvolution,
+    main: int,
+    shown: int,
+    warnings: Sequence[str],
 ) -> list[Words]:
     """Question, context of use, numerical error, what was not checked, and reservations."""
     words = [
-        Words("Question", [_question(moving, fixed, e, main)]),
+        Words("Question", [_question(moving, fixed, settings, e, main)]),
         Words("Context of use", [_context(e), NOT_A_DEVICE]),
-        Words("Numerical error", _error(e, main)),
-        Words("What the numbers do not contain", _missing(frames, shown)),
+        Words("Numerical error", _error(settings, e, main)),
+        Words("What the numbers do not contain", _missing(len(e.time), shown)),
     ]
     if warnings:
         words.append(Words("Reservations of this run", list(warnings)))
     return words
 
 
-def _question(moving: Surface, fixed: Surface, e: AreaEvolution, main: int) -> str:
-    return (
+def _question(moving: Surface, fixed: Surface, settings: Settings, e: AreaEvolution, main: int) -> str:
+    said = (
         f"How much of the surface of {fixed.name} (fixed) lies within {e.thresholds[main] * MM:g} mm of {moving.name} "
         f"(moving), where, and how does it change over the motion? Parts that overlap count as contact."
     )
+    for body, faces in ((fixed, settings.fixed_faces), (moving, settings.moving_faces)):
+        if faces is not None:
+            said += f" Of {body.name} only {int(faces.sum())} of {len(faces)} faces count; the others are left grey."
+    return said
 
 
 def _context(e: AreaEvolution) -> str:
@@ -55,15 +67,26 @@ def _context(e: AreaEvolution) -> str:
     )
 
 
-def _error(e: AreaEvolution, main: int) -> list[str]:
+def _error(settings: Settings, e: AreaEvolution, main: int) -> list[str]:
     area, lower, upper = (values[:, main] * MM2 for values in (e.fixed.area, e.fixed.lower, e.fixed.upper))
     widest = int(np.argmax(upper - lower))
     bounds = (
         f"The true area of the two triangulated surfaces lies between the bounds shown in every frame; they are "
         f"{upper[widest] - lower[widest]:.1f} mm² apart at most (frame {widest + 1}, area {area[widest]:.1f} mm²). "
-        f"The estimated error of the area is {e.fixed.error[:, main].max() * MM2:.2g} mm² at most. "
-        "Both follow from the 1-Lipschitz property of the distance and from dividing the triangles in doubt."
+        "They follow from the 1-Lipschitz property of the distance. "
     )
+    if settings.rule == REFINED:
+        bounds += (
+            f"Triangles in doubt were divided; the estimated error of the area is "
+            f"{e.fixed.error[:, main].max() * MM2:.2g} mm² at most."
+        )
+    elif settings.rule == CLIP:
+        bounds += "Triangles were cut once where the distance, taken as linear between corners, is the threshold."
+    else:
+        bounds += (
+            f"The areas themselves were counted in whole triangles (rule {settings.rule}): they may lie outside the "
+            "bounds, and they change with the mesh in the first order of its edges."
+        )
     sides = f"Up to {int(e.undecided.max(initial=0))} points per frame have no decidable side and count as outside."
     picture = (
         "The colours and the threshold contour on the picture interpolate 8-bit distances between vertices; the "

@@ -13,7 +13,7 @@ from geocontact.geometry.maps import DistanceMaps
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from geocontact.view import contact_page
-from geocontact.view.contact_page import inputs_table, write_report
+from geocontact.view.contact_page import Told, inputs_table, write_report
 from geocontact.view.contact_words import NOT_A_DEVICE
 from geocontact.view.directions import camera_directions
 from geocontact.view.page.content import Curves, Readout, Scene, Strip, Table, Words
@@ -46,14 +46,19 @@ def analysed(heights=(22.0, 21.0, 20.5, 30.0), every=1, settings=None, motion=No
     settings = settings or Settings((1 * MM, T * MM), refinement=AS_GIVEN, split=Plane.across("z"), sensitivity=WIDE)
     maps = DistanceMaps(ball, ground, every)
     evolution = area_evolution(ball, ground, motion, settings, each=maps.add)
-    return ball, ground, motion, evolution, maps
+    return ball, ground, motion, settings, evolution, maps
+
+
+def told(*args, **kwargs):
+    """What the page tells, all frames kept."""
+    *known, maps = analysed(*args, **kwargs)
+    return Told(*known, maps, np.arange(len(maps.frames)))
 
 
 def page(*args, **kwargs):
-    """The page before it becomes HTML."""
-    ball, ground, motion, evolution, maps = analysed(*args, **kwargs)
-    kept = np.arange(len(maps.frames))
-    return contact_page._page(ball, ground, motion, evolution, maps, kept, "", (), ("a reservation",)), evolution
+    """The page before it becomes HTML, and the areas."""
+    here = told(*args, **kwargs)
+    return contact_page.contact_page(here, "", (), ("a reservation",)), here.evolution
 
 
 def section(found, kind, n=0):
@@ -151,15 +156,37 @@ def test_mesh_statistics():
     assert ball["size [mm]"] == "40.0 × 40.0 × 40.0"
 
 
-def test_long_motions_are_thinned_and_the_page_says_so(tmp_path, monkeypatch):
+def test_long_motions_are_thinned_and_keep_the_frames_that_answer(tmp_path, monkeypatch):
+    """Most contact and smallest distance are in frame 4 of 9, which no stride would show."""
     seen = []
     monkeypatch.setattr(contact_page, "write_page", lambda p, path: seen.append(p) or 1)
     monkeypatch.setattr(contact_page, "FRAMES", 3)
-    write_report(tmp_path / "r.html", *analysed((22.0, 21.0, 20.5, 30.0, 21.0)))
+    here = analysed((22.0, 24.0, 23.0, 20.5, 26.0, 20.8, 22.0, 23.0, 30.0), every=2)
+    write_report(tmp_path / "r.html", *here)
     (found,) = seen
-    assert list(found.time) == pytest.approx([0.0, 0.2, 0.4])
-    assert found.start_frame == 1
-    assert any("3 of 5 frames" in p for s in found.sections if isinstance(s, Words) for p in s.paragraphs)
+    frames = [k - 1 for k in found.numbers]
+    assert 3 in frames and len(frames) <= 4 and found.total == 9 and frames[found.start_frame] == 3
+    assert list(found.time) == pytest.approx([0.1 * k for k in frames])
+    table = here[-2].table().query("`threshold [mm]` == 4")["area_fixed [mm^2]"].to_numpy()
+    rows = {row.label: row for row in section(found, Readout).rows}
+    assert list(rows["area of the fixed body"].texts) == [f"{table[k]:.2f}" for k in frames]
+    ground, ball = section(found, Scene).bodies
+    heights = here[2].poses.translation[frames, 1]
+    assert ball.poses.translation[:, 1] == pytest.approx(heights)
+    places = [here[-1].frames.index(k) for k in frames]
+    np.testing.assert_array_equal(ground.distance, here[-1].fixed[places])
+    np.testing.assert_array_equal(ball.distance, here[-1].moving[places])
+    words = [p for s in found.sections if isinstance(s, Words) for p in s.paragraphs]
+    assert any(f"{len(frames)} of 9 frames" in p for p in words)
+
+
+def test_a_page_that_would_be_too_large_is_thinned_until_it_fits(tmp_path, monkeypatch):
+    sizes = []
+    monkeypatch.setattr(contact_page, "LARGEST_FILE", 1000)
+    monkeypatch.setattr(contact_page, "FEWEST", 2)
+    monkeypatch.setattr(contact_page, "write_page", lambda p, path: sizes.append(200 * len(p.time)) or sizes[-1])
+    size = write_report(tmp_path / "r.html", *analysed(tuple(np.linspace(20.5, 24.0, 12))))
+    assert sizes[0] == 2400 and sizes == sorted(sizes, reverse=True) and size == sizes[-1] <= 1000
 
 
 def test_without_maps_there_is_no_page(tmp_path):
@@ -168,12 +195,17 @@ def test_without_maps_there_is_no_page(tmp_path):
         write_report(tmp_path / "r.html", *known, DistanceMaps(*known[:2]))
 
 
-def test_maps_keep_every_so_many_frames_and_the_one_with_most_contact():
-    ball, ground, _, _, maps = analysed((22.0, 20.5, 21.0, 30.0), every=2)
-    assert maps.frames == [0, 2] and maps.largest == 1
-    assert maps.fixed.shape == (2, len(ground.vertices)) and maps.moving.shape == (2, len(ball.vertices))
+def test_maps_keep_every_so_many_frames_and_those_that_answer():
+    heights = (22.0, 21.0, 24.0, 20.5, 30.0, 26.0, 30.0)
+    ball, ground, *_, every = analysed(heights)
+    maps = analysed(heights, every=2)[-1]
+    assert maps.frames == [0, 2, 3, 4, 6] and maps.largest == maps.nearest == 3
+    np.testing.assert_array_equal(maps.fixed, every.fixed[maps.frames])
+    np.testing.assert_array_equal(maps.moving, every.moving[maps.frames])
+    np.testing.assert_array_equal(maps.fixed_at_largest, every.fixed[3])
+    assert maps.fixed.shape == (5, len(ground.vertices)) and maps.moving.shape == (5, len(ball.vertices))
     none = analysed(every=0)[-1]
-    assert none.frames == [] and none.largest == 2 and np.isfinite(none.fixed_at_largest).any()
+    assert none.frames == [2] and none.largest == 2 and np.isfinite(none.fixed_at_largest).any()
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
@@ -225,8 +257,48 @@ def test_strip_holds_the_refined_area_where_it_has_one():
     assert (evolution.sensitivity[:, at] != evolution.fixed.area[:, 0]).all()
 
 
-def test_unsigned_distances_show_no_colours_below_zero():
-    ball, ground, motion, evolution, maps = analysed((20.5,))
-    unsigned = replace(evolution, signed="none")
-    found = contact_page._page(ball, ground, motion, unsigned, maps, np.array([0]), "", (), ())
-    assert section(found, Scene).span[0] == 0.0 and section(found, Scene).value_name == "distance to the other body"
+@pytest.mark.parametrize(
+    ("signed", "bodies"), [("none", [0, 0]), ("fixed", [1, 0]), ("moving", [0, 1]), ("both", [1, 1])]
+)
+def test_each_body_says_whether_its_distances_carry_a_sign(signed, bodies):
+    here = told((20.5,))
+    here = replace(here, evolution=replace(here.evolution, signed=signed))
+    scene = section(contact_page.contact_page(here, "", (), ()), Scene)
+    assert [body.signed for body in scene.bodies] == [bool(b) for b in bodies]
+    assert (scene.span[0] == 0.0) == (signed == "none")
+    assert scene.value_name == ("distance" if signed == "none" else "signed distance") + " to the other body"
+
+
+def test_a_threshold_of_zero_has_a_page(tmp_path):
+    settings = Settings((0.0,), refinement=AS_GIVEN, sensitivity=(0.0, 5e-4, 1e-3))
+    found, _ = page((19.5, 22.0), settings=settings)
+    assert section(found, Scene).span[0] < 0.0 < section(found, Scene).span[1]
+    assert write_report(tmp_path / "r.html", *analysed((19.5, 22.0), settings=settings)) > 1000
+    unsigned = told((22.0,), settings=settings)
+    unsigned = replace(unsigned, evolution=replace(unsigned.evolution, signed="none"))
+    assert contact_page.contact_page(unsigned, "", (), ()).total == 1
+
+
+def test_a_crude_rule_is_named_and_not_called_certified():
+    settings = Settings((T * MM,), rule="any-vertex", sensitivity=WIDE)
+    found, evolution = page((20.5,), settings=settings)
+    words = {s.title: " ".join(s.paragraphs) for s in found.sections if isinstance(s, Words)}
+    assert "(any-vertex)" in found.subtitle
+    assert "rule any-vertex" in words["Numerical error"] and "outside the bounds" in words["Numerical error"]
+    assert "estimated error" not in words["Numerical error"]
+    assert "area of the fixed body, any-vertex" in [row.label for row in section(found, Readout).rows]
+    np.testing.assert_array_equal(section(found, Strip).values, evolution.sensitivity * 1e6)
+
+
+def test_only_the_region_is_coloured_and_it_is_said():
+    _, ground, *_ = analysed()
+    upper = ground.face_normal[:, 1] > 0.5
+    settings = Settings((T * MM,), refinement=AS_GIVEN, fixed_faces=upper)
+    found, _ = page((20.5,), settings=settings)
+    shown = section(found, Scene).bodies[0].distance[0]
+    outside = np.ones(len(ground.vertices), bool)
+    outside[ground.faces[upper]] = False
+    assert np.isposinf(shown[outside]).all() and np.isfinite(shown[~outside]).any()
+    words = {s.title: " ".join(s.paragraphs) for s in found.sections if isinstance(s, Words)}
+    assert f"Of plate only {upper.sum()} of {len(upper)} faces count" in words["Question"]
+    assert "region" in found.subtitle

@@ -1,12 +1,15 @@
 """The one place that says how kernels are compiled, and where the result is kept.
 
 numba notices a change of the file a kernel stands in, not of the kernels it calls in other files; so the folder is
-named after the text of all of them.
+named after the text of all of them: this folder's for the kernels of geometry, and for those of the rooms above it
+everything that they may call.
 """
 
 from __future__ import annotations
 
+import functools
 import hashlib
+import inspect
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -16,18 +19,29 @@ import numba
 
 F = TypeVar("F", bound=Callable[..., object])
 
-
-def _cache_folder() -> Path:
-    here = Path(__file__).parent
-    text = b"".join(file.read_bytes() for file in sorted(here.glob("*.py")))
-    base = here / "__pycache__" if os.access(here, os.W_OK) else Path.home() / ".cache" / "geocontact"
-    return base / f"kernels-{hashlib.sha256(text).hexdigest()[:16]}"
+HERE = Path(__file__).parent
+ROOMS = ("contact", "loads", "dynamics", "identify", "chain", "systems", "effects", "gap")
+"""Rooms above geometry whose files may hold kernels or laws that kernels call."""
 
 
-if not os.environ.get("NUMBA_CACHE_DIR"):
-    vars(numba.config)["CACHE_DIR"] = str(_cache_folder())
+@functools.cache
+def _cache_folder(*, own: bool) -> Path:
+    """Where compiled code is kept: `own` for the kernels of this folder, otherwise for those of other rooms."""
+    files = sorted(HERE.glob("*.py"))
+    if not own:
+        files += [file for room in ROOMS for file in sorted((HERE.parents[1] / room).rglob("*.py"))]
+    text = b"".join(file.read_bytes() for file in files)
+    base = HERE / "__pycache__" if os.access(HERE, os.W_OK) else Path.home() / ".cache" / "geocontact"
+    return base / f"{'kernels' if own else 'loops'}-{hashlib.sha256(text).hexdigest()[:16]}"
 
 
 def kernel(function: F) -> F:
-    """Compile with numba on first call: cached on disk, without the interpreter lock, strict IEEE arithmetic."""
-    return cast(F, numba.njit(cache=True, nogil=True, error_model="numpy")(function))
+    """Compile with numba on first call: cached on disk, without the interpreter lock, strict IEEE arithmetic.
+
+    A function that is checked while tests run is compiled from what it wraps.
+    """
+    plain = inspect.unwrap(function)
+    if not os.environ.get("NUMBA_CACHE_DIR"):
+        own = Path(inspect.getfile(plain)).parent == HERE
+        vars(numba.config)["CACHE_DIR"] = str(_cache_folder(own=own))
+    return cast(F, numba.njit(cache=True, nogil=True, error_model="numpy")(plain))

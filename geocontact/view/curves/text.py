@@ -7,6 +7,7 @@ import textwrap
 
 UNSEEN = "\u200b"  # zero-width space
 FIXED = "\u00a0"  # no-break space
+HELD = "\ue000"  # for private use: not a blank
 
 
 def plain(text: str, width: int | None = None) -> str:
@@ -16,8 +17,8 @@ def plain(text: str, width: int | None = None) -> str:
     character would break an SVG file.
     """
     seen = "".join(c if c.isprintable() or c == FIXED else " " if c.isspace() else "\ufffd" for c in text)
-    lines = textwrap.wrap(seen, width) if width else [seen]
-    drawn = "\n".join(line.replace("$", r"\$") for line in lines)
+    lines = textwrap.wrap(seen.replace(FIXED, HELD), width) if width else [seen]  # a wrap drops blanks at line ends
+    drawn = "\n".join(line.replace("$", r"\$").replace(HELD, FIXED) for line in lines)
     return UNSEEN + drawn if drawn.startswith("_") else drawn
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.view.page.scene import Body, Scene
 
@@ -55,7 +55,7 @@ class Strip:
 
 @dataclass(frozen=True, eq=False)
 class Row:
-    """One number of the frame under the cursor: its texts are shown as they are, one per frame."""
+    """One number of the frame under the cursor, a text per frame; a leading hyphen is shown as a minus sign."""
 
     label: str
     unit: str
@@ -64,7 +64,7 @@ class Row:
 
 @dataclass(frozen=True, eq=False)
 class Readout:
-    """The numbers of the frame under the cursor, verbatim as in the table file."""
+    """The numbers of the frame under the cursor, as given by the caller."""
 
     rows: Sequence[Row]
     title: str = "This frame"
@@ -101,7 +101,10 @@ class Page:
     headline
         Label and value of what must be answered without a click: where, how much, in which frame.
     start_frame
-        Frame shown first, counted from 0 (the page counts from 1).
+        Frame shown first: its index in `time`, from 0.
+    numbers, total
+        Number of each frame in the whole motion, counted from 1, and how many frames that has: what the page calls
+        them where it holds a part of them. None: 1, 2, … and as many as there are times.
     sections
         In reading order, at most one of them a `Scene`.
     """
@@ -113,6 +116,8 @@ class Page:
     headline: Sequence[tuple[str, str]] = ()
     start_frame: int = 0
     sections: Sequence[Section] = field(default_factory=tuple)
+    numbers: Int[np.ndarray, " shown"] | None = None
+    total: int | None = None
 
     def __post_init__(self) -> None:
         frames = len(self.time)
@@ -120,11 +125,25 @@ class Page:
             raise ValueError(f"start_frame is {self.start_frame}, expected one of the {frames} frames")
         if not np.isfinite(self.time).all():
             raise ValueError("time must be finite in every frame")
+        self._check_numbers()
         if sum(isinstance(section, Scene) for section in self.sections) > 1:
             raise ValueError("a page holds one Scene; put the bodies into it or write two pages")
         for name, length in _lengths(self.sections):
             if length != frames:
                 raise ValueError(f"{name}: {length} frames, expected the {frames} of the page's time")
+
+    def _check_numbers(self) -> None:
+        frames = len(self.time)
+        total = frames if self.total is None else self.total
+        numbers = np.arange(1, frames + 1) if self.numbers is None else self.numbers
+        if len(numbers) != frames:
+            raise ValueError(f"numbers: {len(numbers)} frames, expected the {frames} of the page's time")
+        if numbers[0] < 1 or (np.diff(numbers) <= 0).any():
+            raise ValueError("numbers must count up from 1 or later")
+        if numbers[-1] > total:
+            raise ValueError(
+                f"numbers end at {numbers[-1]} of {total} frames; pass total, the frames of the whole motion"
+            )
 
 
 def _lengths(sections: Sequence[Section]) -> list[tuple[str, int]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,6 +34,8 @@ def payload(page: Page) -> Payload:
         "timeLabel": page.time_label,
         "title": page.title,
         "start": page.start_frame,
+        "numbers": None if page.numbers is None else [int(number) for number in page.numbers],
+        "total": len(page.time) if page.total is None else int(page.total),
     }
     parts: list[dict[str, object]] = []
     position_error = distance_error = 0.0
@@ -49,10 +52,15 @@ def payload(page: Page) -> Payload:
             case Strip():
                 parts.append(place | {"kind": "strip"} | _strip(section))
             case Readout():
-                texts = [list(row.texts) for row in section.rows]
+                texts = [[shown(text) for text in row.texts] for row in section.rows]
                 parts.append(place | {"kind": "readout", "texts": texts})
     data["parts"] = parts
     return Payload(data, blocks, position_error, distance_error)
+
+
+def shown(text: str) -> str:
+    """A number with a minus sign (U+2212) in place of a leading hyphen, and none before a rounded zero."""
+    return re.sub(r"^-(?=[\d.])", "−", re.sub(r"^-(?=0*\.?0*(?![\d.eE]))(?=[\d.])", "", text))
 
 
 def _levels(scene: Scene) -> Levels:
@@ -102,6 +110,7 @@ def _body(
     described: dict[str, object] = {
         "name": body.name,
         "opacity": opacity,
+        "signed": body.signed,
         "size": (grid.size * MM).tolist(),
         "positions": stored("positions", grid.steps(body.vertices)),
         "faces": stored("faces", face_words(_outward(body, centre))),

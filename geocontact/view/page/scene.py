@@ -23,8 +23,10 @@ class Body:
     poses
         `X_SB`, one per frame: maps the body's frame into the scene's frame S [m]. None: fixed, S is its own frame.
     distance
-        Signed distance of each vertex to the other body per frame [m]; +inf (-inf) where it is farther (deeper) than
+        Distance of each vertex to the other body per frame [m]; +inf (-inf) where it is farther (deeper) than
         was asked, NaN where unknown. None: the body is drawn plain.
+    signed
+        `distance` is negative inside the other body; False where that body is open and has no inside.
     opacity
         At the start, 0 … 1. None: moving bodies are see-through where a fixed one is there to be seen.
     """
@@ -35,6 +37,7 @@ class Body:
     poses: RigidTransform | None = None
     distance: Float[np.ndarray, "t n"] | None = None
     opacity: float | None = None
+    signed: bool = True
 
 
 @dataclass(frozen=True, eq=False)

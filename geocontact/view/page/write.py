@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from geocontact.view.page.content import Curves, Page, Readout, Scene, Strip, Table, Words
-from geocontact.view.page.payload import payload
+from geocontact.view.page.payload import payload, shown
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -76,6 +76,7 @@ def _template() -> Template:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["shown"] = shown
     return environment.get_template("page.html")
 
 

@@ -20,7 +20,9 @@ ROUND = np.array([0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 
 
 def annotate(figure: Figure, axes: Axes, scene: ContactScene, view: View, shot: Shot, title: str) -> None:
     """Title, colour bar with the thresholds, legend, scale bar and directions of FIXED's frame."""
-    when = f"t = {scene.time:g} s" if scene.time_unit == "s" else f"{scene.time:g} {scene.time_unit} of the cycle"
+    when = {"s": f"t = {scene.time:g} s", "%": f"{scene.time:g} % of the cycle"}.get(
+        scene.time_unit, f"{scene.time:g} {scene.time_unit}"
+    )
     axes.set_title(", ".join(part for part in (_plain(title), _plain(view.name), when) if part), fontsize=11)
     _colour_bar(figure, axes, scene)
     _legend(figure, scene)

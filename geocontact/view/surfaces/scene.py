@@ -28,7 +28,7 @@ class ContactScene:
     signed
         False when MOVING is open and has no inside.
     time_unit
-        "s", or "%" of a cycle.
+        "s", "%" of a cycle, or "deg" where an angle is swept.
     """
 
     fixed_vertices: Float[np.ndarray, "n 3"]

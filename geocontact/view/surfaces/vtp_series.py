@@ -40,7 +40,7 @@ def write_vtp_series(series: ContactSeries, folder: Path, program: str) -> tuple
     program
         Name and version of the program, for the record; ASCII, as VTK's texts are.
     """
-    _require_pyvista()
+    require_pyvista()
     frames = folder / "frames"
     frames.mkdir(parents=True, exist_ok=True)
     limit = truncation(series)
@@ -67,7 +67,8 @@ def truncation(series: ContactSeries) -> float:
     return float(max(*known, 1.25 * max(series.thresholds)))
 
 
-def _require_pyvista() -> None:
+def require_pyvista() -> None:
+    """InputError where pyvista is not installed."""
     try:
         import pyvista  # noqa: F401
     except ImportError as error:

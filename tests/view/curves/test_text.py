@@ -24,6 +24,8 @@ def test_no_name_becomes_a_formula_or_a_hidden_label(name: str) -> None:
 
 
 @given(st.text(), st.integers(1, 40))
+@example("\u00a0", 1)
+@example("a \u00a0 b", 3)
 def test_lines_are_no_longer_than_asked_and_lose_no_letter(name: str, width: int) -> None:
     lines = plain(name, width).replace(r"\$", "$").removeprefix("\u200b").split("\n")
     assert all(len(line) <= width for line in lines)

@@ -1,13 +1,14 @@
-"""One headless browser for all tests of the page; skipped, with the reason, where there is none."""
+"""One headless browser for all tests of the page; skipped, with the reason, where there is none (in CI: failed)."""
 
 from __future__ import annotations
 
+import os
 import shutil
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import pytest
 
@@ -64,12 +65,22 @@ def set_range(opened: Opened, selector: str, value: float) -> None:
     opened.tab.locator(selector).evaluate("(e, v) => { e.value = v; e.dispatchEvent(new Event('input')); }", value)
 
 
+def absent(reason: str) -> NoReturn:
+    """Skip on a desk; fail where the tests are relied upon."""
+    if os.environ.get("CI"):
+        pytest.fail(reason)
+    pytest.skip(reason)
+
+
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
-    sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    try:
+        from playwright import sync_api
+    except ImportError as missing:
+        absent(f"playwright is not installed: {missing}")
     executable = next(filter(None, map(shutil.which, CHROMIUM)), None)
     if executable is None:
-        pytest.skip("no chromium on PATH: apt install chromium")
+        absent("no chromium on PATH: apt install chromium")
     with sync_api.sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=executable, args=SOFTWARE)
         yield chromium

@@ -18,7 +18,7 @@ def test_slider_moves_picture_and_numbers(opened: Open) -> None:
 
     def check(frame: int) -> None:
         assert here.frame() == frame
-        assert here.tab.locator("td.value").all_text_contents() == [row.texts[frame] for row in rows]
+        assert here.tab.locator("td.value").all_text_contents() == [row.texts[frame].replace("-", "−") for row in rows]
         assert f"frame {frame + 1}/9" in here.text("#now")
         pictures[frame] = here.picture()
 

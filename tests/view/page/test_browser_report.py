@@ -57,7 +57,7 @@ def test_numbers_under_the_cursor_are_the_row_of_the_table(result: Call, opened:
         for label, (column, digits) in SHOWN.items():
             value = table[column][frame]
             number = said[label].split()[0].replace("−", "-")
-            assert number == ("–" if np.isnan(value) else f"{value:.{digits}f}"), (frame, label)
+            assert number == ("–" if np.isnan(value) else f"{value:z.{digits}f}"), (frame, label)
         pictures.add(here.picture())
         here.tab.keyboard.press("ArrowRight")
     assert len(pictures) == len(table), "every frame looks different"

@@ -10,6 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from geocontact.view.page.write import page_html
+from tests.view.page.examples import small_page
+
 PAGE = Path(__file__).resolve().parents[3] / "geocontact" / "view" / "page"
 FRONT, BUNDLE = PAGE / "front", PAGE / "bundle"
 RECORD = tomllib.loads((BUNDLE / "bundle.toml").read_text(encoding="utf-8"))
@@ -41,6 +44,13 @@ def test_three_is_named_with_version_and_licence() -> None:
     assert RECORD["licence"] == "MIT"
     assert "MIT" in (BUNDLE / "THREE-LICENSE").read_text(encoding="utf-8")
     assert f"three.js {RECORD['three']}, MIT" in SCRIPT[:200]
+
+
+def test_every_page_carries_the_whole_licence_of_three() -> None:
+    licence = (BUNDLE / "THREE-LICENSE").read_text(encoding="utf-8").strip()
+    assert "above copyright notice and this permission notice shall be included" in licence
+    assert licence in SCRIPT[:1500]
+    assert licence in page_html(small_page())
 
 
 def test_the_lock_names_no_address() -> None:

@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.view.page.content import Body, Curve, Curves, Page, Scene, Words
+from geocontact.view.page.content import Body, Curve, Curves, Page, Readout, Row, Scene, Words
 from geocontact.view.page.opening import opening_view
-from geocontact.view.page.payload import payload
+from geocontact.view.page.payload import payload, shown
 from geocontact.view.page.write import page_html, write_page
 from tests.view.page.examples import DIRECTIONS, ball, plate, small_page
 from tests.view.page.hostile import HOSTILE, hostile_page
@@ -142,6 +142,11 @@ def test_a_large_page_stays_below_five_megabytes(tmp_path: Path) -> None:
         ("start_frame is -1", {"start_frame": -1}),
         ("time must be finite", {"time": np.full(9, np.nan)}),
         ("curve short: 8 frames, expected the 9", {"sections": [Curves("a", "b", [Curve("short", np.zeros(8))])]}),
+        ("numbers: 8 frames, expected the 9", {"numbers": np.arange(1, 9), "total": 20}),
+        ("must count up", {"numbers": np.arange(9), "total": 20}),
+        ("must count up", {"numbers": np.array([1, 2, 3, 3, 5, 6, 7, 8, 9]), "total": 20}),
+        ("numbers end at 17 of 9 frames; pass total", {"numbers": np.arange(1, 18, 2)}),
+        ("numbers end at 9 of 8 frames", {"total": 8}),
         ("holds one Scene", {"sections": [small_page().sections[0]] * 2}),
     ],
 )
@@ -163,6 +168,33 @@ def test_a_scene_that_cannot_be_drawn_is_refused(what: str, change: dict[str, ob
     page = small_page()
     with pytest.raises(ValueError, match=what):
         replace(page, sections=[replace(page.sections[0], **change)])
+
+
+@pytest.mark.parametrize(
+    ("text", "here"),
+    [
+        ("-1.50", "−1.50"),
+        ("-0.00", "0.00"),
+        ("-0", "0"),
+        ("-0.01", "−0.01"),
+        ("-.5", "−.5"),
+        ("-0e-3", "−0e-3"),
+        ("1e-3", "1e-3"),
+        ("-2 (at least)", "−2 (at least)"),
+        ("–", "–"),
+        ("-->", "-->"),
+        ("", ""),
+    ],
+)
+def test_a_leading_hyphen_is_shown_as_minus_and_zero_has_none(text: str, here: str) -> None:
+    assert shown(text) == here
+
+
+def test_readouts_show_a_minus_with_and_without_scripts() -> None:
+    page = Page("a", "", np.arange(2.0), "time [s]", sections=[Readout([Row("height", "mm", ["-0.00", "-1.00"])])])
+    html = page_html(replace(page, start_frame=1))
+    assert "−1.00" in Elements(html).texts
+    assert '"texts":[["0.00","\\u22121.00"]]' in html
 
 
 def test_the_page_opens_where_the_patch_is_seen() -> None:

@@ -7,6 +7,7 @@ import { build } from "esbuild";
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 const sha256 = (path) => createHash("sha256").update(readFileSync(here(path))).digest("hex");
 const version = (name) => JSON.parse(readFileSync(here(`node_modules/${name}/package.json`), "utf8")).version;
+const licence = readFileSync(here("node_modules/three/LICENSE"), "utf8").trimEnd();
 
 mkdirSync(here("../bundle"), { recursive: true });
 const { warnings } = await build({
@@ -19,8 +20,8 @@ const { warnings } = await build({
   format: "iife",
   target: ["chrome103", "firefox113", "safari16.4"], // the first with DecompressionStream or close to it
   charset: "utf8",
-  legalComments: "none", // the licence lies beside the script and is named at its head
-  banner: { js: `/* three.js ${version("three")}, MIT licence, (c) three.js authors */` },
+  legalComments: "none", // the licence stands at the script's head, so that every page that is passed on holds it
+  banner: { js: `/*! three.js ${version("three")}, MIT licence:\n\n${licence}\n*/` },
 });
 if (warnings.length) process.exit(1);
 const script = readFileSync(here("../bundle/main.js"), "utf8").trimEnd();

@@ -1,13 +1,17 @@
 // Curves over time with a cursor, and the strip that shows how much the threshold matters.
 import { axes, band, path } from "./axes.js";
 import { html, svg } from "./svg.js";
-import { brief, extent } from "./ticks.js";
+import { brief, course, extent } from "./ticks.js";
 
-const DASHES = ["", "7 3", "2 3", "9 3 2 3"];
+// colours of Okabe and Ito (darker or lighter for contrast); the first eight curves differ without them, forty with
+const COLOURS = 5;
+const DASHES = ["", "7 3", "2 3", "9 3 2 3", "16 4", "1 7", "9 3 2 3 2 3", "16 4 5 4"];
+const colour = (k) => `c${k % COLOURS}`;
+const dash = (k) => DASHES[k % DASHES.length];
 
 /** Line sample for a legend: the same class as the line. */
 const sample = (k) =>
-  svg("svg", { class: "sample", viewBox: "0 0 26 8", "aria-hidden": "true" }, svg("path", { class: `line c${k % 4}`, d: "M1 4H25", "stroke-dasharray": DASHES[k % 4] }));
+  svg("svg", { class: "sample", viewBox: "0 0 40 8", "aria-hidden": "true" }, svg("path", { class: `line ${colour(k)}`, d: "M1 4H39", "stroke-dasharray": dash(k) }));
 
 /** Panel of curves; `go(frame)` is called when the reader points at one. Returns what moves the cursor. */
 export function curves(figure, part, time, timeLabel, go) {
@@ -19,20 +23,20 @@ export function curves(figure, part, time, timeLabel, go) {
   let now = 0;
   let plot = null;
   axes(figure, {
-    x: [time[0], time.at(-1)],
-    y: extent(all),
+    x: course(time),
+    y: extent(all, part.unit),
     xLabel: timeLabel,
     label: `${part.title}: ${part.curves.map((c) => describe(c, part.unit)).join("; ")}`,
     paint(p) {
       plot = p;
       part.curves.forEach((c, k) => {
-        if (c.lower && c.upper) p.frame.append(svg("path", { class: `band c${k % 4}`, d: band(p, time, c.lower, c.upper) }));
+        if (c.lower && c.upper) p.frame.append(svg("path", { class: `band ${colour(k)}`, d: band(p, time, c.lower, c.upper) }));
       });
       part.curves.forEach((c, k) =>
-        p.frame.append(svg("path", { class: `line c${k % 4}`, d: path(p, time, c.values), "stroke-dasharray": DASHES[k % 4] })),
+        p.frame.append(svg("path", { class: `line ${colour(k)}`, d: path(p, time, c.values), "stroke-dasharray": dash(k) })),
       );
       p.cursor = svg("line", { class: "cursor", y1: p.top, y2: p.bottom });
-      p.dots = part.curves.map((_, k) => svg("circle", { class: `dot c${k % 4}`, r: 4 }));
+      p.dots = part.curves.map((_, k) => svg("circle", { class: `dot ${colour(k)}`, r: 4 }));
       p.frame.append(p.cursor, ...p.dots);
       move(now);
     },
@@ -84,7 +88,7 @@ export function strip(figure, part) {
   let plot = null;
   axes(figure, {
     x: [Math.min(0, thresholds[0]), thresholds.at(-1)],
-    y: extent([...lower, ...upper, 0]),
+    y: extent([...lower, ...upper, 0], part.unit),
     xLabel: "threshold [mm]",
     height: 150,
     label: `${part.title}: ${part.unit} against the threshold in mm; chosen ${current} mm`,

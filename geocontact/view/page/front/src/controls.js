@@ -11,7 +11,8 @@ export function cursor(data) {
   let frame = -1;
   const unit = /\[(.*)\]/.exec(data.timeLabel)?.[1] ?? "";
   const name = data.timeLabel.replace(/\s*\[.*\]/, "");
-  const words = (k) => `${name} ${brief(data.time[k], 6)} ${unit}, frame ${k + 1} of ${last + 1}`;
+  const number = (k) => data.numbers?.[k] ?? k + 1; // in the whole motion, of which the page may hold a part
+  const words = (k) => `${name} ${brief(data.time[k], 6)} ${unit}, frame ${number(k)} of ${data.total}`;
 
   function go(wanted) {
     const next = Math.min(Math.max(Math.round(wanted), 0), last);
@@ -19,7 +20,7 @@ export function cursor(data) {
     frame = next;
     slider.value = frame;
     slider.setAttribute("aria-valuetext", words(frame));
-    element("now").textContent = `${brief(data.time[frame], 6)} ${unit} · frame ${frame + 1}/${last + 1}`;
+    element("now").textContent = `${brief(data.time[frame], 6)} ${unit} · frame ${number(frame)}/${data.total}`;
     for (const listen of listeners) listen(frame);
   }
   slider.addEventListener("input", () => go(Number(slider.value)));

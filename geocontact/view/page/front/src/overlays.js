@@ -4,13 +4,15 @@ import { BEYOND, colourOf, css } from "./colours.js";
 import { html, svg } from "./svg.js";
 import { brief, ticks } from "./ticks.js";
 
-const [LEFT, WIDTH, HIGH] = [10, 250, 14];
+const [LEFT, WIDTH, HIGH] = [24, 234, 14];
+const [BEYOND_AT, ROOM] = [304, 328];
+const overlaps = (scene) => scene.span[0] < 0 && scene.bodies.some((body) => body.distance && body.signed);
 
 /** Colours with ticks in mm; bold marks are the thresholds, hatched is overlap, the box beside is beyond. */
 export function legend(place, scene) {
   const [lower, upper] = scene.span;
   const x = (value) => LEFT + ((value - lower) / (upper - lower)) * WIDTH;
-  const bar = svg("svg", { viewBox: "0 0 310 38", width: 310, height: 38, role: "img", "aria-label": label(scene) });
+  const bar = svg("svg", { viewBox: `0 0 ${ROOM} 38`, width: ROOM, height: 38, role: "img", "aria-label": label(scene) });
   const stripes = svg("pattern", { id: "hatch", width: 5, height: 5, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" });
   stripes.append(svg("rect", { width: 5, height: 1.6, fill: "#000", "fill-opacity": 0.55 }));
   bar.append(svg("defs", {}, stripes));
@@ -19,11 +21,12 @@ export function legend(place, scene) {
     const value = lower + ((upper - lower) * (k + 0.5)) / count;
     bar.append(svg("rect", { y: 4, height: HIGH, x: LEFT + (k * WIDTH) / count, width: WIDTH / count + 0.5, fill: css(colourOf(value, scene.span)) }));
   }
-  if (lower < 0) bar.append(svg("rect", { y: 4, height: HIGH, x: LEFT, width: x(Math.min(0, upper)) - LEFT, fill: "url(#hatch)" }));
+  if (overlaps(scene)) bar.append(svg("rect", { y: 4, height: HIGH, x: LEFT, width: x(Math.min(0, upper)) - LEFT, fill: "url(#hatch)" }));
   const taken = [];
   const mark = (value, kind) => {
-    if (taken.some((other) => Math.abs(other - x(value)) < 20)) return;
-    taken.push(x(value));
+    const half = 2 + 3.3 * brief(value).length;
+    if (taken.some(([other, its]) => Math.abs(other - x(value)) < Math.max(20, half + its))) return;
+    taken.push([x(value), half]);
     bar.append(svg("text", { class: `tick ${kind}`, x: x(value), y: 33, "text-anchor": "middle" }, brief(value)));
   };
   for (const [k, threshold] of scene.thresholds.entries()) {
@@ -34,15 +37,25 @@ export function legend(place, scene) {
     bar.append(svg("line", { class: "grid", y1: 4 + HIGH, y2: 22, x1: x(value), x2: x(value) }));
     mark(value, "");
   }
-  bar.append(svg("rect", { x: 276, width: 22, y: 4, height: HIGH, fill: BEYOND }));
-  bar.append(svg("text", { class: "tick", x: 287, y: 33, "text-anchor": "middle" }, "beyond"));
-  place.append(bar, html("p", "", html("bdi", "", scene.valueName), ` [mm]; ${lines(scene)}${lower < 0 ? ", hatched: overlap" : ""}`));
+  bar.append(svg("rect", { x: BEYOND_AT - 11, width: 22, y: 4, height: HIGH, fill: BEYOND }));
+  bar.append(svg("text", { class: "tick", x: BEYOND_AT, y: 33, "text-anchor": "middle" }, "beyond"));
+  const unsigned = without(scene).flatMap((name) => ["; ", html("bdi", "", name), `: ${UNSIGNED}`]);
+  const words = ` [mm]; ${lines(scene)}${overlaps(scene) ? ", hatched: overlap" : ""}`;
+  place.append(bar, html("p", "", html("bdi", "", scene.valueName), words, ...unsigned));
 }
 
 const lines = (scene) => `line${scene.thresholds.length > 1 ? "s" : ""}: ${scene.thresholds.map((t) => brief(t)).join(", ")} mm`;
 
+const UNSIGNED = "distance without sign (other body open)";
+const without = (scene) => scene.bodies.filter((body) => body.distance && !body.signed).map((body) => body.name);
+
 const label = (scene) =>
-  `Colours from ${brief(scene.span[0])} to ${brief(scene.span[1])} mm, ${lines(scene)}, hatched where bodies overlap, grey beyond`;
+  [
+    `Colours from ${brief(scene.span[0])} to ${brief(scene.span[1])} mm, ${lines(scene)}`,
+    ...(overlaps(scene) ? ["hatched where bodies overlap"] : []),
+    "grey beyond",
+    ...without(scene).map((name) => `${name}: ${UNSIGNED}`),
+  ].join(", ");
 
 /** Arrows of the named directions as seen now. */
 export function triad(place, scene, view) {

@@ -28,4 +28,8 @@ export function tools(scene, overlays, caption) {
   });
   element("more").open = !window.matchMedia("(max-width: 860px)").matches;
   element("tools").hidden = false;
+  element("tools").addEventListener("focusin", ({ target }) => {
+    // browsers leave what is seen in part where it is; the row of views is wider than a phone
+    if (target.matches(":focus-visible")) target.scrollIntoView({ block: "nearest", inline: "nearest" });
+  });
 }

@@ -1,0 +1,1 @@
+"""What a system is made of: motion, geometry, law, balance, sensor; and what it means to add an effect to one."""

@@ -1,0 +1,102 @@
+"""What an effect offers: candidates, each a way to turn a system into one that has the effect."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+
+Stage = Literal["timing", "kinematics", "geometry", "constitutive", "load", "sensor", "data"]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One effect, in one variant, made for one system.
+
+    Parameters
+    ----------
+    name, variant
+        Of the vocabulary ("sensor_gain"), and which of several ("force_x"); "" where there is only one.
+    stage
+        Where in the chain it acts.
+    parameters
+        The amplitude first, then at most one shape; bounds are physical. Empty for a discrete mistake in the data.
+    link
+        Replaces one link; the parameters are added by `apply`.
+    neutral
+        Values of parameters at which the system with the effect is exactly the one without it.
+    starts
+        Values from which a search may set out. Given are those beside the parameters' own, which become the first; a
+        parameter that is not named in one starts where it says itself.
+    somewhere
+        For mistakes in the data: `link` for the trials of these names only.
+    channel, factor
+        The one channel that it is about, "" where it is not one; and what that reads times too much, for a wrong unit.
+    """
+
+    name: str
+    variant: str
+    stage: Stage
+    parameters: tuple[Parameter, ...]
+    link: Callable[[System], System]
+    neutral: Mapping[str, float] = field(default_factory=dict)
+    starts: tuple[Mapping[str, float], ...] = ()
+    somewhere: Callable[[frozenset[str] | None], Callable[[System], System]] | None = None
+    channel: str = ""
+    factor: float = 1.0
+
+    def __post_init__(self) -> None:
+        first = {p.name: p.start for p in self.parameters}
+        others = [{**first, **other} for other in self.starts]
+        object.__setattr__(self, "starts", (first, *(other for other in others if other != first)))
+
+    @property
+    def label(self) -> str:
+        """Name and variant in one word."""
+        return f"{self.name}.{self.variant}" if self.variant else self.name
+
+    def only(self, trials: frozenset[str]) -> Candidate:
+        """The same mistake in the trials of these names only; ValueError for anything but a mistake in the data."""
+        if self.somewhere is None:
+            raise ValueError(f"{self.label} is not a mistake in the data; it is in every trial or in none")
+        return replace(self, link=self.somewhere(trials), starts=())
+
+    def apply(self, system: System) -> System:
+        """The system with this effect. Refused when it is in already."""
+        taken = {p.name for p in system.parameters} & {p.name for p in self.parameters}
+        if taken or self.label in system.effects:
+            raise ValueError(f"{self.label} is in this system already")
+        changed = self.link(system)
+        return replace(changed, parameters=system.parameters + self.parameters, effects=(*system.effects, self.label))
+
+
+@dataclass(frozen=True)
+class Effect:
+    """A row of the vocabulary.
+
+    Parameters
+    ----------
+    name
+        As in `diagnosis.json`.
+    stage
+        Where in the chain it acts.
+    systems
+        Names of the systems that it applies to.
+    offer
+        Makes the candidates for one of these.
+    source
+        Where the formula is from.
+    """
+
+    name: str
+    stage: Stage
+    systems: tuple[str, ...]
+    offer: Callable[[System], tuple[Candidate, ...]]
+    source: str
+
+    def candidates(self, system: System) -> tuple[Candidate, ...]:
+        """Candidates for a system, with bounds from its scale; none where the effect does not apply."""
+        return self.offer(system) if system.name in self.systems else ()

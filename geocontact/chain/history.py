@@ -1,0 +1,140 @@
+"""Outputs that depend on what they were before: delayed, or passed through a low-pass.
+
+Before the first sample an output is taken to have run straight on as it sets out, but not beyond its range in the
+trial. Missing values stay missing, and a filter starts anew after them.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.geometry.kernels.compile import kernel
+
+
+@kernel
+def outset(time: Float[np.ndarray, " t"], y: Float[np.ndarray, " t"], first: int) -> float:
+    """Slope at the first value, 0 where nothing follows it."""
+    if first + 1 < y.size and np.isfinite(y[first + 1]):
+        return float((y[first + 1] - y[first]) / (time[first + 1] - time[first]))
+    return 0.0
+
+
+@kernel
+def extent(y: Float[np.ndarray, " t"]) -> tuple[float, float, int]:
+    """Least and greatest value, and the place of the first; inf, -inf and the length when there is none."""
+    low, high, first = np.inf, -np.inf, y.size
+    for i in range(y.size):
+        if np.isfinite(y[i]):
+            low, high, first = min(low, y[i]), max(high, y[i]), min(first, i)
+    return low, high, first
+
+
+@kernel
+def slope(time: Float[np.ndarray, " t"], y: Float[np.ndarray, " t"], i: int) -> float:
+    """Derivative of the parabola through a sample and its neighbours; one-sided where a neighbour is missing."""
+    left = i > 0 and np.isfinite(y[i - 1])
+    right = i + 1 < y.size and np.isfinite(y[i + 1])
+    before = (y[i] - y[i - 1]) / (time[i] - time[i - 1]) if left else 0.0
+    after = (y[i + 1] - y[i]) / (time[i + 1] - time[i]) if right else before
+    if not left:
+        return float(after)
+    if not right:
+        return float(before)
+    a, b = time[i] - time[i - 1], time[i + 1] - time[i]
+    return float((b * before + a * after) / (a + b))
+
+
+@kernel
+def between(time: Float[np.ndarray, " t"], y: Float[np.ndarray, " t"], i: int, at: float) -> float:
+    """Cubic Hermite interpolation between samples i and i + 1; exact at both, even beside a missing one."""
+    h = time[i + 1] - time[i]
+    u = (at - time[i]) / h
+    if u <= 0.0:
+        return float(y[i])
+    if u >= 1.0:
+        return float(y[i + 1])
+    if not (np.isfinite(y[i]) and np.isfinite(y[i + 1])):
+        return np.nan
+    left, right = h * slope(time, y, i), h * slope(time, y, i + 1)
+    step = y[i + 1] - y[i]
+    return float(y[i] + u * (left + u * (3.0 * step - 2.0 * left - right + u * (left + right - 2.0 * step))))
+
+
+@kernel
+def delayed(time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t c"], delay: float) -> Float[np.ndarray, "t c"]:
+    """Each column as it was `delay` seconds ago."""
+    out = values.copy()
+    if delay == 0.0:
+        return out
+    for c in range(values.shape[1]):
+        y = values[:, c].copy()
+        low, high, first = extent(y)
+        if first == y.size:
+            continue
+        set_out = outset(time, y, first)
+        i = 0
+        for j in range(y.size):
+            at = time[j] - delay
+            if at < time[0]:
+                run = y[first] + set_out * (at - time[first])
+                out[j, c] = min(max(run, low), high) if first == 0 else np.nan
+                continue
+            while i + 2 < y.size and time[i + 1] <= at:
+                i += 1
+            out[j, c] = between(time, y, i, at)
+    return out
+
+
+@kernel
+def two_stages(
+    first: float, second: float, y: float, rise: float, h: float, quick: float, slow: float
+) -> tuple[float, float]:
+    """Both stages of a filter `h` seconds on, for an input that starts at `y` and rises at the slope `rise`.
+
+    first' = (input - first)/slow, second' = (first - second)/quick, in closed form; quick = 0 is a wire.
+    """
+    end = y + rise * h
+    fades = math.exp(-h / slow)
+    excess = first - y + slow * rise
+    one = end - slow * rise + excess * fades
+    if quick <= 0.0 or h / quick > 700.0:
+        return one, one
+    apart = h * (1.0 / quick - 1.0 / slow)
+    weight = -math.expm1(-apart) / apart if abs(apart) > 1e-12 else 1.0
+    settled = y - (slow + quick) * rise
+    two = settled + rise * h + excess * fades * (h / quick) * weight + (second - settled) * math.exp(-h / quick)
+    return one, two
+
+
+@kernel
+def lagged(
+    time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t c"], lag: float, order: float
+) -> Float[np.ndarray, "t c"]:
+    """Each column behind a low-pass of `order` 1 to 2 that makes slow signals late by `lag` seconds."""
+    out = values.copy()
+    if lag == 0.0:
+        return out
+    quick = 0.5 * (order - 1.0) * lag
+    slow = lag - quick
+    for c in range(values.shape[1]):
+        y = values[:, c].copy()
+        low, high, _ = extent(y)
+        going = False
+        one = two = 0.0
+        for i in range(y.size):
+            if not np.isfinite(y[i]):
+                going = False
+                continue
+            if going:
+                h = time[i] - time[i - 1]
+                one, two = two_stages(one, two, y[i - 1], (y[i] - y[i - 1]) / h, h, quick, slow)
+            else:
+                rise = outset(time, y, i)
+                one = min(max(y[i] - slow * rise, low), high)
+                two = min(max(y[i] - lag * rise, low), high)
+                going = True
+            out[i, c] = two
+    return out

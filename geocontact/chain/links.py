@@ -1,0 +1,161 @@
+"""The links of a chain: motion, geometry, law, balance, sensor. Effects replace one of them by one that does more."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Generic, Protocol, TypeVar, runtime_checkable
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.movement import Movement, recorded
+from geocontact.chain.slots import Slots
+from geocontact.data.trial import Trial
+
+RECORDING = 100.0
+"""Rank of what a recording leaves out; what a sensor does has a smaller one, mistakes in the data a larger one."""
+
+Values = Mapping[str, float]
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Modifier(Generic[T]):
+    """One thing that is done to what passes through a link.
+
+    Parameters
+    ----------
+    name
+        Effect and variant; a link takes each only once.
+    rank
+        Modifiers act in the order of their ranks, then names, so it does not matter which was added first.
+    change
+        What is done: (what passes, movement, values) → what is passed on.
+    trials
+        Names of the trials that have it; None for all.
+    """
+
+    name: str
+    rank: float
+    change: Callable[[T, Movement, Values], T]
+    trials: frozenset[str] | None = None
+
+
+def added(modifiers: tuple[Modifier[T], ...], one: Modifier[T]) -> tuple[Modifier[T], ...]:
+    """`one` among `modifiers`, in order of rank; ValueError when it is there already."""
+    if one.name in (other.name for other in modifiers):
+        raise ValueError(f"{one.name} is in this link already; an effect is added once")
+    return tuple(sorted((*modifiers, one), key=lambda each: (each.rank, each.name)))
+
+
+def passed_on(modifiers: tuple[Modifier[T], ...], what: T, movement: Movement, values: Values) -> T:
+    """What is left after all modifiers that belong to this trial."""
+    for each in modifiers:
+        if each.trials is None or movement.trial in each.trials:
+            what = each.change(what, movement, values)
+    return what
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Recorded inputs of a trial, differentiated, then changed by what is wrong with them."""
+
+    inputs: tuple[str, ...]
+    modifiers: tuple[Modifier[Movement], ...] = ()
+
+    def seen(self, trial: Trial, values: Values) -> Movement:
+        """Movement that the model works with."""
+        known = replace(recorded(trial.signals, self.inputs), trial=trial.name)
+        return passed_on(self.modifiers, known, known, values)
+
+    def having(self, one: Modifier[Movement]) -> Motion:
+        """The same link with one modifier more."""
+        return replace(self, modifiers=added(self.modifiers, one))
+
+
+@dataclass(frozen=True)
+class Loads:
+    """What the law gives along a movement, one column per deflection.
+
+    Parameters
+    ----------
+    normal, tangential
+        Forces [N]; tangential is zero where the system has none.
+    arm
+        Where each of them acts, for a balance that needs it [m].
+    """
+
+    normal: Float[np.ndarray, "t n"]
+    tangential: Float[np.ndarray, "t n"]
+    arm: Float[np.ndarray, "t n"]
+
+
+@runtime_checkable
+class Geometry(Protocol):
+    """How the inputs deflect what carries the load; drives the law along the movement.
+
+    It drives the law because a spring in series makes the deflection depend on the load.
+    """
+
+    @property
+    def slots(self) -> Slots:
+        """Its numbers."""
+
+    def having(self, sources: Mapping[str, str | float]) -> Geometry:
+        """The same link with more of its numbers coming from somewhere."""
+
+    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+        """Forces along a movement."""
+
+    def deflection(
+        self, movement: Movement, values: Values
+    ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
+        """Deflections and their rates without any load, for scales."""
+
+
+@dataclass(frozen=True)
+class Law:
+    """Force of a deflection and of its history; which law it is, the geometry that drives it knows."""
+
+    slots: Slots
+
+    def having(self, sources: Mapping[str, str | float]) -> Law:
+        """The same link with more of its numbers coming from somewhere."""
+        return Law(self.slots.having(sources))
+
+
+Channels = Float[np.ndarray, "t c"]
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Many loads to what a perfect sensor would read, then what else loads the sensor."""
+
+    outputs: tuple[str, ...]
+    total: Callable[[Loads], Channels]
+    modifiers: tuple[Modifier[Channels], ...] = ()
+
+    def read(self, loads: Loads, movement: Movement, values: Values) -> Channels:
+        """True outputs."""
+        return passed_on(self.modifiers, self.total(loads), movement, values)
+
+    def having(self, one: Modifier[Channels]) -> Balance:
+        """The same link with one modifier more."""
+        return replace(self, modifiers=added(self.modifiers, one))
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """True outputs to measured ones: what the sensor does, what the recording leaves out, what is mixed up."""
+
+    outputs: tuple[str, ...]
+    modifiers: tuple[Modifier[Channels], ...] = ()
+
+    def read(self, outputs: Channels, movement: Movement, values: Values) -> Channels:
+        """Measured outputs."""
+        return passed_on(self.modifiers, outputs, movement, values)
+
+    def having(self, one: Modifier[Channels]) -> Sensor:
+        """The same link with one modifier more."""
+        return replace(self, modifiers=added(self.modifiers, one))

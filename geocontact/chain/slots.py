@@ -1,0 +1,58 @@
+"""Numbers that a compiled link reads, and the parameters or constants that they come from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from types import MappingProxyType
+
+import numpy as np
+from jaxtyping import Float
+
+
+@dataclass(frozen=True)
+class Slots:
+    """Named numbers in a fixed order; those without a source stay neutral, as if their term were not there.
+
+    Parameters
+    ----------
+    neutral
+        Every number of the link in the order in which its kernel reads them, with the value that means "absent".
+    sources
+        For some of them the name of a parameter of the system, or a fixed number.
+    """
+
+    neutral: Mapping[str, float]
+    sources: Mapping[str, str | float] = field(default_factory=lambda: MappingProxyType({}))
+
+    def having(self, sources: Mapping[str, str | float]) -> Slots:
+        """The same link with more of its numbers coming from somewhere.
+
+        A number that the link does not know, or that has a source already, is refused: an effect is added once.
+        """
+        for name in sources:
+            if name not in self.neutral:
+                raise ValueError(f"this link has no {name}; it has {', '.join(self.neutral)}")
+            if name in self.sources:
+                raise ValueError(f"{name} is set already, by {self.sources[name]}")
+        return replace(self, sources={**self.sources, **sources})
+
+    def numbers(self, values: Mapping[str, float]) -> Float[np.ndarray, " slots"]:
+        """All numbers in order; KeyError for a parameter that has no value."""
+        found = self._fixed.copy()
+        for place, source in self._open:
+            found[place] = values[source]
+        return found
+
+    @cached_property
+    def _fixed(self) -> Float[np.ndarray, " slots"]:
+        """Numbers that no parameter changes."""
+        given = {name: source for name, source in self.sources.items() if not isinstance(source, str)}
+        return np.array([float(given.get(name, value)) for name, value in self.neutral.items()])
+
+    @cached_property
+    def _open(self) -> tuple[tuple[int, str], ...]:
+        """Place and parameter of the others."""
+        places = {name: place for place, name in enumerate(self.neutral)}
+        return tuple((places[name], source) for name, source in self.sources.items() if isinstance(source, str))

@@ -1,0 +1,96 @@
+"""A system: a chain of replaceable links with named parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.implicit import NotConverged
+from geocontact.chain.links import Balance, Geometry, Law, Motion, Sensor
+from geocontact.chain.scale import Scale, scale_of
+from geocontact.data.parameter import Parameter
+from geocontact.data.trial import Trial
+
+FAR = 1e9
+"""Output of a model that has none [the output's unit]: finite, and so far off that no search stays there."""
+
+
+@dataclass(frozen=True)
+class System:
+    """Base model, or base model with effects; frozen, so an effect makes another one by `dataclasses.replace`.
+
+    Parameters
+    ----------
+    name
+        As in case.toml ("elbow").
+    motion, geometry, law, balance, sensor
+        The links.
+    parameters
+        Of the base and of the effects that were added, in this order.
+    constants
+        Known and exact as far as anyone knows.
+    scale
+        Magnitudes of this system on its trials, in which effects state their bounds.
+    effects
+        Names of the candidates that were added.
+    """
+
+    name: str
+    motion: Motion
+    geometry: Geometry
+    law: Law
+    balance: Balance
+    sensor: Sensor
+    parameters: tuple[Parameter, ...]
+    constants: Mapping[str, float]
+    scale: Scale
+    effects: tuple[str, ...] = ()
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """Channels that drive the model."""
+        return self.motion.inputs
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """Channels that it predicts, in the order of the columns of `simulate`."""
+        return self.balance.outputs
+
+    @cached_property
+    def known(self) -> dict[str, float]:
+        """Values that need not be given: constants and fixed parameters."""
+        return {**self.constants, **{p.name: p.start for p in self.parameters if p.fixed}}
+
+    @cached_property
+    def start(self) -> dict[str, float]:
+        """Starting value of every free parameter."""
+        return {p.name: p.start for p in self.parameters if not p.fixed}
+
+    def simulate(self, trial: Trial, values: Mapping[str, float]) -> Float[np.ndarray, "t c"]:
+        """Outputs of the model over a trial's samples.
+
+        NaN only where the model has no value, as for a centre of pressure without force; finite for any finite values
+        of the parameters, so that a search may try them: where a spring in series has no solution, every output of the
+        trial is `FAR` (and `geometry.loads` raises, saying why). Values of free parameters must be given, those of
+        constants and fixed parameters may be.
+        """
+        numbers = {**self.known, **values}
+        movement = self.motion.seen(trial, numbers)
+        try:
+            loads = self.geometry.loads(movement, self.law, numbers)
+        except NotConverged:
+            return np.full((len(trial), len(self.outputs)), FAR)
+        return self.sensor.read(self.balance.read(loads, movement, numbers), movement, numbers)
+
+    def scaled(self, trials: Sequence[Trial], values: Mapping[str, float] | None = None) -> System:
+        """The same system with its scale taken from `trials`, its base parameters at `values` or where they start.
+
+        To be done before candidates are asked for; those made earlier keep the scale that they were made with.
+        """
+        numbers = {**self.known, **self.start, **(values or {})}
+        movements = [self.motion.seen(trial, numbers) for trial in trials]
+        return replace(self, scale=scale_of(self.geometry, self.outputs, trials, movements, numbers))

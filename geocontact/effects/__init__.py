@@ -1,0 +1,1 @@
+"""What a system may lack: one effect, one file; each turns a system into one that has it."""

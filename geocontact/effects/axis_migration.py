@@ -1,0 +1,31 @@
+"""The joint's axis wanders: x changes with the joint angle.
+
+x → x + a φ + c φ², φ = β - the middle of the measured range, so that x keeps its meaning there. a of either sign, a few
+centimetres per radian; the curvature c is the shape. Its rate moves the deflection as well.
+"""
+
+from __future__ import annotations
+
+from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+from geocontact.effects.parts import with_geometry
+
+
+def offer(system: System) -> tuple[Candidate, ...]:
+    """One candidate: amplitude a, shape c."""
+    a = Parameter("axis_migration.slope", "m/rad", 0.005, -0.05, 0.05)
+    c = Parameter("axis_migration.curvature", "m/rad^2", 0.0, -0.03, 0.03)
+    centre = system.scale.centre.get("beta", 0.0)
+    link = with_geometry({a.name: a.name, c.name: c.name, "axis_migration.centre": centre})
+    neutral = {a.name: 0.0, c.name: 0.0}
+    return (Candidate("axis_migration", "", "geometry", (a, c), link, neutral, ({a.name: -a.start},)),)
+
+
+AXIS_MIGRATION = Effect(
+    "axis_migration",
+    "geometry",
+    ("elbow",),
+    offer,
+    "instantaneous axis of the elbow: Bottlang et al. (2000) J. Orthop. Res. 18:821",
+)

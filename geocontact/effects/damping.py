@@ -1,0 +1,35 @@
+"""Viscous force against the rate of the deflection, where the base has none or too little.
+
+Elbow: F += b v |v/V|^(q - 1), with V the rms rate of the calibration trials, so that b is the damping at that rate
+whatever the shape q; q = 1 is the dashpot of Kelvin and Voigt. Foot, per sphere: F += b δ' s(δ/δ_full) (δ/D)^q while
+loading and unloading, never pulling; q = 0 is a dashpot, q = n the damping of Hunt and Crossley. b >= 0: it only
+dissipates.
+"""
+
+from __future__ import annotations
+
+from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+from geocontact.effects.parts import FORCES, with_law
+
+
+def offer(system: System) -> tuple[Candidate, ...]:
+    """One candidate: amplitude b, shape q."""
+    scale = system.scale
+    strong = max(scale.of(name) for name in FORCES if name in system.outputs) / scale.rate
+    foot = system.name == "foot"
+    b = Parameter("damping.b", "N s/m", 0.02 * strong, 0.0, strong)
+    q = Parameter("damping.exponent", "-", 0.5, 0.0, 2.0) if foot else Parameter("damping.exponent", "-", 1.0, 0.5, 2.0)
+    reference = scale.deflection if foot else scale.rate
+    law = with_law({"damping.b": b.name, "damping.exponent": q.name, "damping.reference": reference})
+    return (Candidate("damping", "", "constitutive", (b, q), law, {b.name: 0.0}, ({b.name: 0.3 * strong},)),)
+
+
+DAMPING = Effect(
+    "damping",
+    "constitutive",
+    ("elbow", "foot"),
+    offer,
+    "Hunt & Crossley (1975) J. Appl. Mech. 42:440; Flores & Lankarani (2016), Contact Force Models",
+)

@@ -1,0 +1,73 @@
+"""A mass that the model does not know, times its acceleration.
+
+Elbow, "tip": force += m l β'', the mass at the end of the forearm link moving across it, of either sign (the sensor's
+sense is not stated); "attachment": force += m d_tot'', the cuff's own mass moving with the deflection, m >= 0. Foot:
+force_x += m x_c'', force_y += m y_c'' for a mass m >= 0 in the foot at the distance c ahead of the heel (the shape);
+the centre of pressure is left alone. Accelerations are those of the fit that differentiates the inputs.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.links import Channels, Modifier, Values
+from geocontact.chain.movement import Movement
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+from geocontact.effects.parts import with_balance
+
+RANK = 20.0
+HEAVY = 10.0
+"""Largest plausible mass that somebody left out [kg]."""
+
+
+def at_the_tip(system: System) -> Candidate:
+    """Elbow: mass times tangential acceleration of the link's end."""
+    mass = Parameter("inertia_load.tip.mass", "kg", 0.2, -HEAVY, HEAVY)
+    row = system.inputs.index("beta")
+
+    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+        return np.asarray(outputs + values[mass.name] * values["l_ex"] * movement.acceleration[row][:, None])
+
+    link = with_balance(Modifier("inertia_load.tip", RANK, change))
+    return Candidate("inertia_load", "tip", "load", (mass,), link, {mass.name: 0.0}, ({mass.name: -0.2},))
+
+
+def at_the_attachment(system: System) -> Candidate:
+    """Elbow: mass times second derivative of the deflection, as the geometry without further effects has it."""
+    mass = Parameter("inertia_load.attachment.mass", "kg", 0.2, 0.0, HEAVY)
+
+    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+        _, rate = system.geometry.deflection(movement, values)
+        return np.asarray(outputs + values[mass.name] * np.gradient(rate[:, 0], movement.time)[:, None])
+
+    link = with_balance(Modifier("inertia_load.attachment", RANK, change))
+    return Candidate("inertia_load", "attachment", "load", (mass,), link, {mass.name: 0.0})
+
+
+def in_the_foot(system: System) -> Candidate:
+    """Foot: mass at a distance from the heel, both components."""
+    mass = Parameter("inertia_load.mass", "kg", 1.0, 0.0, 2.0 * HEAVY)
+    ahead = Parameter("inertia_load.ahead", "m", 0.05, 0.0, 0.3)
+    x, y, pitch = (system.inputs.index(name) for name in ("x", "y", "pitch"))
+
+    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+        s, c = np.sin(movement.position[pitch]), np.cos(movement.position[pitch])
+        turn, spin = movement.acceleration[pitch], movement.rate[pitch] ** 2
+        m, arm = values[mass.name], values[ahead.name]
+        out = outputs.copy()
+        out[:, 0] += m * (movement.acceleration[x] - arm * (turn * s + spin * c))
+        out[:, 1] += m * (movement.acceleration[y] + arm * (turn * c - spin * s))
+        return out
+
+    link = with_balance(Modifier("inertia_load", RANK, change))
+    return Candidate("inertia_load", "", "load", (mass, ahead), link, {mass.name: 0.0}, ({ahead.name: 0.15},))
+
+
+def offer(system: System) -> tuple[Candidate, ...]:
+    """Two candidates for the elbow, one for the foot."""
+    return (in_the_foot(system),) if system.name == "foot" else (at_the_tip(system), at_the_attachment(system))
+
+
+INERTIA_LOAD = Effect("inertia_load", "load", ("elbow", "foot"), offer, "Newton's second law")

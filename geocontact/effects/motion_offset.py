@@ -1,0 +1,50 @@
+"""Constant bias of one input that the model uses: angle, marker height, pitch.
+
+input → input + offset, of either sign. The foot's x is not offered: only its rate enters, so a bias of it is invisible.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.links import Modifier, Values
+from geocontact.chain.movement import Movement
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+from geocontact.effects.parts import with_motion
+
+RANK = 10.0
+USED = {"elbow": (("beta", "rad", 0.35),), "foot": (("y", "m", 0.01), ("pitch", "rad", 0.15))}
+"""Inputs by system, with their unit and the largest bias that a careful laboratory might have."""
+
+
+def biased(system: System, name: str, unit: str, most: float) -> Candidate:
+    """Bias of one input."""
+    row = system.inputs.index(name)
+    offset = Parameter(f"motion_offset.{name}.offset", unit, 0.05 * most, -most, most)
+
+    def change(movement: Movement, _: Movement, values: Values) -> Movement:
+        bias = np.zeros((len(movement.inputs), 1))
+        bias[row] = values[offset.name]
+        return replace(movement, position=movement.position + bias)
+
+    link = with_motion(Modifier(f"motion_offset.{name}", RANK, change))
+    others = ({offset.name: -offset.start},)
+    return Candidate("motion_offset", name, "kinematics", (offset,), link, {offset.name: 0.0}, others, channel=name)
+
+
+def offer(system: System) -> tuple[Candidate, ...]:
+    """One candidate per input that matters."""
+    return tuple(biased(system, name, unit, most) for name, unit, most in USED[system.name])
+
+
+MOTION_OFFSET = Effect(
+    "motion_offset",
+    "kinematics",
+    ("elbow", "foot"),
+    offer,
+    "marker placement and alignment errors: Della Croce et al. (2005) Gait Posture 21:226",
+)

@@ -1,0 +1,33 @@
+"""A Maxwell branch in parallel: viscoelastic tissue, foam, polyethylene.
+
+F += q, q' = g F_el' - q/tau: the branch starts at g times the elastic force and forgets with the time constant tau, so
+slow motion sees F_el and fast motion (1 + g) F_el (quasi-linear viscoelasticity with one exponential). g >= 0. A trial
+starts relaxed. Exact over each sample for an elastic force linear in time.
+"""
+
+from __future__ import annotations
+
+from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+from geocontact.effects.parts import with_law
+
+
+def offer(system: System) -> tuple[Candidate, ...]:
+    """One candidate: amplitude g, shape tau."""
+    scale = system.scale
+    g = Parameter("relaxation.ratio", "-", 0.2, 0.0, 5.0)
+    quick, slow = 0.5 * scale.step, 2.0 * scale.duration
+    tau = Parameter("relaxation.tau", "s", quick ** (2 / 3) * slow ** (1 / 3), quick, slow)
+    law = with_law({"relaxation.ratio": g.name, "relaxation.tau": tau.name})
+    other = {tau.name: quick ** (1 / 3) * slow ** (2 / 3)}
+    return (Candidate("relaxation", "", "constitutive", (g, tau), law, {g.name: 0.0}, (other,)),)
+
+
+RELAXATION = Effect(
+    "relaxation",
+    "constitutive",
+    ("elbow", "foot"),
+    offer,
+    "Maxwell (1867); Fung (1993), sec. 7.6 (quasi-linear viscoelasticity)",
+)

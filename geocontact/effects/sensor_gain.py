@@ -1,0 +1,42 @@
+"""A measured output, or all force outputs of a device, scaled by a constant.
+
+output → (1 + g) output, -0.8 <= g <= 2. A linear sensor has no shape.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.links import Channels, Modifier, Values
+from geocontact.chain.movement import Movement
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+from geocontact.effects.parts import FORCES, with_sensor
+
+RANK = 20.0
+
+
+def scaled(system: System, variant: str, channels: tuple[str, ...]) -> Candidate:
+    """One gain for some channels."""
+    hit = np.array([name in channels for name in system.outputs])
+    gain = Parameter(f"sensor_gain.{variant}.gain", "-", 0.05, -0.8, 2.0)
+
+    def change(outputs: Channels, _: Movement, values: Values) -> Channels:
+        return outputs * (1.0 + values[gain.name] * hit)
+
+    channel = channels[0] if len(channels) == 1 else ""
+    link = with_sensor(Modifier(f"sensor_gain.{variant}", RANK, change))
+    return Candidate(
+        "sensor_gain", variant, "sensor", (gain,), link, {gain.name: 0.0}, ({gain.name: -0.05},), channel=channel
+    )
+
+
+def offer(system: System) -> tuple[Candidate, ...]:
+    """One candidate per output, and one for all forces where there are several."""
+    forces = tuple(name for name in system.outputs if name in FORCES)
+    single = tuple(scaled(system, name, (name,)) for name in system.outputs)
+    return (*single, scaled(system, "forces", forces)) if len(forces) > 1 else single
+
+
+SENSOR_GAIN = Effect("sensor_gain", "sensor", ("elbow", "foot"), offer, "calibration error of a linear sensor")

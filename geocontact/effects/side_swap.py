@@ -1,0 +1,35 @@
+"""Two channels exchanged: every trial, or some only.
+
+The foot has no two sides; what can be exchanged are its two force channels. The elbow has one output: no candidate.
+No parameter: discrete.
+"""
+
+from __future__ import annotations
+
+from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.links import Channels, Values
+from geocontact.chain.movement import Movement
+from geocontact.chain.system import System
+from geocontact.effects.faults import SWAP, output_fault
+from geocontact.effects.parts import FORCES
+
+
+def offer(system: System) -> tuple[Candidate, ...]:
+    """One candidate per pair of force channels."""
+    forces = [name for name in system.outputs if name in FORCES]
+    return tuple(swapped(system, a, b) for i, a in enumerate(forces) for b in forces[i + 1 :])
+
+
+def swapped(system: System, a: str, b: str) -> Candidate:
+    """Exchange of two outputs."""
+    order = list(range(len(system.outputs)))
+    i, j = system.outputs.index(a), system.outputs.index(b)
+    order[i], order[j] = j, i
+
+    def change(outputs: Channels, _: Movement, __: Values) -> Channels:
+        return outputs[:, order]
+
+    return output_fault("side_swap", f"{a}_{b}", SWAP, change)
+
+
+SIDE_SWAP = Effect("side_swap", "data", ("foot",), offer, "cables of two channels of one device exchanged")

@@ -1,0 +1,26 @@
+"""A channel with its sign reversed: every trial, or some only.
+
+output → -output; an input is turned back before the model sees it. No parameter: discrete.
+"""
+
+from __future__ import annotations
+
+from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.system import System
+from geocontact.effects.faults import REVERSAL, input_fault, output_fault
+from geocontact.effects.unit_error import input_over, output_times
+
+
+def offer(system: System) -> tuple[Candidate, ...]:
+    """One candidate per channel."""
+    outputs = [
+        output_fault("sign_flip", name, REVERSAL, output_times(column, -1.0), name, -1.0)
+        for column, name in enumerate(system.outputs)
+    ]
+    inputs = [
+        input_fault("sign_flip", name, input_over(row, -1.0), name, -1.0) for row, name in enumerate(system.inputs)
+    ]
+    return (*outputs, *inputs)
+
+
+SIGN_FLIP = Effect("sign_flip", "data", ("elbow", "foot"), offer, "sense of axes that two devices do not share")

@@ -1,0 +1,80 @@
+"""A channel in a wrong unit: every trial, or some only.
+
+A measured channel reads `factor` times what it should; the factor is one of those that mix-ups of units have. Outputs
+are multiplied by it; an input that reads too much is divided by it before the model sees it. No parameter: discrete.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import degrees
+
+import numpy as np
+
+from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.links import Channels, Values
+from geocontact.chain.movement import Movement
+from geocontact.chain.system import System
+from geocontact.effects.faults import MIX_UP, input_fault, output_fault
+from geocontact.effects.parts import UNITS
+
+FACTORS = {
+    "N": (1000.0, 9.80665, 4.4482216152605),
+    "m": (1000.0, 100.0, 0.0254),
+    "rad": (degrees(1.0),),
+}
+"""What the units of a dimension differ by: kN, kgf, lbf; mm, cm, inch; degrees. Their inverses count as well."""
+
+
+def factors(unit: str) -> dict[str, float]:
+    """Factors by name, "1000" and "1 over 1000"."""
+    found: dict[str, float] = {}
+    for factor in FACTORS[unit]:
+        found |= {f"{factor:.5g}": factor, f"1_over_{factor:.5g}": 1.0 / factor}
+    return found
+
+
+def output_times(column: int, factor: float) -> Callable[[Channels, Movement, Values], Channels]:
+    """Multiplies a column."""
+
+    def change(outputs: Channels, _: Movement, __: Values) -> Channels:
+        out = outputs.copy()
+        out[:, column] *= factor
+        return out
+
+    return change
+
+
+def input_over(row: int, factor: float) -> Callable[[Movement, Movement, Values], Movement]:
+    """Divides an input and its derivatives."""
+
+    def change(movement: Movement, _: Movement, __: Values) -> Movement:
+        by = np.ones((len(movement.inputs), 1))
+        by[row] = 1.0 / factor
+        return replace(
+            movement,
+            position=movement.position * by,
+            rate=movement.rate * by,
+            acceleration=movement.acceleration * by,
+        )
+
+    return change
+
+
+def offer(system: System) -> tuple[Candidate, ...]:
+    """One candidate per channel and factor."""
+    found = [
+        output_fault("unit_error", f"{name}.{word}", MIX_UP, output_times(column, factor), name, factor)
+        for column, name in enumerate(system.outputs)
+        for word, factor in factors(UNITS[name]).items()
+    ]
+    found += [
+        input_fault("unit_error", f"{name}.{word}", input_over(row, factor), name, factor)
+        for row, name in enumerate(system.inputs)
+        for word, factor in factors(UNITS[name]).items()
+    ]
+    return tuple(found)
+
+
+UNIT_ERROR = Effect("unit_error", "data", ("elbow", "foot"), offer, "NIST SP 811, conversion factors")

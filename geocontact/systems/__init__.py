@@ -1,0 +1,1 @@
+"""Base models of the source systems, each a chain of replaceable links."""

@@ -1,0 +1,152 @@
+"""How far the attachment of an elbow exoskeleton is deflected when its axis and the joint's do not coincide.
+
+After the explicit model of constraint forces from misaligned axes, with its printed equations put right: tan γ without
+a branch, and y outside the root.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import cos, hypot, sin, sqrt
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
+from geocontact.chain.interface_law import MEMORY, interface_force
+from geocontact.chain.links import Law, Loads, Values
+from geocontact.chain.movement import Movement
+from geocontact.chain.slots import Slots
+from geocontact.geometry.kernels.compile import kernel
+
+ELBOW_GEOMETRY = Slots(
+    {
+        "l_ex": 1.0,
+        "z_ex": 0.0,
+        "x": 0.0,
+        "y": 0.0,
+        "axis_migration.slope": 0.0,
+        "axis_migration.curvature": 0.0,
+        "axis_migration.centre": 0.0,
+        "series_compliance.compliance": 0.0,
+        "series_compliance.exponent": 1.0,
+        "series_compliance.reference": 1.0,
+    }
+)
+NEAR_POLE = 1e-6
+"""Least magnitude of the denominator of tan γ [m]; the pole is a large finite number."""
+
+
+@kernel
+def misalignment(beta: float, rate: float, n: Float[np.ndarray, " slots"]) -> tuple[float, float]:
+    """Deflection d_tot [m] and its rate [m/s] at elbow angle `beta` [rad].
+
+    d_tot = d_lin - z tan γ, d_lin = y + sqrt(l² - x²) - hypot(l sin β - x, y + l cos β),
+    tan γ = (x cos β + y sin β)/(l + y cos β - x sin β). Where |x| > l the root is taken as 0, and near the pole of
+    tan γ its denominator keeps a magnitude of 1 µm, so that the deflection is finite for any finite numbers.
+    """
+    l, z, y = n[0], n[1], n[3]
+    angle = beta - n[6]
+    x = n[2] + angle * (n[4] + n[5] * angle)
+    x_rate = rate * (n[4] + 2.0 * n[5] * angle)
+    s, c = sin(beta), cos(beta)
+    across, along = l * s - x, y + l * c
+    reach = max(hypot(across, along), NEAR_POLE)
+    height = sqrt(max(l * l - x * x, NEAR_POLE * NEAR_POLE))
+    top, bottom = x * c + y * s, l + y * c - x * s
+    if abs(bottom) < NEAR_POLE:
+        bottom = NEAR_POLE if bottom >= 0.0 else -NEAR_POLE
+    deflection = y + height - reach - z * top / bottom
+    by_beta = l * top / reach - z * ((y * c - x * s) * bottom + top * top) / (bottom * bottom)
+    by_x = across / reach - x / height - z * (c * bottom + s * top) / (bottom * bottom)
+    return deflection, by_beta * rate + by_x * x_rate
+
+
+@kernel
+def deflect(
+    beta: Float[np.ndarray, " t"], rate: Float[np.ndarray, " t"], n: Float[np.ndarray, " slots"]
+) -> Float[np.ndarray, "two t"]:
+    """Deflection and rate of every sample."""
+    out = np.empty((2, beta.size))
+    for i in range(beta.size):
+        out[0, i], out[1, i] = misalignment(beta[i], rate[i], n)
+    return out
+
+
+@kernel
+def gives_way(force: float, n: Float[np.ndarray, " slots"]) -> float:
+    """Angle by which a spring in series gives way to `force` [rad]."""
+    share = force / n[9]
+    return float(n[7] * n[9] * (share if n[8] == 1.0 else np.sign(share) * abs(share) ** n[8]))
+
+
+@kernel
+def carry(
+    time: Float[np.ndarray, " t"],
+    beta: Float[np.ndarray, " t"],
+    rate: Float[np.ndarray, " t"],
+    n: Float[np.ndarray, " slots"],
+    law: Float[np.ndarray, " numbers"],
+) -> tuple[Float[np.ndarray, " t"], int]:
+    """Force of every sample [N] and how many of them have no solution.
+
+    With a spring in series, β - c F(β) is what deflects: one implicit equation per sample, the spring's rate being
+    its change over the step (first order in the step, where the law depends on the rate).
+    """
+    force = np.empty(beta.size)
+    old, new = np.zeros(MEMORY), np.zeros(MEMORY)
+    search = nothing_known()
+    unsolved = 0
+    before = 0.0
+    for i in range(beta.size):
+        h = time[i] - time[i - 1] if i else 0.0
+        u, v = misalignment(beta[i], rate[i], n)
+        found = interface_force(u, v, h, law, old, new)
+        if n[7] != 0.0:
+            start_over(search)
+            guess = 2.0 * force[i - 1] - force[i - 2] if i > 1 else found
+            solved = False
+            for _ in range(ATTEMPTS):
+                given = gives_way(guess, n)
+                speed = rate[i] - (given - before) / h if i else rate[i]
+                u, v = misalignment(beta[i] - given, speed, n)
+                found = interface_force(u, v, h, law, old, new)
+                solved = abs(guess - found) <= TOLERANCE * max(abs(found), n[9])
+                if solved:
+                    break
+                guess = next_load(guess, guess - found, search)
+            unsolved += not solved
+            before = gives_way(found, n)
+        force[i] = found
+        old, new = new, old
+    return force, unsolved
+
+
+@dataclass(frozen=True)
+class ElbowMisalignment:
+    """Geometry link of the elbow: input beta, one deflection."""
+
+    slots: Slots = ELBOW_GEOMETRY
+
+    def having(self, sources: Mapping[str, str | float]) -> ElbowMisalignment:
+        """The same link with more of its numbers coming from somewhere."""
+        return replace(self, slots=self.slots.having(sources))
+
+    def deflection(
+        self, movement: Movement, values: Values
+    ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
+        """Deflection [m] and rate [m/s] without load."""
+        row = movement.row("beta")
+        value, rate = deflect(movement.position[row], movement.rate[row], self.slots.numbers(values))
+        return value[:, None], rate[:, None]
+
+    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+        """Force along a movement."""
+        row = movement.row("beta")
+        n = self.slots.numbers(values)
+        force, unsolved = carry(movement.time, movement.position[row], movement.rate[row], n, law.slots.numbers(values))
+        require_convergence(unsolved, len(force), n[7])
+        column = force[:, None]
+        nothing = np.zeros_like(column)
+        return Loads(column, nothing, nothing)

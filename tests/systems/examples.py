@@ -1,0 +1,83 @@
+"""Systems on synthetic trials: an elbow that is swept at several speeds, a foot that rolls over from heel to toe."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from geocontact.chain.system import System
+from geocontact.data.motion import Signals
+from geocontact.data.parameter import Parameter
+from geocontact.data.trial import Trial
+from geocontact.systems import elbow_exoskeleton, prosthetic_foot
+
+FOOT_CONSTANTS = {"n": 1.2, "delta_full": 0.002, "mu_s": 0.9, "mu_k": 0.7, "v_th": 0.25}
+ELBOW_CONSTANTS = {"l_ex": 0.185, "z_ex": 0.09}
+ELBOW_VALUES = {"k": 300.0, "x": 0.03, "y": 0.04}
+NAMES = ("elbow", "foot")
+
+
+def recording(name: str, time: np.ndarray, columns: dict[str, np.ndarray]) -> Trial:
+    return Trial(name, Signals(time, np.column_stack(list(columns.values())), tuple(columns), ("",) * len(columns)))
+
+
+def elbow_angle(time: np.ndarray, speed: float) -> np.ndarray:
+    """Sweeps of changing stroke, so that no two turns are alike."""
+    return 1.1 + 0.55 * np.sin(speed * time) + 0.35 * np.sin(0.37 * speed * time + 1.0)
+
+
+def elbow_trial(name: str, speed: float, step: float = 0.02, duration: float = 12.0) -> Trial:
+    time = np.arange(round(duration / step) + 1) * step
+    return recording(name, time, {"beta": elbow_angle(time, speed), "force": np.full(time.size, np.nan)})
+
+
+def foot_trial(name: str, depth: float, step: float = 0.005, duration: float = 0.8) -> Trial:
+    """Heel strike, flat foot, heel rise; the foot glides a little, the way real feet do on a plate."""
+    time = np.arange(round(duration / step) + 1) * step
+    phase = time / duration
+    pitch = 0.25 - 0.7 * phase**2 + 0.06 * np.sin(3.0 * np.pi * phase)
+    lowest = np.min([px * np.sin(pitch) + 0.012 * np.cos(pitch) - 0.011 for px in np.linspace(0.0, 0.22, 15)], axis=0)
+    y = -lowest - depth * np.sin(np.pi * (0.05 + 0.9 * phase)) * (1.0 + 0.3 * np.cos(4.0 * np.pi * phase))
+    x = 0.02 * phase + 0.003 * np.sin(2.0 * np.pi * phase)
+    empty = np.full(time.size, np.nan)
+    return recording(name, time, {"x": x, "y": y, "pitch": pitch, "force_x": empty, "force_y": empty, "cop_x": empty})
+
+
+def elbow() -> System:
+    known = [Parameter(n, u, ELBOW_VALUES[n], a, b) for n, u, a, b in ELBOW_BOUNDS]
+    return elbow_exoskeleton.build(tuple(known), ELBOW_CONSTANTS, {})
+
+
+ELBOW_BOUNDS = (("k", "N/m", 50.0, 1000.0), ("x", "m", 0.0, 0.1), ("y", "m", 0.0, 0.12))
+
+
+def spheres() -> pd.DataFrame:
+    px = np.linspace(0.0, 0.22, 15)
+    zone = [f"z{1 + i // 5}" for i in range(15)]
+    return pd.DataFrame({"px [m]": px, "py [m]": 0.012, "radius [m]": 0.011, "zone": zone})
+
+
+def foot() -> System:
+    parameters = [Parameter(f"k_z{i}", "N/m^n", 8e4 * (1.0 + 0.2 * i), 8e3, 1e6) for i in (1, 2, 3)]
+    parameters += [Parameter(f"b_z{i}", "N s/m", 100.0 + 40.0 * i, 0.0, 3000.0) for i in (1, 2, 3)]
+    return prosthetic_foot.build(tuple(parameters), FOOT_CONSTANTS, {"spheres": spheres()})
+
+
+def measured(system: System, trial: Trial) -> Trial:
+    """The trial with what the base model says as its measurement."""
+    outputs = system.simulate(trial, system.start)
+    inputs = [trial.column(name) for name in system.inputs]
+    columns = dict(zip((*system.inputs, *system.outputs), [*inputs, *outputs.T], strict=True))
+    return recording(trial.name, trial.time, columns)
+
+
+def example(name: str, refine: int = 1) -> tuple[System, tuple[Trial, ...]]:
+    """A scaled system and its trials, sampled `refine` times as finely."""
+    if name == "elbow":
+        system = elbow()
+        trials = tuple(elbow_trial(f"t{i}", speed, 0.02 / refine) for i, speed in enumerate((1.3, 2.9)))
+    else:
+        system = foot()
+        trials = tuple(foot_trial(f"t{i}", depth, 0.005 / refine) for i, depth in enumerate((0.006, 0.009)))
+    recorded = tuple(measured(system, trial) for trial in trials)
+    return system.scaled(recorded), recorded
