@@ -99,7 +99,8 @@ class Told:
 def shown_frames(maps: DistanceMaps, most: int) -> Int[np.ndarray, " k"]:
     """Places in `maps` of about `most` frames, evenly spread, with that of most contact and of smallest distance."""
     regular = np.arange(0, len(maps.frames), -(-len(maps.frames) // most))
-    return np.unique([*regular, maps.frames.index(maps.largest), maps.frames.index(maps.nearest)])
+    places: Int[np.ndarray, " k"] = np.unique([*regular, *map(maps.frames.index, (maps.largest, maps.nearest))])
+    return places
 
 
 def contact_page(told: Told, title: str, provenance: Sequence[Table], warnings: Sequence[str]) -> Page:
