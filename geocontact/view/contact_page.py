@@ -83,7 +83,7 @@ class Told:
     @property
     def frames(self) -> Int[np.ndarray, " k"]:
         """Numbers of the frames shown."""
-        return np.asarray(self.maps.frames, np.int64)[self.kept]
+        return np.asarray(np.asarray(self.maps.frames, np.int64)[self.kept])
 
     @property
     def main(self) -> int:
