@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from tests.cli.calls import FEMUR, INSERT, Call, area, done, gait
+from tests.cli.calls import FEMUR, INSERT, PLATE, SPHERE, Call, area, done, gait, poses
 from tests.view.page.conftest import DESKTOP, PHONE, Open
+from tests.view.page.hostile import HOSTILE
 
 SHOWN = {
     "area of the fixed body": ("area_fixed [mm^2]", 2),
@@ -70,3 +73,28 @@ def test_inputs_are_on_the_page_with_their_hashes(result: Call, opened: Open) ->
     for entry in result.record()["inputs"]:
         assert entry["sha256"] in text and Path(entry["file"]).name in text
     assert "not a clinical device" in text
+
+
+FILE_NAMES = [f"{name.replace('/', '∕')[:200]}.stl" for name in HOSTILE]
+"""Every hostile text as the name of a mesh; a slash cannot be in one."""
+
+
+@pytest.mark.parametrize("first", range(0, len(FILE_NAMES), 2))
+def test_hostile_file_names_stay_text(opened: Open, tmp_path: Path, first: int) -> None:
+    moving, fixed = FILE_NAMES[first], FILE_NAMES[(first + 1) % len(FILE_NAMES)]
+    try:
+        shutil.copy(SPHERE, tmp_path / moving)
+        shutil.copy(PLATE, tmp_path / fixed)
+    except OSError as error:
+        pytest.skip(f"no file system for this name: {error.strerror}")
+    motion = poses(tmp_path, (0, 20, 0))
+    with mock.patch("geocontact.cli.area_results.draw_areas"):
+        result = done(
+            area(tmp_path / "out", moving=tmp_path / moving, fixed=tmp_path / fixed, motion=motion, picture=True)
+        )
+    here = opened(result.folder / "report.html")
+    assert here.tab.evaluate("'hacked' in window") is False
+    assert here.complaints == [] and len(here.requests) == 1
+    texts = here.tab.evaluate("[...document.querySelectorAll('bdi')].map(e => e.textContent)")
+    for name in (moving, fixed):
+        assert any(name in text for text in texts), name
