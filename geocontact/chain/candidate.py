@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from geocontact.chain.system import System
+from geocontact.data.gap_case import LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter
 
 Stage = Literal["timing", "kinematics", "geometry", "constitutive", "load", "sensor", "data"]
@@ -84,11 +85,13 @@ class Effect:
     stage
         Where in the chain it acts.
     systems
-        Names of the systems that it applies to.
+        Names of the systems that it applies to; of the listed ones, those that the vocabulary names.
     offer
-        Makes the candidates for one of these.
+        Makes the candidates for one of these; none where a system has no channel for it.
     source
         Where the formula is from.
+    needs
+        Numbers of the law or the geometry that it sets; a system that is not listed gets it where these are free.
     """
 
     name: str
@@ -96,7 +99,15 @@ class Effect:
     systems: tuple[str, ...]
     offer: Callable[[System], tuple[Candidate, ...]]
     source: str
+    needs: tuple[str, ...] = ()
+
+    def applies(self, system: System) -> bool:
+        """Whether the vocabulary, or else the links of the system, admit it."""
+        if system.name in LISTED_SYSTEMS:
+            return system.name in self.systems
+        links = (system.law.slots, system.geometry.slots)
+        return all(any(slots.free(name) for slots in links) for name in self.needs)
 
     def candidates(self, system: System) -> tuple[Candidate, ...]:
         """Candidates for a system, with bounds from its scale; none where the effect does not apply."""
-        return self.offer(system) if system.name in self.systems else ()
+        return self.offer(system) if self.applies(system) else ()

@@ -1,9 +1,10 @@
 """Law of a strapped-on interface: a spring that pulls and pushes, and every term that may stand beside it.
 
 From the outside in: the attachment may slip; what is left is taken up by play first; the spring carries the rest, with
-its stiffening, and a Maxwell branch follows the spring; the damper follows the rate beyond the play; stops and the
-strap's tension see the deflection after slip, dry friction the displacement itself. Terms that are absent have neutral
-numbers and cost next to nothing, and the order in which they were added does not matter.
+its stiffening and asymmetry, and a Maxwell branch follows the spring; the damper follows the rate beyond the play;
+stops and the strap's tension see the deflection after slip, dry friction the displacement itself. Terms that are absent
+have neutral numbers and cost next to nothing, and the order in which they were added does not matter. At a joint the
+deflection is an angle and the force a moment: N m and rad in the place of N and m throughout.
 
 The law remembers `MEMORY` numbers per deflection: it reads those of the last accepted sample and writes those of this
 one, so it serves along a recorded motion, in an implicit solve and inside an integrator alike.
@@ -15,6 +16,7 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from geocontact.chain.slots import Slots
+from geocontact.chain.terms.asymmetry import direction_factor
 from geocontact.chain.terms.damping import power_damping
 from geocontact.chain.terms.dead_zone import beyond_play
 from geocontact.chain.terms.dry_friction import friction_at_rate, friction_state
@@ -50,12 +52,25 @@ INTERFACE_LAW = Slots(
         "preload.slackening": 0.0,
         "dry_friction.rate.limit": 0.0,
         "dry_friction.rate.turning": 1.0,
+        "asymmetry.excess": 0.0,
+        "asymmetry.turning": 1.0,
     }
 )
 """Numbers of the law in the order in which the kernel reads them, each at the value that means nothing."""
 
 MEMORY = 5
 DEFLECTION, SLIP, FRICTION, BRANCH, ELASTIC = range(MEMORY)
+
+
+@kernel
+def spring_force(taut: float, speed: float, n: Float[ndarray, " slots"]) -> float:
+    """Force of the spring beyond the play, stiffer with deflection and while it is loaded."""
+    elastic = n[0] * taut
+    if n[5] != 0.0:
+        elastic *= stiffening_factor(taut, n[5], n[6], n[7])
+    if n[23] != 0.0:
+        elastic *= direction_factor(speed if taut >= 0.0 else -speed, n[23], n[24])
+    return float(elastic)
 
 
 @kernel
@@ -71,17 +86,13 @@ def interface_force(
 
     `h` = 0 at the first sample: everything is relaxed, nothing has slipped, friction is unloaded.
     """
-    k = n[0]
-    slip = slipped(old[SLIP], old[DEFLECTION], u, h, k, n[1], n[2])
+    slip = slipped(old[SLIP], old[DEFLECTION], u, h, n[0], n[1], n[2])
     attached = u - slip
     speed = rate - (slip - old[SLIP]) / h if h > 0.0 else rate
     taut = beyond_play(attached, n[3], n[4])
     if n[3] > 0.0 and taut == 0.0:
         speed = 0.0
-    elastic = k * taut
-    if n[5] != 0.0:
-        elastic *= stiffening_factor(taut, n[5], n[6], n[7])
-    force = elastic
+    force = elastic = spring_force(taut, speed, n)
     if n[8] != 0.0:
         force += stop_force(attached, n[8], n[9], 1.0)
     if n[10] != 0.0:

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.movement import Movement, recorded
-from geocontact.chain.slots import Slots
+from geocontact.chain.slots import Slots, Source
 from geocontact.data.trial import Trial
 
 RECORDING = 100.0
@@ -102,7 +102,11 @@ class Geometry(Protocol):
     def slots(self) -> Slots:
         """Its numbers."""
 
-    def having(self, sources: Mapping[str, str | float]) -> Geometry:
+    @property
+    def yields(self) -> str:
+        """Input that gives way to a spring in series."""
+
+    def having(self, sources: Mapping[str, Source]) -> Geometry:
         """The same link with more of its numbers coming from somewhere."""
 
     def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
@@ -116,13 +120,23 @@ class Geometry(Protocol):
 
 @dataclass(frozen=True)
 class Law:
-    """Force of a deflection and of its history; which law it is, the geometry that drives it knows."""
+    """Load of a deflection and of its history; which law it is, the geometry that drives it knows.
+
+    Parameters
+    ----------
+    slots
+        Its numbers.
+    load, deflection
+        Units of what it gives and of what it is given: N and m, or N m and rad for a joint.
+    """
 
     slots: Slots
+    load: str = "N"
+    deflection: str = "m"
 
-    def having(self, sources: Mapping[str, str | float]) -> Law:
+    def having(self, sources: Mapping[str, Source]) -> Law:
         """The same link with more of its numbers coming from somewhere."""
-        return Law(self.slots.having(sources))
+        return replace(self, slots=self.slots.having(sources))
 
 
 Channels = Float[np.ndarray, "t c"]

@@ -19,9 +19,9 @@ class Scale:
     Parameters
     ----------
     deflection, low, high
-        Largest magnitude of a deflection without load, and its least and greatest value [m].
+        Largest magnitude of a deflection without load, and its least and greatest value, in the law's unit (m).
     rate
-        Root mean square of its rate while deflected [m/s].
+        Root mean square of its rate while deflected (m/s).
     duration, step
         Longest trial and typical (median) sample step [s].
     output
@@ -62,12 +62,12 @@ def scale_of(
     outputs: tuple[str, ...],
     trials: Sequence[Trial],
     movements: Sequence[Movement],
-    values: Mapping[str, float],
+    values: Sequence[Mapping[str, float]],
 ) -> Scale:
-    """Magnitudes over `trials`, with deflections at `values` of the parameters."""
+    """Magnitudes over `trials`, with deflections at `values`, the numbers known in each of them."""
     if not trials:
         return Scale()
-    pairs = [geometry.deflection(movement, values) for movement in movements]
+    pairs = [geometry.deflection(movement, known) for movement, known in zip(movements, values, strict=True)]
     deflection = np.concatenate([d.ravel() for d, _ in pairs])
     rate = np.concatenate([r.ravel() for _, r in pairs])[deflection != 0.0]
     inputs = movements[0].inputs

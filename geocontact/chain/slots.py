@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
 from jaxtyping import Float
+
+Source = str | float | Callable[[Mapping[str, float]], float]
+"""A parameter, constant or covariate by its name; a fixed number; or a function of all of them."""
 
 
 @dataclass(frozen=True)
@@ -20,13 +23,18 @@ class Slots:
     neutral
         Every number of the link in the order in which its kernel reads them, with the value that means "absent".
     sources
-        For some of them the name of a parameter of the system, or a fixed number.
+        For some of them where they come from: a name, a fixed number, or a function (a stiffness that depends on a
+        trial's setting).
     """
 
     neutral: Mapping[str, float]
-    sources: Mapping[str, str | float] = field(default_factory=lambda: MappingProxyType({}))
+    sources: Mapping[str, Source] = field(default_factory=lambda: MappingProxyType({}))
 
-    def having(self, sources: Mapping[str, str | float]) -> Slots:
+    def free(self, name: str) -> bool:
+        """Whether the link has such a number and nothing sets it yet."""
+        return name in self.neutral and name not in self.sources
+
+    def having(self, sources: Mapping[str, Source]) -> Slots:
         """The same link with more of its numbers coming from somewhere.
 
         A number that the link does not know, or that has a source already, is refused: an effect is added once.
@@ -39,20 +47,20 @@ class Slots:
         return replace(self, sources={**self.sources, **sources})
 
     def numbers(self, values: Mapping[str, float]) -> Float[np.ndarray, " slots"]:
-        """All numbers in order; KeyError for a parameter that has no value."""
+        """All numbers in order; KeyError for a name that has no value."""
         found = self._fixed.copy()
         for place, source in self._open:
-            found[place] = values[source]
+            found[place] = source(values) if callable(source) else values[source]
         return found
 
     @cached_property
     def _fixed(self) -> Float[np.ndarray, " slots"]:
         """Numbers that no parameter changes."""
-        given = {name: source for name, source in self.sources.items() if not isinstance(source, str)}
-        return np.array([float(given.get(name, value)) for name, value in self.neutral.items()])
+        fixed = {name: s for name, s in self.sources.items() if not (isinstance(s, str) or callable(s))}
+        return np.array([float(fixed.get(name, value)) for name, value in self.neutral.items()])
 
     @cached_property
-    def _open(self) -> tuple[tuple[int, str], ...]:
-        """Place and parameter of the others."""
+    def _open(self) -> tuple[tuple[int, str | Callable[[Mapping[str, float]], float]], ...]:
+        """Place and source of the others."""
         places = {name: place for place, name in enumerate(self.neutral)}
-        return tuple((places[name], source) for name, source in self.sources.items() if isinstance(source, str))
+        return tuple((places[name], s) for name, s in self.sources.items() if isinstance(s, str) or callable(s))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -17,6 +18,14 @@ from geocontact.data.trial import Trial
 
 FAR = 1e9
 """Output of a model that has none [the output's unit]: finite, and so far off that no search stays there."""
+
+
+@runtime_checkable
+class Offering(Protocol):
+    """What candidates come from; `chain.candidate.Effect` is one."""
+
+    def candidates(self, system: System) -> tuple[Any, ...]:
+        """Candidates for a system."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +46,10 @@ class System:
         Magnitudes of this system on its trials, in which effects state their bounds.
     effects
         Names of the candidates that were added.
+    units
+        SI unit of each channel.
+    own
+        Effects that the model brings beside those of the vocabulary.
     """
 
     name: str
@@ -49,6 +62,8 @@ class System:
     constants: Mapping[str, float]
     scale: Scale
     effects: tuple[str, ...] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
+    own: tuple[Offering, ...] = ()
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -70,15 +85,20 @@ class System:
         """Starting value of every free parameter."""
         return {p.name: p.start for p in self.parameters if not p.fixed}
 
+    def unit(self, channel: str) -> str:
+        """SI unit of a channel, "-" where the model does not say."""
+        return self.units.get(channel, "-")
+
     def simulate(self, trial: Trial, values: Mapping[str, float]) -> Float[np.ndarray, "t c"]:
         """Outputs of the model over a trial's samples.
 
         NaN only where the model has no value, as for a centre of pressure without force; finite for any finite values
         of the parameters, so that a search may try them: where a spring in series has no solution, every output of the
         trial is `FAR` (and `geometry.loads` raises, saying why). Values of free parameters must be given, those of
-        constants and fixed parameters may be.
+        constants and fixed parameters may be. Covariates of the trial are known by name as well, unless a parameter or
+        constant has that name.
         """
-        numbers = {**self.known, **values}
+        numbers = {**trial.covariates, **self.known, **values}
         movement = self.motion.seen(trial, numbers)
         try:
             loads = self.geometry.loads(movement, self.law, numbers)
@@ -91,6 +111,6 @@ class System:
 
         To be done before candidates are asked for; those made earlier keep the scale that they were made with.
         """
-        numbers = {**self.known, **self.start, **(values or {})}
-        movements = [self.motion.seen(trial, numbers) for trial in trials]
+        numbers = [{**trial.covariates, **self.known, **self.start, **(values or {})} for trial in trials]
+        movements = [self.motion.seen(trial, known) for trial, known in zip(trials, numbers, strict=True)]
         return replace(self, scale=scale_of(self.geometry, self.outputs, trials, movements, numbers))

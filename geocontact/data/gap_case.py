@@ -10,6 +10,9 @@ import pandas as pd
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 
+LISTED_SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
+"""Names that `system` may have besides "package.module:OBJECT"; the vocabulary of effects is stated for these."""
+
 
 @dataclass(frozen=True)
 class GapCase:

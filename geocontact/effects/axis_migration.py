@@ -16,7 +16,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude a, shape c."""
     a = Parameter("axis_migration.slope", "m/rad", 0.005, -0.05, 0.05)
     c = Parameter("axis_migration.curvature", "m/rad^2", 0.0, -0.03, 0.03)
-    centre = system.scale.centre.get("beta", 0.0)
+    centre = system.scale.centre.get(system.geometry.yields, 0.0)
     link = with_geometry({a.name: a.name, c.name: c.name, "axis_migration.centre": centre})
     neutral = {a.name: 0.0, c.name: 0.0}
     return (Candidate("axis_migration", "", "geometry", (a, c), link, neutral, ({a.name: -a.start},)),)
@@ -28,4 +28,5 @@ AXIS_MIGRATION = Effect(
     ("elbow",),
     offer,
     "instantaneous axis of the elbow: Bottlang et al. (2000) J. Orthop. Res. 18:821",
+    ("axis_migration.slope", "axis_migration.curvature", "axis_migration.centre"),
 )

@@ -58,5 +58,5 @@ EFFECTS: tuple[Effect, ...] = (
 
 
 def candidates(system: System) -> tuple[Candidate, ...]:
-    """Every candidate of every effect that applies to a system, bounds from its scale."""
-    return tuple(one for effect in EFFECTS for one in effect.candidates(system))
+    """Every candidate that applies to a system, then those of its own effects; bounds from its scale."""
+    return tuple(one for effect in (*EFFECTS, *system.own) for one in effect.candidates(system))

@@ -1,6 +1,7 @@
 """A fraction of one measured channel shows up in another.
 
-out_a → out_a + χ out_b, between force channels of one device, χ of either sign. A linear coupling has no shape.
+out_a → out_a + χ out_b, between force or moment channels of one device, χ of either sign. A linear coupling has no
+shape.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import FORCES, with_sensor
+from geocontact.effects.parts import load_channels, with_sensor
 
 RANK = 10.0
 
@@ -32,7 +33,7 @@ def coupled(system: System, source: str, target: str) -> Candidate:
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate per ordered pair of force channels."""
-    forces = [name for name in system.outputs if name in FORCES]
+    forces = load_channels(system)
     return tuple(coupled(system, b, a) for b in forces for a in forces if a != b)
 
 

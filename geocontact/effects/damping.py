@@ -11,17 +11,17 @@ from __future__ import annotations
 from geocontact.chain.candidate import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import FORCES, with_law
+from geocontact.effects.parts import largest_load, with_law
 
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude b, shape q."""
     scale = system.scale
-    strong = max(scale.of(name) for name in FORCES if name in system.outputs) / scale.rate
-    foot = system.name == "foot"
-    b = Parameter("damping.b", "N s/m", 0.02 * strong, 0.0, strong)
-    q = Parameter("damping.exponent", "-", 0.5, 0.0, 2.0) if foot else Parameter("damping.exponent", "-", 1.0, 0.5, 2.0)
-    reference = scale.deflection if foot else scale.rate
+    strong = largest_load(system) / scale.rate
+    presses = "delta_full" in system.law.slots.neutral
+    b = Parameter("damping.b", f"{system.law.load} s/{system.law.deflection}", 0.02 * strong, 0.0, strong)
+    start, least, reference = (0.5, 0.0, scale.deflection) if presses else (1.0, 0.5, scale.rate)
+    q = Parameter("damping.exponent", "-", start, least, 2.0)
     law = with_law({"damping.b": b.name, "damping.exponent": q.name, "damping.reference": reference})
     return (Candidate("damping", "", "constitutive", (b, q), law, {b.name: 0.0}, ({b.name: 0.3 * strong},)),)
 
@@ -32,4 +32,5 @@ DAMPING = Effect(
     ("elbow", "foot"),
     offer,
     "Hunt & Crossley (1975) J. Appl. Mech. 42:440; Flores & Lankarani (2016), Contact Force Models",
+    ("damping.b", "damping.exponent", "damping.reference"),
 )

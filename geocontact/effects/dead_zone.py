@@ -14,7 +14,7 @@ from geocontact.effects.parts import with_law
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude w, shape a."""
     stroke = system.scale.high - system.scale.low
-    width = Parameter("dead_zone.width", "m", 0.1 * stroke, 0.0, stroke)
+    width = Parameter("dead_zone.width", system.law.deflection, 0.1 * stroke, 0.0, stroke)
     share = Parameter("dead_zone.share", "-", 0.5, 0.0, 1.0)
     law = with_law({"dead_zone.width": width.name, "dead_zone.share": share.name})
     others = ({share.name: 0.9}, {share.name: 0.1})
@@ -22,5 +22,10 @@ def offer(system: System) -> tuple[Candidate, ...]:
 
 
 DEAD_ZONE = Effect(
-    "dead_zone", "constitutive", ("elbow",), offer, "Nordin & Gutman (2002) Automatica 38:1633 (backlash models)"
+    "dead_zone",
+    "constitutive",
+    ("elbow",),
+    offer,
+    "Nordin & Gutman (2002) Automatica 38:1633 (backlash models)",
+    ("dead_zone.width", "dead_zone.share"),
 )

@@ -11,27 +11,29 @@ from __future__ import annotations
 from geocontact.chain.candidate import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import with_law
+from geocontact.effects.parts import largest_load, with_law
 
 
 def over_a_stroke(system: System) -> Candidate:
     """Amplitude F_c, shape reach."""
     stroke = system.scale.high - system.scale.low
-    reach = Parameter("dry_friction.stroke.reach", "m", 0.02 * stroke, 1e-4 * stroke, 0.5 * stroke)
+    unit = system.law.deflection
+    reach = Parameter("dry_friction.stroke.reach", unit, 0.02 * stroke, 1e-4 * stroke, 0.5 * stroke)
     return rubbing(system, "stroke", reach, 0.15 * stroke)
 
 
 def over_rates(system: System) -> Candidate:
     """Amplitude F_c, shape v."""
     rate = system.scale.rate
-    turning = Parameter("dry_friction.rate.turning", "m/s", 0.1 * rate, 1e-3 * rate, 2.0 * rate)
+    unit = f"{system.law.deflection}/s"
+    turning = Parameter("dry_friction.rate.turning", unit, 0.1 * rate, 1e-3 * rate, 2.0 * rate)
     return rubbing(system, "rate", turning, 0.5 * rate)
 
 
 def rubbing(system: System, variant: str, shape: Parameter, other: float) -> Candidate:
     """Friction whose limit is the amplitude."""
-    most = system.scale.of("force")
-    limit = Parameter(f"dry_friction.{variant}.limit", "N", 0.1 * most, 0.0, most)
+    most = largest_load(system)
+    limit = Parameter(f"dry_friction.{variant}.limit", system.law.load, 0.1 * most, 0.0, most)
     law = with_law({limit.name: limit.name, shape.name: shape.name})
     neutral, others = {limit.name: 0.0}, ({shape.name: other},)
     return Candidate("dry_friction", variant, "constitutive", (limit, shape), law, neutral, others)
@@ -48,4 +50,5 @@ DRY_FRICTION = Effect(
     ("elbow",),
     offer,
     "Dahl (1968) Aerospace Corp. TOR-0158(3107-18)-1; Olsson et al. (1998) Eur. J. Control 4:176",
+    ("dry_friction.stroke.limit", "dry_friction.stroke.reach", "dry_friction.rate.limit", "dry_friction.rate.turning"),
 )

@@ -9,7 +9,7 @@ from __future__ import annotations
 from geocontact.chain.candidate import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import with_law
+from geocontact.effects.parts import largest_load, with_law
 
 
 def stop(system: System, side: str) -> Candidate:
@@ -17,11 +17,11 @@ def stop(system: System, side: str) -> Candidate:
     scale = system.scale
     stroke = scale.high - scale.low
     edge, inwards = (scale.high, -stroke) if side == "upper" else (scale.low, stroke)
-    stiff = scale.of("force") / scale.deflection
+    stiff, per = largest_load(system) / scale.deflection, system.law.deflection
     name = f"end_stop.{side}"
-    k = Parameter(f"{name}.stiffness", "N/m", 2.0 * stiff, 0.0, 100.0 * stiff)
+    k = Parameter(f"{name}.stiffness", f"{system.law.load}/{per}", 2.0 * stiff, 0.0, 100.0 * stiff)
     low, high = sorted((edge - 0.5 * inwards, edge + 0.75 * inwards))
-    limit = Parameter(f"{name}.limit", "m", edge + 0.2 * inwards, low, high)
+    limit = Parameter(f"{name}.limit", per, edge + 0.2 * inwards, low, high)
     law = with_law({k.name: k.name, limit.name: limit.name})
     others = tuple({limit.name: edge + share * inwards} for share in (0.05, 0.5))
     return Candidate("end_stop", side, "constitutive", (k, limit), law, {k.name: 0.0}, others)
@@ -38,4 +38,5 @@ END_STOP = Effect(
     ("elbow",),
     offer,
     "bilinear stiffness; compensation joint of the elbow exoskeleton at its end stop",
+    tuple(f"end_stop.{side}.{number}" for side in ("upper", "lower") for number in ("stiffness", "limit")),
 )

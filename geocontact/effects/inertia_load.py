@@ -3,7 +3,8 @@
 Elbow, "tip": force += m l β'', the mass at the end of the forearm link moving across it, of either sign (the sensor's
 sense is not stated); "attachment": force += m d_tot'', the cuff's own mass moving with the deflection, m >= 0. Foot:
 force_x += m x_c'', force_y += m y_c'' for a mass m >= 0 in the foot at the distance c ahead of the heel (the shape);
-the centre of pressure is left alone. Accelerations are those of the fit that differentiates the inputs.
+the centre of pressure is left alone. A joint of one angle: moment += I angle'' for an inertia I >= 0; of one length:
+force += m x''. Accelerations are those of the fit that differentiates the inputs.
 """
 
 from __future__ import annotations
@@ -15,11 +16,13 @@ from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import with_balance
+from geocontact.effects.parts import load_channels, with_balance
 
 RANK = 20.0
 HEAVY = 10.0
-"""Largest plausible mass that somebody left out [kg]."""
+"""Largest plausible mass [kg] or moment of inertia [kg m^2] that somebody left out."""
+INERTIA = {("N", "m"): "kg", ("N m", "rad"): "kg m^2"}
+"""Unit of a load over that of the acceleration of an input."""
 
 
 def at_the_tip(system: System) -> Candidate:
@@ -65,9 +68,27 @@ def in_the_foot(system: System) -> Candidate:
     return Candidate("inertia_load", "", "load", (mass, ahead), link, {mass.name: 0.0}, ({ahead.name: 0.15},))
 
 
+def of_the_input(system: System) -> tuple[Candidate, ...]:
+    """Any system with one load and an input that it resists: mass times the second derivative of that input."""
+    moved, loads = system.geometry.yields, load_channels(system)
+    unit = INERTIA.get((system.unit(loads[0]), system.unit(moved))) if len(loads) == 1 else None
+    if unit is None:
+        return ()
+    mass = Parameter("inertia_load.mass", unit, 0.2, 0.0, HEAVY)
+    row, hit = system.inputs.index(moved), np.array([name in loads for name in system.outputs])
+
+    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+        return np.asarray(outputs + values[mass.name] * movement.acceleration[row][:, None] * hit)
+
+    link = with_balance(Modifier("inertia_load", RANK, change))
+    return (Candidate("inertia_load", "", "load", (mass,), link, {mass.name: 0.0}),)
+
+
 def offer(system: System) -> tuple[Candidate, ...]:
-    """Two candidates for the elbow, one for the foot."""
-    return (in_the_foot(system),) if system.name == "foot" else (at_the_tip(system), at_the_attachment(system))
+    """Two candidates for the elbow, one for others."""
+    if system.name == "elbow":
+        return at_the_tip(system), at_the_attachment(system)
+    return (in_the_foot(system),) if system.name == "foot" else of_the_input(system)
 
 
 INERTIA_LOAD = Effect("inertia_load", "load", ("elbow", "foot"), offer, "Newton's second law")

@@ -17,8 +17,10 @@ from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_motion
 
 RANK = 10.0
+PLAUSIBLE = {"rad": 0.35, "m": 0.01}
+"""Largest bias that a careful laboratory might have, by unit."""
 USED = {"elbow": (("beta", "rad", 0.35),), "foot": (("y", "m", 0.01), ("pitch", "rad", 0.15))}
-"""Inputs by system, with their unit and the largest bias that a careful laboratory might have."""
+"""Inputs by system, with their unit and the largest bias; of other systems every angle and length."""
 
 
 def biased(system: System, name: str, unit: str, most: float) -> Candidate:
@@ -38,7 +40,9 @@ def biased(system: System, name: str, unit: str, most: float) -> Candidate:
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate per input that matters."""
-    return tuple(biased(system, name, unit, most) for name, unit, most in USED[system.name])
+    units = ((name, system.unit(name)) for name in system.inputs)
+    measured = tuple((name, unit, PLAUSIBLE[unit]) for name, unit in units if unit in PLAUSIBLE)
+    return tuple(biased(system, name, unit, most) for name, unit, most in USED.get(system.name, measured))
 
 
 MOTION_OFFSET = Effect(

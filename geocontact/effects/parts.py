@@ -7,20 +7,29 @@ from dataclasses import replace
 
 from geocontact.chain.links import Channels, Modifier
 from geocontact.chain.movement import Movement
+from geocontact.chain.slots import Source
 from geocontact.chain.system import System
 
-FORCES = ("force", "force_x", "force_y")
-"""Outputs that are forces."""
-UNITS = {"force": "N", "force_x": "N", "force_y": "N", "cop_x": "m", "beta": "rad", "x": "m", "y": "m", "pitch": "rad"}
-"""Unit of every channel."""
+LOADS = ("N", "N m")
+"""Units of forces and moments."""
 
 
-def with_law(sources: Mapping[str, str | float]) -> Callable[[System], System]:
+def load_channels(system: System) -> tuple[str, ...]:
+    """Outputs that are forces or moments."""
+    return tuple(name for name in system.outputs if system.unit(name) in LOADS)
+
+
+def largest_load(system: System) -> float:
+    """Largest measured magnitude of what the law gives, 1 where nothing of its unit was measured."""
+    return max((system.scale.of(name) for name in system.outputs if system.unit(name) == system.law.load), default=1.0)
+
+
+def with_law(sources: Mapping[str, Source]) -> Callable[[System], System]:
     """Replaces the law by one that has a term more."""
     return lambda system: replace(system, law=system.law.having(sources))
 
 
-def with_geometry(sources: Mapping[str, str | float]) -> Callable[[System], System]:
+def with_geometry(sources: Mapping[str, Source]) -> Callable[[System], System]:
     """Replaces the geometry by one that has a term more."""
     return lambda system: replace(system, geometry=system.geometry.having(sources))
 

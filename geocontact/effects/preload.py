@@ -9,17 +9,17 @@ from __future__ import annotations
 from geocontact.chain.candidate import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import with_law
+from geocontact.effects.parts import largest_load, with_law
 
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude T, shape c."""
-    scale = system.scale
-    tension = Parameter("preload.tension", "N", 0.1 * scale.of("force"), -scale.of("force"), scale.of("force"))
-    slackening = Parameter("preload.slackening", "1/m", 0.0, 0.0, 20.0 / scale.deflection)
-    law = with_law({"preload.tension": tension.name, "preload.slackening": slackening.name})
+    scale, law, most = system.scale, system.law, largest_load(system)
+    tension = Parameter("preload.tension", law.load, 0.1 * most, -most, most)
+    slackening = Parameter("preload.slackening", f"1/{law.deflection}", 0.0, 0.0, 20.0 / scale.deflection)
+    link = with_law({"preload.tension": tension.name, "preload.slackening": slackening.name})
     others = ({tension.name: -tension.start}, {slackening.name: 3.0 / scale.deflection})
-    return (Candidate("preload", "", "constitutive", (tension, slackening), law, {tension.name: 0.0}, others),)
+    return (Candidate("preload", "", "constitutive", (tension, slackening), link, {tension.name: 0.0}, others),)
 
 
 PRELOAD = Effect(
@@ -28,4 +28,5 @@ PRELOAD = Effect(
     ("elbow",),
     offer,
     "a tension-only spring in parallel; strap pressure of the explicit pHRI study",
+    ("preload.tension", "preload.slackening"),
 )

@@ -30,4 +30,5 @@ RELAXATION = Effect(
     ("elbow", "foot"),
     offer,
     "Maxwell (1867); Fung (1993), sec. 7.6 (quasi-linear viscoelasticity)",
+    ("relaxation.ratio", "relaxation.tau"),
 )

@@ -14,7 +14,7 @@ from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import UNITS, with_sensor
+from geocontact.effects.parts import with_sensor
 
 RANK = 60.0
 SHARPEST = 1e-3
@@ -34,8 +34,8 @@ def saturated(system: System, name: str) -> Candidate:
     """Clip of one channel."""
     column = system.outputs.index(name)
     most = system.scale.of(name)
-    level = Parameter(f"saturation.{name}.level", UNITS[name], 0.85 * most, 0.05 * most, 1.5 * most)
-    softness = Parameter(f"saturation.{name}.softness", "-", 0.01, 0.0, 0.3)
+    level = Parameter(f"saturation.{name}.level", system.unit(name), 0.95 * most, 0.05 * most, 1.1 * most)
+    softness = Parameter(f"saturation.{name}.softness", "-", 0.04, 0.0, 0.3)
 
     def change(outputs: Channels, _: Movement, values: Values) -> Channels:
         out = outputs.copy()
@@ -43,7 +43,7 @@ def saturated(system: System, name: str) -> Candidate:
         return out
 
     link = with_sensor(Modifier(f"saturation.{name}", RANK, change))
-    others = ({level.name: 0.6 * most},)
+    others = ({level.name: 0.8 * most}, {level.name: 0.6 * most})
     neutral = {level.name: np.inf}
     return Candidate("saturation", name, "sensor", (level, softness), link, neutral, others, channel=name)
 

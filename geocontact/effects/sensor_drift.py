@@ -14,7 +14,7 @@ from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import UNITS, with_sensor
+from geocontact.effects.parts import with_sensor
 
 RANK = 50.0
 
@@ -30,7 +30,7 @@ def drifting(system: System, name: str) -> Candidate:
     """Drift of one channel."""
     hit = np.array([name == other for other in system.outputs])
     whole, most = system.scale.duration, system.scale.of(name) / system.scale.duration
-    rate = Parameter(f"sensor_drift.{name}.rate", f"{UNITS[name]}/s", 0.02 * most, -2.0 * most, 2.0 * most)
+    rate = Parameter(f"sensor_drift.{name}.rate", f"{system.unit(name)}/s", 0.02 * most, -2.0 * most, 2.0 * most)
     bend = Parameter(f"sensor_drift.{name}.bend", "-", 0.0, 0.0, 10.0)
 
     def change(outputs: Channels, movement: Movement, values: Values) -> Channels:

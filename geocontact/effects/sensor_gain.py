@@ -12,7 +12,7 @@ from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import FORCES, with_sensor
+from geocontact.effects.parts import load_channels, with_sensor
 
 RANK = 20.0
 
@@ -34,7 +34,7 @@ def scaled(system: System, variant: str, channels: tuple[str, ...]) -> Candidate
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate per output, and one for all forces where there are several."""
-    forces = tuple(name for name in system.outputs if name in FORCES)
+    forces = load_channels(system)
     single = tuple(scaled(system, name, (name,)) for name in system.outputs)
     return (*single, scaled(system, "forces", forces)) if len(forces) > 1 else single
 

@@ -12,7 +12,7 @@ from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import UNITS, with_sensor
+from geocontact.effects.parts import with_sensor
 
 RANK = 40.0
 
@@ -21,7 +21,7 @@ def shifted(system: System, name: str) -> Candidate:
     """Offset of one channel."""
     hit = np.array([name == other for other in system.outputs])
     most = system.scale.of(name)
-    offset = Parameter(f"sensor_offset.{name}.offset", UNITS[name], 0.02 * most, -most, most)
+    offset = Parameter(f"sensor_offset.{name}.offset", system.unit(name), 0.02 * most, -most, most)
 
     def change(outputs: Channels, _: Movement, values: Values) -> Channels:
         return outputs + values[offset.name] * hit

@@ -11,12 +11,12 @@ from geocontact.chain.links import Channels, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.effects.faults import SWAP, output_fault
-from geocontact.effects.parts import FORCES
+from geocontact.effects.parts import load_channels
 
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate per pair of force channels."""
-    forces = [name for name in system.outputs if name in FORCES]
+    forces = load_channels(system)
     return tuple(swapped(system, a, b) for i, a in enumerate(forces) for b in forces[i + 1 :])
 
 

@@ -10,20 +10,27 @@ from __future__ import annotations
 from geocontact.chain.candidate import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import with_law
+from geocontact.effects.parts import largest_load, with_law
 
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude m, shape L."""
     scale = system.scale
-    force, soft = scale.of("force"), scale.deflection / scale.of("force")
-    mobility = Parameter("slip.mobility", "m/(N s)", 5.0 * soft / scale.duration, 0.0, 2.0 * soft / scale.step)
-    limit = Parameter("slip.limit", "N", 0.5 * force, 0.02 * force, force)
-    law = with_law({"slip.mobility": mobility.name, "slip.limit": limit.name})
+    force, law = largest_load(system), system.law
+    soft = scale.deflection / force
+    unit = f"{law.deflection}/({law.load} s)"
+    mobility = Parameter("slip.mobility", unit, 5.0 * soft / scale.duration, 0.0, 2.0 * soft / scale.step)
+    limit = Parameter("slip.limit", law.load, 0.5 * force, 0.02 * force, force)
+    link = with_law({"slip.mobility": mobility.name, "slip.limit": limit.name})
     others = ({mobility.name: 0.2 * soft / scale.step, limit.name: 0.7 * force},)
-    return (Candidate("slip", "", "constitutive", (mobility, limit), law, {mobility.name: 0.0}, others),)
+    return (Candidate("slip", "", "constitutive", (mobility, limit), link, {mobility.name: 0.0}, others),)
 
 
 SLIP = Effect(
-    "slip", "constitutive", ("elbow",), offer, "Bingham (1922); elasto-viscoplastic element after Perzyna (1966)"
+    "slip",
+    "constitutive",
+    ("elbow",),
+    offer,
+    "Bingham (1922); elasto-viscoplastic element after Perzyna (1966)",
+    ("slip.mobility", "slip.limit"),
 )

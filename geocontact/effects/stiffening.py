@@ -29,4 +29,5 @@ STIFFENING = Effect(
     ("elbow", "foot"),
     offer,
     "Fung (1993) Biomechanics: Mechanical Properties of Living Tissues, ch. 7; Duffing (1918)",
+    ("stiffening.gain", "stiffening.exponent", "stiffening.reference"),
 )

@@ -17,20 +17,23 @@ from geocontact.chain.links import Channels, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.effects.faults import MIX_UP, input_fault, output_fault
-from geocontact.effects.parts import UNITS
 
 FACTORS = {
     "N": (1000.0, 9.80665, 4.4482216152605),
+    "N m": (1000.0, 9.80665, 0.1129848290276167),
     "m": (1000.0, 100.0, 0.0254),
     "rad": (degrees(1.0),),
 }
-"""What the units of a dimension differ by: kN, kgf, lbf; mm, cm, inch; degrees. Their inverses count as well."""
+"""What the units of a dimension differ by: kN, kgf, lbf; kN m, kgf m, lbf in; mm, cm, inch; degrees.
+
+Their inverses count as well.
+"""
 
 
 def factors(unit: str) -> dict[str, float]:
     """Factors by name, "1000" and "1 over 1000"."""
     found: dict[str, float] = {}
-    for factor in FACTORS[unit]:
+    for factor in FACTORS.get(unit, ()):
         found |= {f"{factor:.5g}": factor, f"1_over_{factor:.5g}": 1.0 / factor}
     return found
 
@@ -67,12 +70,12 @@ def offer(system: System) -> tuple[Candidate, ...]:
     found = [
         output_fault("unit_error", f"{name}.{word}", MIX_UP, output_times(column, factor), name, factor)
         for column, name in enumerate(system.outputs)
-        for word, factor in factors(UNITS[name]).items()
+        for word, factor in factors(system.unit(name)).items()
     ]
     found += [
         input_fault("unit_error", f"{name}.{word}", input_over(row, factor), name, factor)
         for row, name in enumerate(system.inputs)
-        for word, factor in factors(UNITS[name]).items()
+        for word, factor in factors(system.unit(name)).items()
     ]
     return tuple(found)
 

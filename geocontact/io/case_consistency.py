@@ -8,10 +8,11 @@ from os import fspath
 from pathlib import Path
 
 from geocontact.data.errors import InputError
+from geocontact.data.gap_case import LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter
 from geocontact.io.case_settings import CaseSettings, ParameterSettings
 
-KNOWN_SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
+KNOWN_SYSTEMS = LISTED_SYSTEMS
 
 _OBJECT = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*")
 

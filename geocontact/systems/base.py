@@ -18,7 +18,7 @@ class Base:
     Parameters
     ----------
     name
-        As in case.toml.
+        As in case.toml; of an own model, one that no listed system has.
     inputs, outputs
         Channels that drive it and that it predicts.
     build

@@ -21,6 +21,7 @@ from geocontact.systems.base import Base, require_numbers
 from geocontact.systems.elbow_misalignment import ElbowMisalignment
 
 INPUTS, OUTPUTS = ("beta",), ("force",)
+UNITS = {"beta": "rad", "force": "N"}
 LENGTHS = ("l_ex", "z_ex", "x", "y")
 
 
@@ -44,6 +45,7 @@ def build(
         parameters=parameters,
         constants=dict(constants),
         scale=Scale(),
+        units=UNITS,
     )
 
 

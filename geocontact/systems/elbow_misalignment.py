@@ -17,7 +17,7 @@ from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_kn
 from geocontact.chain.interface_law import MEMORY, interface_force
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.chain.movement import Movement
-from geocontact.chain.slots import Slots
+from geocontact.chain.slots import Slots, Source
 from geocontact.geometry.kernels.compile import kernel
 
 ELBOW_GEOMETRY = Slots(
@@ -129,7 +129,12 @@ class ElbowMisalignment:
 
     slots: Slots = ELBOW_GEOMETRY
 
-    def having(self, sources: Mapping[str, str | float]) -> ElbowMisalignment:
+    @property
+    def yields(self) -> str:
+        """Input that gives way to a spring in series."""
+        return "beta"
+
+    def having(self, sources: Mapping[str, Source]) -> ElbowMisalignment:
         """The same link with more of its numbers coming from somewhere."""
         return replace(self, slots=self.slots.having(sources))
 

@@ -13,7 +13,7 @@ from geocontact.chain.contact_law import contact_force, friction_coefficient
 from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.chain.movement import Movement
-from geocontact.chain.slots import Slots
+from geocontact.chain.slots import Slots, Source
 from geocontact.geometry.kernels.compile import kernel
 
 FOOT_GEOMETRY = Slots(
@@ -169,7 +169,12 @@ class FootSpheres:
     zone: tuple[str, ...]
     slots: Slots = FOOT_GEOMETRY
 
-    def having(self, sources: Mapping[str, str | float]) -> FootSpheres:
+    @property
+    def yields(self) -> str:
+        """Input that gives way to a spring in series."""
+        return "y"
+
+    def having(self, sources: Mapping[str, Source]) -> FootSpheres:
         """The same link with more of its numbers coming from somewhere."""
         return replace(self, slots=self.slots.having(sources))
 

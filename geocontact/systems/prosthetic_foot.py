@@ -22,6 +22,7 @@ from geocontact.systems.base import Base, require_numbers
 from geocontact.systems.foot_spheres import INPUTS, FootSpheres
 
 OUTPUTS = ("force_x", "force_y", "cop_x")
+UNITS = {"x": "m", "y": "m", "pitch": "rad", "force_x": "N", "force_y": "N", "cop_x": "m"}
 CONSTANTS = ("n", "delta_full", "mu_s", "mu_k", "v_th")
 COLUMNS = ("px [m]", "py [m]", "radius [m]", "zone")
 LEAST_FORCE = 20.0
@@ -68,6 +69,7 @@ def build(
         parameters=parameters,
         constants=dict(constants),
         scale=Scale(),
+        units=UNITS,
     )
 
 

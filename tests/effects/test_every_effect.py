@@ -1,4 +1,4 @@
-"""What holds for every candidate of the catalogue, on both systems."""
+"""What holds for every candidate of the catalogue, on the listed systems and on an own model."""
 
 from __future__ import annotations
 
@@ -18,6 +18,9 @@ VOCABULARY = {
     "saturation unit_error sign_flip",
     "foot": "time_shift filter_lag motion_offset series_compliance stiffening damping relaxation asymmetry "
     "inertia_load sensor_gain sensor_offset sensor_drift saturation crosstalk unit_error sign_flip side_swap",
+    "joint": "time_shift filter_lag motion_offset series_compliance stiffening damping relaxation dry_friction "
+    "dead_zone end_stop preload slip asymmetry gravity_load inertia_load sensor_gain sensor_offset sensor_drift "
+    "saturation unit_error sign_flip",
 }
 STAGES = {"timing", "kinematics", "geometry", "constitutive", "load", "sensor", "data"}
 
@@ -76,7 +79,7 @@ def test_a_mistake_says_what_it_does(name: str, one: Candidate) -> None:
         np.testing.assert_allclose(wrong, one.factor * right, rtol=1e-12)
     elif one.channel:
         columns = {n: trials[0].column(n) * (one.factor if n == one.channel else 1.0) for n in system.inputs}
-        misread = recording("t0", trials[0].time, columns)
+        misread = recording("t0", trials[0].time, columns, **trials[0].covariates)
         got = one.apply(system).simulate(misread, system.start)
         np.testing.assert_allclose(got, system.simulate(trials[0], system.start), rtol=1e-6, atol=1e-6)
     else:
@@ -121,8 +124,8 @@ def test_outputs_are_finite_all_over_the_bounds(name: str, one: Candidate) -> No
             corner = (p.lower, p.upper)[rng.integers(2)]
             values[p.name] = float(corner if draw % 2 else rng.uniform(p.lower, p.upper))
         got = outputs(changed, trials, values)
-        forces = [column for column, channel in enumerate(system.outputs) if channel.startswith("force")]
-        assert np.isfinite(got[:, forces]).all(), values
+        loads = [column for column, channel in enumerate(system.outputs) if not channel.startswith("cop")]
+        assert np.isfinite(got[:, loads]).all(), values
 
 
 @pytest.mark.parametrize(("name", "one"), FITTED, ids=label)

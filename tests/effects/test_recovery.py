@@ -12,7 +12,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from tests.effects.runs import EXAMPLES, FITTED, in_units_of_scale, label, outputs, truth
 
-ABSORBED = {"sensor_gain.force", "sensor_gain.forces"}
+ABSORBED = {"sensor_gain.force", "sensor_gain.forces", "sensor_gain.torque"}
 """Imitated exactly: every stiffness and damping scaled by the same number."""
 
 

@@ -1,4 +1,4 @@
-"""Systems on synthetic trials: an elbow that is swept at several speeds, a foot that rolls over from heel to toe."""
+"""Systems on synthetic trials: an elbow swept at several speeds, a foot rolling over, and an own model, a joint."""
 
 from __future__ import annotations
 
@@ -9,16 +9,18 @@ from geocontact.chain.system import System
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.systems import elbow_exoskeleton, prosthetic_foot
+from geocontact.systems import elastic_joint, elbow_exoskeleton, prosthetic_foot
 
 FOOT_CONSTANTS = {"n": 1.2, "delta_full": 0.002, "mu_s": 0.9, "mu_k": 0.7, "v_th": 0.25}
 ELBOW_CONSTANTS = {"l_ex": 0.185, "z_ex": 0.09}
 ELBOW_VALUES = {"k": 300.0, "x": 0.03, "y": 0.04}
-NAMES = ("elbow", "foot")
+JOINT_CONSTANTS = {"angle0": 0.1, "hardening": 0.6}
+NAMES = ("elbow", "foot", "joint")
 
 
-def recording(name: str, time: np.ndarray, columns: dict[str, np.ndarray]) -> Trial:
-    return Trial(name, Signals(time, np.column_stack(list(columns.values())), tuple(columns), ("",) * len(columns)))
+def recording(name: str, time: np.ndarray, columns: dict[str, np.ndarray], **covariates: float) -> Trial:
+    values = np.column_stack(list(columns.values()))
+    return Trial(name, Signals(time, values, tuple(columns), ("",) * len(columns)), covariates)
 
 
 def elbow_angle(time: np.ndarray, speed: float) -> np.ndarray:
@@ -41,6 +43,18 @@ def foot_trial(name: str, depth: float, step: float = 0.005, duration: float = 0
     x = 0.02 * phase + 0.003 * np.sin(2.0 * np.pi * phase)
     empty = np.full(time.size, np.nan)
     return recording(name, time, {"x": x, "y": y, "pitch": pitch, "force_x": empty, "force_y": empty, "cop_x": empty})
+
+
+def joint_trial(name: str, speed: float, setting: float, step: float = 0.02, duration: float = 12.0) -> Trial:
+    time = np.arange(round(duration / step) + 1) * step
+    angle = elbow_angle(time, speed) - 0.9
+    return recording(name, time, {"angle": angle, "torque": np.full(time.size, np.nan)}, setting=setting)
+
+
+def joint() -> System:
+    """Stiffness that depends on a setting of the trial."""
+    k, growth = Parameter("k", "N m/rad", 40.0, 5.0, 500.0), Parameter("growth", "-", 0.3, -2.0, 2.0)
+    return elastic_joint.build((k, growth), JOINT_CONSTANTS, {})
 
 
 def elbow() -> System:
@@ -68,7 +82,7 @@ def measured(system: System, trial: Trial) -> Trial:
     outputs = system.simulate(trial, system.start)
     inputs = [trial.column(name) for name in system.inputs]
     columns = dict(zip((*system.inputs, *system.outputs), [*inputs, *outputs.T], strict=True))
-    return recording(trial.name, trial.time, columns)
+    return recording(trial.name, trial.time, columns, **trial.covariates)
 
 
 def example(name: str, refine: int = 1) -> tuple[System, tuple[Trial, ...]]:
@@ -76,6 +90,10 @@ def example(name: str, refine: int = 1) -> tuple[System, tuple[Trial, ...]]:
     if name == "elbow":
         system = elbow()
         trials = tuple(elbow_trial(f"t{i}", speed, 0.02 / refine) for i, speed in enumerate((1.3, 2.9)))
+    elif name == "joint":
+        system = joint()
+        told = enumerate(((1.3, -1.0), (2.9, 1.0)))
+        trials = tuple(joint_trial(f"t{i}", speed, setting, 0.02 / refine) for i, (speed, setting) in told)
     else:
         system = foot()
         trials = tuple(foot_trial(f"t{i}", depth, 0.005 / refine) for i, depth in enumerate((0.006, 0.009)))

@@ -11,6 +11,7 @@ from geocontact.geometry.kernels.compile import kernel
 def direction_factor(rate: float, excess: float, turning: float) -> float:
     """1 + excess tanh(rate / turning) [-]: 1 + excess while loading, 1 - excess while unloading.
 
-    `turning` [m/s] is the rate at which the change from one to the other is three quarters done.
+    `rate` is positive while the deflection grows in magnitude; `turning` [m/s] is the rate at which the change from one
+    to the other is three quarters done.
     """
     return 1.0 + excess * math.tanh(rate / turning)

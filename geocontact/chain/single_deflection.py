@@ -1,0 +1,177 @@
+"""A geometry for whatever has one input and one spring: the deflection is a function of the input and of numbers.
+
+With it an own model is a formula; the interface law stands behind it, and every effect of that law with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
+from geocontact.chain.interface_law import MEMORY, interface_force
+from geocontact.chain.links import Law, Loads, Values
+from geocontact.chain.movement import Movement
+from geocontact.chain.slots import Slots, Source
+from geocontact.geometry.kernels.compile import kernel
+
+SERIES = Slots(
+    {
+        "series_compliance.compliance": 0.0,
+        "series_compliance.exponent": 1.0,
+        "series_compliance.reference": 1.0,
+    }
+)
+KNOTS = 2001
+"""Of the table of the deflection that a spring in series is solved on."""
+STEP = 1e-5
+"""Of differences, over the range of the input."""
+LEAST_RANGE = 1e-6
+"""Of an input that hardly moves, in its unit or over its magnitude."""
+
+Deflect = Callable[[Float[np.ndarray, " t"], Values], Float[np.ndarray, " t"]]
+"""(input, numbers) → deflection, element by element: numbers are parameters, constants and the trial's covariates."""
+
+
+@kernel
+def read_off(x: float, knots: Float[np.ndarray, "three n"]) -> tuple[float, float]:
+    """Value and slope at `x` of the cubic Hermite curve through equally spaced knots; straight beyond them."""
+    first, step, last = knots[0, 0], knots[0, 1] - knots[0, 0], knots.shape[1] - 1
+    if x <= first:
+        return knots[1, 0] + (x - first) * knots[2, 0], knots[2, 0]
+    if x >= knots[0, last]:
+        return knots[1, last] + (x - knots[0, last]) * knots[2, last], knots[2, last]
+    i = min(int((x - first) / step), last - 1)
+    s = (x - knots[0, i]) / step
+    rise, left, right = knots[1, i + 1] - knots[1, i], step * knots[2, i], step * knots[2, i + 1]
+    bend, twist = 3.0 * rise - 2.0 * left - right, left + right - 2.0 * rise
+    value = knots[1, i] + s * (left + s * (bend + s * twist))
+    return value, (left + s * (2.0 * bend + 3.0 * s * twist)) / step
+
+
+@kernel
+def along(
+    time: Float[np.ndarray, " t"],
+    u: Float[np.ndarray, " t"],
+    rate: Float[np.ndarray, " t"],
+    law: Float[np.ndarray, " numbers"],
+) -> Float[np.ndarray, " t"]:
+    """Load of every sample of a deflection that is known beforehand."""
+    load = np.empty(u.size)
+    old, new = np.zeros(MEMORY), np.zeros(MEMORY)
+    for i in range(u.size):
+        load[i] = interface_force(u[i], rate[i], time[i] - time[i - 1] if i else 0.0, law, old, new)
+        old, new = new, old
+    return load
+
+
+@kernel
+def gives_way(load: float, n: Float[np.ndarray, " three"]) -> float:
+    """What the input gives way by to `load`."""
+    share = load / n[2]
+    return float(n[0] * n[2] * (share if n[1] == 1.0 else np.sign(share) * abs(share) ** n[1]))
+
+
+@kernel
+def in_series(
+    time: Float[np.ndarray, " t"],
+    x: Float[np.ndarray, " t"],
+    rate: Float[np.ndarray, " t"],
+    knots: Float[np.ndarray, "three n"],
+    n: Float[np.ndarray, " three"],
+    law: Float[np.ndarray, " numbers"],
+) -> tuple[Float[np.ndarray, " t"], int]:
+    """Load of every sample behind a spring in series, and how many of them have no solution.
+
+    x - c F is what deflects: one implicit equation per sample, the spring's rate being its change over the step (first
+    order in the step, where the law depends on the rate).
+    """
+    load = np.empty(x.size)
+    old, new = np.zeros(MEMORY), np.zeros(MEMORY)
+    search = nothing_known()
+    unsolved = 0
+    before = 0.0
+    for i in range(x.size):
+        h = time[i] - time[i - 1] if i else 0.0
+        u, slope = read_off(x[i], knots)
+        found = interface_force(u, slope * rate[i], h, law, old, new)
+        start_over(search)
+        guess = 2.0 * load[i - 1] - load[i - 2] if i > 1 else found
+        solved = False
+        for _ in range(ATTEMPTS):
+            given = gives_way(guess, n)
+            u, slope = read_off(x[i] - given, knots)
+            found = interface_force(u, slope * (rate[i] - (given - before) / h if i else rate[i]), h, law, old, new)
+            solved = abs(guess - found) <= TOLERANCE * max(abs(found), n[2])
+            if solved:
+                break
+            guess = next_load(guess, guess - found, search)
+        unsolved += not solved
+        before = gives_way(found, n)
+        load[i] = found
+        old, new = new, old
+    return load, unsolved
+
+
+def extent(x: Float[np.ndarray, " t"]) -> float:
+    """Range of an input, never so small that differences over it would be rounding."""
+    return max(float(np.ptp(x)), LEAST_RANGE * max(1.0, float(np.abs(x).max())))
+
+
+@dataclass(frozen=True)
+class SingleDeflection:
+    """Geometry link with one deflection, a function of one input.
+
+    Parameters
+    ----------
+    yields
+        The input, which also gives way to a spring in series.
+    deflect
+        (input, numbers) → deflection, vectorised and without memory. Its slope is found by differences; with a spring
+        in series it is read off a table of `KNOTS` values over three times the range of the trial, straight beyond.
+    """
+
+    yields: str
+    deflect: Deflect
+    slots: Slots = SERIES
+
+    def having(self, sources: Mapping[str, Source]) -> SingleDeflection:
+        """The same link with more of its numbers coming from somewhere."""
+        return replace(self, slots=self.slots.having(sources))
+
+    def deflection(
+        self, movement: Movement, values: Values
+    ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
+        """Deflection and rate without load."""
+        u, slope = self._seen(movement.position[movement.row(self.yields)], values)
+        return u[:, None], (slope * movement.rate[movement.row(self.yields)])[:, None]
+
+    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+        """Load along a movement; its law is the interface law."""
+        n, numbers = self.slots.numbers(values), law.slots.numbers(values)
+        if n[0] == 0.0:
+            u, rate = self.deflection(movement, values)
+            load = along(movement.time, u[:, 0].copy(), rate[:, 0].copy(), numbers)
+        else:
+            row = movement.row(self.yields)
+            x = movement.position[row]
+            load, unsolved = in_series(movement.time, x, movement.rate[row], self._knots(x, values), n, numbers)
+            require_convergence(unsolved, len(load), n[0])
+        nothing = np.zeros((len(load), 1))
+        return Loads(load[:, None], nothing, nothing)
+
+    def _seen(
+        self, x: Float[np.ndarray, " t"], values: Values
+    ) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
+        """Deflection and slope at `x`."""
+        step = STEP * extent(x)
+        slope = (self.deflect(x + step, values) - self.deflect(x - step, values)) / (2.0 * step)
+        return np.asarray(self.deflect(x, values), float), np.asarray(slope, float)
+
+    def _knots(self, x: Float[np.ndarray, " t"], values: Values) -> Float[np.ndarray, "three n"]:
+        """Input, deflection and slope at equally spaced knots over three times the range of `x`."""
+        at = np.linspace(x.min() - extent(x), x.max() + extent(x), KNOTS)
+        return np.array([at, *self._seen(at, values)])

@@ -1,0 +1,100 @@
+"""Which effect: mistakes in the data first, then every candidate inside the simulator, pairs, and what is left over."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.system import System
+from geocontact.data.gap_case import GapCase
+from geocontact.gap.contest import Contender, base_contender, mates, singles
+from geocontact.gap.evidence import settled
+from geocontact.gap.faults import Fault, fault_of
+from geocontact.gap.oddities import Oddity, oddities
+from geocontact.gap.problem import Problem, problem_of
+from geocontact.gap.surrogate import Surrogate, surrogate
+from geocontact.gap.verdict import Answer, answer
+
+FIRSTS = 3  # singles that a second effect is tried on
+LEADING = 3  # contenders under whose noise everyone is compared
+WORTH_A_PAIR = 8.0  # nats that a single must gain before a second effect is looked for
+ODD = 10.0  # nats from which an oddity counts as something unknown
+
+Offer = Callable[[System], Sequence[Candidate]]
+
+
+@dataclass(frozen=True)
+class Attribution:
+    """Everything that was found out about which effect it is.
+
+    Parameters
+    ----------
+    problem
+        Base model of the case as it came.
+    fault
+        The mistake in the data that everything below takes as undone, if there is one.
+    base
+        The base model (with the mistake undone).
+    contenders
+        Models with effects, those with one first.
+    remaining
+        What the stand-in for anything unknown finds on the base ("none") and on the best contenders, by label.
+    odd
+        What is odd about the residual of the best model.
+    answer
+        The verdict.
+    """
+
+    problem: Problem
+    fault: Fault | None
+    base: Contender
+    contenders: tuple[Contender, ...]
+    remaining: dict[str, Surrogate]
+    odd: tuple[Oddity, ...]
+    answer: Answer
+
+
+def attribute(case: GapCase, system: System, offer: Offer) -> Attribution:
+    """Which effect a case lacks; `offer` gives the candidates for a system once its scale is known."""
+    problem = problem_of(case, system)
+    fault = fault_of(problem, offer(problem.system))
+    clean = problem if fault is None else problem_of(case, fault.candidate.apply(system))
+    candidates = offer(clean.system)
+    base = base_contender(clean)
+    single = singles(clean, base, candidates)
+    contenders = [*single]
+    remaining = {"none": surrogate(clean, base.judged)}
+    best = single[0]
+    left = {best.label: surrogate(clean, best.judged)}
+    if best.judged.nats - base.judged.nats > WORTH_A_PAIR:
+        for first in _different(single)[:FIRSTS]:
+            contenders += mates(clean, first, candidates)
+        pair = max((c for c in contenders if len(c.candidates) == 2), key=lambda c: c.judged.nats, default=None)
+        if pair is not None:
+            left[pair.label] = surrogate(clean, pair.judged)
+    base, *contenders = compared(clean, [base, *contenders])
+    top = max([base, *contenders], key=lambda c: c.judged.nats)
+    odd = tuple(each for each in oddities(clean, top.judged) if each.nats > ODD)
+    unnamed = remaining["none"].nats + sum(each.nats for each in odd)
+    over = {label: each.nats + sum(o.nats for o in odd) for label, each in left.items()}
+    said = answer(base, contenders, unnamed, over)
+    return Attribution(problem, fault, base, tuple(contenders), {**remaining, **left}, odd, said)
+
+
+def compared(problem: Problem, contenders: Sequence[Contender]) -> list[Contender]:
+    """Everyone under the noise of everyone who leads, and of the base, which comes first."""
+    leading = sorted(contenders, key=lambda c: -c.judged.nats)[:LEADING]
+    noises = [contenders[0].judged.noise, *(c.judged.noise for c in leading if c is not contenders[0])]
+    return [replace(c, judged=settled(problem, c.judged, noises)) for c in contenders]
+
+
+def _different(contenders: Sequence[Contender]) -> list[Contender]:
+    """The best two variants of each effect at most, best first."""
+    seen: dict[tuple[str, ...], int] = {}
+    kept = []
+    for one in contenders:
+        seen[one.names] = seen.get(one.names, 0) + 1
+        if seen[one.names] <= 2:
+            kept.append(one)
+    return kept

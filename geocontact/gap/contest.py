@@ -1,0 +1,109 @@
+"""Every candidate inside the simulator, refitted together with the base; the best of them with noise of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from geocontact.chain.candidate import Candidate
+from geocontact.gap.evidence import Judged, judged
+from geocontact.gap.problem import Noise, Problem
+from geocontact.gap.refit import Refit, free, refit
+
+FINALISTS = 6
+MATE_TRIALS = 4  # second effects that are fitted on top of a first
+MATES = 2  # of these that get noise of their own
+FEW = 5  # free parameters up to which a joint fit also sets out from the case's own start
+
+
+@dataclass(frozen=True)
+class Contender:
+    """The base model with some candidates, judged; none of them for the base itself."""
+
+    candidates: tuple[Candidate, ...]
+    judged: Judged
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Effects of the vocabulary, each once, in alphabetical order."""
+        return tuple(sorted({one.name for one in self.candidates}))
+
+    @property
+    def label(self) -> str:
+        """Candidates in one word."""
+        return " + ".join(one.label for one in self.candidates) or "none"
+
+
+def base_contender(problem: Problem) -> Contender:
+    """The base model with the noise that suits it."""
+    noise = problem.weighed(problem.plain)
+    fitted = refit(problem.system, problem.calibration, problem.fitting(noise, problem.plain), [problem.plain.values])
+    return finished(problem, (), fitted, noise)
+
+
+def finished(problem: Problem, candidates: tuple[Candidate, ...], model: Refit, before: Noise) -> Contender:
+    """A model fitted under somebody else's noise, refitted under its own."""
+    noise = problem.weighed(model, before)
+    again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], rounds=6)
+    return Contender(candidates, judged(problem, again, noise))
+
+
+def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) -> list[Contender]:
+    """The most likely candidates, best first: all are fitted under the base's noise, then under that of the best."""
+    movable = [one for one in candidates if one.parameters]
+    reference = base.judged.model
+    noise = base.judged.noise
+    found: dict[str, Refit] = {}
+    for _ in range(2):
+        weighings = problem.fitting(noise, reference)
+        for one in movable:
+            if one.label in found:
+                starts: list[Mapping[str, float]] = [found[one.label].values]
+            else:
+                starts = [{**base.judged.model.values, **start} for start in one.starts]
+                if len(free(problem.system)) < FEW:
+                    starts.append(one.starts[0])
+            found[one.label] = refit(one.apply(problem.system), problem.calibration, weighings, starts)
+        reference = min(found.values(), key=lambda model: model.cost)
+        noise = problem.weighed(reference, noise)
+    best = sorted(movable, key=lambda one: found[one.label].cost)[:FINALISTS]
+    contenders = [finished(problem, (one,), found[one.label], noise) for one in best]
+    return sorted(contenders, key=lambda c: -c.judged.nats)
+
+
+def mates(problem: Problem, first: Contender, candidates: Sequence[Candidate]) -> list[Contender]:
+    """Pairs of a contender with a second candidate, best first; which to fit is told by one step of each."""
+    model, noise = first.judged.model, first.judged.noise
+    weighings = problem.fitting(noise, model)
+    rows = sum(len(w.directions) for w in weighings)
+    fitted = np.linalg.qr(model.whitened_jacobian[:rows])[0]
+    left = model.whitened[:rows] - fitted @ (fitted.T @ model.whitened[:rows])
+    before = model.residuals[: len(weighings)]
+    promise: list[tuple[float, Candidate, Mapping[str, float]]] = []
+    for one in candidates:
+        if not one.parameters or one.name in first.names:
+            continue
+        system = one.apply(model.system)
+        for start in one.starts:
+            after = problem.calibration.residuals(system, {**model.values, **start})
+            step = np.concatenate(
+                [w((a - b)[..., None])[:, 0] for w, a, b in zip(weighings, before, after, strict=True)]
+            )
+            step = step - fitted @ (fitted.T @ step)
+            power = float(step @ step)
+            along = float(step @ left)
+            promise.append((0.5 * max(along, 0.0) ** 2 / power if power > 0.0 else 0.0, one, start))
+    promise.sort(key=lambda each: -each[0])
+    chosen: dict[str, Candidate] = {}
+    for _, one, _ in promise:
+        if len(chosen) < MATE_TRIALS:
+            chosen.setdefault(one.label, one)
+    pairs = []
+    for one in chosen.values():
+        starts = [{**model.values, **start} for start in one.starts]
+        pairs.append((one, refit(one.apply(model.system), problem.calibration, weighings, starts)))
+    pairs.sort(key=lambda pair: pair[1].cost)
+    done = [finished(problem, (*first.candidates, one), pair, noise) for one, pair in pairs[:MATES]]
+    return sorted(done, key=lambda c: -c.judged.nats)

@@ -1,0 +1,99 @@
+"""How probable the data are under a model, its unknowns integrated out to first order around the fit.
+
+Whitened residuals r (unit noise) and a design D of derivatives with prior standard deviations S give
+r ~ N(0, I + D S² Dᵀ): Laplace's approximation for fitted parameters, exact for linear ones such as the weights of a
+surrogate (Rasmussen & Williams, Gaussian Processes for Machine Learning, 2006, ch. 2 and 5). On calibration trials and
+held-out trials together this is the likelihood of the former times the predictive likelihood of the latter, although
+no parameter was fitted to them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.system import System
+from geocontact.gap.problem import Noise, Problem, evaluated
+from geocontact.gap.refit import Refit, free, magnitude
+
+AT_BOUND = 1e-4  # of a parameter's magnitude
+FLAT = float(np.sqrt(12.0))  # range of a flat prior over its standard deviation
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A fitted model with noise levels of its own.
+
+    Parameters
+    ----------
+    model
+        Evaluated on all trials, whitened with its own noise.
+    noise
+        Its own.
+    nats
+        Logarithm of the evidence of all trials; only differences between models of one problem mean anything.
+    calibration
+        The same for the calibration trials alone.
+    """
+
+    model: Refit
+    noise: Noise
+    nats: float
+    calibration: float
+
+
+def judged(problem: Problem, model: Refit, noise: Noise) -> Judged:
+    """A model fitted under `noise`, on calibration trials and on all."""
+    return judged_anew(problem, evaluated(problem, noise, model), noise)
+
+
+def judged_anew(problem: Problem, everywhere: Refit, noise: Noise) -> Judged:
+    """A model that was evaluated on all trials, under another noise."""
+    everywhere = everywhere.weighed(problem.weighings(noise, everywhere))
+    model = everywhere
+    spread = prior_spread(model.system, model.values)
+    weighings = problem.weighings(noise, everywhere)
+    rows = sum(len(w.directions) for w in weighings[: len(problem.calibration.trials)])
+    scales = np.array([w.log_scale for w in weighings])
+    design = everywhere.whitened_jacobian
+    fitted = scales[: len(problem.calibration.trials)].sum() + noise.surprise
+    return Judged(
+        everywhere,
+        noise,
+        log_evidence(everywhere.whitened, design, spread) - float(scales.sum()) - noise.surprise,
+        log_evidence(everywhere.whitened[:rows], design[:rows], spread) - float(fitted),
+    )
+
+
+def settled(problem: Problem, one: Judged, noises: Sequence[Noise]) -> Judged:
+    """The same model under whichever of several noises makes the data most probable.
+
+    Noise levels are found by a search of its own, on blocks and on calibration trials; models that differ by a few nats
+    are compared under each other's as well.
+    """
+    others = [judged_anew(problem, one.model, noise) for noise in noises if noise is not one.noise]
+    return max([one, *others], key=lambda each: each.nats)
+
+
+def log_evidence(
+    residual: Float[np.ndarray, " n"], design: Float[np.ndarray, "n p"], spread: Float[np.ndarray, " p"]
+) -> float:
+    """Logarithm of N(r; 0, I + D S² Dᵀ), without the constant."""
+    scaled = design * spread
+    inner = np.eye(len(spread)) + scaled.T @ scaled
+    part = scaled.T @ residual
+    quadratic = float(residual @ residual) - float(part @ np.linalg.solve(inner, part))
+    return -0.5 * quadratic - 0.5 * float(np.linalg.slogdet(inner)[1])
+
+
+def prior_spread(system: System, values: dict[str, float]) -> Float[np.ndarray, " p"]:
+    """Prior standard deviation of each free parameter: that of a flat prior over its bounds, 0 where it sits on one."""
+    spread = []
+    for p in free(system):
+        width = p.upper - p.lower
+        held = min(values[p.name] - p.lower, p.upper - values[p.name]) < AT_BOUND * magnitude(p)
+        spread.append(0.0 if held else width / FLAT if np.isfinite(width) else 100.0 * magnitude(p))
+    return np.array(spread)

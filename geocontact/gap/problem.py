@@ -1,0 +1,229 @@
+"""A case made ready: base model fitted, noise and trial-to-trial variation estimated, trials cut into blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.system import System
+from geocontact.data.gap_case import GapCase
+from geocontact.gap.inputs import denoised
+from geocontact.gap.refit import Measured, Refit, at, free, refit
+from geocontact.gap.weighing import Weighing, layouts_of, usual_levels, varies_by
+from geocontact.identify.covariance import Layout, Levels, Whitener, most_likely
+from geocontact.identify.trial_variation import Products, variation
+
+STARTS = 4  # of the base fit, besides the case's own
+MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What every model of a case is judged on.
+
+    Parameters
+    ----------
+    system
+        Base model, its scale taken at the fitted values.
+    calibration, evaluation
+        Trials that may be fitted, and those held out.
+    layouts
+        Of the calibration trials, then of the evaluation trials.
+    prior, width
+        What was believed of the noise levels.
+    usual
+        Usual standard deviation of each free base parameter from trial to trial.
+    plain
+        Base model fitted by least squares, every channel divided by `floor`.
+    floor
+        Noise plus trial-to-trial variation of each channel.
+    """
+
+    system: System
+    calibration: Measured
+    evaluation: Measured
+    layouts: tuple[Layout, ...]
+    prior: Levels
+    width: Levels
+    usual: Float[np.ndarray, " q"]
+    plain: Refit
+    floor: Float[np.ndarray, " c"]
+
+    @property
+    def calibration_layouts(self) -> tuple[Layout, ...]:
+        """Of the trials that may be fitted."""
+        return self.layouts[: len(self.calibration.trials)]
+
+    @property
+    def floor_of_noise(self) -> Float[np.ndarray, " c"]:
+        """Noise of each channel as it was believed beforehand: a scale, no estimate."""
+        return np.hypot(self.prior.white, self.prior.coloured)
+
+    def weighed(self, model: Refit, before: Noise | None = None) -> Noise:
+        """Noise levels and variation that make a model's residuals most likely, calibration trials only."""
+        count = len(self.usual)
+        sd = self.usual if before is None else before.varies
+        levels, surprise = None if before is None else before.levels, 0.0
+        for _ in range(2 if before is None else 1):
+            levels, surprise = most_likely(
+                self.calibration_layouts,
+                model.residuals,
+                [j[..., :count] * sd for j in model.jacobian],
+                self.prior,
+                self.width,
+                self.prior if levels is None else levels,
+            )
+            sd = self._variation(model, levels)
+        assert levels is not None
+        return Noise(levels, sd, surprise, tuple(layout.whitener(levels) for layout in self.layouts))
+
+    def _variation(self, model: Refit, levels: Levels) -> Float[np.ndarray, " q"]:
+        products = []
+        for layout, residual, jacobian in zip(self.calibration_layouts, model.residuals, model.jacobian, strict=True):
+            whitener = layout.whitener(levels)
+            design = whitener(jacobian[..., : len(self.usual)])
+            products.append(Products.of(whitener(residual[..., None])[:, 0], design))
+        return np.minimum(variation(products, self.usual).sd, MOST_VARIATION * self.usual)
+
+    def fitting(self, noise: Noise, model: Refit) -> list[Weighing]:
+        """Whitening of the calibration trials."""
+        return self.weighings(noise, model)[: len(self.calibration.trials)]
+
+    def weighings(self, noise: Noise, model: Refit) -> list[Weighing]:
+        """Whitening of the trials that a model was evaluated on: all of them, or those of the calibration."""
+        count = len(self.usual)
+        return [
+            Weighing.of(whitener, jacobian[..., :count] * noise.varies)
+            for whitener, jacobian in zip(noise.whiteners, model.jacobian, strict=False)
+        ]
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Levels of noise, standard deviation of each base parameter from trial to trial, and how surprising they are.
+
+    `whiteners` are what these levels make of the layouts of all trials.
+    """
+
+    levels: Levels
+    varies: Float[np.ndarray, " q"]
+    surprise: float
+    whiteners: tuple[Whitener, ...]
+
+
+@dataclass(frozen=True)
+class Plain:
+    """Weighing by a standard deviation per channel only."""
+
+    present: np.ndarray
+    floor: Float[np.ndarray, " c"]
+    log_scale: float = 0.0
+
+    def __call__(self, values: Float[np.ndarray, "t c p"]) -> Float[np.ndarray, "n p"]:
+        """Rows of measured samples, divided by the floor."""
+        return np.asarray((values / self.floor[:, None]).reshape(-1, values.shape[-1])[self.present.ravel()])
+
+
+def problem_of(case: GapCase, system: System) -> Problem:
+    """A case made ready; the base model is fitted from several starts."""
+    rough = rough_noise(system, case)
+    calibration = Measured.of(system, case.calibration, rough)
+    evaluation = Measured.of(system, case.evaluation, rough)
+    everything = replace(
+        calibration,
+        trials=calibration.trials + evaluation.trials,
+        outputs=calibration.outputs + evaluation.outputs,
+    )
+    plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
+    floor = rough
+    for last in (False, True):
+        system = system.scaled(calibration.trials, plain.values)
+        usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
+        prior, width = usual_levels(system, case.noise, rough)
+        layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present))
+        problem = Problem(system, calibration, evaluation, layouts, prior, width, usual, plain, floor)
+        noise = problem.weighed(plain)
+        if not last:
+            sd = dict(zip(system.inputs, map(float, noise.levels.inputs), strict=True))
+            calibration, evaluation = (_denoised(each, sd) for each in (calibration, evaluation))
+            everything = replace(everything, trials=calibration.trials + evaluation.trials)
+        floor = floor_of(problem, noise, plain)
+        plain = _plain_fit(system, calibration, floor, [plain.values], rounds=20)
+    return replace(problem, plain=plain, floor=floor)
+
+
+def _denoised(measured: Measured, noise: Mapping[str, float]) -> Measured:
+    return replace(measured, trials=tuple(denoised(trial, noise) for trial in measured.trials))
+
+
+def _plain_fit(
+    system: System,
+    measured: Measured,
+    floor: Float[np.ndarray, " c"],
+    starts: Sequence[Mapping[str, float]],
+    rounds: int,
+) -> Refit:
+    return refit(system, measured, [Plain(there, floor) for there in measured.present], starts, rounds)
+
+
+def base_starts(system: System) -> list[dict[str, float]]:
+    """The parameters' own start, and points spread evenly over their bounds."""
+    from scipy.stats import qmc
+
+    parameters = [p for p in free(system) if np.isfinite(p.upper - p.lower)]
+    spread = qmc.Sobol(len(parameters), seed=0).random(STARTS) if parameters else np.zeros((0, 0))
+    return [
+        {},
+        *(
+            {p.name: float(p.lower + (0.1 + 0.8 * u) * (p.upper - p.lower)) for p, u in zip(parameters, row, strict=True)}
+            for row in spread
+        ),
+    ]
+
+
+def rough_noise(system: System, case: GapCase) -> Float[np.ndarray, " c"]:
+    """Noise that the case tells, else what second differences of the measurement suggest."""
+    return np.array([case.noise.get(name, _jumpiness(case, name)) for name in system.outputs])
+
+
+def _jumpiness(case: GapCase, name: str) -> float:
+    steps = np.concatenate([np.diff(t.column(name)[np.isfinite(t.column(name))], 2) for t in case.calibration])
+    spread = float(np.median(np.abs(steps))) / 0.6745 / np.sqrt(6.0) if len(steps) else 0.0
+    most = max(float(np.nanmax(np.abs(t.column(name)), initial=0.0)) for t in case.calibration)
+    return max(spread, 1e-4 * most, 1e-12)
+
+
+def floor_of(problem: Problem, noise: Noise, model: Refit) -> Float[np.ndarray, " c"]:
+    """Root mean square of what no model can predict, per channel: noise, noise of inputs, trial-to-trial variation."""
+    squares, counts = np.zeros(len(problem.prior.white)), np.zeros(len(problem.prior.white))
+    for layout, jacobian, present in zip(
+        problem.calibration_layouts, model.jacobian, problem.calibration.present, strict=True
+    ):
+        own = noise_variance(layout, noise.levels) + (
+            (jacobian[..., : len(noise.varies)] * noise.varies) ** 2
+        ).sum(axis=-1)
+        squares += np.where(present, own, 0.0).sum(axis=0)
+        counts += present.sum(axis=0)
+    return np.sqrt(squares / np.maximum(counts, 1))
+
+
+def noise_variance(layout: Layout, levels: Levels) -> Float[np.ndarray, "t c"]:
+    """Variance of sensor noise and input noise at every sample; 0 where nothing was measured."""
+    total = np.zeros(layout.shape[0] * layout.shape[1])
+    for block in layout.blocks:
+        total[block.rows] = np.diag(block.covariance(levels))
+    return total.reshape(layout.shape)
+
+
+def evaluated(problem: Problem, noise: Noise, model: Refit) -> Refit:
+    """A fitted model at its values on all trials, nothing fitted to the held-out ones."""
+    held_out = at(model.system, problem.evaluation, None, model.values)
+    both = replace(
+        model,
+        residuals=model.residuals + held_out.residuals,
+        jacobian=model.jacobian + held_out.jacobian,
+    )
+    return both.weighed(problem.weighings(noise, both))

@@ -1,0 +1,112 @@
+"""What a residual weighs: noise, trial-to-trial variation and noise of the inputs, as a whitening per trial."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.links import Modifier
+from geocontact.chain.movement import Movement
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+from geocontact.data.trial import Trial
+from geocontact.identify.covariance import Layout, Levels, Sensitivity, Whitener
+
+POSITION_VARIES = 1e-3  # m
+ANGLE_VARIES = 0.01  # rad
+SHARE_VARIES = 0.04  # of any other parameter
+BUMP = 1e-4  # of an input's half-range
+LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
+
+
+@dataclass(frozen=True)
+class Weighing:
+    """Whitening of one trial: v → (I + B Q Bᵀ)^(-1/2) W v.
+
+    Parameters
+    ----------
+    whitener
+        W, of sensor noise and input noise.
+    directions, gains
+        Left singular vectors of B Q^(1/2), and 1 - 1/sqrt(1 + s²) of each.
+    log_scale
+        Half the logarithm of the determinant of the whole covariance.
+    """
+
+    whitener: Whitener
+    directions: Float[np.ndarray, "n q"]
+    gains: Float[np.ndarray, " q"]
+    log_scale: float
+
+    @classmethod
+    def of(cls, whitener: Whitener, varied: Float[np.ndarray, "t c q"]) -> Weighing:
+        """From the whitener and derivatives with respect to what varies, times its standard deviation."""
+        if varied.shape[-1] == 0:
+            return cls(whitener, np.zeros((sum(map(len, whitener.rows)), 0)), np.zeros(0), whitener.log_scale)
+        directions, singular, _ = np.linalg.svd(whitener(varied), full_matrices=False)
+        grown = np.sqrt(1.0 + singular**2)
+        return cls(whitener, directions, 1.0 - 1.0 / grown, whitener.log_scale + float(np.log(grown).sum()))
+
+    def __call__(self, values: Float[np.ndarray, "t c p"]) -> Float[np.ndarray, "n p"]:
+        """Whitened columns."""
+        white = self.whitener(values)
+        return np.asarray(white - self.directions @ (self.gains[:, None] * (self.directions.T @ white)))
+
+
+def varies_by(parameter: Parameter, value: float) -> float:
+    """Standard deviation that a base parameter usually has from trial to trial: donning, placement."""
+    if parameter.unit == "m":
+        return POSITION_VARIES
+    return ANGLE_VARIES if parameter.unit == "rad" else SHARE_VARIES * abs(value)
+
+
+def sensitivity(system: System, trial: Trial, values: Mapping[str, float]) -> Sensitivity:
+    """How the outputs answer to each input's value and rate, sample by sample, by central differences."""
+    answers = []
+    for kind, per_second in (("position", 1.0), ("rate", 6.0)):
+        columns = []
+        for row, name in enumerate(system.inputs):
+            step = BUMP * per_second * system.scale.span.get(name, 1.0)
+            above, below = (
+                _bumped(system, kind, row, sign * step).simulate(trial, values) for sign in (1.0, -1.0)
+            )
+            columns.append(np.nan_to_num((above - below) / (2.0 * step)))
+        answers.append(np.stack(columns, axis=-1))
+    return Sensitivity(*answers)
+
+
+def _bumped(system: System, kind: str, row: int, by: float) -> System:
+    def change(movement: Movement, _: Movement, __: Mapping[str, float]) -> Movement:
+        moved = getattr(movement, kind).copy()
+        moved[row] += by
+        return replace(movement, **{kind: moved})
+
+    return replace(system, motion=system.motion.having(Modifier("bump", LAST, change)))
+
+
+def usual_levels(
+    system: System, told: Mapping[str, float], rough: Float[np.ndarray, " c"]
+) -> tuple[Levels, Levels]:
+    """What is believed of the noise before the residuals are looked at: medians, and sd of the logarithms.
+
+    The noise that a case tells is split evenly between white and coloured; where it tells none, `rough` stands in and
+    is believed less. Coloured noise remembers a few samples; inputs are known to about 0.2 % of their half-range.
+    """
+    known = np.array([name in told for name in system.outputs])
+    sd = np.array([told.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
+    spans = np.array([system.scale.span.get(name, 1.0) for name in system.inputs])
+    memory = np.full(len(sd), 2.0 * system.scale.step)
+    return (
+        Levels(sd, sd, memory, 0.002 * spans),
+        Levels(np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2), np.full(len(sd), 1.0), np.full(len(spans), 1.2)),
+    )
+
+
+def layouts_of(
+    system: System, trials: Sequence[Trial], values: Mapping[str, float], present: Sequence[np.ndarray]
+) -> list[Layout]:
+    """One per trial, inputs' noise seen through the model at `values`."""
+    return [Layout.of(t.time, there, sensitivity(system, t, values)) for t, there in zip(trials, present, strict=True)]

@@ -1,0 +1,260 @@
+"""Covariance of what a trial's residual is made of: sensor noise, noise with a memory, noise of the inputs.
+
+Over a trial the residual r = measured - predicted is, to first order,
+
+    r = w + c + sum_j (a_j n_j + b_j n_j') + B d
+
+with w white sensor noise, c an Ornstein-Uhlenbeck process per channel (muscle tone, sway, a filter in the measuring
+chain), n_j the noise of input j after the low-pass filter that motion data usually have been through, a_j and b_j the
+model's sensitivities to that input and to its rate, and d the trial's own deviation of some parameters (donning,
+placement; `trial_variation`). The time axis is cut into blocks that are taken as independent of each other, apart from
+d, because all noise has a short memory; that keeps matrices small.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.linalg import lapack
+
+BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
+LOW_PASS = 6.0  # Hz, what recorded motion is usually filtered with (Winter, Biomechanics and Motor Control, 2009)
+FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
+JITTER = 1e-9  # of the diagonal, so that a factor always exists
+
+
+@dataclass(frozen=True)
+class Levels:
+    """Standard deviations and correlation times that make up the covariance.
+
+    Parameters
+    ----------
+    white, coloured
+        Of each output channel, in its unit.
+    memory
+        Correlation time of the coloured part of each channel [s].
+    inputs
+        Of each input, in its unit, after the low-pass filter.
+    """
+
+    white: Float[np.ndarray, " c"]
+    coloured: Float[np.ndarray, " c"]
+    memory: Float[np.ndarray, " c"]
+    inputs: Float[np.ndarray, " j"]
+
+    def logarithms(self) -> Float[np.ndarray, " h"]:
+        """All numbers in one vector of logarithms."""
+        return np.log(np.concatenate([self.white, self.coloured, self.memory, self.inputs]))
+
+    def at(self, logarithms: Float[np.ndarray, " h"]) -> Levels:
+        """Levels of the same shape from such a vector."""
+        parts = np.split(np.exp(logarithms), np.cumsum([len(self.white)] * 3))
+        return Levels(*parts)
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """How the outputs of one trial answer to its inputs: to the value, and to the rate."""
+
+    to_value: Float[np.ndarray, "t c j"]
+    to_rate: Float[np.ndarray, "t c j"]
+
+
+@dataclass(frozen=True)
+class Block:
+    """Rows of one stretch of a trial and the parts that its covariance is summed from."""
+
+    rows: Int[np.ndarray, " n"]
+    of_channel: tuple[Int[np.ndarray, " _"], ...]
+    lags: tuple[Float[np.ndarray, "_ _"], ...]
+    inputs: Float[np.ndarray, "j n n"]
+
+    def covariance(self, levels: Levels) -> Float[np.ndarray, "n n"]:
+        """At these levels."""
+        total = np.tensordot(levels.inputs**2, self.inputs, axes=1)
+        for c, (own, lag) in enumerate(zip(self.of_channel, self.lags, strict=True)):
+            total[np.ix_(own, own)] += levels.coloured[c] ** 2 * np.exp(-lag / levels.memory[c])
+            total[own, own] += levels.white[c] ** 2
+        total[np.diag_indices_from(total)] *= 1.0 + JITTER
+        return np.asarray(total)
+
+    def pulls(self, levels: Levels, pull: Float[np.ndarray, "n n"]) -> Float[np.ndarray, " h"]:
+        """Sum of `pull` times the derivative of the covariance with respect to each logarithm of a level."""
+        white, coloured, memory = np.zeros((3, len(self.lags)))
+        for c, (own, lag) in enumerate(zip(self.of_channel, self.lags, strict=True)):
+            part = pull[np.ix_(own, own)] * np.exp(-lag / levels.memory[c])
+            white[c] = 2.0 * levels.white[c] ** 2 * pull[own, own].sum()
+            coloured[c] = 2.0 * levels.coloured[c] ** 2 * part.sum()
+            memory[c] = levels.coloured[c] ** 2 * (part * lag).sum() / levels.memory[c]
+        inputs = 2.0 * levels.inputs**2 * np.tensordot(self.inputs, pull, axes=2)
+        return np.concatenate([white, coloured, memory, inputs])
+
+
+@dataclass(frozen=True)
+class Layout:
+    """One trial cut into blocks; rows are its measured samples, channel after channel within a block."""
+
+    shape: tuple[int, int]
+    blocks: tuple[Block, ...]
+
+    @classmethod
+    def of(cls, time: Float[np.ndarray, " t"], present: np.ndarray, sensitivity: Sensitivity) -> Layout:
+        """Blocks of a trial; `present` (t, c) says which samples were measured."""
+        count = max(1, round(present.sum() / BLOCK_ROWS))
+        edges = np.linspace(0, len(time), count + 1).astype(int)
+        blocks = [_block(time, present, sensitivity, a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+        return cls(present.shape, tuple(block for block in blocks if len(block.rows)))
+
+    def whitener(self, levels: Levels) -> Whitener:
+        """What turns noise of these levels into independent numbers of unit variance."""
+        factors = [_inverse_factor(block.covariance(levels)) for block in self.blocks]
+        return Whitener(tuple(b.rows for b in self.blocks), tuple(f for f, _ in factors), sum(s for _, s in factors))
+
+    @cached_property
+    def rows(self) -> Int[np.ndarray, " n"]:
+        """Flat indices (t, c) of all rows."""
+        return np.concatenate([block.rows for block in self.blocks])
+
+
+@dataclass(frozen=True)
+class Whitener:
+    """Lower triangular factors, one per block, and the sum of logarithms that belongs to the likelihood."""
+
+    rows: tuple[Int[np.ndarray, " _"], ...]
+    factors: tuple[Float[np.ndarray, "_ _"], ...]
+    log_scale: float
+
+    def __call__(self, values: Float[np.ndarray, "t c p"]) -> Float[np.ndarray, "n p"]:
+        """Whitened rows of what is given for all samples."""
+        flat = values.reshape(-1, values.shape[-1])
+        return np.concatenate([f @ flat[rows] for rows, f in zip(self.rows, self.factors, strict=True)])
+
+    def coloured(self, independent: Float[np.ndarray, " n"]) -> Float[np.ndarray, " m"]:
+        """The way back: noise of these levels from independent numbers, in the order of the rows."""
+        from scipy.linalg import solve_triangular
+
+        parts, at = [], 0
+        for factor in self.factors:
+            parts.append(solve_triangular(factor, independent[at : at + len(factor)], lower=True))
+            at += len(factor)
+        return np.concatenate(parts)
+
+
+def _block(time: np.ndarray, present: np.ndarray, sensitivity: Sensitivity, first: int, last: int) -> Block:
+    sample, channel = [], []
+    for c in range(present.shape[1]):
+        own = first + np.flatnonzero(present[first:last, c])
+        sample.append(own)
+        channel.append(np.full(len(own), c))
+    at, which = np.concatenate(sample), np.concatenate(channel)
+    of_channel = tuple(np.flatnonzero(which == c) for c in range(present.shape[1]))
+    lags = tuple(np.abs(time[at[own]][:, None] - time[at[own]]) for own in of_channel)
+    signed = time[at][:, None] - time[at]
+    value, mixed, rate = low_passed(signed)
+    a, b = sensitivity.to_value[at, which], sensitivity.to_rate[at, which]
+    inputs = np.array(
+        [
+            value * np.outer(a[:, j], a[:, j])
+            + mixed * (np.outer(b[:, j], a[:, j]) - np.outer(a[:, j], b[:, j]))
+            + rate * np.outer(b[:, j], b[:, j])
+            for j in range(a.shape[1])
+        ]
+    )
+    return Block(at * present.shape[1] + which, of_channel, lags, inputs.reshape(-1, len(at), len(at)))
+
+
+def low_passed(
+    lag: Float[np.ndarray, "n n"],
+) -> tuple[Float[np.ndarray, "n n"], Float[np.ndarray, "n n"], Float[np.ndarray, "n n"]]:
+    """Covariance of noise after the low-pass filter with itself, of its rate with it, of its rate with its rate.
+
+    Unit variance at lag 0; `lag` is that of the first argument behind the second [s].
+    """
+    grid, value, slope, bend = _filtered_noise()
+    inside = np.abs(lag)
+    even = np.interp(inside, grid, value, right=0.0)
+    odd = np.sign(lag) * np.interp(inside, grid, slope, right=0.0)
+    return even, odd, -np.interp(inside, grid, bend, right=0.0)
+
+
+@lru_cache(maxsize=1)
+def _filtered_noise() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Autocovariance of white noise after a second-order Butterworth filter run both ways, and two derivatives."""
+    frequency = np.linspace(0.0, 12.0 * LOW_PASS, 3000)
+    power = low_pass_power(frequency)
+    power /= power.sum()
+    grid = np.linspace(0.0, 1.0, 1001)
+    angle = 2.0 * np.pi * frequency
+    phase = angle * grid[:, None]
+    return grid, np.cos(phase) @ power, -np.sin(phase) @ (power * angle), -np.cos(phase) @ (power * angle**2)
+
+
+def low_pass_power(frequency: Float[np.ndarray, " f"]) -> Float[np.ndarray, " f"]:
+    """Power that a second-order Butterworth filter run both ways lets through at each frequency [Hz]."""
+    return np.asarray(1.0 / (1.0 + (frequency / LOW_PASS) ** 4) ** 2)
+
+
+def _inverse_factor(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:
+    """Inverse of the lower Cholesky factor, and half the logarithm of the determinant."""
+    factor, failed = lapack.dpotrf(covariance, lower=1, clean=1)
+    if failed:
+        raise ValueError("a noise covariance is not positive definite")
+    inverse, _ = lapack.dtrtri(factor, lower=1)
+    return inverse, float(np.log(np.diag(factor)).sum())
+
+
+def most_likely(
+    layouts: Sequence[Layout],
+    residuals: Sequence[Float[np.ndarray, "_ c"]],
+    jitter: Sequence[Float[np.ndarray, "_ c q"]],
+    prior: Levels,
+    width: Levels,
+    start: Levels,
+    rounds: int = 40,
+) -> tuple[Levels, float]:
+    """Levels that make the residuals most likely, given what was believed of them, and half their squared surprise.
+
+    Parameters
+    ----------
+    layouts, residuals
+        One per trial.
+    jitter
+        Derivatives with respect to what varies from trial to trial, times its standard deviation.
+    prior, width
+        Median, and standard deviation of the logarithm, of each level: log-normal priors.
+    start
+        Where the search sets out.
+    """
+    from scipy.optimize import minimize
+
+    middle, spread = prior.logarithms(), np.exp(width.logarithms())
+    pieces = []
+    for layout, residual, moved in zip(layouts, residuals, jitter, strict=True):
+        flat = moved.reshape(residual.size, -1)
+        pieces += [(block, residual.ravel()[block.rows], flat[block.rows]) for block in layout.blocks]
+
+    def cost(x: Float[np.ndarray, " h"]) -> tuple[float, Float[np.ndarray, " h"]]:
+        levels = prior.at(middle + x * spread)
+        total, slope = 0.5 * float(x @ x), x.copy()
+        for block, residual, moved in pieces:
+            factor, log_scale = _inverse_factor(block.covariance(levels) + moved @ moved.T)
+            inverse = factor.T @ factor
+            solved = inverse @ residual
+            total += 0.5 * float(residual @ solved) + log_scale
+            slope += 0.5 * block.pulls(levels, inverse - np.outer(solved, solved)) * spread
+        return total, slope
+
+    begin = (start.logarithms() - middle) / spread
+    found = minimize(
+        cost,
+        np.clip(begin, -FARTHEST, FARTHEST),
+        jac=True,
+        method="L-BFGS-B",
+        bounds=[(-FARTHEST, FARTHEST)] * len(begin),
+        options={"maxiter": rounds, "ftol": 1e-5},
+    )
+    return prior.at(middle + found.x * spread), 0.5 * float(found.x @ found.x)
