@@ -72,6 +72,13 @@ FEATURES = (
         needed=True,
     ),
     Feature(
+        ".vtp meshes",
+        "pyvista",
+        "reading .vtp files",
+        "from vtkmodules.vtkIOXML import vtkXMLPolyDataReader",
+        "pip install 'geocontact[view]'",
+    ),
+    Feature(
         "3-D off-screen",
         "pyvista",
         "3-D stills and VTP files",

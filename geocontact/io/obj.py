@@ -1,15 +1,17 @@
-"""Wavefront OBJ: checked and read in one pass, line by line.
+"""Wavefront OBJ: checked line by line, then read by trimesh.
 
 Only `v` and `f` matter; materials, textures, normals, groups and free-form curves are passed over and no other file
 is opened. A keyword that OBJ does not know refuses the file: had it been a damaged `v`, every later index would shift.
-trimesh 5.2 counts negative indices from the end of the file (the format: from the line where they stand) and sorts
-faces by material; here face i is the i-th of the file.
+trimesh 5.2 counts negative indices from the end of the file (the format: from the line where they stand), sorts faces
+by material, splits vertices at texture seams and joins the words around a continued line: it is given plain `v x y z`
+and `f a b c` lines, so that face i is the i-th of the file.
 """
 
 from __future__ import annotations
 
 import re
 from array import array
+from io import BytesIO
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -18,7 +20,7 @@ from geocontact.data.errors import InputError
 from geocontact.io import limits
 from geocontact.io.file_preflight import not_a
 from geocontact.io.polygons import triangles
-from geocontact.io.text_lines import BYTE_ORDER_MARK, as_floats, as_integers, lines, numbers, shown, warn_open_end
+from geocontact.io.text_lines import BYTE_ORDER_MARK, as_integers, lines, require_numbers, shown, warn_open_end
 
 _PASSED_OVER = frozenset(
     b"vt vn vp l p g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj cstype deg "
@@ -30,11 +32,24 @@ _AGAIN = "export it again"
 
 def read_obj(data: bytes, file: str) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]:
     """Vertices of an OBJ file in its own unit (float64) and its faces; extra numbers of `v` (w, colour) are dropped."""
+    from trimesh.exchange.obj import load_obj  # half a second
+
+    text, count, faces = _plain(data, file)
+    text += b"".join(b"f %d %d %d\n" % (a, b, c) for a, b, c in (faces + 1).tolist())
+    (mesh,) = load_obj(BytesIO(text), skip_materials=True, maintain_order=True)["geometry"].values()
+    if len(mesh["vertices"]) != count or len(mesh["faces"]) != len(faces):
+        raise InputError(file, "", "trimesh read another number of vertices or faces than the file holds", _AGAIN)
+    return np.asarray(mesh["vertices"]), np.asarray(mesh["faces"])
+
+
+def _plain(data: bytes, file: str) -> tuple[bytearray, int, Int[np.ndarray, "m 3"]]:
+    """The vertices as `v x y z` lines, how many there are, and the triangles of the faces, 0-based."""
     if b"\0" in data:
         raise not_a("an OBJ file", data, file)
     if b"\\" in data:
         data = re.sub(rb"\\\r?\n", b" ", data)
-    coordinates, corners, sizes = array("d"), array("q"), array("q")
+    text, count = bytearray(), 0
+    corners, sizes = array("q"), array("q")
     start = len(BYTE_ORDER_MARK) if data.startswith(BYTE_ORDER_MARK) else 0
     for number, line in enumerate(lines(data, start), start=1):
         words = line.partition(b"#")[0].split()
@@ -43,9 +58,10 @@ def read_obj(data: bytes, file: str) -> tuple[Float[np.ndarray, "n 3"], Int[np.n
         keyword = words.pop(0)
         try:
             if keyword == b"v":
-                coordinates.extend(_vertex(words))
+                text += b"v %b %b %b\n" % _vertex(words)
+                count += 1
             elif keyword in (b"f", b"fo"):
-                corners.extend(_face(words, len(coordinates) // 3))
+                corners.extend(_face(words, count))
                 sizes.append(len(words))
             elif keyword not in _PASSED_OVER:
                 raise ValueError(f"{shown(keyword)} is no OBJ keyword")
@@ -53,23 +69,17 @@ def read_obj(data: bytes, file: str) -> tuple[Float[np.ndarray, "n 3"], Int[np.n
             if number == 1:
                 raise not_a("an OBJ file", data, file) from error
             raise InputError(file, f"line {number}", str(error), _AGAIN) from error
-    return _assembled(coordinates, corners, sizes, data, file)
-
-
-def _assembled(
-    coordinates: array[float], corners: array[int], sizes: array[int], data: bytes, file: str
-) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]:
-    vertices = as_floats(coordinates).reshape(-1, 3)
-    limits.require_count(len(vertices), limits.MAX_VERTICES, "vertices", file)
-    faces = triangles(as_integers(corners), as_integers(sizes), len(vertices), file)
+    limits.require_count(count, limits.MAX_VERTICES, "vertices", file)
+    faces = triangles(as_integers(corners), as_integers(sizes), count, file)
     warn_open_end(data, file)
-    return vertices, faces
+    return text, count, faces
 
 
-def _vertex(words: list[bytes]) -> list[float]:
+def _vertex(words: list[bytes]) -> tuple[bytes, bytes, bytes]:
     if len(words) not in (3, 4, 6, 7):
         raise ValueError(f"a vertex of {len(words)} numbers, expected x y z")
-    return numbers(words)[:3]
+    require_numbers(words)
+    return words[0], words[1], words[2]
 
 
 def _face(words: list[bytes], defined: int) -> list[int]:

@@ -7,31 +7,30 @@ from collections.abc import Iterator
 from itertools import islice
 
 import numpy as np
-from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
-from geocontact.io.ply_preflight import Element, Header
-from geocontact.io.text_lines import as_floats, as_integers, integer, lines, numbers, warn_open_end
+from geocontact.io.ply_preflight import Element, Header, Property, plain_header
+from geocontact.io.polygons import triangles
+from geocontact.io.text_lines import as_integers, integer, lines, require_numbers, warn_open_end
 
 _AGAIN = "the file is cut off or damaged, export or download it again"
+_AXES = ("x", "y", "z")
 _Row = tuple[int, list[bytes]]
 
 
-def read_ascii(
-    data: bytes, header: Header, index_list: str, file: str
-) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, " k"], Int[np.ndarray, " p"]]:
-    """Vertices (float32 when the header says so), corners of all faces, number of corners of each face.
+def plain_ascii(data: bytes, header: Header, index_list: str, file: str) -> bytes:
+    """The file as one of `x y z` and `3 a b c` rows; every row was found complete and made of numbers.
 
     Every element takes one line; blank lines do not count.
     """
     rows = _rows(data, header.body)
-    vertices: Float[np.ndarray, "n 3"] = np.empty((0, 3))
+    points = bytearray()
     corners, sizes = array("q"), array("q")
     for element in header.elements:
         some = islice(rows, element.rows)
         try:
             if element.name == "vertex":
-                count, vertices = _vertices(some, element)
+                count = _vertices(some, element, points)
             elif element.name == "face":
                 count = _faces(some, element, index_list, corners, sizes)
             else:
@@ -45,7 +44,13 @@ def read_ascii(
     if extra is not None:
         raise InputError(file, f"line {extra[0]}", "more rows than the header declares", _AGAIN)
     warn_open_end(data, file)
-    return vertices, as_integers(corners), as_integers(sizes)
+    vertex = next(element for element in header.elements if element.name == "vertex")
+    faces = triangles(as_integers(corners), as_integers(sizes), vertex.rows, file)
+    # Whole numbers by declaration may still be written with decimals.
+    xyz = [p if p.dtype.kind == "f" else Property(p.name, np.dtype("f8")) for p in vertex.properties if p.name in _AXES]
+    face = Element("face", len(faces), [Property(index_list, np.dtype("i4"), np.dtype("u1"))])
+    head = plain_header("", Element("vertex", vertex.rows, xyz), face, index_list)
+    return b"".join([head, points, *(b"3 %d %d %d\n" % (a, b, c) for a, b, c in faces.tolist())])
 
 
 class _RowError(ValueError):
@@ -62,25 +67,23 @@ def _rows(data: bytes, body: int) -> Iterator[_Row]:
             yield number, words
 
 
-def _vertices(rows: Iterator[_Row], element: Element) -> tuple[int, Float[np.ndarray, "n 3"]]:
+def _vertices(rows: Iterator[_Row], element: Element, points: bytearray) -> int:
+    """Append the coordinates of `rows` to `points`, in the order of the header."""
     if any(p.length is not None for p in element.properties):
         raise _RowError(1, "list properties of vertices are not read")
     names = [p.name for p in element.properties]
-    columns = [names.index(name) for name in "xyz"]
-    values = array("d")
+    i, j, k = sorted(names.index(name) for name in _AXES)
+    count = 0
     for number, words in rows:
         if len(words) != len(names):
             raise _RowError(number, f"{len(words)} values where the header declares {len(names)}")
         try:
-            found = numbers(words)
+            require_numbers(words)
         except ValueError as error:
             raise _RowError(number, str(error)) from error
-        values.extend([found[i] for i in columns])
-    vertices = as_floats(values).reshape(-1, 3)
-    if all(element.properties[i].dtype.itemsize <= 4 for i in columns):
-        with np.errstate(over="ignore"):
-            return len(vertices), vertices.astype(np.float32)
-    return len(vertices), vertices
+        points += b"%b %b %b\n" % (words[i], words[j], words[k])
+        count += 1
+    return count
 
 
 def _faces(rows: Iterator[_Row], element: Element, index_list: str, corners: array[int], sizes: array[int]) -> int:
@@ -96,7 +99,7 @@ def _faces(rows: Iterator[_Row], element: Element, index_list: str, corners: arr
                     corners.extend(map(integer, words[position : position + length]))
                     sizes.append(length)
                 elif p.length is None:
-                    numbers(words[position - 1 : position])
+                    require_numbers(words[position - 1 : position])
                 position += length
         except (ValueError, IndexError) as error:
             raise _RowError(number, str(error)) from error

@@ -6,10 +6,11 @@ import struct
 from array import array
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Int
 
 from geocontact.data.errors import InputError
-from geocontact.io.ply_preflight import Element, Header
+from geocontact.io.ply_preflight import Element, Header, Property, plain_header
+from geocontact.io.polygons import triangles
 from geocontact.io.text_lines import as_integers
 
 _AGAIN = "the file is cut off or damaged, export or download it again"
@@ -17,39 +18,47 @@ _Lists = tuple[Int[np.ndarray, " k"], Int[np.ndarray, " p"]]
 _STRUCT = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "f4": "f", "f8": "d"}
 
 
-def read_binary(
-    data: bytes, header: Header, index_list: str, file: str
-) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, " k"], Int[np.ndarray, " p"]]:
-    """Vertices (float32 or float64 as stored), corners of all faces, number of corners of each face.
+def plain_binary(data: bytes, header: Header, index_list: str, file: str) -> bytes:
+    """The file as one of vertices and triangles alone; its rows end where it ends.
 
-    The rows must end where the file ends. Lists of one length throughout are read at once, others row by row.
+    Rows are handed on as they are; only faces that are not all triangles are written anew, cut into triangles.
     """
-    vertices: Float[np.ndarray, "n 3"] = np.empty((0, 3))
-    corners, sizes = np.empty(0, np.int64), np.empty(0, np.int64)
+    vertex, face = (next(e for e in header.elements if e.name == name) for name in ("vertex", "face"))
+    points, corners = b"", b""
+    lists: _Lists | None = None
     position = header.body
     for element in header.elements:
-        rows = _equal_rows(data, position, element)
-        if element.name == "vertex":
-            if rows is None or any(p.length is not None for p in element.properties):
-                raise InputError(file, "element vertex", "is cut off or has lists, which are not read", _AGAIN)
-            vertices = _vertices(rows)
-        elif rows is not None and element.name == "face":
-            lists = rows[index_list].astype(np.int64)
-            corners, sizes = lists.reshape(-1), np.full(len(lists), lists.shape[1], np.int64)
-        if rows is not None:
+        start, rows = position, _equal_rows(data, position, element)
+        if element is vertex and (rows is None or any(p.length is not None for p in element.properties)):
+            raise InputError(file, "element vertex", "is cut off or has lists, which are not read", _AGAIN)
+        if rows is None:
+            found, position = _walked(data, position, element, header.byte_order, index_list, file)
+        else:
             position += rows.nbytes
-            continue
-        try:
-            (found, lengths), position = _walk(data, position, element, header.byte_order, index_list)
-        except (struct.error, ValueError) as error:
-            what = f"its rows do not fit in the file's {len(data)} bytes"
-            raise InputError(file, f"element {element.name}", what, _AGAIN) from error
-        if element.name == "face":
-            corners, sizes = found, lengths
+        if element is vertex:
+            points = data[start:position]
+        elif element is face and rows is None:
+            lists = found
+        elif element is face and rows is not None:
+            equal = rows[index_list]
+            if equal.shape[1] == 3:
+                corners = data[start:position]
+            else:
+                lists = equal.reshape(-1).astype(np.int64), np.full(len(equal), equal.shape[1])
     if position != len(data):
         what = f"{len(data) - position} bytes follow the last of the rows that the PLY header declares"
         raise InputError(file, "", what, _AGAIN)
-    return vertices, corners, sizes
+    if lists is not None:
+        face, corners = _cut(triangles(*lists, vertex.rows, file), header.byte_order, index_list)
+    return plain_header(header.byte_order, vertex, face, index_list) + points + corners
+
+
+def _cut(faces: Int[np.ndarray, "m 3"], byte_order: str, index_list: str) -> tuple[Element, bytes]:
+    """Rows of triangles that hold nothing else."""
+    length, kind = np.dtype("u1"), np.dtype(byte_order + "i4")
+    rows = np.empty(len(faces), [("length", length), ("corners", kind, (3,))])
+    rows["length"], rows["corners"] = 3, faces
+    return Element("face", len(faces), [Property(index_list, kind, length)]), rows.tobytes()
 
 
 def _equal_rows(data: bytes, position: int, element: Element) -> np.ndarray | None:
@@ -77,10 +86,14 @@ def _equal_rows(data: bytes, position: int, element: Element) -> np.ndarray | No
     return rows if all((rows[name] == length).all() for name, length in lists.items()) else None
 
 
-def _vertices(rows: np.ndarray) -> Float[np.ndarray, "n 3"]:
-    single = all(rows.dtype[name].itemsize <= 4 for name in "xyz")
-    kind = np.float32 if single else np.float64
-    return np.stack([rows[name].astype(kind) for name in "xyz"], axis=1)
+def _walked(
+    data: bytes, position: int, element: Element, byte_order: str, index_list: str, file: str
+) -> tuple[_Lists, int]:
+    try:
+        return _walk(data, position, element, byte_order, index_list)
+    except (struct.error, ValueError) as error:
+        what = f"its rows do not fit in the file's {len(data)} bytes"
+        raise InputError(file, f"element {element.name}", what, _AGAIN) from error
 
 
 def _walk(data: bytes, position: int, element: Element, byte_order: str, index_list: str) -> tuple[_Lists, int]:

@@ -17,6 +17,7 @@ BYTE_ORDER = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"
 _CODE = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4"}
 _CODE |= {"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4"}
 _CODE |= {"float": "f4", "double": "f8", "float32": "f4", "float64": "f8"}
+_TYPE = {code: kind for kind, code in _CODE.items() if not kind[-1].isdecimal()}
 _HEADER_LIMIT = 1 << 16
 _AGAIN = "export it again"
 
@@ -67,6 +68,25 @@ def read_header(data: bytes, file: str) -> Header:
     header = Header(byte_order, elements, body)
     _require_possible(header, len(data) - body, file)
     return header
+
+
+def plain_header(byte_order: str, vertex: Element, face: Element, index_list: str) -> bytes:
+    """Header of a file that holds vertices and faces; readers find no meaning in what is not a corner or coordinate."""
+    form = next(name for name, sign in BYTE_ORDER.items() if sign == byte_order)
+    lines = ["ply", f"format {form} 1.0"]
+    for element in (vertex, face):
+        lines.append(f"element {element.name} {element.rows}")
+        for number, p in enumerate(element.properties):
+            name = (
+                "vertex_indices"
+                if p.name == index_list
+                else p.name
+                if p.name in ("x", "y", "z")
+                else f"skipped{number}"
+            )
+            length = f"list {_TYPE[p.length.str[1:]]} " if p.length is not None else ""
+            lines.append(f"property {length}{_TYPE[p.dtype.str[1:]]} {name}")
+    return "\n".join([*lines, "end_header\n"]).encode()
 
 
 def _header_lines(data: bytes, file: str) -> tuple[list[str], int]:

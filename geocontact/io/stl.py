@@ -1,9 +1,9 @@
-"""STL, binary and ASCII: checked and read in one pass.
+"""STL, binary and ASCII: found whole by a check of our own, then read by trimesh.
 
 Nothing is skipped and nothing is guessed: a count, a size or a keyword that does not agree refuses the file. Normals
 and attribute bytes are not used (exporters leave nan there for thin faces), the order of the vertices decides.
-trimesh parses binary files, after they were found whole: it reads truncated, padded or foreign ones as an empty mesh.
-The numbers of an ASCII file are those that the check has already read.
+trimesh alone reads truncated, padded or foreign files as an empty mesh. In text it takes the rest of a line for a
+vertex and the words of a solid's name for keywords: it is given one keyword per line and no names.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from jaxtyping import Float, Int
 from geocontact.data.errors import InputError
 from geocontact.io import limits
 from geocontact.io.file_preflight import UNKNOWN, looks_like, not_a
-from geocontact.io.text_lines import BLOCK, BYTE_ORDER_MARK, numbers, shown
+from geocontact.io.text_lines import BLOCK, BYTE_ORDER_MARK, is_number, require_numbers, shown
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 """One facet of a binary STL file, 50 bytes."""
@@ -29,6 +29,7 @@ HEAD = 84
 _WORDS = b"facet normal 0 0 0 outer loop vertex 1 1 1 vertex 1 1 1 vertex 1 1 1 endloop endfacet".split()
 _COORDINATES = [i for i, word in enumerate(_WORDS) if word == b"1"]
 _NORMAL = [i for i, word in enumerate(_WORDS) if word == b"0"]
+_BREAKS = [i for i, word in enumerate(_WORDS) if word in (b"facet", b"outer", b"vertex", b"endloop")]
 _MARK = re.compile(rb"^[ \t]*(end ?)?solid\b[^\n]*", re.IGNORECASE | re.MULTILINE)
 _SOLID = re.compile(rb"(?:\xef\xbb\xbf)?\s*solid\b", re.IGNORECASE)
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f]")
@@ -41,15 +42,22 @@ def read_stl(data: bytes, file: str) -> tuple[Float[np.ndarray, "n 3"], Int[np.n
 
     float32 from binary, float64 from ASCII: the precision the file carries. A binary header may start with "solid".
     """
-    if _is_binary(data, file):
-        from trimesh.exchange.stl import load_stl_binary  # half a second, and only binary files need it
-
-        corners = np.asarray(load_stl_binary(BytesIO(data))["vertices"])
-        if len(corners) != 3 * ((len(data) - HEAD) // RECORD.itemsize):
-            raise InputError(file, "", "trimesh read another number of facets than the file holds", _AGAIN)
-    else:
-        corners = _read_ascii(data, file)
+    corners = _read_binary(data, file) if _is_binary(data, file) else _read_ascii(data, file)
     return corners, np.arange(len(corners), dtype=np.int64).reshape(-1, 3)
+
+
+def _read_binary(data: bytes, file: str) -> Float[np.ndarray, "n 3"]:
+    from trimesh.exchange.stl import load_stl_binary  # half a second
+
+    return _whole(load_stl_binary(BytesIO(data))["vertices"], (len(data) - HEAD) // RECORD.itemsize, file)
+
+
+def _whole(vertices: object, count: int, file: str) -> Float[np.ndarray, "n 3"]:
+    """What trimesh made of `count` facets."""
+    corners = np.asarray(vertices)
+    if len(corners) != 3 * count:
+        raise InputError(file, "", "trimesh read another number of facets than the file holds", _AGAIN)
+    return corners
 
 
 def _is_binary(data: bytes, file: str) -> bool:
@@ -72,6 +80,8 @@ def _is_binary(data: bytes, file: str) -> bool:
 
 
 def _read_ascii(data: bytes, file: str) -> Float[np.ndarray, "n 3"]:
+    from trimesh.exchange.stl import load_stl_ascii
+
     data = data.removeprefix(BYTE_ORDER_MARK)
     if b"\n" not in data:
         data = data.replace(b"\r", b"\n")
@@ -79,10 +89,12 @@ def _read_ascii(data: bytes, file: str) -> Float[np.ndarray, "n 3"]:
     face = 0
     for start, stop in _solids(data, file):
         for words in _blocks(data, start, stop):
-            block = _facets(words, face, file)
-            face += len(block) // 3
+            _require_facets(words, face, file)
+            count = len(words) // len(_WORDS)
+            face += count
             limits.require_at_most(face, limits.MAX_FACES, "faces", file)
-            blocks.append(block)
+            if count:
+                blocks.append(_whole(load_stl_ascii(BytesIO(_one_keyword_a_line(words)))["vertices"], count, file))
     limits.require_count(face, limits.MAX_FACES, "faces", file)
     return np.concatenate(blocks)
 
@@ -120,32 +132,35 @@ def _blocks(data: bytes, start: int, stop: int) -> Iterator[list[bytes]]:
         start = cut
 
 
-def _facets(words: list[bytes], face: int, file: str) -> Float[np.ndarray, "n 3"]:
-    """Corners of the facets that `words` spell out; `face` is the number of the first."""
+def _require_facets(words: list[bytes], face: int, file: str) -> None:
+    """Refuse `words` that do not spell out whole facets; `face` is the number of the first."""
     size = len(_WORDS)
     keywords = ((i, word) for i, word in enumerate(_WORDS) if word.isalpha())
     if len(words) % size or any(set(words[i::size]) - {word} for i, word in keywords):
         raise _first_mismatch(words, face, file)
-    count = len(words) // size
-    values = np.empty((count, 9))
-    for column, i in enumerate(_COORDINATES):
-        values[:, column] = _column(words[i::size], face, file)
+    for i in _COORDINATES:
+        _require_column(words[i::size], face, file)
     for i in _NORMAL:
-        _column([b"0" if b"nan" in word else word for word in words[i::size]], face, file)
-    return values.reshape(-1, 3)
+        _require_column([b"0" if b"nan" in word else word for word in words[i::size]], face, file)
 
 
-def _column(words: list[bytes], face: int, file: str) -> list[float]:
+def _require_column(words: list[bytes], face: int, file: str) -> None:
     try:
-        return numbers(words)
-    except ValueError:
-        for i, word in enumerate(words):
-            try:
-                numbers([word])
-            except ValueError:
-                place = f"face {face + i}"
-                raise InputError(file, place, f"{shown(word)} is not a number", _AGAIN) from None
-        raise
+        require_numbers(words)
+    except ValueError as error:
+        place = f"face {face + next(i for i, word in enumerate(words) if not is_number(word))}"
+        raise InputError(file, place, str(error), _AGAIN) from None
+
+
+def _one_keyword_a_line(words: list[bytes]) -> bytes:
+    """One solid of the facets that `words` spell out; their normals are not."""
+    size = len(_WORDS)
+    count = len(words) // size
+    for i in _NORMAL:
+        words[i::size] = [b"0"] * count
+    for i in _BREAKS:
+        words[i::size] = [b"\n" + _WORDS[i]] * count
+    return b" ".join([b"solid", *words, b"\nendsolid\n"])
 
 
 def _first_mismatch(words: list[bytes], face: int, file: str) -> InputError:

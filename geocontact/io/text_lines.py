@@ -8,7 +8,7 @@ from array import array
 from collections.abc import Iterator
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Int
 
 from geocontact.data.errors import InputWarning
 
@@ -29,13 +29,25 @@ def lines(data: bytes, start: int = 0) -> Iterator[bytes]:
         start = stop
 
 
-def numbers(words: list[bytes]) -> list[float]:
-    """Words as numbers; ValueError names the first that is none. `nan` and `inf` pass, Python's `1_000` does not."""
-    values = list(map(float, words))
-    for word in words:
-        if b"_" in word:
-            raise ValueError(f"{shown(word)} is not a number")
-    return values
+def is_number(word: bytes) -> bool:
+    """Whether a word is a number; `nan` and `inf` are, Python's `1_000` is not."""
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return b"_" not in word
+
+
+def require_numbers(words: list[bytes]) -> None:
+    """ValueError names the first word that is no number (`is_number`)."""
+    try:
+        for _ in map(float, words):
+            pass
+        plain = not any(b"_" in word for word in words)
+    except ValueError:
+        plain = False
+    if not plain:
+        raise ValueError(f"{shown(next(word for word in words if not is_number(word)))} is not a number")
 
 
 def integer(word: bytes) -> int:
@@ -45,31 +57,27 @@ def integer(word: bytes) -> int:
     return int(word)
 
 
-def as_numbers(text: bytes, *, integers: bool) -> np.ndarray:
-    """All numbers of a text that blanks separate, float64 or int64; ValueError names the first that is none."""
-    floats, whole = array("d"), array("q")
-    start = 0
+def count_of_numbers(text: bytes, *, integers: bool) -> int:
+    """How many numbers a text holds that blanks separate; ValueError names the first word that is none."""
+    count = start = 0
     while start < len(text):
         cut = _BLANK.search(text, start + BLOCK)
         stop = cut.start() if cut else len(text)
         words = text[start:stop].split()
+        count += len(words)
         if integers:
-            whole.extend(map(integer, words))
+            for word in words:
+                integer(word)
         else:
-            floats.extend(numbers(words))
+            require_numbers(words)
         start = stop
-    return as_integers(whole) if integers else as_floats(floats)
+    return count
 
 
 def shown(word: bytes) -> str:
     """A word of a file as it is quoted in a message: at most 24 characters, nothing but printable ASCII."""
     text = word[:24].decode("ascii", "backslashreplace")
     return "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in text).join("''")
-
-
-def as_floats(values: array[float]) -> Float[np.ndarray, " n"]:
-    """The numbers of an `array("d")`, not copied."""
-    return np.frombuffer(values, np.float64) if values else np.empty(0)
 
 
 def as_integers(values: array[int]) -> Int[np.ndarray, " n"]:

@@ -1,53 +1,64 @@
-"""Arrays of a VTP file: text, base64 inline, base64 or raw appended; plain or zlib-compressed."""
+"""Arrays of a VTP file: text, base64 inline, base64 or raw appended; plain or zlib-compressed.
+
+They are decoded to see that they are whole: VTK 9.7 takes a text array with too many numbers, or a damaged base64 one,
+without a word, and ends the process where a damaged size makes it ask for more memory than there is.
+"""
 
 from __future__ import annotations
 
 import binascii
 import zlib
-from bisect import bisect_right
 from xml.etree.ElementTree import Element
 
 import numpy as np
+from jaxtyping import Int
 
-from geocontact.io.text_lines import as_numbers
+from geocontact.io.text_lines import count_of_numbers
 from geocontact.io.vtp_preflight import Document, Encoding
 
 _TYPES = {f"{kind}{8 * size}": f"{kind[0].lower()}{size}" for kind in ("Int", "UInt", "Float") for size in (1, 2, 4, 8)}
 _TYPES = {name: code for name, code in _TYPES.items() if code not in ("f1", "f2")}
 
 
-def array_values(element: Element, count: int, document: Document) -> np.ndarray:
-    """The `count` numbers of a `<DataArray>` in the type it declares.
+def require_values(element: Element, count: int, document: Document) -> bytes:
+    """Refuse (ValueError) a `<DataArray>` that cannot be decoded or does not hold `count` numbers; its text or bytes.
 
-    `count` is what the rest of the file asks for; ValueError when the array has another number of values or cannot be
-    decoded. Nothing larger than `count` numbers is decompressed.
+    `count` is what the rest of the file asks for; nothing larger than `count` numbers is decompressed.
     """
-    declared = element.get("type", "")
-    if declared not in _TYPES:
-        raise ValueError(f"numbers of type {declared or 'unknown'} are not read")
-    dtype = np.dtype(document.encoding.byte_order + _TYPES[declared])
-    text, element.text = (element.text or "").encode(), None
+    dtype = _dtype(element, document)
+    text = (element.text or "").encode()
     match element.get("format", "ascii"):
-        case _ if count == 0:
-            return np.empty(0, dtype)
         case "ascii":
-            return _from_text(text, count, dtype)
+            found = count_of_numbers(text, integers=dtype.kind != "f")
+            if found != count:
+                raise ValueError(f"{found} numbers where {count} are declared")
+            return text
         case "binary":
             stored = _base64(text)
         case "appended":
-            stored = _appended(int(element.get("offset", "0")), document)
+            stored = document.appended_at(element)
+            stored = _base64(stored) if document.base64 else stored
         case other:
             raise ValueError(f"format {other} is not read")
     decode = _inflated if document.encoding.compressed else _plain
-    return np.frombuffer(decode(stored, count * dtype.itemsize, document.encoding), dtype)
+    return decode(stored, count * dtype.itemsize, document.encoding)
 
 
-def _from_text(text: bytes, count: int, dtype: np.dtype[np.generic]) -> np.ndarray:
-    values = as_numbers(text, integers=dtype.kind != "f")
-    if len(values) != count:
-        raise ValueError(f"{len(values)} numbers where {count} are declared")
-    with np.errstate(over="ignore"):
-        return values.astype(dtype)
+def require_integers(element: Element, count: int, document: Document) -> Int[np.ndarray, " n"]:
+    """The `count` integers of a `<DataArray>`; ValueError as in `require_values`, and when it is one of decimals."""
+    stored, dtype = require_values(element, count, document), _dtype(element, document)
+    if dtype.kind == "f":
+        raise ValueError("they are no integers")
+    if element.get("format", "ascii") == "ascii":
+        return np.fromstring(stored, np.int64, sep=" ")
+    return np.frombuffer(stored, dtype).astype(np.int64)
+
+
+def _dtype(element: Element, document: Document) -> np.dtype[np.generic]:
+    declared = element.get("type", "")
+    if declared not in _TYPES:
+        raise ValueError(f"numbers of type {declared or 'unknown'} are not read")
+    return np.dtype(document.encoding.byte_order + _TYPES[declared])
 
 
 def _base64(text: bytes) -> bytes:
@@ -60,15 +71,6 @@ def _base64(text: bytes) -> bytes:
         runs.append(binascii.a2b_base64(text[start:stop], strict_mode=True))
         start = stop
     return runs[0] if len(runs) == 1 else b"".join(runs)
-
-
-def _appended(offset: int, document: Document) -> bytes:
-    later = bisect_right(document.offsets, offset)
-    stop = document.offsets[later] if later < len(document.offsets) else len(document.appended)
-    if not 0 <= offset < len(document.appended):
-        raise ValueError(f"offset {offset} is outside the {len(document.appended)} bytes of appended data")
-    stored = document.appended[offset:stop]
-    return _base64(stored) if document.base64 else stored
 
 
 def _sizes(stored: bytes, count: int, encoding: Encoding) -> list[int]:

@@ -1,14 +1,15 @@
 """VTP (VTK XML PolyData): well-formed, of a known encoding, with counts within the limits.
 
-VTK's own reader aborts the process on some damaged files, which no caller can catch; so the few arrays that make up a
-surface are read here and in `vtp_arrays`, and pyvista serves the tests as oracle. It is not needed to read.
+VTK's own reader ends the process on some damaged files, which no caller can catch: what it is given (`plain_document`)
+holds nothing but the arrays of a surface that were checked before.
 """
 
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from dataclasses import dataclass, field
-from xml.etree.ElementTree import Element, ParseError
+from xml.etree.ElementTree import Element, ParseError, SubElement, tostring
 
 from defusedxml.common import DefusedXmlException  # type: ignore[import-untyped]
 from defusedxml.ElementTree import fromstring  # type: ignore[import-untyped]
@@ -19,6 +20,9 @@ from geocontact.io.file_preflight import not_a
 
 _RAW = re.compile(rb"<AppendedData\b[^>]*\bencoding\s*=\s*[\"']raw[\"'][^>]*>\s*_")
 _RAW_END = b"</AppendedData>"
+_ORDERS = {"LittleEndian": "<", "BigEndian": ">"}
+_HEADERS = {"UInt32": "u4", "UInt64": "u8"}
+_ZLIB = "vtkZLibDataCompressor"
 _RESAVE = 'save it again, for example by pyvista.read("x.vtp").save("y.vtp")'
 
 
@@ -29,6 +33,15 @@ class Encoding:
     byte_order: str
     header: str
     compressed: bool
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """As the attributes of `<VTKFile>`."""
+        named = {
+            "byte_order": next(name for name, sign in _ORDERS.items() if sign == self.byte_order),
+            "header_type": next(name for name, code in _HEADERS.items() if code == self.header),
+        }
+        return named | ({"compressor": _ZLIB} if self.compressed else {})
 
 
 @dataclass(frozen=True)
@@ -53,6 +66,15 @@ class Document:
     appended: bytes = b""
     base64: bool = True
     offsets: list[int] = field(default_factory=list)
+
+    def appended_at(self, array: Element) -> bytes:
+        """What is appended for a `<DataArray>`, up to where the next one begins; ValueError when nothing is."""
+        offset = int(array.get("offset", "0"))
+        later = bisect_right(self.offsets, offset)
+        stop = self.offsets[later] if later < len(self.offsets) else len(self.appended)
+        if not 0 <= offset < len(self.appended):
+            raise ValueError(f"offset {offset} is outside the {len(self.appended)} bytes of appended data")
+        return self.appended[offset:stop]
 
 
 def read_document(data: bytes, file: str) -> Document:
@@ -79,6 +101,31 @@ def read_document(data: bytes, file: str) -> Document:
     return Document(_encoding(root, file), pieces, text if raw is None else raw, in_base64, offsets)
 
 
+def plain_document(document: Document, piece: Piece, arrays: dict[str, Element]) -> bytes:
+    """A file with nothing in it but one piece and its arrays `Points`, `connectivity` and `offsets`.
+
+    One piece, because VTK 9.7 numbers the vertices wrongly behind a piece without polygons.
+    """
+    root = Element("VTKFile", {"type": "PolyData", "version": "1.0", **document.encoding.attributes})
+    counts = {"NumberOfPoints": str(piece.points), "NumberOfPolys": str(piece.polygons)}
+    inner = SubElement(SubElement(root, "PolyData"), "Piece", counts)
+    groups = {name: SubElement(inner, name) for name in ("Points", "Polys")}
+    appended = b""
+    for name, array in arrays.items():
+        kept = {key: array.get(key, "") for key in ("type", "format") if array.get(key)}
+        kept |= {"NumberOfComponents": "3"} if name == "Points" else {"Name": name}
+        if array.get("format") == "appended":
+            kept["offset"] = str(len(appended))
+            appended += document.appended_at(array)
+        SubElement(groups["Points" if name == "Points" else "Polys"], "DataArray", kept).text = array.text
+    xml: bytes = tostring(root, "utf-8")
+    if not appended:
+        return xml
+    encoding = b"base64" if document.base64 else b"raw"
+    head = xml.removesuffix(b"</VTKFile>") + b'<AppendedData encoding="%b">_' % encoding
+    return b"".join([head, appended, b"</AppendedData></VTKFile>"])
+
+
 def _without_raw_bytes(data: bytes, file: str) -> tuple[bytes, bytes | None]:
     """XML with its raw appended section emptied, and that section; None when there is none."""
     start = _RAW.search(data)
@@ -91,15 +138,12 @@ def _without_raw_bytes(data: bytes, file: str) -> tuple[bytes, bytes | None]:
 
 
 def _encoding(root: Element, file: str) -> Encoding:
-    orders = {"LittleEndian": "<", "BigEndian": ">"}
-    headers = {"UInt32": "u4", "UInt64": "u8"}
-    compressors = {"": False, "vtkZLibDataCompressor": True}
     order, header = root.get("byte_order", "LittleEndian"), root.get("header_type", "UInt32")
     compressor = root.get("compressor", "")
-    if order not in orders or header not in headers or compressor not in compressors:
+    if order not in _ORDERS or header not in _HEADERS or compressor not in ("", _ZLIB):
         what = f"byte_order {order}, header_type {header}, compressor {compressor or 'none'} are not read"
         raise InputError(file, "VTKFile", what, _RESAVE)
-    return Encoding(orders[order], headers[header], compressors[compressor])
+    return Encoding(_ORDERS[order], _HEADERS[header], compressor == _ZLIB)
 
 
 def _piece(element: Element, file: str) -> Piece:

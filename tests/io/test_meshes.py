@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import struct
+import subprocess
+import sys
+from io import BytesIO
 from itertools import pairwise
+from operator import attrgetter
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +21,7 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.faces import read_face_indices
 from geocontact.io.merge import merge_coincident
 from geocontact.io.mesh_checks import degenerate, repeated
-from geocontact.io.meshes import read_mesh
+from geocontact.io.meshes import READERS, read_mesh
 from geocontact.io.units import ANGLE, LENGTH, split_header
 
 BALL = trimesh.creation.icosphere(subdivisions=2, radius=31.4159)
@@ -191,6 +195,144 @@ def test_text_is_read_the_same_whatever_the_block_size(tmp_path, monkeypatch):
     parts = read_mesh(path, "mm")
     np.testing.assert_array_equal(whole.vertices, parts.vertices)
     np.testing.assert_array_equal(whole.faces, parts.faces)
+
+
+FAN = "0 0 0 50 0 0 0 50 0.1 0 0 50"
+
+
+def vtp_piece(points: str, polygons: str, ends: str, kind: str = "Float64") -> str:
+    return (
+        f'<Piece NumberOfPoints="{len(points.split()) // 3}" NumberOfPolys="{len(ends.split())}">'
+        f'<Points><DataArray type="{kind}" NumberOfComponents="3" format="ascii">{points}</DataArray></Points>'
+        f'<Polys><DataArray type="Int64" Name="connectivity" format="ascii">{polygons}</DataArray>'
+        f'<DataArray type="Int64" Name="offsets" format="ascii">{ends}</DataArray></Polys></Piece>'
+    )
+
+
+def vtp_of(*pieces: str) -> bytes:
+    head = '<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian"><PolyData>'
+    return (head + "".join(pieces) + "</PolyData></VTKFile>").encode()
+
+
+TWO_FACES = vtp_piece(FAN, "0 1 2 0 2 3", "3 6")
+
+
+@pytest.mark.parametrize(
+    ("pieces", "vertices", "faces"),
+    [
+        ((TWO_FACES, TWO_FACES), 8, [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]),
+        ((vtp_piece(FAN, "", ""), TWO_FACES), 8, [[4, 5, 6], [4, 6, 7]]),
+        ((vtp_piece("", "", ""), TWO_FACES), 4, [[0, 1, 2], [0, 2, 3]]),
+        ((TWO_FACES, vtp_piece("", "", "")), 4, [[0, 1, 2], [0, 2, 3]]),
+    ],
+)
+def test_pieces_of_a_vtp_file_follow_each_other(pieces, vertices, faces):
+    pytest.importorskip("vtkmodules", reason="VTK reads .vtp; pip install 'geocontact[view]'")
+    points, found = READERS[".vtp"](vtp_of(*pieces), "x.vtp")
+    assert len(points) == vertices
+    np.testing.assert_array_equal(found, faces)
+
+
+@pytest.mark.parametrize("kinds", [("Float32", "Float64"), ("Float64", "Float32")])
+def test_pieces_of_a_vtp_file_keep_their_precision(kinds):
+    pytest.importorskip("vtkmodules", reason="VTK reads .vtp; pip install 'geocontact[view]'")
+    points, _ = READERS[".vtp"](vtp_of(*(vtp_piece(FAN, "0 1 2", "3", kind) for kind in kinds)), "x.vtp")
+    tenth = {"Float32": float(np.float32(0.1)), "Float64": 0.1}
+    np.testing.assert_array_equal(points[[2, 6], 2], [tenth[kind] for kind in kinds])
+
+
+@pytest.mark.parametrize(
+    ("corners", "ends", "wrong"), [("0 1 4", "3", "4 is outside 0 to 3"), ("0 1 -1", "3", "-1 is outside 0 to 3")]
+)
+def test_a_vtp_piece_cannot_reach_the_vertices_of_another(corners, ends, wrong):
+    pytest.importorskip("vtkmodules", reason="VTK reads .vtp; pip install 'geocontact[view]'")
+    piece = vtp_piece(FAN, corners, ends)
+    for pieces in ((piece, TWO_FACES), (TWO_FACES, piece)):
+        with pytest.raises(InputError, match=wrong):
+            READERS[".vtp"](vtp_of(*pieces), "x.vtp")
+
+
+def test_vtp_without_vtk_is_one_line_with_the_remedy(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "vtkmodules.vtkIOXML", None)
+    path = tmp_path / "bone.vtp"
+    path.write_bytes(vtp_of(TWO_FACES))
+    with pytest.raises(InputError, match=r"^bone\.vtp: \.vtp is read by VTK, .*; pip install 'geocontact\[view\]', or"):
+        read_mesh(path, "mm")
+
+
+@pytest.mark.parametrize(
+    ("extension", "options", "parser"),
+    [
+        ("stl", {}, "stl.load_stl_binary"),
+        ("stl", {"file_type": "stl_ascii"}, "stl.load_stl_ascii"),
+        ("ply", {}, "ply.load_ply"),
+        ("ply", {"encoding": "ascii"}, "ply.load_ply"),
+        ("obj", {}, "obj.load_obj"),
+    ],
+)
+def test_what_trimesh_reads_is_what_comes_back(tmp_path, monkeypatch, extension, options, parser):
+    """Its coordinates moved by one: the package's own are moved by one."""
+    path = tmp_path / f"ball.{extension}"
+    BALL.export(path, **options)
+    expected = read_mesh(path, "mm").vertices + 1e-3
+    original = attrgetter(parser)(trimesh.exchange)
+
+    def moved(*arguments, **settings):
+        parsed = original(*arguments, **settings)
+        mesh = next(iter(parsed["geometry"].values())) if "geometry" in parsed else parsed
+        mesh["vertices"] = mesh["vertices"] + np.ones(3, np.float32)
+        return parsed
+
+    monkeypatch.setattr(f"trimesh.exchange.{parser}", moved)
+    np.testing.assert_allclose(read_mesh(path, "mm").vertices, expected, atol=1e-8)
+
+
+def test_why_trimesh_is_given_a_plain_file():
+    """What it makes of legal files; when one of these fails, the step that makes the file plain may go."""
+    obj, ply, stl = trimesh.exchange.obj.load_obj, trimesh.exchange.ply.load_ply, trimesh.exchange.stl.load_stl_ascii
+    v = "v 0 0 0\nv 50 0 0\nv 0 50 0\n"
+    rows = (v + "f -3 -2 -1\n" + v + "f -3 -2 -1\n").encode()
+    assert obj(BytesIO(rows))["geometry"]["geometry"]["faces"].tolist() == [[0, 1, 2]] * 2
+    with pytest.raises(IndexError, match="22"):  # 2 and the 3 of the next line become 23
+        obj(BytesIO((v + "f 1 2\\\n3\n").encode()))
+    square = np.array([[0, 0, 0], [50, 0, 0], [50, 50, 0], [0, 50, 0], [25, 25, 40]], dtype=float)
+    with pytest.raises(ValueError, match="unexpected length"):
+        ply(BytesIO(ply_bytes("<", "double", [[0, 1, 4], [3, 2, 1, 0]], square)))
+    named = BALL.export(file_type="stl_ascii").replace("solid", "solid vertex 7", 1)
+    with pytest.raises(ValueError, match="incorrect number"):
+        stl(BytesIO(named.encode()))
+
+
+def test_why_vtk_is_given_one_piece_at_a_time():
+    vtk = pytest.importorskip("vtkmodules.vtkIOXML")
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.ReadFromInputStringOn()
+    reader.SetInputString(vtp_of(vtp_piece(FAN, "", ""), TWO_FACES))
+    reader.Update()
+    corner = reader.GetOutput().GetPolys().GetConnectivityArray().GetValue(0)
+    assert corner == 0, "numbered from the first point of the file; the piece's own first point is number 4"
+
+
+VTK_ON = """
+import resource, sys
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+reader = vtkXMLPolyDataReader()
+reader.SetFileName(sys.argv[1])
+reader.Update()
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="how a process ends is told by its signal there")
+def test_why_vtk_is_not_given_a_file_as_it_is(tmp_path):
+    """One absurd offset ends the process; the package refuses the file in one line."""
+    pytest.importorskip("vtkmodules.vtkIOXML")
+    path = tmp_path / "bone.vtp"
+    path.write_bytes(vtp_of(vtp_piece(FAN, "0 1 2", "900000000000000000")))
+    done = subprocess.run([sys.executable, "-c", VTK_ON, str(path)], capture_output=True, timeout=60)
+    assert done.returncode < 0
+    with pytest.raises(InputError, match="900000000000000000 polygon corners, more than"):
+        read_mesh(path, "mm")
 
 
 def test_units_agree_with_each_other(tmp_path):
