@@ -59,14 +59,25 @@ def passed_on(modifiers: tuple[Modifier[T], ...], what: T, movement: Movement, v
 
 @dataclass(frozen=True)
 class Motion:
-    """Recorded inputs of a trial, differentiated, then changed by what is wrong with them."""
+    """Recorded inputs of a trial, differentiated, then changed by what is wrong with them.
+
+    Parameters
+    ----------
+    inputs
+        Channels that drive the model.
+    modifiers
+        What is wrong with them.
+    smooth
+        Rates by local fits (`movement`); else by central differences of the inputs as they were measured.
+    """
 
     inputs: tuple[str, ...]
     modifiers: tuple[Modifier[Movement], ...] = ()
+    smooth: bool = True
 
     def seen(self, trial: Trial, values: Values) -> Movement:
         """Movement that the model works with."""
-        known = replace(recorded(trial.signals, self.inputs), trial=trial.name)
+        known = replace(recorded(trial.signals, self.inputs, self.smooth), trial=trial.name)
         return passed_on(self.modifiers, known, known, values)
 
     def having(self, one: Modifier[Movement]) -> Motion:

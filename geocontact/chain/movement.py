@@ -143,15 +143,36 @@ def movement(time: Float[np.ndarray, " t"], inputs: tuple[str, ...], position: F
     return Movement(time, inputs, np.where(np.isfinite(position), position, place), rate, acceleration)
 
 
-_SEEN: dict[tuple[int, tuple[str, ...]], tuple[weakref.ref[Signals], Movement]] = {}
+def by_differences(time: Float[np.ndarray, " t"], inputs: tuple[str, ...], position: Float[np.ndarray, "i t"]) -> Movement:
+    """Inputs as they were measured, with central differences: what a simulator sees that smooths nothing.
+
+    Empty cells are bridged by straight lines; ValueError when an input was never measured.
+    """
+    filled = position.copy()
+    for row, name in enumerate(inputs):
+        there = np.isfinite(position[row])
+        if not there.any():
+            raise ValueError(f"input {name} has no value in this trial; it needs at least one")
+        filled[row] = np.interp(time, time[there], position[row, there])
+    if len(time) == 1:
+        return Movement(time, inputs, filled, np.zeros_like(filled), np.zeros_like(filled))
+    rate = np.gradient(filled, time, axis=1)
+    return Movement(time, inputs, filled, rate, np.gradient(rate, time, axis=1))
 
 
-def recorded(signals: Signals, inputs: tuple[str, ...]) -> Movement:
-    """Movement of a recording; remembered as long as the recording lives, which must not be altered."""
-    key = (id(signals), inputs)
+_SEEN: dict[tuple[int, tuple[str, ...], bool], tuple[weakref.ref[Signals], Movement]] = {}
+
+
+def recorded(signals: Signals, inputs: tuple[str, ...], smooth: bool = True) -> Movement:
+    """Movement of a recording; remembered as long as the recording lives, which must not be altered.
+
+    `smooth`: rates by local fits, else by central differences.
+    """
+    key = (id(signals), inputs, smooth)
     seen = _SEEN.get(key)
     if seen is not None and seen[0]() is signals:
         return seen[1]
-    found = movement(signals.time, inputs, np.array([signals.column(name) for name in inputs]))
+    differentiate = movement if smooth else by_differences
+    found = differentiate(signals.time, inputs, np.array([signals.column(name) for name in inputs]))
     _SEEN[key] = (weakref.ref(signals, lambda _: _SEEN.pop(key, None)), found)
     return found

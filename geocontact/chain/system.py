@@ -106,6 +106,10 @@ class System:
             return np.full((len(trial), len(self.outputs)), FAR)
         return self.sensor.read(self.balance.read(loads, movement, numbers), movement, numbers)
 
+    def as_measured(self) -> System:
+        """The same system seeing its inputs as they were measured, their rates by central differences."""
+        return replace(self, motion=replace(self.motion, smooth=False))
+
     def scaled(self, trials: Sequence[Trial], values: Mapping[str, float] | None = None) -> System:
         """The same system with its scale taken from `trials`, its base parameters at `values` or where they start.
 

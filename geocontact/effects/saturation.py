@@ -34,8 +34,8 @@ def saturated(system: System, name: str) -> Candidate:
     """Clip of one channel."""
     column = system.outputs.index(name)
     most = system.scale.of(name)
-    level = Parameter(f"saturation.{name}.level", system.unit(name), 0.95 * most, 0.05 * most, 1.1 * most)
-    softness = Parameter(f"saturation.{name}.softness", "-", 0.04, 0.0, 0.3)
+    level = Parameter(f"saturation.{name}.level", system.unit(name), 0.95 * most, 0.05 * most, most)
+    softness = Parameter(f"saturation.{name}.softness", "-", 0.04, 0.0, 0.1)
 
     def change(outputs: Channels, _: Movement, values: Values) -> Channels:
         out = outputs.copy()

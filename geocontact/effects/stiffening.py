@@ -16,11 +16,11 @@ from geocontact.effects.parts import with_law
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude a, shape p."""
     a = Parameter("stiffening.gain", "-", 0.3, 0.0, 10.0)
-    p = Parameter("stiffening.exponent", "-", 1.5, 0.5, 4.0)
+    p = Parameter("stiffening.exponent", "-", 1.5, 0.5, 8.0)
     law = with_law(
         {"stiffening.gain": a.name, "stiffening.exponent": p.name, "stiffening.reference": system.scale.deflection}
     )
-    return (Candidate("stiffening", "", "constitutive", (a, p), law, {a.name: 0.0}, ({a.name: 1.5, p.name: 3.0},)),)
+    return (Candidate("stiffening", "", "constitutive", (a, p), law, {a.name: 0.0}, ({a.name: 1.5, p.name: 3.0}, {a.name: 0.5, p.name: 6.0})),)
 
 
 STIFFENING = Effect(

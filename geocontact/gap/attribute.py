@@ -14,7 +14,7 @@ from geocontact.gap.faults import Fault, fault_of
 from geocontact.gap.oddities import Oddity, oddities
 from geocontact.gap.problem import Problem, problem_of
 from geocontact.gap.surrogate import Surrogate, surrogate
-from geocontact.gap.verdict import Answer, answer
+from geocontact.gap.verdict import Answer, answer, borne_out
 
 FIRSTS = 3  # singles that a second effect is tried on
 LEADING = 3  # contenders under whose noise everyone is compared
@@ -34,6 +34,8 @@ class Attribution:
         Base model of the case as it came.
     fault
         The mistake in the data that everything below takes as undone, if there is one.
+    clean
+        The case with it undone; `problem` itself where there is none.
     base
         The base model (with the mistake undone).
     contenders
@@ -48,6 +50,7 @@ class Attribution:
 
     problem: Problem
     fault: Fault | None
+    clean: Problem
     base: Contender
     contenders: tuple[Contender, ...]
     remaining: dict[str, Surrogate]
@@ -76,10 +79,12 @@ def attribute(case: GapCase, system: System, offer: Offer) -> Attribution:
     base, *contenders = compared(clean, [base, *contenders])
     top = max([base, *contenders], key=lambda c: c.judged.nats)
     odd = tuple(each for each in oddities(clean, top.judged) if each.nats > ODD)
-    unnamed = remaining["none"].nats + sum(each.nats for each in odd)
-    over = {label: each.nats + sum(o.nats for o in odd) for label, each in left.items()}
-    said = answer(base, contenders, unnamed, over)
-    return Attribution(problem, fault, base, tuple(contenders), {**remaining, **left}, odd, said)
+    share = base.judged.fitted_rows / len(base.judged.model.whitened)
+    strange = sum(each.nats for each in odd)
+    over = {label: borne_out(each.nats, each.calibration, share) + strange for label, each in left.items()}
+    rest = remaining["none"]
+    said = answer(base, contenders, share, borne_out(rest.nats, rest.calibration, share) + strange, over)
+    return Attribution(problem, fault, clean, base, tuple(contenders), {**remaining, **left}, odd, said)
 
 
 def compared(problem: Problem, contenders: Sequence[Contender]) -> list[Contender]:

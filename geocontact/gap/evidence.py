@@ -37,12 +37,15 @@ class Judged:
         Logarithm of the evidence of all trials; only differences between models of one problem mean anything.
     calibration
         The same for the calibration trials alone.
+    fitted_rows
+        How many of the whitened rows, the first, are of calibration trials.
     """
 
     model: Refit
     noise: Noise
     nats: float
     calibration: float
+    fitted_rows: int
 
 
 def judged(problem: Problem, model: Refit, noise: Noise) -> Judged:
@@ -65,6 +68,7 @@ def judged_anew(problem: Problem, everywhere: Refit, noise: Noise) -> Judged:
         noise,
         log_evidence(everywhere.whitened, design, spread) - float(scales.sum()) - noise.surprise,
         log_evidence(everywhere.whitened[:rows], design[:rows], spread) - float(fitted),
+        rows,
     )
 
 

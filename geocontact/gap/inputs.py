@@ -9,7 +9,7 @@ the noise nothing changes.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +18,8 @@ from jaxtyping import Float
 from geocontact.data.trial import Trial
 from geocontact.identify.covariance import low_pass_power
 
+PLATEAU = (1.5, 2.5, 3.5, 4.5, 5.5)  # Hz
+FLAT = 2.5  # largest over smallest power of a plateau
 SMOOTH = 7  # bins that the spectrum of the recording is averaged over; it was made three times as long
 
 
@@ -27,8 +29,7 @@ def denoised(trial: Trial, noise: Mapping[str, float]) -> Trial:
     Samples are put on an even grid for it and back by linear interpolation of what was taken off; where an input was
     not measured nothing is taken off.
     """
-    time = trial.time
-    grid = np.linspace(time[0], time[-1], max(round((time[-1] - time[0]) / float(np.median(np.diff(time)))), 1) + 1)
+    time, grid = trial.time, even_grid(trial.time)
     values = trial.signals.values.copy()
     for name, sd in noise.items():
         column = trial.signals.channels.index(name)
@@ -39,6 +40,55 @@ def denoised(trial: Trial, noise: Mapping[str, float]) -> Trial:
         off = noise_in(even, grid[1] - grid[0], sd)
         values[there, column] -= np.interp(time[there], grid, off)
     return replace(trial, signals=replace(trial.signals, values=values))
+
+
+def even_grid(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " n"]:
+    """Evenly spaced times over a trial, about as many as there would be without missing rows."""
+    steps = max(round((time[-1] - time[0]) / float(np.median(np.diff(time)))), 1)
+    return np.linspace(time[0], time[-1], steps + 1)
+
+
+def seen_noise(trials: Sequence[Trial], name: str) -> float | None:
+    """Noise of an input as its spectrum over all trials shows it, None where the movement hides it."""
+    recordings = []
+    for trial in trials:
+        column, grid = trial.column(name), even_grid(trial.time)
+        there = np.isfinite(column)
+        if there.sum() > 2 * SMOOTH:
+            recordings.append((np.interp(grid, trial.time[there], column[there]), float(grid[1] - grid[0])))
+    return plateau(recordings) if recordings else None
+
+
+def plateau(recordings: Sequence[tuple[Float[np.ndarray, " n"], float]]) -> float | None:
+    """Standard deviation of an input's noise where its spectrum shows it, else None.
+
+    A movement slower than the low-pass filter leaves a plateau of noise between its own frequencies and the corner:
+    over the bands from 1.5 Hz to 5 Hz power per power let through is the same. `recordings` are evenly spaced values
+    and their step [s].
+    """
+    levels = []
+    for low, high in zip(PLATEAU[:-1], PLATEAU[1:], strict=True):
+        power = []
+        for values, step in recordings:
+            spectrum, frequency, scale = _spectrum(values, step)
+            inside = (frequency >= low) & (frequency < high)
+            if inside.any():
+                power.append(float(np.mean(np.abs(spectrum[inside]) ** 2 / low_pass_power(frequency[inside])) / scale))
+        if not power:
+            return None
+        levels.append(float(np.mean(power)))
+    return float(np.sqrt(np.mean(levels))) if max(levels) < FLAT * min(levels) else None
+
+
+def _spectrum(
+    values: Float[np.ndarray, " n"], step: float
+) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"], float]:
+    """Windowed spectrum, its frequencies, and what its power is for unit variance where the filter lets all through."""
+    count = len(values)
+    window = np.blackman(count)
+    spectrum = np.fft.rfft((values - np.linspace(values[0], values[-1], count)) * window)
+    frequency = np.fft.rfftfreq(count, step)
+    return spectrum, frequency, float((window**2).sum() * count / (2.0 * low_pass_power(frequency).sum()))
 
 
 def noise_in(values: Float[np.ndarray, " n"], step: float, sd: float) -> Float[np.ndarray, " n"]:

@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.inputs import denoised
+from geocontact.gap.inputs import denoised, seen_noise
 from geocontact.gap.refit import Measured, Refit, at, free, refit
 from geocontact.gap.weighing import Weighing, layouts_of, usual_levels, varies_by
 from geocontact.identify.covariance import Layout, Levels, Whitener, most_likely
@@ -29,7 +29,9 @@ class Problem:
     system
         Base model, its scale taken at the fitted values.
     calibration, evaluation
-        Trials that may be fitted, and those held out.
+        Trials that may be fitted, and those held out, the noise of their inputs taken off.
+    recorded
+        All trials as they were measured, in the same order.
     layouts
         Of the calibration trials, then of the evaluation trials.
     prior, width
@@ -45,6 +47,7 @@ class Problem:
     system: System
     calibration: Measured
     evaluation: Measured
+    recorded: Measured
     layouts: tuple[Layout, ...]
     prior: Levels
     width: Levels
@@ -137,6 +140,7 @@ def problem_of(case: GapCase, system: System) -> Problem:
         trials=calibration.trials + evaluation.trials,
         outputs=calibration.outputs + evaluation.outputs,
     )
+    recorded = everything
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
     floor = rough
     for last in (False, True):
@@ -144,10 +148,13 @@ def problem_of(case: GapCase, system: System) -> Problem:
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
         prior, width = usual_levels(system, case.noise, rough)
         layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present))
-        problem = Problem(system, calibration, evaluation, layouts, prior, width, usual, plain, floor)
+        problem = Problem(system, calibration, evaluation, recorded, layouts, prior, width, usual, plain, floor)
         noise = problem.weighed(plain)
         if not last:
-            sd = dict(zip(system.inputs, map(float, noise.levels.inputs), strict=True))
+            sd = {
+                name: seen_noise(calibration.trials, name) or float(level)
+                for name, level in zip(system.inputs, noise.levels.inputs, strict=True)
+            }
             calibration, evaluation = (_denoised(each, sd) for each in (calibration, evaluation))
             everything = replace(everything, trials=calibration.trials + evaluation.trials)
         floor = floor_of(problem, noise, plain)

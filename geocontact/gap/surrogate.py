@@ -50,7 +50,7 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
     model = judged.model
     weighings = problem.weighings(judged.noise, model)
     spread = prior_spread(model.system, model.values)
-    rows = sum(len(w.directions) for w in weighings[: len(problem.calibration.trials)])
+    rows = judged.fitted_rows
     r, fitted = model.whitened, model.whitened_jacobian
     plain = log_evidence(r, fitted, spread)
     plain_calibration = log_evidence(r[:rows], fitted[:rows], spread)

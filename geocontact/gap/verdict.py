@@ -22,6 +22,8 @@ FORM = 0.02  # tolerance of form, as a share of what is explained
 LEFT_OVER = 0.12  # of all there is to explain may be left by the effect that is named
 PAIR = 0.05  # of what is explained that a second effect must add
 ALIVE = 0.03  # least probability of a candidate that is still in question
+STRANGER = 6.0  # nats more that something without a name must gain: a stand-in also finds what models smooth away
+ALLOWED = 4.0  # nats that luck may add on held-out trials
 MOST = 4  # candidates still in question beyond which nothing is named
 
 
@@ -36,9 +38,26 @@ class Answer:
     chosen: Contender
 
 
+def borne_out(total: float, calibration: float, share: float) -> float:
+    """Gain over all trials, as far as the calibration trials bear it out.
+
+    An effect that is there shows in the trials that it was fitted to about as much as in the others. `share` is the
+    calibration trials' part of all samples.
+    """
+    return min(total, calibration / share + ALLOWED)
+
+
+def gain_of(one: Contender, over: Contender, share: float) -> float:
+    """What a model gains over another [nats]."""
+    return borne_out(
+        one.judged.nats - over.judged.nats, one.judged.calibration - over.judged.calibration, share
+    )
+
+
 def answer(
     base: Contender,
     contenders: Sequence[Contender],
+    share: float,
     unnamed: float,
     left: Mapping[str, float],
 ) -> Answer:
@@ -50,20 +69,21 @@ def answer(
         The base model.
     contenders
         Models with one candidate or two.
+    share
+        Calibration trials' part of all samples.
     unnamed
         What a stand-in for anything unknown gains over the base [nats].
     left
         What it gains on top of a contender, by label, where that was asked [nats].
     """
-    zero = base.judged.nats
-    ranked = sorted(contenders, key=lambda c: -c.judged.nats)
-    single = [c for c in ranked if len(c.names) == 1]
-    pairs = [c for c in ranked if len(c.names) == 2]
-    best_single = single[0].judged.nats - zero if single else 0.0
+    single = [c for c in contenders if len(c.candidates) == 1]
+    over_base = {c.label: gain_of(c, base, share) for c in contenders}
+    best_single = max((over_base[c.label] for c in single), default=0.0)
     needed = SURE + PAIR * max(best_single, 0.0)
-    pairs = [c for c in pairs if c.judged.nats - zero - best_single > needed]
+    pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]
     living = [*single, *pairs]
-    gains = {c.label: c.judged.nats - zero - (needed if len(c.names) == 2 else 0.0) for c in living}
+    gains = {c.label: over_base[c.label] - (needed if len(c.candidates) == 2 else 0.0) for c in living}
+    unnamed = unnamed - STRANGER
     most = max([*gains.values(), unnamed, 0.0])
     tolerance = 1.0 + FORM * most
     weights: dict[tuple[str, ...], float] = {("none",): np.exp((SURE - most) / tolerance)}

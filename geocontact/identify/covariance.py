@@ -23,6 +23,7 @@ from scipy.linalg import lapack
 
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
 LOW_PASS = 6.0  # Hz, what recorded motion is usually filtered with (Winter, Biomechanics and Motor Control, 2009)
+RAISED = 1e-7  # of the diagonal, first try where a covariance has no factor
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
 JITTER = 1e-9  # of the diagonal, so that a factor always exists
 
@@ -184,8 +185,9 @@ def low_passed(
 @lru_cache(maxsize=1)
 def _filtered_noise() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Autocovariance of white noise after a second-order Butterworth filter run both ways, and two derivatives."""
-    frequency = np.linspace(0.0, 12.0 * LOW_PASS, 3000)
+    frequency = np.linspace(0.0, 4.0 * LOW_PASS, 400)
     power = low_pass_power(frequency)
+    power[0] *= 0.5  # trapezoidal rule, as at the other end, where there is nothing left
     power /= power.sum()
     grid = np.linspace(0.0, 1.0, 1001)
     angle = 2.0 * np.pi * frequency
@@ -199,12 +201,21 @@ def low_pass_power(frequency: Float[np.ndarray, " f"]) -> Float[np.ndarray, " f"
 
 
 def _inverse_factor(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:
-    """Inverse of the lower Cholesky factor, and half the logarithm of the determinant."""
-    factor, failed = lapack.dpotrf(covariance, lower=1, clean=1)
-    if failed:
-        raise ValueError("a noise covariance is not positive definite")
-    inverse, _ = lapack.dtrtri(factor, lower=1)
-    return inverse, float(np.log(np.diag(factor)).sum())
+    """Inverse of the lower Cholesky factor, and half the logarithm of the determinant.
+
+    Tables of the low-pass kernel are exact to a few digits; where input noise dwarfs the rest, the diagonal is raised
+    until there is a factor.
+    """
+    raised, more = covariance, RAISED
+    while True:
+        factor, failed = lapack.dpotrf(raised, lower=1, clean=1)
+        if not failed:
+            inverse, _ = lapack.dtrtri(factor, lower=1)
+            return inverse, float(np.log(np.diag(factor)).sum())
+        if more > 1.0:
+            raise ValueError("a noise covariance has no finite factor")
+        raised = covariance + more * np.diag(np.diag(covariance))
+        more *= 10.0
 
 
 def most_likely(

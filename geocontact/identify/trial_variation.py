@@ -62,6 +62,11 @@ def variation(
     return Variation(sd, np.array([mean for mean, _ in pairs]), np.array([cov for _, cov in pairs]))
 
 
+def deviations(trial: Products, sd: Float[np.ndarray, " q"]) -> Float[np.ndarray, " q"]:
+    """Most likely deviation of one trial."""
+    return _conditional(trial, sd)[0]
+
+
 def misfit(trials: Sequence[Products], sd: Float[np.ndarray, " q"]) -> float:
     """Twice the negative log likelihood of the whitened residuals, without the constant: quadratic form and log|.|."""
     total = 0.0

@@ -1,0 +1,133 @@
+"""What a diagnosis says: where the gap lies, which effect causes it, how far it shrinks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
+
+
+@dataclass(frozen=True)
+class Where:
+    """One channel with a gap.
+
+    Parameters
+    ----------
+    channel
+        An output.
+    phase
+        Shortest window of the trial that holds 70 % of the channel's squared gap, 0...1.
+    share
+        The channel's part of the whole squared gap, each channel in units of its floor.
+    p_value
+        Of the most significant cell of the channel's gap map, family-wise.
+    stage
+        Where in the chain the named effect acts; "" when none is named.
+    """
+
+    channel: str
+    phase: tuple[float, float]
+    share: float
+    p_value: float
+    stage: str = ""
+
+
+@dataclass(frozen=True)
+class ChannelGap:
+    """Size of one channel's gap on the held-out trials, in the channel's SI unit.
+
+    `reduction` and `ci95` are those expected of fresh trials of the same kind; `unexplained` is None where there is too
+    little gap to speak of.
+    """
+
+    rmse_before: float
+    rmse_after: float
+    noise_floor: float
+    reduction: float
+    ci95: tuple[float, float]
+    unexplained: float | None
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter's value, its 95 % interval, and whether the trials tell it."""
+
+    value: float
+    ci95: tuple[float, float]
+    unit: str
+    identifiable: bool
+
+
+@dataclass(frozen=True)
+class FaultFound:
+    """A discrete mistake in the data: which, on which channel, in which trials; factor 1 where it is not one."""
+
+    effect: str
+    channel: str
+    factor: float
+    trials: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The answer to a gap case, as in diagnosis.json.
+
+    `probabilities` is a distribution over single answers (effects, "none", "unknown"), `ambiguity` the effects that
+    these data cannot tell apart, `absorbed` those that would be invisible here.
+    """
+
+    case: str
+    system: str
+    verdict: Verdict
+    effects: tuple[str, ...]
+    probabilities: Mapping[str, float]
+    ambiguity: tuple[str, ...]
+    absorbed: tuple[str, ...]
+    where: tuple[Where, ...]
+    gap: Mapping[str, ChannelGap]
+    parameters: Mapping[str, Estimate]
+    seconds: float
+    version: str
+    faults: tuple[FaultFound, ...] = ()
+    remarks: tuple[str, ...] = field(default=())
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain dicts, lists, strings, numbers and None, ready for JSON."""
+        return {
+            "case": self.case,
+            "system": self.system,
+            "verdict": self.verdict,
+            "effects": list(self.effects),
+            "probabilities": dict(self.probabilities),
+            "ambiguity": list(self.ambiguity),
+            "absorbed": list(self.absorbed),
+            "where": [
+                {"channel": w.channel, "phase": list(w.phase), "share": w.share, "p_value": w.p_value}
+                | ({"stage": w.stage} if w.stage else {})
+                for w in self.where
+            ],
+            "gap": {
+                name: {
+                    "rmse_before": g.rmse_before,
+                    "rmse_after": g.rmse_after,
+                    "noise_floor": g.noise_floor,
+                    "reduction": g.reduction,
+                    "ci95": list(g.ci95),
+                    "unexplained": g.unexplained,
+                }
+                for name, g in self.gap.items()
+            },
+            "parameters": {
+                name: {"value": e.value, "ci95": list(e.ci95), "unit": e.unit, "identifiable": e.identifiable}
+                for name, e in self.parameters.items()
+            },
+            "faults": [
+                {"effect": f.effect, "channel": f.channel, "factor": f.factor, "trials": list(f.trials)}
+                for f in self.faults
+            ],
+            "remarks": list(self.remarks),
+            "seconds": self.seconds,
+            "version": self.version,
+        }

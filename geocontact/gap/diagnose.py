@@ -1,0 +1,107 @@
+"""From a case to its diagnosis: attribute, locate, shrink, and what the data cannot tell."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.system import System
+from geocontact.data.diagnosis import ChannelGap, Diagnosis, Estimate, FaultFound, Where
+from geocontact.data.gap_case import GapCase
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.absorbed import absorbed
+from geocontact.gap.attribute import Attribution, attribute
+from geocontact.gap.evidence import Judged, prior_spread
+from geocontact.gap.locate import Cell, gap_map, windows
+from geocontact.gap.refit import free
+from geocontact.gap.shrink import shrinkage
+
+Z95 = 1.959964
+TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that the trials tell
+
+
+@dataclass(frozen=True)
+class Findings:
+    """A diagnosis with all that it rests on, for figures and further questions."""
+
+    diagnosis: Diagnosis
+    attribution: Attribution
+    cells: tuple[Cell, ...]
+
+
+def diagnose(case: GapCase, system: System, version: str = "") -> Findings:
+    """Where the base model of a case misses the measurement, why, and how far the gap shrinks.
+
+    Parameters
+    ----------
+    case
+        Trials and base parameters, SI units.
+    system
+        Its base model (`systems.catalogue.system_of`).
+    version
+        Of the package, for the record.
+    """
+    began = time.perf_counter()
+    found = attribute(case, system, candidates)
+    said, problem = found.answer, found.problem
+    named = bool(said.effects) or said.verdict == "unresolved"
+    chosen = said.chosen.judged
+    offered = candidates(problem.system)
+    hidden = absorbed(problem, offered, said.effects)
+    cells = gap_map(found.clean, found.base.judged)
+    gap = {
+        name: ChannelGap(s.rmse_before, s.rmse_after, s.floor, s.reduction, (s.low, s.high), s.unexplained)
+        for name, s in shrinkage(problem, chosen, named).items()
+    }
+    stages = {one.name: one.stage for one in offered}
+    stage = stages.get(said.effects[0], "") if said.effects else ""
+    where = () if said.verdict == "no_gap" else tuple(
+        Where(w.channel, w.phase, w.share, w.p_value, stage)
+        for w in windows(problem, found.base.judged, chosen if named else None, cells)
+    )
+    diagnosis = Diagnosis(
+        case=case.name,
+        system=case.system,
+        verdict=said.verdict,
+        effects=said.effects,
+        probabilities=said.probabilities,
+        ambiguity=said.ambiguity,
+        absorbed=tuple(each.name for each in hidden),
+        where=where,
+        gap=gap,
+        parameters=estimates(chosen),
+        seconds=time.perf_counter() - began,
+        version=version,
+        faults=_faults(found, offered),
+        remarks=tuple(f"{each.words} in {each.channel}" if each.channel else each.words for each in found.odd),
+    )
+    return Findings(diagnosis, found, cells)
+
+
+def estimates(judged: Judged) -> dict[str, Estimate]:
+    """Every free parameter with its interval, from the curvature of the evidence over all trials' weights.
+
+    Intervals are those of the calibration trials: held-out rows are left out of the curvature.
+    """
+    system, values = judged.model.system, judged.model.values
+    spread = prior_spread(system, values)
+    held = spread == 0.0
+    scaled = judged.model.whitened_jacobian[: judged.fitted_rows] * spread
+    covariance = spread[:, None] * np.linalg.inv(np.eye(len(spread)) + scaled.T @ scaled) * spread
+    found = {}
+    for k, p in enumerate(free(system)):
+        sd = float(np.sqrt(covariance[k, k]))
+        low, high = (min(max(values[p.name] + s * Z95 * sd, p.lower), p.upper) for s in (-1.0, 1.0))
+        told = not held[k] and sd < TOLD * spread[k]
+        found[p.name] = Estimate(values[p.name], (low, high), p.unit, bool(told))
+    return found
+
+
+def _faults(found: Attribution, offered: tuple[Candidate, ...]) -> tuple[FaultFound, ...]:
+    if found.fault is None:
+        return ()
+    one = found.fault.candidate
+    return (FaultFound(one.name, one.channel, one.factor, found.fault.trials),)

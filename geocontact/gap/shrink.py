@@ -1,0 +1,169 @@
+"""How far the gap shrinks on trials that were not used once the effect is in the model.
+
+What is asked for is the reduction on fresh trials of the same kind, of which the held-out ones are a few. The error
+that stays is noise, noise of the inputs and trial-to-trial variation; it is estimated from all trials together, with
+what the fitted noise levels imply counted as a few trials more. The error that goes is the difference between the two
+models' predictions. With a² the first and g² the second, mean squares over the held-out trials,
+
+    reduction = 1 - rmse_after / rmse_before = 1 - (1 + g²/a²)^(-1/2).
+
+Both models are given the inputs as they were measured, with central differences for rates, since that is what a
+simulator in somebody's hands does; smoothing them first leaves less of an error than is reported here. The interval comes from the spread of log(g²/a²): parameters (from the fit), trials that differ in motion and in their
+deviations, and the form of the effect, which is never exactly that of the candidate.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.gap.evidence import Judged, prior_spread
+from geocontact.gap.problem import Plain, Problem, noise_variance
+from geocontact.gap.refit import refit
+
+IMPLIED = 0.3  # trials that the fitted noise levels count as
+FORM = 0.04  # relative standard deviation of g² for the form of the effect
+Z95 = 1.959964
+TELLING = 2.0  # times the squared floor that the squared error before must be, for a share to mean something
+
+
+@dataclass(frozen=True)
+class Shrinkage:
+    """One channel's gap.
+
+    Parameters
+    ----------
+    rmse_before, rmse_after
+        On the held-out trials as they were measured, without and with the effect [the channel's unit].
+    floor
+        Noise, noise of inputs and trial-to-trial variation, root mean square on the held-out trials.
+    reduction, low, high
+        Of fresh trials of the same kind, and its 95 % interval.
+    unexplained
+        (mse_after - floor²)/(mse_before - floor²); None where there is too little gap for it.
+    """
+
+    rmse_before: float
+    rmse_after: float
+    floor: float
+    reduction: float
+    low: float
+    high: float
+    unexplained: float | None
+
+
+def shrinkage(problem: Problem, after: Judged, named: bool) -> dict[str, Shrinkage]:
+    """Of every channel; `after` is the model with what was named, or the base where nothing was."""
+    count = len(problem.calibration.trials)
+    residuals = as_measured(problem, after)
+    present = problem.recorded.present
+    floors = _floors(problem, after, residuals.after)
+    found = {}
+    for c, name in enumerate(problem.system.outputs):
+        error = _mean_square(residuals.before[count:], present[count:], c)
+        stays = _mean_square(residuals.after[count:], present[count:], c)
+        floor = float(np.mean([f[c] for f in floors[count:]]))
+        if not named:
+            found[name] = Shrinkage(error**0.5, error**0.5, floor**0.5, 0.0, 0.0, 0.0, None)
+            continue
+        gone, gone_sd = _gone(problem, after, residuals, c)
+        left, left_sd = _left(problem, after, residuals.after, floors, c)
+        ratio = gone / left
+        spread = Z95 * np.hypot(gone_sd / max(gone, 1e-300), left_sd / left)
+        low, middle, high = (1.0 - (1.0 + ratio * np.exp(s)) ** -0.5 for s in (-spread, 0.0, spread))
+        share = None
+        if error >= TELLING * floor:
+            share = float(max(left - floor, 0.0) / (left + gone - floor)) if left + gone > floor else 0.0
+        found[name] = Shrinkage(error**0.5, stays**0.5, floor**0.5, float(middle), float(low), float(high), share)
+    return found
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """Of all trials, inputs as they were measured and their rates by central differences."""
+
+    before: list[Float[np.ndarray, "_ c"]]
+    after: list[Float[np.ndarray, "_ c"]]
+
+
+def as_measured(problem: Problem, after: Judged) -> Residuals:
+    """Base model refitted by plain least squares, and the model with the effect at its values."""
+    base = problem.system.as_measured()
+    count = len(problem.calibration.trials)
+    whole = problem.recorded
+    first = replace(whole, trials=whole.trials[:count], outputs=whole.outputs[:count])
+    weigh = [Plain(there, problem.floor) for there in first.present]
+    values = refit(base, first, weigh, [problem.plain.values], 20).values
+    return Residuals(
+        whole.residuals(base, values), whole.residuals(after.model.system.as_measured(), after.model.values)
+    )
+
+
+def _mean_square(residuals: list[np.ndarray], present: tuple[np.ndarray, ...], c: int) -> float:
+    values = np.concatenate([r[p[:, c], c] for r, p in zip(residuals, present, strict=True)])
+    return float(np.mean(values**2)) if len(values) else 0.0
+
+
+def _floors(problem: Problem, after: Judged, seen: list[np.ndarray]) -> list[Float[np.ndarray, " c"]]:
+    """Mean square per channel of what no model can predict, trial by trial: sensor noise, noise that inputs bring in,
+    what smoothing them would take off, and trial-to-trial variation."""
+    found = []
+    everything = zip(
+        problem.layouts, after.model.jacobian, problem.recorded.present, after.model.residuals, seen, strict=True
+    )
+    for layout, jacobian, there, smooth, rough in everything:
+        own = noise_variance(layout, after.noise.levels) + _varied(problem, after, jacobian) + (smooth - rough) ** 2
+        found.append(np.where(there, own, 0.0).sum(axis=0) / np.maximum(there.sum(axis=0), 1))
+    return found
+
+
+def _varied(problem: Problem, after: Judged, jacobian: np.ndarray) -> Float[np.ndarray, "t c"]:
+    return np.asarray(((jacobian[..., : len(problem.usual)] * after.noise.varies) ** 2).sum(axis=-1))
+
+
+def _gone(problem: Problem, after: Judged, residuals: Residuals, c: int) -> tuple[float, float]:
+    """Mean square difference of the two models' predictions on held-out trials, and its standard deviation."""
+    count = len(problem.calibration.trials)
+    spread = prior_spread(after.model.system, after.model.values)
+    scaled = after.model.whitened_jacobian[: after.fitted_rows] * spread
+    posterior = spread[:, None] * np.linalg.inv(np.eye(len(spread)) + scaled.T @ scaled) * spread
+    squares, slopes = [], []
+    for first, second, there, jacobian in zip(
+        residuals.before[count:],
+        residuals.after[count:],
+        problem.evaluation.present,
+        after.model.jacobian[count:],
+        strict=True,
+    ):
+        off = (first - second)[there[:, c], c]
+        if not len(off):
+            continue
+        squares.append(float(np.mean(off**2)))
+        slopes.append(2.0 * off @ jacobian[there[:, c], c] / len(off))
+    gone = float(np.mean(squares)) if squares else 0.0
+    slope = np.mean(slopes, axis=0) if slopes else np.zeros(len(spread))
+    between = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (0.3 * gone) ** 2
+    return gone, float(np.sqrt(slope @ posterior @ slope + between + (FORM * gone) ** 2))
+
+
+def _left(
+    problem: Problem, after: Judged, seen: list[np.ndarray], floors: list[np.ndarray], c: int
+) -> tuple[float, float]:
+    """Mean square error that stays on a fresh trial, and its standard deviation."""
+    count = len(problem.calibration.trials)
+    each = []
+    for i, (residual, there, jacobian) in enumerate(
+        zip(seen, problem.recorded.present, after.model.jacobian, strict=True)
+    ):
+        if not there[:, c].any():
+            continue
+        own = float(np.mean(residual[there[:, c], c] ** 2))
+        taken = float(np.mean(_varied(problem, after, jacobian)[there[:, c], c])) / count if i < count else 0.0
+        each.append(own + taken)
+    implied = float(np.mean([f[c] for f in floors[count:]]))
+    weight = len(each) + IMPLIED
+    left = (sum(each) + IMPLIED * implied) / weight
+    scatter = float(np.var(each, ddof=1)) if len(each) > 1 else left**2
+    return left, float(np.sqrt(scatter / weight))
