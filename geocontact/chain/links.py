@@ -9,7 +9,7 @@ from typing import Generic, Protocol, TypeVar, runtime_checkable
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.movement import Movement, recorded
+from geocontact.chain.movement import REACH, Movement, recorded
 from geocontact.chain.slots import Slots, Source
 from geocontact.data.trial import Trial
 
@@ -67,17 +67,18 @@ class Motion:
         Channels that drive the model.
     modifiers
         What is wrong with them.
-    smooth
-        Rates by local fits (`movement`); else by central differences of the inputs as they were measured.
+    reach
+        Rates come from local fits over so much time to either side [s]; 0 for central differences of the inputs as
+        they were measured.
     """
 
     inputs: tuple[str, ...]
     modifiers: tuple[Modifier[Movement], ...] = ()
-    smooth: bool = True
+    reach: float = REACH
 
     def seen(self, trial: Trial, values: Values) -> Movement:
         """Movement that the model works with."""
-        known = replace(recorded(trial.signals, self.inputs, self.smooth), trial=trial.name)
+        known = replace(recorded(trial.signals, self.inputs, self.reach), trial=trial.name)
         return passed_on(self.modifiers, known, known, values)
 
     def having(self, one: Modifier[Movement]) -> Motion:

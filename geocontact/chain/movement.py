@@ -129,17 +129,19 @@ def local_fit(
     return out
 
 
-def movement(time: Float[np.ndarray, " t"], inputs: tuple[str, ...], position: Float[np.ndarray, "i t"]) -> Movement:
-    """Differentiate measured inputs; ValueError when one was never measured."""
+def movement(
+    time: Float[np.ndarray, " t"], inputs: tuple[str, ...], position: Float[np.ndarray, "i t"], reach: float = REACH
+) -> Movement:
+    """Differentiate measured inputs by local fits over `reach` to either side [s]; ValueError when one was never measured."""
     fitted = np.empty((2, *position.shape))
     for row, name in enumerate(inputs):
         there = np.isfinite(position[row])
         if not there.any():
             raise ValueError(f"input {name} has no value in this trial; it needs at least one")
         known = np.ascontiguousarray(position[row : row + 1, there])
-        fitted[:, row : row + 1] = local_fit(time[there], known, time, REACH, NEIGHBOURS, DEGREE)
+        fitted[:, row : row + 1] = local_fit(time[there], known, time, reach, NEIGHBOURS, DEGREE)
     place, rate = fitted
-    acceleration = local_fit(time, np.ascontiguousarray(rate), time, REACH, NEIGHBOURS, DEGREE)[1]
+    acceleration = local_fit(time, np.ascontiguousarray(rate), time, reach, NEIGHBOURS, DEGREE)[1]
     return Movement(time, inputs, np.where(np.isfinite(position), position, place), rate, acceleration)
 
 
@@ -160,19 +162,19 @@ def by_differences(time: Float[np.ndarray, " t"], inputs: tuple[str, ...], posit
     return Movement(time, inputs, filled, rate, np.gradient(rate, time, axis=1))
 
 
-_SEEN: dict[tuple[int, tuple[str, ...], bool], tuple[weakref.ref[Signals], Movement]] = {}
+_SEEN: dict[tuple[int, tuple[str, ...], float], tuple[weakref.ref[Signals], Movement]] = {}
 
 
-def recorded(signals: Signals, inputs: tuple[str, ...], smooth: bool = True) -> Movement:
+def recorded(signals: Signals, inputs: tuple[str, ...], reach: float = REACH) -> Movement:
     """Movement of a recording; remembered as long as the recording lives, which must not be altered.
 
-    `smooth`: rates by local fits, else by central differences.
+    Rates by local fits over `reach` to either side [s], by central differences where it is 0.
     """
-    key = (id(signals), inputs, smooth)
+    key = (id(signals), inputs, reach)
     seen = _SEEN.get(key)
     if seen is not None and seen[0]() is signals:
         return seen[1]
-    differentiate = movement if smooth else by_differences
-    found = differentiate(signals.time, inputs, np.array([signals.column(name) for name in inputs]))
+    position = np.array([signals.column(name) for name in inputs])
+    found = movement(signals.time, inputs, position, reach) if reach else by_differences(signals.time, inputs, position)
     _SEEN[key] = (weakref.ref(signals, lambda _: _SEEN.pop(key, None)), found)
     return found

@@ -108,7 +108,11 @@ class System:
 
     def as_measured(self) -> System:
         """The same system seeing its inputs as they were measured, their rates by central differences."""
-        return replace(self, motion=replace(self.motion, smooth=False))
+        return self.reaching(0.0)
+
+    def reaching(self, reach: float) -> System:
+        """The same system with rates of its inputs from local fits over so much time to either side [s]."""
+        return replace(self, motion=replace(self.motion, reach=reach))
 
     def scaled(self, trials: Sequence[Trial], values: Mapping[str, float] | None = None) -> System:
         """The same system with its scale taken from `trials`, its base parameters at `values` or where they start.

@@ -14,12 +14,12 @@ from geocontact.gap.faults import Fault, fault_of
 from geocontact.gap.oddities import Oddity, oddities
 from geocontact.gap.problem import Problem, problem_of
 from geocontact.gap.surrogate import Surrogate, surrogate
-from geocontact.gap.verdict import Answer, answer, borne_out
+from geocontact.gap.verdict import Answer, answer, borne_out, with_mistake
 
 FIRSTS = 3  # singles that a second effect is tried on
 LEADING = 3  # contenders under whose noise everyone is compared
 WORTH_A_PAIR = 8.0  # nats that a single must gain before a second effect is looked for
-ODD = 10.0  # nats from which an oddity counts as something unknown
+ODD = 5.0  # nats from which an oddity counts as something unknown
 
 Offer = Callable[[System], Sequence[Candidate]]
 
@@ -83,7 +83,9 @@ def attribute(case: GapCase, system: System, offer: Offer) -> Attribution:
     strange = sum(each.nats for each in odd)
     over = {label: borne_out(each.nats, each.calibration, share) + strange for label, each in left.items()}
     rest = remaining["none"]
-    said = answer(base, contenders, share, borne_out(rest.nats, rest.calibration, share) + strange, over)
+    said = answer(base, contenders, share, borne_out(rest.nats, rest.calibration, share), strange, over)
+    if fault is not None:
+        said = with_mistake(said, fault.candidate.name)
     return Attribution(problem, fault, clean, base, tuple(contenders), {**remaining, **left}, odd, said)
 
 

@@ -15,6 +15,7 @@ from geocontact.gap.refit import Refit, free, refit
 FINALISTS = 6
 MATE_TRIALS = 4  # second effects that are fitted on top of a first
 MATES = 2  # of these that get noise of their own
+MODEST = 20.0  # factor of a unit up to which a wrong one may hide in parameters
 FEW = 5  # free parameters up to which a joint fit also sets out from the case's own start
 
 
@@ -52,7 +53,8 @@ def finished(problem: Problem, candidates: tuple[Candidate, ...], model: Refit, 
 
 def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) -> list[Contender]:
     """The most likely candidates, best first: all are fitted under the base's noise, then under that of the best."""
-    movable = [one for one in candidates if one.parameters]
+    new = [one for one in candidates if one.label not in problem.system.effects]
+    movable = [one for one in new if one.parameters or _nearly_a_gain(one)]
     reference = base.judged.model
     noise = base.judged.noise
     found: dict[str, Refit] = {}
@@ -71,6 +73,11 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
     best = sorted(movable, key=lambda one: found[one.label].cost)[:FINALISTS]
     contenders = [finished(problem, (one,), found[one.label], noise) for one in best]
     return sorted(contenders, key=lambda c: -c.judged.nats)
+
+
+def _nearly_a_gain(one: Candidate) -> bool:
+    """Whether it is a wrong unit by a factor that refitted base parameters may take for their own."""
+    return one.somewhere is not None and 1.0 != one.factor and 1.0 / MODEST <= one.factor <= MODEST
 
 
 def mates(problem: Problem, first: Contender, candidates: Sequence[Candidate]) -> list[Contender]:

@@ -1,4 +1,4 @@
-"""What no candidate makes and no shared surrogate sees: a narrow line, a burst, held samples, a change within a trial.
+"""What no candidate makes and no surrogate sees: a narrow line, a burst, held samples, coarse steps.
 
 Noise is coloured at most, its spectrum smooth; whitened by the right model it is white. Each check compares the whitened
 residual, or the recording itself, with that, and says in nats (minus the logarithm of a p-value that is corrected for
@@ -12,14 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap.evidence import Judged, log_evidence, prior_spread
+from geocontact.gap.evidence import Judged
 from geocontact.gap.problem import Problem
 
-WINDOWS = (8, 16, 32, 64)  # samples
+WINDOWS = (4, 8, 16, 32, 64)  # samples
 SHORTEST = 64  # samples of a trial whose spectrum is looked at
 BESIDE = (-8, -7, -6, -5, -4, -3, 3, 4, 5, 6, 7, 8)  # bins that a line is compared with
-STRETCHES = 4  # that a parameter may differ between, within a trial
-HELD_USUALLY = 0.02  # share of samples that repeat the last by chance
+OTHERS = 4  # times the width of a stretch that what it is compared with counts for
+HELD_USUALLY = 2e-3  # share of samples that repeat the last by chance, at the least
+COARSE, SURELY = 0.33, 12.0  # steps, in noise levels, that are coarse, and how sure that makes of it [nats]
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Oddity:
 
 def oddities(problem: Problem, judged: Judged) -> list[Oddity]:
     """Every check, the surest first."""
-    found = [*lines(problem, judged), *bursts(problem, judged), *held(problem), changes(problem, judged)]
+    found = [*lines(problem, judged), *bursts(problem, judged), *held(problem), *steps(problem)]
     return sorted(found, key=lambda each: -each.nats)
 
 
@@ -96,7 +97,7 @@ def bursts(problem: Problem, judged: Judged) -> list[Oddity]:
                     np.interp(phase, np.linspace(0.0, 1.0, len(e)), e) for i, e in enumerate(energies) if i != own
                 ]
                 usual = np.maximum(np.median(others, axis=0), 1.0) if others else np.ones(len(energy))
-                best = max(best, float((-f.logsf(energy / usual, width, width)).max()))
+                best = max(best, float((-f.logsf(energy / usual, width, OTHERS * width)).max()))
                 looked += 2 * len(energy) // width
         found.append(Oddity("a burst", name, max(best - float(np.log(max(looked, 1))), 0.0)))
     return found
@@ -109,49 +110,65 @@ def _energy(values: Float[np.ndarray, " n"], width: int) -> Float[np.ndarray, " 
 
 
 def held(problem: Problem) -> list[Oddity]:
-    """Samples that repeat the one before, away from the ends of the range, where saturation would hold them."""
+    """Samples that repeat the one before, away from the ends of the range, where saturation would hold them.
+
+    By chance as many repeat as the resolution of the recording and the size of its steps suggest.
+    """
     found = []
-    trials = problem.calibration.outputs + problem.evaluation.outputs
     for c, name in enumerate(problem.system.outputs):
-        repeats, count = 0, 0
-        for outputs in trials:
-            x = outputs[:, c][np.isfinite(outputs[:, c])]
-            low, high = np.percentile(x, [2.0, 98.0]) if len(x) else (0.0, 0.0)
+        columns = _columns(problem, c)
+        resolution = _resolution(columns)
+        repeats, count, expected = 0, 0, 0.0
+        for x in columns:
+            low, high = np.percentile(x, [2.0, 98.0])
             inside = (x[1:] > low) & (x[1:] < high)
-            repeats += int(((np.diff(x) == 0.0) & inside).sum())
-            count += int(inside.sum())
-        share = repeats / max(count, 1)
-        if share > HELD_USUALLY:
-            nats = count * (
-                share * np.log(share / HELD_USUALLY)
-                + (1.0 - share) * np.log(max(1.0 - share, 1e-12) / (1.0 - HELD_USUALLY))
-            )
-            found.append(Oddity(f"{100.0 * share:.0f} % of the samples repeat the last", name, float(nats)))
+            steps = np.diff(x)[inside]
+            repeats += int((steps == 0.0).sum())
+            count += len(steps)
+            usual = float(np.median(np.abs(steps))) / 0.6745 if len(steps) else 0.0
+            expected += len(steps) * min(0.4 * resolution / usual if usual > 0.0 else 1.0, 1.0)
+        share, chance = repeats / max(count, 1), max(expected / max(count, 1), HELD_USUALLY)
+        if share > chance:
+            rest = np.log(max(1.0 - share, 1e-12) / max(1.0 - chance, 1e-12))
+            nats = count * (share * np.log(share / chance) + (1.0 - share) * rest)
+            found.append(Oddity(f"{100.0 * share:.1f} % of the samples repeat the last", name, float(nats)))
     return found
 
 
-def changes(problem: Problem, judged: Judged) -> Oddity:
-    """Base parameters that differ between stretches of a trial by more than trials do from each other."""
-    model = judged.model
-    weighings = problem.weighings(judged.noise, model)
-    count = len(problem.usual)
-    parts = []
-    for weighing, jacobian in zip(weighings, model.jacobian, strict=True):
-        samples = np.linspace(0.0, 1.0, len(jacobian))[:, None, None]
-        steps = [
-            jacobian[..., :count] * judged.noise.varies * (samples > edge)
-            for edge in np.arange(1, STRETCHES) / STRETCHES
-        ]
-        parts.append(weighing(np.concatenate(steps, axis=-1)))
-    gain, at = 0.0, 0
-    spread = np.ones(parts[0].shape[1])
-    fitted = model.whitened_jacobian
-    base_spread = prior_spread(model.system, model.values)
-    for part in parts:
-        rows = slice(at, at + len(part))
-        r, known = model.whitened[rows], fitted[rows] * base_spread
-        basis = np.linalg.qr(known)[0] if known.shape[1] else np.zeros((len(r), 0))
-        left, design = r - basis @ (basis.T @ r), part - basis @ (basis.T @ part)
-        gain += max(log_evidence(left, design, size * spread) + 0.5 * float(left @ left) for size in (1.0, 3.0, 10.0))
-        at += len(part)
-    return Oddity("parameters change during a trial", "", max(gain - float(np.log(3.0)) * len(parts), 0.0))
+def steps(problem: Problem) -> list[Oddity]:
+    """A recording that comes in steps that are coarse against its noise."""
+    found = []
+    for c, name in enumerate(problem.system.outputs):
+        columns = _columns(problem, c)
+        resolution = _resolution(columns)
+        values = sum(map(len, columns))
+        distinct = len(np.unique(np.round(np.concatenate(columns) / max(resolution, 1e-300)))) if values else 0
+        coarse = resolution / problem.floor_of_noise[c]
+        if coarse > COARSE and distinct < values:
+            found.append(Oddity(f"it comes in steps of {resolution:.3g}", name, SURELY * coarse / COARSE))
+    return found
+
+
+def _columns(problem: Problem, c: int) -> list[Float[np.ndarray, " _"]]:
+    """Measured values of one channel, trial by trial, trials with a few only left out."""
+    columns = [outputs[:, c] for outputs in problem.recorded.outputs]
+    return [x[np.isfinite(x)] for x in columns if np.isfinite(x).sum() > 8]
+
+
+def _resolution(columns: list[Float[np.ndarray, " _"]]) -> float:
+    """Smallest step that nearly all differences are multiples of; 0 where there is none."""
+    if not columns:
+        return 0.0
+    moves = np.abs(np.concatenate([np.diff(x) for x in columns]))
+    moves = moves[moves > 0.0]
+    if len(moves) < 8:
+        return 0.0
+    unit = float(np.quantile(moves, 0.02))
+    for _ in range(20):
+        units = moves / unit
+        if (np.abs(units - np.round(units)) < 0.1).mean() > 0.9:
+            return unit
+        unit = float(np.median(moves[units < 1.5])) if (units < 1.5).sum() > 8 else 0.0
+        if unit <= 0.0 or np.isclose(unit, np.quantile(moves, 0.02)):
+            return 0.0
+    return 0.0

@@ -12,11 +12,13 @@ from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.inputs import denoised, seen_noise
 from geocontact.gap.refit import Measured, Refit, at, free, refit
-from geocontact.gap.weighing import Weighing, layouts_of, usual_levels, varies_by
+from geocontact.gap.weighing import Weighing, layouts_of, sensitivity, usual_levels, varies_by
 from geocontact.identify.covariance import Layout, Levels, Whitener, most_likely
 from geocontact.identify.trial_variation import Products, variation
 
+REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own
+MEMORY = 2.0  # times its usual correlation time that quiet noise may remember
 MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
 
 
@@ -34,8 +36,8 @@ class Problem:
         All trials as they were measured, in the same order.
     layouts
         Of the calibration trials, then of the evaluation trials.
-    prior, width
-        What was believed of the noise levels.
+    prior, factor
+        What was believed of the noise levels: medians, and a factor of the covariance of their logarithms.
     usual
         Usual standard deviation of each free base parameter from trial to trial.
     plain
@@ -50,7 +52,7 @@ class Problem:
     recorded: Measured
     layouts: tuple[Layout, ...]
     prior: Levels
-    width: Levels
+    factor: Float[np.ndarray, "h h"]
     usual: Float[np.ndarray, " q"]
     plain: Refit
     floor: Float[np.ndarray, " c"]
@@ -71,17 +73,38 @@ class Problem:
         sd = self.usual if before is None else before.varies
         levels, surprise = None if before is None else before.levels, 0.0
         for _ in range(2 if before is None else 1):
-            levels, surprise = most_likely(
+            levels, surprise, _ = most_likely(
                 self.calibration_layouts,
                 model.residuals,
                 [j[..., :count] * sd for j in model.jacobian],
                 self.prior,
-                self.width,
+                self.factor,
                 self.prior if levels is None else levels,
             )
             sd = self._variation(model, levels)
         assert levels is not None
-        return Noise(levels, sd, surprise, tuple(layout.whitener(levels) for layout in self.layouts))
+        return Noise(levels, sd, surprise, self._whiteners(levels))
+
+    def quieter(self, noise: Noise) -> Noise:
+        """The same noise as far as it is not louder than could be expected.
+
+        Levels that were fitted to a model's residuals grow with what the model misses. Here outputs are no noisier than
+        was told, and inputs of one unit no noisier than the best of them.
+        """
+        units = [self.system.units.get(name, name) for name in self.system.inputs]
+        best = [min(v for v, u in zip(noise.levels.inputs, units, strict=True) if u == own) for own in units]
+        levels = replace(
+            noise.levels,
+            white=np.minimum(noise.levels.white, self.prior.white),
+            coloured=np.minimum(noise.levels.coloured, self.prior.coloured),
+            memory=np.minimum(noise.levels.memory, MEMORY * self.prior.memory),
+            inputs=np.minimum(np.array(best), self.prior.inputs),
+        )
+        x = np.linalg.solve(self.factor, levels.logarithms() - self.prior.logarithms())
+        return Noise(levels, np.minimum(noise.varies, self.usual), 0.5 * float(x @ x), self._whiteners(levels))
+
+    def _whiteners(self, levels: Levels) -> tuple[Whitener, ...]:
+        return tuple(layout.whitener(levels) for layout in self.layouts)
 
     def _variation(self, model: Refit, levels: Levels) -> Float[np.ndarray, " q"]:
         products = []
@@ -141,14 +164,15 @@ def problem_of(case: GapCase, system: System) -> Problem:
         outputs=calibration.outputs + evaluation.outputs,
     )
     recorded = everything
+    system = _rates(system, case, calibration, rough)
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
     floor = rough
     for last in (False, True):
         system = system.scaled(calibration.trials, plain.values)
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
-        prior, width = usual_levels(system, case.noise, rough)
+        prior, factor = usual_levels(system, case.noise, rough)
         layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present))
-        problem = Problem(system, calibration, evaluation, recorded, layouts, prior, width, usual, plain, floor)
+        problem = Problem(system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor)
         noise = problem.weighed(plain)
         if not last:
             sd = {
@@ -160,6 +184,29 @@ def problem_of(case: GapCase, system: System) -> Problem:
         floor = floor_of(problem, noise, plain)
         plain = _plain_fit(system, calibration, floor, [plain.values], rounds=20)
     return replace(problem, plain=plain, floor=floor)
+
+
+def _rates(system: System, case: GapCase, measured: Measured, rough: Float[np.ndarray, " c"]) -> System:
+    """The system with the smoothing of rates that makes the base model's residuals most likely.
+
+    How far rates have to be smoothed depends on the noise of the inputs, which is not known. Where the base does not
+    depend on rates the usual smoothing stays.
+    """
+    plain = _plain_fit(system, measured, rough, base_starts(system), rounds=40)
+    system = system.scaled(measured.trials, plain.values)
+    if not any(sensitivity(system, trial, plain.values).to_rate.any() for trial in measured.trials):
+        return system
+    prior, factor = usual_levels(system, case.noise, rough)
+    usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
+    likely = []
+    for reach in REACHES:
+        other = system.reaching(reach)
+        model = _plain_fit(other, measured, rough, [plain.values], rounds=6)
+        layouts = layouts_of(other, measured.trials, model.values, measured.present)
+        varied = [j[..., : len(usual)] * usual for j in model.jacobian]
+        _, __, nats = most_likely(layouts, model.residuals, varied, prior, factor, prior, rounds=15)
+        likely.append((nats, reach))
+    return system.reaching(max(likely)[1])
 
 
 def _denoised(measured: Measured, noise: Mapping[str, float]) -> Measured:

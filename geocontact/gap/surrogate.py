@@ -1,7 +1,8 @@
-"""A flexible stand-in for whatever a model misses: bumps over position, rate, both, and time, shared by all trials.
+"""A flexible stand-in for whatever a model misses: bumps over position, rate, both, and time, changing parameters.
 
-Each family is a linear model with independent Gaussian weights of one standard deviation: the discrepancy of Kennedy &
-O'Hagan (2001, J. R. Stat. Soc. B 63:425) on a grid of radial functions. It cannot name a cause. It answers whether
+A discrepancy as of Kennedy & O'Hagan (2001, J. R. Stat. Soc. B 63:425), on a grid of radial functions of which only those
+are taken, one by one, that are worth their price (matching pursuit: Mallat & Zhang, IEEE Trans. Signal Process. 41:3397,
+1993), their weights integrated out. It cannot name a cause. It answers whether
 there is anything systematic to explain, and how much of it a named effect leaves over.
 """
 
@@ -14,12 +15,17 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.movement import recorded
-from geocontact.gap.evidence import Judged, log_evidence, prior_spread
+from geocontact.gap.evidence import Judged, judged_anew, log_evidence, prior_spread
 from geocontact.gap.problem import Problem
 
 ALONG = 12  # bumps over one input's position or rate
 ACROSS = 6  # bumps per side over position and rate together
 THROUGH = 16  # bumps over a trial
+ALONE = 10  # bumps over a trial that are a trial's own
+STRETCHES = 8  # of a trial, that parameters may differ between
+SLOWLY = 6  # broad bumps over a trial
+DEEPEST = 10  # bumps that are taken at most
+RIDGE = 1e-6  # against parameters that do nothing
 SIZES = (0.3, 1.0, 3.0, 10.0, 30.0)  # standard deviation of the weights, in noise levels of the channel
 
 
@@ -46,27 +52,76 @@ class Surrogate:
 
 
 def surrogate(problem: Problem, judged: Judged) -> Surrogate:
-    """The family that gains most on top of a model."""
-    model = judged.model
-    weighings = problem.weighings(judged.noise, model)
-    spread = prior_spread(model.system, model.values)
-    rows = judged.fitted_rows
-    r, fitted = model.whitened, model.whitened_jacobian
-    plain = log_evidence(r, fitted, spread)
-    plain_calibration = log_evidence(r[:rows], fitted[:rows], spread)
-    best = Surrogate("", 0.0, 0.0, tuple(np.zeros_like(each) for each in model.residuals))
-    choices = float(np.log(sum(1 for _ in families(problem)) * len(SIZES)))
-    for name, features in families(problem):
-        white = np.concatenate([w(part) for w, part in zip(weighings, features, strict=True)])
-        for size in SIZES:
-            both = np.concatenate([fitted, white], axis=1)
-            wide = np.concatenate([spread, np.full(white.shape[1], size)])
-            calibration = log_evidence(r[:rows], both[:rows], wide) - plain_calibration - choices
-            gain = log_evidence(r, both, wide) - plain - choices
-            if gain > best.nats:
-                weights = _posterior(r, both, wide)[len(spread) :]
-                best = Surrogate(name, gain, calibration, tuple(part @ weights for part in features))
+    """The family that gains most on top of a model, under its own noise or under quieter noise.
+
+    Noise that was fitted to what a model misses explains it away; with the stand-in in its place it may be quieter.
+    """
+    quiet = judged_anew(problem, judged.model, problem.quieter(judged.noise))
+    spread = prior_spread(judged.model.system, judged.model.values)
+    made = [*families(problem), *lonely(problem, judged)]
+    best = Surrogate("", 0.0, 0.0, tuple(np.zeros_like(each) for each in judged.model.residuals))
+    for one in (judged, quiet):
+        weighings = problem.weighings(one.noise, one.model)
+        known = one.model.whitened_jacobian * spread
+        behind = one.nats - judged.nats
+        behind_calibration = one.calibration - judged.calibration
+        for name, features in made:
+            white = np.concatenate([w(part) for w, part in zip(weighings, features, strict=True)])
+            found = chosen(one.model.whitened, white, known, judged.fitted_rows, float(np.log(2 * len(made))))
+            if found.nats + behind > best.nats:
+                predicted = tuple(part[..., found.columns] @ found.weights for part in features)
+                best = Surrogate(name, found.nats + behind, found.calibration + behind_calibration, predicted)
     return best
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Columns of a family that are worth their price, their weights, and what they gain."""
+
+    columns: list[int]
+    weights: Float[np.ndarray, " k"]
+    nats: float
+    calibration: float
+
+
+def chosen(
+    residual: Float[np.ndarray, " n"],
+    columns: Float[np.ndarray, "n m"],
+    known: Float[np.ndarray, "n p"],
+    rows: int,
+    price: float,
+) -> Choice:
+    """Bumps taken one by one, each the one that gains most, as long as it gains more than its choice costs.
+
+    `known` are the derivatives of the fitted parameters times their prior spread; what they explain counts for nothing.
+    `rows` is how many of the rows are of calibration trials.
+    """
+    basis, _ = np.linalg.qr(np.concatenate([known, RIDGE * np.eye(known.shape[1])]))
+    basis = basis[: len(known)]
+    left, free = residual - basis @ (basis.T @ residual), columns - basis @ (basis.T @ columns)
+    each = float(np.log(columns.shape[1] * len(SIZES)))
+    taken: list[int] = []
+    total, design, spread = -price, np.zeros((len(left), 0)), np.zeros(0)
+    before = -0.5 * float(left @ left)
+    sizes = np.array(SIZES)
+    rest = left
+    while len(taken) < DEEPEST:
+        power, along = (free**2).sum(axis=0), free.T @ rest
+        gains = 0.5 * along**2 / (power + 1.0 / sizes[:, None] ** 2) - 0.5 * np.log1p(sizes[:, None] ** 2 * power)
+        size, column = np.unravel_index(int(np.argmax(gains)), gains.shape)
+        if gains[size, column] < each:
+            break
+        taken.append(int(column))
+        design = np.column_stack([design, columns[:, column] - basis @ (basis.T @ columns[:, column])])
+        spread = np.append(spread, sizes[size])
+        total = log_evidence(left, design, spread) - before - each * len(taken) - price
+        direction = free[:, column] / np.sqrt(power[column])
+        rest = rest - direction * (direction @ rest)
+        free = free - np.outer(direction, direction @ free)
+    if not taken:
+        return Choice([], np.zeros(0), 0.0, 0.0)
+    part = log_evidence(left[:rows], design[:rows], spread) + 0.5 * float(left[:rows] @ left[:rows])
+    return Choice(taken, _posterior(left, design, spread), total, part - each * len(taken) - price)
 
 
 def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
@@ -84,6 +139,32 @@ def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ 
         yield f"position and rate of {name}", [_per_channel(bumps, scale) for bumps in crossed]
     phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
     yield "time within the trial", [_per_channel(bumps, scale) for bumps in _line(phase, THROUGH)]
+    yield "broad stretches of the trial", [_per_channel(bumps, scale) for bumps in _line(phase, SLOWLY)]
+
+
+def lonely(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
+    """Families whose weights are a trial's own: a disturbance in it, parameters that change during it."""
+    trials = problem.calibration.trials + problem.evaluation.trials
+    phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
+    bumps = [_per_channel(each, problem.floor_of_noise) for each in _line(phase, ALONE)]
+    yield "stretches of single trials", _apart(bumps)
+    count, edges = len(problem.usual), np.arange(1, STRETCHES) / STRETCHES
+    changing = [
+        np.concatenate([j[..., :count] * problem.usual * (p > edge)[:, None, None] for edge in edges], axis=-1)
+        for j, p in zip(judged.model.jacobian, phase, strict=True)
+    ]
+    yield "parameters that change during a trial", _apart(changing)
+    yield "parameters that change at one moment of every trial", changing
+
+
+def _apart(features: list[Float[np.ndarray, "_ c m"]]) -> list[Float[np.ndarray, "_ c k"]]:
+    """The same features with weights for every trial."""
+    out = []
+    for i, own in enumerate(features):
+        wide = np.zeros((*own.shape[:2], len(features), own.shape[2]))
+        wide[:, :, i] = own
+        out.append(wide.reshape(*own.shape[:2], -1))
+    return out
 
 
 def _line(values: list[Float[np.ndarray, " _"]], count: int) -> list[Float[np.ndarray, "_ m"]]:

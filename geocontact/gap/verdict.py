@@ -59,6 +59,7 @@ def answer(
     contenders: Sequence[Contender],
     share: float,
     unnamed: float,
+    strange: float,
     left: Mapping[str, float],
 ) -> Answer:
     """The verdict.
@@ -73,6 +74,8 @@ def answer(
         Calibration trials' part of all samples.
     unnamed
         What a stand-in for anything unknown gains over the base [nats].
+    strange
+        How sure it is that something is odd about the residual of the best model [nats].
     left
         What it gains on top of a contender, by label, where that was asked [nats].
     """
@@ -83,7 +86,7 @@ def answer(
     pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]
     living = [*single, *pairs]
     gains = {c.label: over_base[c.label] - (needed if len(c.candidates) == 2 else 0.0) for c in living}
-    unnamed = unnamed - STRANGER
+    unnamed = max(unnamed - STRANGER, 0.0) + strange
     most = max([*gains.values(), unnamed, 0.0])
     tolerance = 1.0 + FORM * most
     weights: dict[tuple[str, ...], float] = {("none",): np.exp((SURE - most) / tolerance)}
@@ -101,6 +104,36 @@ def answer(
         for name in names:
             shared[name] = shared.get(name, 0.0) + weight / total / len(names)
     return _said(base, living, gains, {names: w / total for names, w in weights.items()}, shared)
+
+
+def with_mistake(said: Answer, mistake: str) -> Answer:
+    """The answer once a mistake in the data was undone first: the mistake is named, and what else was found with it.
+
+    Without anything else the mistake is the whole answer. With an effect beside it the two share the effect's
+    probability; with something unknown beside it the case stays unknown, and the mistake is what is still in question.
+    """
+    if said.verdict == "no_gap":
+        probabilities = {mistake: said.probabilities["none"], **_without(said.probabilities, "none", mistake)}
+        return Answer("explained", (mistake,), _normal(probabilities), (mistake,), said.chosen)
+    if said.verdict == "explained":
+        named = (mistake, *(name for name in said.effects if name != mistake))[:2]
+        rest = 1.0 - said.probabilities.get("unknown", 0.0)
+        probabilities = {mistake: rest / 2.0}
+        for name, value in said.probabilities.items():
+            probabilities[name] = probabilities.get(name, 0.0) + (value if name == "unknown" else value / 2.0)
+        ambiguity = (*named, *(name for name in said.ambiguity if name not in named))
+        return Answer("explained", named, _normal(probabilities), ambiguity, said.chosen)
+    ambiguity = (mistake, *(name for name in said.ambiguity if name != mistake))
+    return Answer(said.verdict, (), said.probabilities, ambiguity, said.chosen)
+
+
+def _without(probabilities: Mapping[str, float], *names: str) -> dict[str, float]:
+    return {name: value for name, value in probabilities.items() if name not in names}
+
+
+def _normal(probabilities: Mapping[str, float]) -> dict[str, float]:
+    total = sum(probabilities.values())
+    return {k: v / total for k, v in sorted(probabilities.items(), key=lambda each: -each[1])}
 
 
 def _said(

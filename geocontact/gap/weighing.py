@@ -18,6 +18,8 @@ from geocontact.identify.covariance import Layout, Levels, Sensitivity, Whitener
 POSITION_VARIES = 1e-3  # m
 ANGLE_VARIES = 0.01  # rad
 SHARE_VARIES = 0.04  # of any other parameter
+INPUT_NOISE = 2e-3  # of an input's half-range
+ALIKE, OWN = 0.8, 0.5  # standard deviations of the logarithm of input noise: of a unit, and of one input beyond that
 BUMP = 1e-4  # of an input's half-range
 LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
 
@@ -89,20 +91,25 @@ def _bumped(system: System, kind: str, row: int, by: float) -> System:
 
 def usual_levels(
     system: System, told: Mapping[str, float], rough: Float[np.ndarray, " c"]
-) -> tuple[Levels, Levels]:
-    """What is believed of the noise before the residuals are looked at: medians, and sd of the logarithms.
+) -> tuple[Levels, Float[np.ndarray, "h h"]]:
+    """What is believed of the noise before the residuals are looked at: medians, and a factor of their covariance.
 
     The noise that a case tells is split evenly between white and coloured; where it tells none, `rough` stands in and
-    is believed less. Coloured noise remembers a few samples; inputs are known to about 0.2 % of their half-range.
+    is believed less. Coloured noise remembers a few samples. Inputs are known to about 0.2 % of their half-range, and
+    those of one unit about equally well, since they come from the same markers.
     """
     known = np.array([name in told for name in system.outputs])
     sd = np.array([told.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
-    spans = np.array([system.scale.span.get(name, 1.0) for name in system.inputs])
-    memory = np.full(len(sd), 2.0 * system.scale.step)
-    return (
-        Levels(sd, sd, memory, 0.002 * spans),
-        Levels(np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2), np.full(len(sd), 1.0), np.full(len(spans), 1.2)),
-    )
+    units = [system.units.get(name, name) for name in system.inputs]
+    alike = np.array([[a == b for b in units] for a in units])
+    guess = np.log([INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs])
+    inputs = np.exp(alike @ guess / alike.sum(axis=1))
+    covariance = ALIKE**2 * alike + OWN**2 * np.eye(len(units))
+    widths = np.concatenate([np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2), np.ones(len(sd))])
+    factor = np.zeros((len(widths) + len(units),) * 2)
+    factor[: len(widths), : len(widths)] = np.diag(widths)
+    factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
+    return Levels(sd, sd, np.full(len(sd), 2.0 * system.scale.step), inputs), factor
 
 
 def layouts_of(

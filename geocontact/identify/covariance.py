@@ -223,11 +223,13 @@ def most_likely(
     residuals: Sequence[Float[np.ndarray, "_ c"]],
     jitter: Sequence[Float[np.ndarray, "_ c q"]],
     prior: Levels,
-    width: Levels,
+    factor: Float[np.ndarray, "h h"],
     start: Levels,
     rounds: int = 40,
-) -> tuple[Levels, float]:
-    """Levels that make the residuals most likely, given what was believed of them, and half their squared surprise.
+) -> tuple[Levels, float, float]:
+    """Levels that make the residuals most likely, given what was believed of them.
+
+    With them half their squared surprise, and the logarithm of what was maximised.
 
     Parameters
     ----------
@@ -235,31 +237,31 @@ def most_likely(
         One per trial.
     jitter
         Derivatives with respect to what varies from trial to trial, times its standard deviation.
-    prior, width
-        Median, and standard deviation of the logarithm, of each level: log-normal priors.
+    prior, factor
+        Median of each level, and a factor F of the covariance F Fᵀ of their logarithms: log-normal priors.
     start
         Where the search sets out.
     """
     from scipy.optimize import minimize
 
-    middle, spread = prior.logarithms(), np.exp(width.logarithms())
+    middle = prior.logarithms()
     pieces = []
     for layout, residual, moved in zip(layouts, residuals, jitter, strict=True):
         flat = moved.reshape(residual.size, -1)
         pieces += [(block, residual.ravel()[block.rows], flat[block.rows]) for block in layout.blocks]
 
     def cost(x: Float[np.ndarray, " h"]) -> tuple[float, Float[np.ndarray, " h"]]:
-        levels = prior.at(middle + x * spread)
+        levels = prior.at(middle + factor @ x)
         total, slope = 0.5 * float(x @ x), x.copy()
         for block, residual, moved in pieces:
-            factor, log_scale = _inverse_factor(block.covariance(levels) + moved @ moved.T)
-            inverse = factor.T @ factor
+            root, log_scale = _inverse_factor(block.covariance(levels) + moved @ moved.T)
+            inverse = root.T @ root
             solved = inverse @ residual
             total += 0.5 * float(residual @ solved) + log_scale
-            slope += 0.5 * block.pulls(levels, inverse - np.outer(solved, solved)) * spread
+            slope += 0.5 * factor.T @ block.pulls(levels, inverse - np.outer(solved, solved))
         return total, slope
 
-    begin = (start.logarithms() - middle) / spread
+    begin = np.linalg.solve(factor, start.logarithms() - middle)
     found = minimize(
         cost,
         np.clip(begin, -FARTHEST, FARTHEST),
@@ -268,4 +270,4 @@ def most_likely(
         bounds=[(-FARTHEST, FARTHEST)] * len(begin),
         options={"maxiter": rounds, "ftol": 1e-5},
     )
-    return prior.at(middle + found.x * spread), 0.5 * float(found.x @ found.x)
+    return prior.at(middle + factor @ found.x), 0.5 * float(found.x @ found.x), -float(found.fun)

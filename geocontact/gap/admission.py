@@ -1,0 +1,55 @@
+"""What a case must hold to be diagnosed at all, and the order in which its trials are taken."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from geocontact.chain.system import System
+from geocontact.data.errors import InputError
+from geocontact.data.gap_case import GapCase
+from geocontact.data.trial import Trial
+
+LEAST = 20
+"""Samples of a trial, and measured values of an output over all calibration trials."""
+
+
+def admitted(case: GapCase, system: System) -> GapCase:
+    """The case with its trials in an order that neither their names nor case.toml have a say in.
+
+    Sums over trials and draws of random signs depend on their order, in the last digits and in those of a p-value; so
+    trials are sorted by what was measured in them. InputError where too little was.
+    """
+    for trial in (*case.calibration, *case.evaluation):
+        _require_samples(case, system, trial)
+    for side, trials in (("calibration", case.calibration), ("evaluation", case.evaluation)):
+        for name in system.outputs:
+            count = sum(int(np.isfinite(trial.column(name)).sum()) for trial in trials)
+            if count < (LEAST if side == "calibration" else 1):
+                what = f"{name} has {count} measured values in the {side} trials"
+                raise _refusal(case, side, what, f"at least {LEAST} are needed" if count else "choose other trials")
+    return replace(
+        case,
+        calibration=tuple(sorted(case.calibration, key=lambda trial: _content(trial, system))),
+        evaluation=tuple(sorted(case.evaluation, key=lambda trial: _content(trial, system))),
+    )
+
+
+def _require_samples(case: GapCase, system: System, trial: Trial) -> None:
+    if len(trial) < LEAST:
+        raise _refusal(case, f"trial {trial.name}", f"{len(trial)} samples", f"at least {LEAST} are needed")
+    for name in system.inputs:
+        if int(np.isfinite(trial.column(name)).sum()) < LEAST:
+            what = f"input {name} has fewer than {LEAST} measured values"
+            raise _refusal(case, f"trial {trial.name}", what, "a model cannot be driven by what was not measured")
+
+
+def _content(trial: Trial, system: System) -> tuple[float, ...]:
+    """Length, duration and sums of squares of a trial, rounded so that a conversion of units changes nothing."""
+    squares = [float(np.nansum(trial.column(name) ** 2)) for name in (*system.inputs, *system.outputs)]
+    return (float(len(trial)), *(float(f"{value:.9g}") for value in (trial.time[-1] - trial.time[0], *squares)))
+
+
+def _refusal(case: GapCase, place: str, what: str, remedy: str) -> InputError:
+    return InputError(f"{case.name}/case.toml", place, what, remedy)

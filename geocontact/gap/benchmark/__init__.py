@@ -1,0 +1,1 @@
+"""Labelled synthetic cases, and what a diagnosis of them scores."""

@@ -1,0 +1,37 @@
+"""A damper that thins with rate and grips harder as it is pressed.
+
+planted:   b v / (1 + |v|/v1) (1 + s u/D); foot: per sphere b d' (1 - exp(-(d/d1)^2)) / (1 + |d'|/v1)
+candidate: b v |v/V|^(q - 1); foot: b d' s(d/d_full) (d/D)^q
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.gap.benchmark.planted.hooks import Hooks, Pull, Values
+from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+
+
+def draw(rng: Rng, scale: Scale) -> Draw:
+    """Amplitude: b at small rates [N s/m]."""
+    thinning = (rng.uniform(4.0, 8.0) if scale.system == "elbow" else rng.uniform(1.2, 2.5)) * scale.rate
+    lean = rng.uniform(0.45, 0.65)
+    reach = rng.uniform(0.25, 0.5) * scale.stroke
+
+    def hooks(b: float) -> Hooks:
+        def elbow(p: Pull) -> Values:
+            return np.asarray(
+                b * p.rate / (1.0 + np.abs(p.rate) / thinning) * (1.0 + lean * p.deflection / scale.stroke)
+            )
+
+        def foot(p: Pull) -> Values:
+            inside = np.maximum(p.deflection, 0.0) / reach
+            return np.asarray(b * p.rate * -np.expm1(-inside * inside) / (1.0 + np.abs(p.rate) / thinning))
+
+        return Hooks(beside=(foot if scale.system == "foot" else elbow,))
+
+    most = 0.5 * scale.force / scale.rate if scale.system == "elbow" else 3000.0
+    return Draw(1e-4 * most, most, hooks, lambda b: f"viscous damping of {b:.3g} N s/m that thins with rate")
+
+
+DAMPING = Plan("damping", ("elbow", "foot"), "rate-thinning, deflection-dependent", "power of rate", draw)

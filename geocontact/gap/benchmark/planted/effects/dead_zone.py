@@ -1,0 +1,33 @@
+"""Slack that is taken up smoothly: padding at its edges.
+
+planted:   u -> s log(1 + exp((u - w+)/s)) - s log(1 + exp((-u - w-)/s)), less its value at 0; s = 0.15..0.21 of w
+candidate: u - min(max(u, -(1 - a) w), a w)
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.gap.benchmark.planted.hooks import Hooks, Values
+from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+
+
+def draw(rng: Rng, scale: Scale) -> Draw:
+    """Amplitude: whole play w [m]."""
+    share, soft = rng.uniform(0.2, 0.8), rng.uniform(0.15, 0.21)
+
+    def hooks(width: float) -> Hooks:
+        s = soft * width
+
+        def taken_up(u: Values) -> Values:
+            return np.asarray(
+                s * np.logaddexp(0.0, (u - share * width) / s) - s * np.logaddexp(0.0, (-u - (1.0 - share) * width) / s)
+            )
+
+        return Hooks(play=(lambda u: taken_up(u) - taken_up(np.zeros(1))[0],))
+
+    stroke = scale.high - scale.low
+    return Draw(1e-3 * stroke, 0.45 * stroke, hooks, lambda w: f"play of {w:.3g} m with soft edges")
+
+
+DEAD_ZONE = Plan("dead_zone", ("elbow",), "softplus edges", "piecewise linear", draw)

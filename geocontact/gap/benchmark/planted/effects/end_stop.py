@@ -1,0 +1,40 @@
+"""A stop with a rubber buffer.
+
+planted:   P (0.6 v + 0.4 v^2)/(that at D), v = b log(1 + exp((u - u1)/(b (D - u1)))), b = 0.12..0.2
+candidate: K max(u - u1, 0)
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.gap.benchmark.planted.hooks import Hooks, Pull, Values
+from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+
+
+def draw(rng: Rng, scale: Scale) -> Draw:
+    """Amplitude: force of the stop at the largest deflection [N]."""
+    side = 1.0 if rng.random() < 0.7 else -1.0
+    beyond = rng.uniform(0.1, 0.28) * (scale.high - scale.low)
+    limit = scale.high - beyond if side > 0.0 else scale.low + beyond
+    buffer = rng.uniform(0.12, 0.2)
+
+    def swell(depth: Values) -> Values:
+        v = buffer * np.logaddexp(0.0, depth / beyond / buffer)
+        return np.asarray(0.6 * v + 0.4 * v * v)
+
+    whole = float(swell(np.array([beyond]))[0])
+
+    def hooks(most: float) -> Hooks:
+        def stop(p: Pull) -> Values:
+            return np.asarray(side * most * swell(side * (p.deflection - limit)) / whole)
+
+        return Hooks(beside=(stop,))
+
+    def words(most: float) -> str:
+        return f"a buffered end stop from {limit:.3g} m on, {most:.3g} N at the end"
+
+    return Draw(1e-3 * scale.force, 1.2 * scale.force, hooks, words, "upper" if side > 0.0 else "lower")
+
+
+END_STOP = Plan("end_stop", ("elbow",), "soft corner, hardening", "linear beyond a corner", draw)

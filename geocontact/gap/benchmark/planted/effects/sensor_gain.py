@@ -1,0 +1,40 @@
+"""A sensor that is off in gain, a little more at high loads.
+
+planted:   y (1 + g (1 + e (|y|/Y - 1/2))), e = 0.54..0.72; 1..1.3 for cop_x; 0.08..0.11 for force_y, because base
+           parameters nearly take a plain gain of it away
+candidate: (1 + g) y
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.gap.benchmark.planted.course import Course
+from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
+from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+
+
+def draw(rng: Rng, scale: Scale) -> Draw:
+    """Amplitude: gain error g [-], of either sign; foot: one channel, or both forces where base parameters take it."""
+    rows = [0] if scale.system == "elbow" else [int(rng.choice([0, 0, 1, 2]))]
+    if scale.system == "foot" and scale.departure < 1.0:
+        rows = [0, 1]
+    names = tuple(scale.output)
+    sign = rng.choice([-1.0, 1.0])
+    bend = scale.departure * rng.uniform(0.9, 1.2) * {0: 0.6, 1: 0.09, 2: 1.1}[rows[-1]]
+
+    def hooks(gain: float) -> Hooks:
+        def scaled(_: Course, outputs: Outputs) -> Outputs:
+            out = outputs.copy()
+            for row in rows:
+                load = np.abs(outputs[row]) / scale.output[names[row]]
+                out[row] = outputs[row] * (1.0 + sign * gain * (1.0 + bend * (load - 0.5)))
+            return out
+
+        return Hooks(sensor=((20.0, scaled),))
+
+    which = " and ".join(names[row] for row in rows)
+    return Draw(1e-4, 0.4, hooks, lambda g: f"{which} read {sign * g:+.2%}", "forces" if len(rows) > 1 else which)
+
+
+SENSOR_GAIN = Plan("sensor_gain", ("elbow", "foot"), "gain that changes with load", "constant gain", draw)

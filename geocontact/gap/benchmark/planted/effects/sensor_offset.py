@@ -1,0 +1,37 @@
+"""A zero error that wanders slowly.
+
+planted:   y + o (1 + e sin(2 pi m t/T + phi)), e = 0.16..0.3, m = 1..2.5
+candidate: y + o
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.gap.benchmark.planted.course import Course
+from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
+from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+
+
+def draw(rng: Rng, scale: Scale) -> Draw:
+    """Amplitude: offset o in the channel's unit, of either sign."""
+    names = tuple(scale.output)
+    row = int(rng.integers(len(names)))
+    most = scale.output[names[row]]
+    sign, wander = rng.choice([-1.0, 1.0]), scale.departure * rng.uniform(0.16, 0.3)
+    turns, phase = rng.uniform(1.0, 2.5), rng.uniform(0.0, 2.0 * np.pi)
+
+    def hooks(offset: float) -> Hooks:
+        def shifted(course: Course, outputs: Outputs) -> Outputs:
+            out = outputs.copy()
+            slow = np.sin(2.0 * np.pi * turns * course.time / course.duration + phase)
+            out[row] += sign * offset * (1.0 + wander * slow)
+            return out
+
+        return Hooks(sensor=((40.0, shifted),))
+
+    top = 0.4 if scale.system == "elbow" else 0.15
+    return Draw(1e-4 * most, top * most, hooks, lambda o: f"{names[row]} reads {sign * o:.3g} too much", names[row])
+
+
+SENSOR_OFFSET = Plan("sensor_offset", ("elbow", "foot"), "offset that wanders", "constant offset", draw)

@@ -1,0 +1,36 @@
+"""Two springs in series, one of which bottoms out.
+
+planted:   w = s c F + (1 - s) c F1 tanh(F/F1): soft first, a share s of that later
+candidate: w = c F* (F/F*)^p
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.gap.benchmark.planted.hooks import Hooks, Values
+from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+
+
+def draw(rng: Rng, scale: Scale) -> Draw:
+    """Amplitude: compliance c at small loads [rad/N] or [m/N]."""
+    force = scale.force
+    share, limit = rng.uniform(0.2, 0.35), rng.uniform(0.2, 0.35) * force
+    if scale.system == "elbow":  # where base parameters take most of a linear spring away
+        share += 0.35 + 0.3 * (1.0 - scale.departure)
+
+    def hooks(soft: float) -> Hooks:
+        def foot(_: Values) -> Values:
+            return np.array([soft, share * soft, limit])
+
+        def elbow(load: Values) -> Values:
+            return np.asarray(share * soft * load + (1.0 - share) * soft * limit * np.tanh(load / limit))
+
+        return Hooks(series=(foot if scale.system == "foot" else elbow,))
+
+    most = 0.006 / 1400.0 if scale.system == "foot" else 0.5 / force
+    unit = "m/N" if scale.system == "foot" else "rad/N"
+    return Draw(1e-4 * most, most, hooks, lambda c: f"a spring in series gives way by {c:.3g} {unit} at first")
+
+
+SERIES_COMPLIANCE = Plan("series_compliance", ("elbow", "foot"), "two springs, one bottoms out", "power of load", draw)

@@ -1,0 +1,38 @@
+"""Outputs come late, by a clock that wanders.
+
+planted:   out(t - d (1 + e sin(2 pi m t/T + phi))), e = 0.24..0.34: buffers fill and empty while a trial runs
+candidate: out(t - d)
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from geocontact.gap.benchmark.planted.course import Course
+from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
+from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+
+
+def draw(rng: Rng, scale: Scale) -> Draw:
+    """Amplitude: delay d [s]."""
+    unsteady = scale.departure * rng.uniform(0.24, 0.34)
+    turns, phase = rng.uniform(2.0, 4.0), rng.uniform(0.0, 2.0 * np.pi)
+
+    def hooks(delay: float) -> Hooks:
+        def late(course: Course, outputs: Outputs) -> Outputs:
+            wander = unsteady * np.sin(2.0 * np.pi * turns * course.time / course.duration + phase)
+            at = course.time - delay * (1.0 + wander)
+            # before the trial began the output ran on straight
+            first = outputs[:, :1] + (outputs[:, 1:2] - outputs[:, :1]) / (course.time[1] - course.time[0]) * at
+            return np.where(at < 0.0, first, CubicSpline(course.time, outputs, axis=1)(np.maximum(at, 0.0)))
+
+        return Hooks(sensor=((70.0, late),))
+
+    longest = min(0.35, 0.06 * scale.duration) if scale.system == "elbow" else 0.05
+    return Draw(0.0005, longest, hooks, lambda d: f"outputs recorded {d:.3g} s late by an unsteady clock")
+
+
+TIME_SHIFT = Plan(
+    "time_shift", ("elbow", "foot"), "delay that wanders by a quarter through a trial", "constant delay", draw
+)

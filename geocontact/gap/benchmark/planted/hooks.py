@@ -1,0 +1,82 @@
+"""Where along the chain of the truth something may be hooked in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.gap.benchmark.planted.course import Course
+
+Values = Float[np.ndarray, "..."]
+"""Over time; at the foot one row per sample and one column per sphere."""
+
+
+@dataclass(frozen=True)
+class Pull:
+    """What the interface does: deflection [m], its rate [m/s] and the elastic force [N] over time [s]."""
+
+    time: Float[np.ndarray, " t"]
+    deflection: Values
+    rate: Values
+    elastic: Values
+
+
+Outputs = Float[np.ndarray, "c t"]
+
+
+@dataclass(frozen=True)
+class Hooks:
+    """Functions by place, in physical order; all empty for the base model.
+
+    Parameters
+    ----------
+    motion
+        From the recorded motion to the true one.
+    axis
+        What is added to x at an angle (elbow).
+    attachment
+        Deflection left once the attachment has crept: (time, u, k) → u.
+    play
+        Deflection that reaches the spring.
+    spring
+        Factor on the elastic force, of (time, u, u').
+    beside
+        Force in parallel [N].
+    series
+        How far a spring in series gives way to a force, in the input's unit; needs a law without memory at the elbow.
+    load
+        Added to the outputs.
+    sensor
+        (rank, outputs → outputs); lower ranks first.
+    """
+
+    motion: tuple[Callable[[Course], Course], ...] = ()
+    axis: tuple[Callable[[Values], Values], ...] = ()
+    attachment: tuple[Callable[[Float[np.ndarray, " t"], Values, float], Values], ...] = ()
+    play: tuple[Callable[[Values], Values], ...] = ()
+    spring: tuple[Callable[[Float[np.ndarray, " t"], Values, Values], Values], ...] = ()
+    beside: tuple[Callable[[Pull], Values], ...] = ()
+    series: tuple[Callable[[Values], Values], ...] = ()
+    load: tuple[Callable[[Course, Mapping[str, float]], Outputs], ...] = ()
+    sensor: tuple[tuple[float, Callable[[Course, Outputs], Outputs]], ...] = ()
+
+    def __add__(self, other: Hooks) -> Hooks:
+        return Hooks(**{one.name: getattr(self, one.name) + getattr(other, one.name) for one in fields(self)})
+
+    @property
+    def has_memory_in_law(self) -> bool:
+        """Whether the force depends on more than the deflection of the moment."""
+        return bool(self.attachment or self.spring or self.beside)
+
+
+BASE = Hooks()
+
+
+def read(hooks: Hooks, course: Course, outputs: Outputs) -> Outputs:
+    """What the sensors make of the outputs."""
+    for _, change in sorted(hooks.sensor, key=lambda one: one[0]):
+        outputs = change(course, outputs)
+    return outputs

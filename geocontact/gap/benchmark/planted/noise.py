@@ -1,0 +1,88 @@
+"""Noise of sensors and of measured inputs, as it is drawn and as its covariance is known."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.linalg import toeplitz
+from scipy.signal import butter, filtfilt, freqz, lfilter
+
+CORNER = 6.0
+"""Low-pass of measured inputs [Hz]."""
+ORDER = 4
+LONG = 1024
+"""Frequencies at which a spectrum is summed."""
+SILENT = 1e-7
+"""Share of the largest power below which a frequency is left out."""
+
+
+@dataclass(frozen=True)
+class Coloured:
+    """Sum of two first-order autoregressive processes.
+
+    `sd` is the whole standard deviation; `quick` the lag-one correlation of one part, `slow` [s] the correlation time
+    of the other, which holds `share` of the variance.
+    """
+
+    sd: float
+    quick: float
+    slow: float
+    share: float
+
+    def parts(self, step: float) -> tuple[tuple[float, float], ...]:
+        """(sd, lag-one correlation) of each part."""
+        lasting = float(np.exp(-step / self.slow))
+        return (self.sd * (1.0 - self.share) ** 0.5, self.quick), (self.sd * self.share**0.5, lasting)
+
+    def draw(self, rng: np.random.Generator, count: int, step: float) -> Float[np.ndarray, " s"]:
+        """One realisation."""
+        total = np.zeros(count)
+        for sd, rho in self.parts(step):
+            white = rng.standard_normal(count) * sd * np.sqrt(1.0 - rho * rho)
+            white[0] = rng.standard_normal() * sd
+            total += lfilter([1.0], [1.0, -rho], white)
+        return total
+
+    def covariance(self, count: int, step: float) -> Float[np.ndarray, "s s"]:
+        """Of `count` samples in a row."""
+        lag = np.arange(count)
+        first = np.sum([sd * sd * rho**lag for sd, rho in self.parts(step)], axis=0)
+        return np.asarray(toeplitz(first))
+
+
+def smooth_noise(rng: np.random.Generator, sd: float, count: int, step: float) -> Float[np.ndarray, " s"]:
+    """White noise through a zero-lag Butterworth low-pass, as motion data come; `sd` is that of the outcome."""
+    b, a = butter(ORDER // 2, CORNER, fs=1.0 / step)
+    pad = int(1.0 / step)
+    raw = filtfilt(b, a, rng.standard_normal(count + 2 * pad))[pad : pad + count]
+    return np.asarray(raw * sd / np.sqrt(spectrum(step)[1].sum()))
+
+
+def spectrum(step: float) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
+    """Angular frequencies [rad/s] and the power at each of unit white noise after the filter."""
+    b, a = butter(ORDER // 2, CORNER, fs=1.0 / step)
+    grid = (np.arange(LONG) + 0.5) * np.pi / LONG
+    _, response = freqz(b, a, worN=grid)
+    return grid / step, np.abs(response) ** 4 / LONG
+
+
+def smooth_covariance(sd: float, count: int, step: float) -> tuple[Float[np.ndarray, "s s"], ...]:
+    """Covariance of such noise with itself, of the noise with its rate, and of the rate with itself."""
+    place, cross, rate = unit_covariance(count, step)
+    return sd * sd * place, sd * sd * cross, sd * sd * rate
+
+
+@functools.lru_cache(maxsize=8)
+def unit_covariance(count: int, step: float) -> tuple[Float[np.ndarray, "s s"], ...]:
+    """The same for a standard deviation of 1."""
+    omega, weight = spectrum(step)
+    weight = weight / weight.sum()
+    heard = weight > SILENT * weight.max()
+    omega, weight = omega[heard], weight[heard]
+    angle = np.outer(np.arange(count) * step, omega)
+    cosine = np.cos(angle)
+    with_rate = np.sin(angle) @ (weight * omega)  # cov(q(t), q'(s)) = sum w omega sin(omega (t - s))
+    return toeplitz(cosine @ weight), toeplitz(with_rate, -with_rate), toeplitz(cosine @ (weight * omega**2))

@@ -1,0 +1,1 @@
+"""Effects that no row of the vocabulary describes."""

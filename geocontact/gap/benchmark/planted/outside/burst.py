@@ -1,0 +1,29 @@
+"""Somebody or something else pushes for a part of the trial."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.gap.benchmark.planted.course import Course
+from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
+from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+
+
+def draw(rng: Rng, scale: Scale) -> Draw:
+    """Amplitude: push [N], at the same part of every trial."""
+    row = 0 if scale.system == "elbow" else int(rng.choice([0, 1]))
+    at, wide = rng.uniform(0.25, 0.75), rng.uniform(0.03, 0.09)
+    sign = rng.choice([-1.0, 1.0])
+
+    def hooks(size: float) -> Hooks:
+        def push(course: Course, outputs: Outputs) -> Outputs:
+            out = outputs.copy()
+            out[row] += sign * size * np.exp(-(((course.time / course.duration - at) / wide) ** 4))
+            return out
+
+        return Hooks(sensor=((5.0, push),))
+
+    return Draw(1e-4 * scale.force, 0.5 * scale.force, hooks, lambda a: f"a push of {sign * a:.3g} N around {at:.0%}")
+
+
+BURST = Plan("burst", ("elbow", "foot"), "push in a part of the trial", "", draw)

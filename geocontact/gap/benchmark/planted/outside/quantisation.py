@@ -1,0 +1,30 @@
+"""A converter with too few steps."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.gap.benchmark.planted.course import Course
+from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
+from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+
+
+def draw(rng: Rng, scale: Scale) -> Draw:
+    """Amplitude: height of a step in the channel's unit."""
+    names = tuple(scale.output)
+    row = 0 if scale.system == "elbow" else int(rng.choice([0, 1]))
+    most = scale.output[names[row]]
+    zero = rng.uniform()
+
+    def hooks(step: float) -> Hooks:
+        def rounded(_: Course, outputs: Outputs) -> Outputs:
+            out = outputs.copy()
+            out[row] = (np.round(outputs[row] / step + zero) - zero) * step
+            return out
+
+        return Hooks(sensor=((90.0, rounded),))
+
+    return Draw(1e-3 * most, 0.3 * most, hooks, lambda s: f"{names[row]} comes in steps of {s:.3g}")
+
+
+QUANTISATION = Plan("quantisation", ("elbow", "foot"), "coarse steps", "", draw)

@@ -1,0 +1,30 @@
+"""A narrow line in the force: tremor or a resonance of the frame, 3..9 Hz at the elbow, 15..40 Hz at the foot."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.gap.benchmark.planted.course import Course
+from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
+from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+
+
+def draw(rng: Rng, scale: Scale) -> Draw:
+    """Amplitude: of the oscillation [N]; its phase differs between trials."""
+    low, high = (3.0, min(9.0, 0.35 / scale.step)) if scale.system == "elbow" else (15.0, 40.0)
+    pitch, swell = rng.uniform(low, high), rng.uniform(0.0, 0.4)
+    row = 0 if scale.system == "elbow" else int(rng.choice([0, 1]))
+
+    def hooks(size: float) -> Hooks:
+        def shake(course: Course, outputs: Outputs) -> Outputs:
+            out = outputs.copy()
+            grown = 1.0 + swell * np.sin(2.0 * np.pi * 2.0 * course.time / course.duration)
+            out[row] += size * grown * np.sin(2.0 * np.pi * pitch * course.time + course.phase)
+            return out
+
+        return Hooks(sensor=((5.0, shake),))
+
+    return Draw(1e-4 * scale.force, 0.3 * scale.force, hooks, lambda a: f"a tremor of {a:.3g} N at {pitch:.1f} Hz")
+
+
+TREMOR = Plan("tremor", ("elbow", "foot"), "narrow line", "", draw)
