@@ -18,10 +18,13 @@ COP = (
     "zones.csv",
     "zones.parquet",
 )
-NAMES = frozenset({*AREA, *COP, RUN})
+GAP = ("diagnosis.json", "gap_map.csv", "ranking.csv", "held_out.csv", "summary.csv", "report.html")
+BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
+NAMES = frozenset({*AREA, *COP, *GAP, *BENCHMARK, RUN})
 PARAVIEW = "paraview"
 PICTURES = re.compile(
-    r"still_[a-z_0-9.,−-]+\.png|paraview/(both|fixed|moving)\.pvd|paraview/frames/(fixed|moving)_\d+\.vtp"
+    r"(gap_map|ranking|gap_residuals|before_after_\w+)\.(png|svg)"
+    r"|still_[a-z_0-9.,−-]+\.png|paraview/(both|fixed|moving)\.pvd|paraview/frames/(fixed|moving)_\d+\.vtp"
 )
 """The only files that are ever removed: those that a run writes, and only where its run.json lists them."""
 
@@ -69,4 +72,12 @@ def _folders(told: dict[str, object]) -> list[object]:
 def _same(folder: Path, before: dict[str, object]) -> bool:
     """Whether the results in a sub-folder are those of the run that `before` tells of."""
     told = _told(folder)
+    runs = [_results(each).get("run") for each in (told, before)]
+    if isinstance(runs[0], str) and runs[0] == runs[1]:
+        return True
     return bool(told) and {**told, "files": None} == {**before, "files": None}
+
+
+def _results(told: dict[str, object]) -> dict[str, object]:
+    results = told.get("results")
+    return results if isinstance(results, dict) else {}

@@ -29,6 +29,7 @@ def admitted(case: GapCase, system: System) -> GapCase:
             if count < (LEAST if side == "calibration" else 1):
                 what = f"{name} has {count} measured values in the {side} trials"
                 raise _refusal(case, side, what, f"at least {LEAST} are needed" if count else "choose other trials")
+    _require_movement(case, system)
     return replace(
         case,
         calibration=tuple(sorted(case.calibration, key=lambda trial: _content(trial, system))),
@@ -43,6 +44,23 @@ def _require_samples(case: GapCase, system: System, trial: Trial) -> None:
         if int(np.isfinite(trial.column(name)).sum()) < LEAST:
             what = f"input {name} has fewer than {LEAST} measured values"
             raise _refusal(case, f"trial {trial.name}", what, "a model cannot be driven by what was not measured")
+
+
+def _require_movement(case: GapCase, system: System) -> None:
+    """Something must drive the model, and every output must answer."""
+    if not any(_moves(case, name) for name in system.inputs):
+        what = f"no input changes in the calibration trials ({', '.join(system.inputs)})"
+        raise _refusal(case, "calibration", what, "choose trials with movement")
+    for name in system.outputs:
+        if not _moves(case, name):
+            what = f"{name} never changes in the calibration trials"
+            raise _refusal(case, "calibration", what, "was the sensor on? strike the column or choose other trials")
+
+
+def _moves(case: GapCase, name: str) -> bool:
+    values = np.concatenate([trial.column(name) for trial in case.calibration])
+    there = values[np.isfinite(values)]
+    return bool(np.ptp(there) > 0.0)
 
 
 def _content(trial: Trial, system: System) -> tuple[float, ...]:

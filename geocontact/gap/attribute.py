@@ -80,7 +80,7 @@ def attribute(case: GapCase, system: System, offer: Offer) -> Attribution:
     top = max([base, *contenders], key=lambda c: c.judged.nats)
     odd = tuple(each for each in oddities(clean, top.judged) if each.nats > ODD)
     share = base.judged.fitted_rows / len(base.judged.model.whitened)
-    strange = sum(each.nats for each in odd)
+    strange = float(sum(each.nats for each in odd))
     over = {label: borne_out(each.nats, each.calibration, share) + strange for label, each in left.items()}
     rest = remaining["none"]
     said = answer(base, contenders, share, borne_out(rest.nats, rest.calibration, share), strange, over)

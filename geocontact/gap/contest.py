@@ -13,6 +13,7 @@ from geocontact.gap.problem import Noise, Problem
 from geocontact.gap.refit import Refit, free, refit
 
 FINALISTS = 6
+FORERUNNERS = 3  # leading under quiet noise
 MATE_TRIALS = 4  # second effects that are fitted on top of a first
 MATES = 2  # of these that get noise of their own
 MODEST = 20.0  # factor of a unit up to which a wrong one may hide in parameters
@@ -52,26 +53,38 @@ def finished(problem: Problem, candidates: tuple[Candidate, ...], model: Refit, 
 
 
 def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) -> list[Contender]:
-    """The most likely candidates, best first: all are fitted under the base's noise, then under that of the best."""
+    """The most likely candidates, best first.
+
+    Noise fitted to the base model explains away what it misses, so all are fitted under quieter noise first, then under
+    the noise that suits the best of them; the leading ones of both rounds get noise of their own.
+    """
     new = [one for one in candidates if one.label not in problem.system.effects]
     movable = [one for one in new if one.parameters or _nearly_a_gain(one)]
     reference = base.judged.model
-    noise = base.judged.noise
-    found: dict[str, Refit] = {}
+    noise = problem.quieter(base.judged.noise)
+    rounds: list[dict[str, Refit]] = []
     for _ in range(2):
         weighings = problem.fitting(noise, reference)
+        found: dict[str, Refit] = {}
         for one in movable:
-            if one.label in found:
-                starts: list[Mapping[str, float]] = [found[one.label].values]
+            if rounds:
+                starts: list[Mapping[str, float]] = [rounds[-1][one.label].values]
             else:
                 starts = [{**base.judged.model.values, **start} for start in one.starts]
                 if len(free(problem.system)) < FEW:
                     starts.append(one.starts[0])
             found[one.label] = refit(one.apply(problem.system), problem.calibration, weighings, starts)
+        rounds.append(found)
         reference = min(found.values(), key=lambda model: model.cost)
-        noise = problem.weighed(reference, noise)
-    best = sorted(movable, key=lambda one: found[one.label].cost)[:FINALISTS]
-    contenders = [finished(problem, (one,), found[one.label], noise) for one in best]
+        noise = problem.weighed(reference, base.judged.noise)
+    first, second = rounds
+    leading = [one.label for one in sorted(movable, key=lambda one: second[one.label].cost)[:FINALISTS]]
+    others = [one.label for one in sorted(movable, key=lambda one: first[one.label].cost)[:FORERUNNERS]]
+    contenders = [
+        finished(problem, (one,), (second if one.label in leading else first)[one.label], noise)
+        for one in movable
+        if one.label in leading or one.label in others
+    ]
     return sorted(contenders, key=lambda c: -c.judged.nats)
 
 

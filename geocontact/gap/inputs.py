@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Complex, Float
 
 from geocontact.data.trial import Trial
 from geocontact.identify.covariance import low_pass_power
@@ -82,7 +82,7 @@ def plateau(recordings: Sequence[tuple[Float[np.ndarray, " n"], float]]) -> floa
 
 def _spectrum(
     values: Float[np.ndarray, " n"], step: float
-) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"], float]:
+) -> tuple[Complex[np.ndarray, " f"], Float[np.ndarray, " f"], float]:
     """Windowed spectrum, its frequencies, and what its power is for unit variance where the filter lets all through."""
     count = len(values)
     window = np.blackman(count)

@@ -165,5 +165,6 @@ def at(
     """A model at given values, nothing fitted; without weighings nothing is whitened either."""
     residuals = measured.residuals(system, values)
     jacobian = derivatives(system, measured, values, residuals)
-    model = Refit(system, dict(values), residuals, jacobian, np.zeros(0), np.zeros((0, 0)))
+    empty = np.zeros((0, jacobian[0].shape[-1]))
+    model = Refit(system, dict(values), residuals, jacobian, np.zeros(0), empty)
     return model if weighings is None else model.weighed(weighings)

@@ -106,7 +106,7 @@ class Layout:
     def of(cls, time: Float[np.ndarray, " t"], present: np.ndarray, sensitivity: Sensitivity) -> Layout:
         """Blocks of a trial; `present` (t, c) says which samples were measured."""
         count = max(1, round(present.sum() / BLOCK_ROWS))
-        edges = np.linspace(0, len(time), count + 1).astype(int)
+        edges = [round(each) for each in np.linspace(0, len(time), count + 1)]
         blocks = [_block(time, present, sensitivity, a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
         return cls(present.shape, tuple(block for block in blocks if len(block.rows)))
 
@@ -169,8 +169,8 @@ def _block(time: np.ndarray, present: np.ndarray, sensitivity: Sensitivity, firs
 
 
 def low_passed(
-    lag: Float[np.ndarray, "n n"],
-) -> tuple[Float[np.ndarray, "n n"], Float[np.ndarray, "n n"], Float[np.ndarray, "n n"]]:
+    lag: Float[np.ndarray, "m n"],
+) -> tuple[Float[np.ndarray, "m n"], Float[np.ndarray, "m n"], Float[np.ndarray, "m n"]]:
     """Covariance of noise after the low-pass filter with itself, of its rate with it, of its rate with its rate.
 
     Unit variance at lag 0; `lag` is that of the first argument behind the second [s].

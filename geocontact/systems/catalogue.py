@@ -8,6 +8,7 @@ from geocontact.systems.base import Base
 from geocontact.systems.elbow_exoskeleton import ELBOW
 from geocontact.systems.own import own_system
 from geocontact.systems.prosthetic_foot import FOOT
+from geocontact.systems.tried import refusal, tried
 
 SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT)
 
@@ -15,12 +16,17 @@ SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT)
 def system_of(case: GapCase) -> System:
     """Base model of a case, its scale taken from the calibration trials.
 
-    ValueError when the system is not known or lacks a number; "package.module:OBJECT" is imported.
+    InputError when the system is not known, when the case lacks a number, table or channel that it needs, or when it
+    fails on a trial; "package.module:OBJECT" is imported.
     """
     if ":" in case.system:
         return own_system(case).scaled(case.calibration)
-    for base in SYSTEMS:
-        if base.name == case.system:
-            system = base.build(case.parameters, case.constants, case.tables)
-            return system.scaled(case.calibration)
-    raise ValueError(f"unknown system {case.system!r}; known are {', '.join(base.name for base in SYSTEMS)}")
+    base = next((one for one in SYSTEMS if one.name == case.system), None)
+    if base is None:
+        known = ", ".join(one.name for one in SYSTEMS)
+        raise refusal(case, "has no base model here", f'there are {known}, and "package.module:OBJECT" for your own')
+    try:
+        system = base.build(case.parameters, case.constants, case.tables)
+    except ValueError as error:
+        raise refusal(case, str(error), "") from error
+    return tried(system, case).scaled(case.calibration)

@@ -13,13 +13,9 @@ from types import ModuleType
 
 from geocontact.chain.links import Geometry
 from geocontact.chain.system import System
-from geocontact.data.errors import InputError
 from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
-from geocontact.data.trial import Trial
 from geocontact.systems.base import Base
-
-LONGEST = 300
-"""Characters that are told of an error in the user's code."""
+from geocontact.systems.tried import refusal, said, tried
 
 
 def own_base(case: GapCase) -> Base:
@@ -27,7 +23,7 @@ def own_base(case: GapCase) -> Base:
     module, _, name = case.system.partition(":")
     found = getattr(_imported(module, case), name, None)
     if found is None:
-        raise _refusal(case, f"module {module} has no object {name}", f"write {name} = Base(...) there")
+        raise refusal(case, f"module {module} has no object {name}", f"write {name} = Base(...) there")
     return _checked(found, case)
 
 
@@ -37,33 +33,29 @@ def own_system(case: GapCase) -> System:
     try:
         system = base.build(case.parameters, case.constants, case.tables)
     except Exception as error:  # the user's code may raise anything
-        raise _refusal(case, f"cannot be built: {_said(error)}", "correct the case or the model") from error
+        raise refusal(case, f"cannot be built: {said(error)}", "correct the case or the model") from error
     if not isinstance(system, System):
-        raise _refusal(case, f"build gave a {type(system).__name__}", "return a geocontact.chain.system.System")
+        raise refusal(case, f"build gave a {type(system).__name__}", "return a geocontact.chain.system.System")
     if not isinstance(system.geometry, Geometry):
         what = f"its geometry is a {type(system.geometry).__name__}"
-        raise _refusal(case, what, "it needs what geocontact.chain.links.Geometry has")
+        raise refusal(case, what, "it needs what geocontact.chain.links.Geometry has")
     if (system.inputs, system.outputs) != (base.inputs, base.outputs):
         channels = f"{', '.join(system.inputs)} → {', '.join(system.outputs)}"
-        raise _refusal(case, f"its system has the channels {channels}", "give Base the same inputs and outputs")
-    for trial in (*case.calibration, *case.evaluation):
-        _require_channels(system, trial, case)
-    for trial in (*case.calibration, *case.evaluation):
-        _try_out(system, trial, case)
-    return system
+        raise refusal(case, f"its system has the channels {channels}", "give Base the same inputs and outputs")
+    return tried(system, case)
 
 
 def _imported(module: str, case: GapCase) -> ModuleType:
     if module.partition(".")[0] in sys.stdlib_module_names:
-        raise _refusal(case, f"{module} is a part of Python, not a model", "name a module of your own")
+        raise refusal(case, f"{module} is a part of Python, not a model", "name a module of your own")
     try:
         _look_here()
         return import_module(module)
     except ModuleNotFoundError as error:
         remedy = "start from the folder that holds it, set PYTHONPATH, or install it"
-        raise _refusal(case, f"module {module} cannot be imported: {_said(error)}", remedy) from error
+        raise refusal(case, f"module {module} cannot be imported: {said(error)}", remedy) from error
     except (Exception, SystemExit) as error:  # the user's module may do anything while it is imported
-        raise _refusal(case, f"module {module} cannot be imported: {_said(error)}", "correct the module") from error
+        raise refusal(case, f"module {module} cannot be imported: {said(error)}", "correct the module") from error
 
 
 def _look_here() -> None:
@@ -81,42 +73,7 @@ def _checked(found: object, case: GapCase) -> Base:
     named = all(isinstance(names, tuple) and names and all(isinstance(n, str) for n in names) for names in channels)
     if not (isinstance(name, str) and named and callable(build)):
         what = f"is a {type(found).__name__}, not a base model"
-        raise _refusal(case, what, "it needs name, inputs, outputs and build, as geocontact.systems.base.Base has")
+        raise refusal(case, what, "it needs name, inputs, outputs and build, as geocontact.systems.base.Base has")
     if name in LISTED_SYSTEMS:
-        raise _refusal(case, f"is named {name} like a listed system", "give it another name")
+        raise refusal(case, f"is named {name} like a listed system", "give it another name")
     return found if isinstance(found, Base) else Base(name, channels[0] or (), channels[1] or (), build)
-
-
-def _require_channels(system: System, trial: Trial, case: GapCase) -> None:
-    for channel in (*system.inputs, *system.outputs):
-        if channel not in trial.signals.channels:
-            has = ", ".join(trial.signals.channels)
-            raise _refusal(case, f"needs channel {channel}, which trial {trial.name} lacks", f"it has {has}")
-        unit = trial.signals.units[trial.signals.channels.index(channel)]
-        if unit and system.unit(channel) not in ("-", unit):
-            what = f"needs {channel} in {system.unit(channel)}, trial {trial.name} gives {unit}"
-            raise _refusal(case, what, "correct the unit in the header")
-
-
-def _try_out(system: System, trial: Trial, case: GapCase) -> None:
-    """One simulation at the starting values: what is missing or of a wrong shape shows here."""
-    try:
-        outputs = system.simulate(trial, system.start)
-    except KeyError as error:
-        remedy = f"give it under [constants], [parameters.{error.args[0]}] or [trial.{trial.name}]"
-        raise _refusal(case, f"needs the number {error.args[0]} in trial {trial.name}", remedy) from error
-    except Exception as error:  # the user's code may raise anything
-        raise _refusal(case, f"fails on trial {trial.name}: {_said(error)}", "correct the case or the model") from error
-    if outputs.shape != (len(trial), len(system.outputs)):
-        what = f"gives {outputs.shape} values for trial {trial.name}"
-        raise _refusal(case, what, f"expected {(len(trial), len(system.outputs))}, samples by outputs")
-
-
-def _said(error: BaseException) -> str:
-    """Kind and first words of what the user's code raised."""
-    said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    return said if len(said) <= LONGEST else f"{said[:LONGEST]} …"
-
-
-def _refusal(case: GapCase, what: str, remedy: str) -> InputError:
-    return InputError(f"{case.name}/case.toml", f"system {case.system}", what, remedy)

@@ -30,8 +30,8 @@ def run(tmp_path, monkeypatch):
     return executed
 
 
-def test_there_is_one_for_the_contact_area():
-    assert "contact_area" in [notebook.stem for notebook in NOTEBOOKS]
+def test_there_is_one_for_the_contact_area_and_one_for_the_gap():
+    assert {"contact_area", "gap"} <= {notebook.stem for notebook in NOTEBOOKS}
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
@@ -52,3 +52,11 @@ def test_contact_area_runs_on_the_shipped_meshes(run, tmp_path):
     assert "101 frames" in said and "no real data here; everything above is synthetic" in said
     page = (tmp_path / "contact-area-result" / "report.html").read_text(encoding="utf-8")
     assert "Synthetic knee over gait" in page
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")  # of the notebook machinery itself
+def test_gap_runs_on_the_case_that_it_plants(run):
+    said = run(ROOT / "notebooks" / "gap.ipynb")
+    assert "on fresh trials of this kind the error shrinks by" in said
+    assert "planted: viscous damping" in said and "named: ('damping',) - right" in said

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -10,7 +11,20 @@ from jaxtyping import Float, Int
 
 from geocontact.view.page.scene import Body, Scene
 
-__all__ = ["Body", "Curve", "Curves", "Page", "Readout", "Row", "Scene", "Section", "Strip", "Table", "Words"]
+__all__ = [
+    "Body",
+    "Curve",
+    "Curves",
+    "Page",
+    "Picture",
+    "Readout",
+    "Row",
+    "Scene",
+    "Section",
+    "Strip",
+    "Table",
+    "Words",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +94,24 @@ class Table:
 
 
 @dataclass(frozen=True, eq=False)
+class Picture:
+    """A drawing that does not change over time, with what it shows in words.
+
+    `svg` is shown as an image: nothing in it can run or load anything. `wide` ones take the whole width of the page.
+    """
+
+    title: str
+    words: str
+    svg: bytes
+    wide: bool = False
+
+    @property
+    def base64(self) -> str:
+        """The drawing as text."""
+        return b64encode(self.svg).decode("ascii")
+
+
+@dataclass(frozen=True, eq=False)
 class Words:
     """Paragraphs under a title."""
 
@@ -87,7 +119,7 @@ class Words:
     paragraphs: Sequence[str]
 
 
-Section = Scene | Curves | Strip | Readout | Table | Words
+Section = Scene | Curves | Strip | Readout | Picture | Table | Words
 
 
 @dataclass(frozen=True, eq=False)

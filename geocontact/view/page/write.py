@@ -9,14 +9,17 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from geocontact.view.page.content import Curves, Page, Readout, Scene, Strip, Table, Words
+from geocontact.view.page.content import Curves, Page, Picture, Readout, Scene, Strip, Table, Words
 from geocontact.view.page.payload import payload, shown
 
 if TYPE_CHECKING:
     from jinja2 import Template
 
 HERE = Path(__file__).resolve().parent
-KINDS = {Scene: "scene", Curves: "curves", Strip: "strip", Readout: "readout", Table: "table", Words: "words"}
+KINDS = {
+    Scene: "scene", Curves: "curves", Strip: "strip", Readout: "readout", Picture: "picture", Table: "table",
+    Words: "words",
+}  # fmt: skip
 
 
 def write_page(page: Page, path: Path) -> int:
@@ -42,7 +45,7 @@ def page_html(page: Page) -> str:
         scene=next((section for kind, _, section in sections if kind == "scene"), None),
         opacities=_opacities(packed.data),
         panels=[s for s in sections if s[0] in ("curves", "strip", "readout")],
-        reading=[s for s in sections if s[0] in ("table", "words")],
+        reading=[s for s in sections if s[0] in ("picture", "table", "words")],
         packed=packed,
         data=_json(packed.data),
         policy=policy(script, style),

@@ -11,11 +11,15 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from geocontact.gap.locate import Cell
 from geocontact.view.curves.before_after import before_after
 from geocontact.view.curves.bland_altman import bland_altman
+from geocontact.view.curves.gap_map import gap_map_figure
+from geocontact.view.curves.gap_residuals import gap_residuals
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.path import contact_path
 from geocontact.view.curves.quantity import AREA, CYCLE, FORCE, LENGTH
+from geocontact.view.curves.ranking import Ranked, ranking_figure
 from geocontact.view.curves.residuals import residual_figure, residual_histogram, residual_quantiles
 from geocontact.view.curves.style import DOUBLE, panels
 
@@ -66,6 +70,33 @@ def agreement(name: str) -> Figure:
     return bland_altman(first, second, replace(AREA, name=name), (name, "film"), slope=True)
 
 
+def gap_map(name: str) -> Figure:
+    axes = ("phase", name, f"{name}'", "load")
+    channels = (name, "force_y", "cop_x")
+    cells = [
+        Cell(channel, axis, k / 6.0, (k + 1.0) / 6.0, (-1.0) ** k, 1.0 / 6.0, 0.01 if k % 2 else 0.5)
+        for channel in channels
+        for axis in axes
+        for k in range(6)
+    ]
+    bands = ((0.0, 1.0), (1.0, 5.0), (5.0, np.inf))
+    cells += [Cell(channel, "band", low, high, 1.0, 1.0 / 3.0, 0.01) for channel in channels for low, high in bands]
+    return gap_map_figure(cells, {"phase": "–", name: "rad", f"{name}'": "rad/s", "load": "N", "band": "Hz"})
+
+
+def gains(name: str) -> Figure:
+    models = [Ranked("none", "none", 0.0, 0.0, 0.0), Ranked("unknown", "unknown", 140.0, 70.0, 0.01)]
+    models += [Ranked(name, name, 520.0, 300.0, 0.98), Ranked("preload", "preload", -4.0, -4.0, 0.001)]
+    return ranking_figure([*models, Ranked(f"{name} + damping", f"damping + {name}", 525.0, 301.0, None)])
+
+
+def gap_left_over(name: str) -> Figure:
+    phase = PERCENT / 100.0
+    base = np.stack([trials(2, 10.0), trials(2, 2e-3)], axis=-1) - np.array([10.0, 2e-3])
+    channels = (replace(FORCE, name=name), replace(LENGTH, name="cop_x"))
+    return gap_residuals(phase, channels, base, 0.3 * base, {name: 1.0, "cop_x": 1e-4}, {name: (0.2, 0.5)}, name)
+
+
 RESIDUAL = np.random.default_rng(5).normal(0.2e-3, 1.5e-3, 120)
 SPECIMENS: dict[str, Callable[[str], Figure]] = {
     "over_cycle": over_cycle,
@@ -74,6 +105,9 @@ SPECIMENS: dict[str, Callable[[str], Figure]] = {
     "centre_of_pressure": centre_of_pressure,
     "before_after": before_and_after,
     "bland_altman": agreement,
+    "gap_map": gap_map,
+    "ranking": gains,
+    "gap_residuals": gap_left_over,
     "histogram": lambda name: residual_histogram(RESIDUAL, replace(LENGTH, name=name)),
     "quantiles": lambda name: residual_quantiles(RESIDUAL, replace(LENGTH, name=name)),
     "residuals": lambda name: residual_figure(RESIDUAL, replace(LENGTH, name=name)),

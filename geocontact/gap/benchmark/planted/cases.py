@@ -19,6 +19,7 @@ from geocontact.gap.benchmark.planted.elbow import NotConvergedError
 from geocontact.gap.benchmark.planted.faults import draw_fault
 from geocontact.gap.benchmark.planted.faults import words as fault_words
 from geocontact.gap.benchmark.planted.hooks import BASE, Hooks, Outputs
+from geocontact.gap.benchmark.planted.ideal import ideal
 from geocontact.gap.benchmark.planted.label import KINDS, Kind, Label, Planted
 from geocontact.gap.benchmark.planted.outside.catalogue import outsiders
 from geocontact.gap.benchmark.planted.plan import Draw, Plan, Scale
@@ -149,7 +150,8 @@ def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: floa
     theta = fitted(scene, recordings[:learn], stage.floor, rng)
     how_far = reach(scene, fresh, theta, found.hooks, fine, stage.floor)
     case, names = case_of(rng, scene, recordings, learn, name)
-    return Planted(case, label_of(kind, found, how_far, scene, stage, names))
+    label = label_of(kind, found, how_far, scene, stage, names)
+    return Planted(case, label, ideal(scene, stage.trials, found.hooks, fine))
 
 
 def prepared(scene: Scene, paths: Sequence[Path], kind: Kind) -> Stage:

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any, Literal, get_args
 
 from geocontact.data.gap_case import GapCase
+from geocontact.gap.benchmark.planted.ideal import IdealTrial
 
 Kind = Literal["none", "single", "pair", "outside", "absorbed", "fault", "shift"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
@@ -69,7 +70,8 @@ class Label:
 
 @dataclass(frozen=True)
 class Planted:
-    """A synthetic case and the truth about it."""
+    """A synthetic case, the truth about it, and its calibration trials without noise."""
 
     case: GapCase
     label: Label
+    ideal: tuple[IdealTrial, ...] = ()

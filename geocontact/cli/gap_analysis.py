@@ -1,0 +1,62 @@
+"""The diagnosis of one gap case: reads, computes, writes, says what it found."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+
+from geocontact import __version__
+from geocontact.cli.gap_diagnose import DiagnoseOptions
+from geocontact.cli.gap_results import write_results
+from geocontact.cli.output import written_whole
+from geocontact.cli.record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.gap_case import GapCase
+from geocontact.gap.admission import admitted
+from geocontact.gap.diagnose import Findings, diagnose
+from geocontact.io.gap_case import read_gap_case
+from geocontact.systems.catalogue import system_of
+from geocontact.view.gap_words import verdict_sentences
+
+COMMAND = "gap diagnose"
+
+
+def diagnose_one(folder: Path, o: DiagnoseOptions) -> int:
+    """Run the whole diagnosis of one case."""
+    if o.workers is not None:
+        raise InputError("", "--workers", "does nothing without --many", "leave it out")
+    record = Record(COMMAND, {"case": folder, **asdict(o)})
+    with record.catching_warnings(), written_whole(o.out) as draft:
+        findings = diagnosed(record, folder, draft, o)
+        written = sorted(file.name for file in draft.iterdir())
+    for sentence in verdict_sentences(findings.diagnosis, findings.cells):
+        record.say(sentence)
+    record.say(f"results in {o.out}: {', '.join(written)}")
+    record.speak()
+    return 0
+
+
+def diagnosed(record: Record, folder: Path, draft: Path, o: DiagnoseOptions) -> Findings:
+    """Diagnosis of the case in a folder, its results in `draft`."""
+    case = read_gap_case(folder)
+    system = system_of(case)
+    _add_inputs(record, folder, case)
+    findings = diagnose(admitted(case, system), system, __version__)
+    record.results["diagnosis"] = {
+        "verdict": findings.diagnosis.verdict,
+        "effects": list(findings.diagnosis.effects),
+        "seconds": round(findings.diagnosis.seconds, 3),
+    }
+    write_results(record, case, findings, draft, pictures=not o.bare)
+    record.write(draft)
+    return findings
+
+
+def _add_inputs(record: Record, folder: Path, case: GapCase) -> None:
+    """What was read: case.toml, the tables that lie beside it, and the trials."""
+    record.add_input("case", folder / "case.toml", system=case.system)
+    for side, trials in (("calibration", case.calibration), ("evaluation", case.evaluation)):
+        for trial in trials:
+            record.add_input(side, folder / "trials" / f"{trial.name}.csv", samples=len(trial))
+    for file in sorted(folder.glob("*.csv")):
+        record.add_input("table", file)

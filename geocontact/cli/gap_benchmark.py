@@ -1,0 +1,63 @@
+"""`geocontact gap benchmark`: the options of the command; the work is in `gap_benchmark_run`."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+
+from geocontact.cli.gap_diagnose import THREADS
+
+Flag = Parameter(negative="")
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class BenchmarkOptions:
+    """Options of a benchmark as typed.
+
+    Parameters
+    ----------
+    out
+        Folder for the results.
+    system
+        Whose cases.
+    cases
+        How many of each system.
+    seed
+        Of all cases; a fresh one at each run unless given. It is printed and written.
+    kinds
+        none,single,pair,outside,absorbed,fault,shift; all of them unless given.
+    jobs
+        Processes; as many as there are cores unless given. Cases and answers do not depend on it.
+    again
+        Cases of each system that are diagnosed a second time with other names, trials in another order, other units.
+    keep
+        Keep the folders of the cases in OUT/cases-SEED, with labels.json beside them.
+    """
+
+    out: Path
+    system: Literal["elbow", "foot", "all"] = "all"
+    cases: int = 150
+    seed: int | None = None
+    kinds: str | None = None
+    jobs: int | None = None
+    again: int = 5
+    keep: Annotated[bool, Flag] = False
+
+
+def benchmark(*, options: BenchmarkOptions) -> int:
+    """Diagnose synthetic cases whose effect is known and withheld, and score the answers.
+
+    Cases are made by code that shares nothing with the candidates. Writes benchmark.md and benchmark.json (figures with
+    exact intervals, beside two residual regressions, a constant answer and an oracle), cases.csv, reliability.png,
+    reliability.svg and run.json into OUT, and prints the table. The default takes about half an hour on two cores.
+    """
+    for name in THREADS:
+        os.environ[name] = "1"  # before numpy is imported, here and in the processes: seconds are those of one core
+    from geocontact.cli.gap_benchmark_run import run_benchmark  # numpy and friends: not for --help
+
+    return run_benchmark(options)

@@ -1,0 +1,121 @@
+"""The benchmark: draws the lots, works them on all cores, scores, writes, prints the table."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import signal
+import tempfile
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import asdict
+from multiprocessing import get_context, parent_process
+from pathlib import Path
+
+from geocontact.cli.gap_benchmark import BenchmarkOptions
+from geocontact.cli.gap_benchmark_case import Task, Worked, worked
+from geocontact.cli.gap_benchmark_results import Outcome, write_results
+from geocontact.cli.output import written_whole
+from geocontact.cli.patience import progress
+from geocontact.cli.record import Record
+from geocontact.data.errors import InputError
+from geocontact.gap.benchmark.drawing import KINDS, SYSTEMS, Lot, lots
+
+COMMAND = "gap benchmark"
+SEEDS = 2**32
+
+
+def run_benchmark(o: BenchmarkOptions) -> int:
+    """Run the whole benchmark."""
+    kinds = _checked(o)
+    seed = secrets.randbelow(SEEDS) if o.seed is None else o.seed
+    systems = SYSTEMS if o.system == "all" else (o.system,)
+    record = Record(COMMAND, {**asdict(o), "seed": seed})
+    record.results["seed"] = seed
+    with record.catching_warnings(), written_whole(o.out) as draft:
+        done = _worked(list(lots(systems, o.cases, kinds, seed)), draft, seed, o)
+        for one in done:
+            for line in one.trouble:
+                record.warn(line)
+        outcome = Outcome(seed, systems, tuple(done))
+        if not outcome.labels:
+            raise RuntimeError("no case could be drawn; see the warnings")
+        table = write_results(record, outcome, draft, f"cases-{seed}" if o.keep else "")
+        record.write(draft)
+        written = sorted(file.name for file in draft.iterdir())
+    for line in table:
+        record.say(line)
+    record.say(f"results in {o.out}: {', '.join(written)}")
+    record.speak()
+    return 0
+
+
+def _checked(o: BenchmarkOptions) -> tuple[str, ...]:
+    """Kinds that are asked for; InputError for options that mean nothing."""
+    kinds = KINDS if o.kinds is None else tuple(dict.fromkeys(kind.strip() for kind in o.kinds.split(",")))
+    unknown = [kind for kind in kinds if kind not in KINDS]
+    rows = (
+        (bool(unknown), "--kinds", f"unknown kind {unknown[:1]}", f"kinds are {', '.join(KINDS)}"),
+        (o.cases < 1, "--cases", f"{o.cases} is less than one case", "give 1 or more, e.g. 150"),
+        (o.again < 0, "--again", f"{o.again} is less than none", "give 0 or more"),
+        (o.jobs is not None and o.jobs < 1, "--jobs", f"{o.jobs} is less than one process", "give 1 or more"),
+        (o.seed is not None and o.seed < 0, "--seed", f"{o.seed} is negative", "give 0 or more"),
+    )  # fmt: skip
+    for wrong, option, what, remedy in rows:
+        if wrong:
+            raise InputError("", option, what, remedy)
+    return kinds
+
+
+def _worked(chosen: Sequence[Lot], draft: Path, seed: int, o: BenchmarkOptions) -> list[Worked]:
+    """Outcomes in the order of the lots."""
+    twice = {system: _spread([lot for lot in chosen if lot.system == system], o.again) for system in SYSTEMS}
+    with tempfile.TemporaryDirectory(prefix="geocontact-") as scratch:
+        folder = draft / f"cases-{seed}" if o.keep else Path(scratch)
+        folder.mkdir(exist_ok=True)
+        tasks = [Task(lot, folder, o.keep, lot in twice[lot.system]) for lot in chosen]
+        found: dict[Lot, Worked] = {}
+        with progress("cases", len(tasks)) as step:
+            for one in _each(tasks, min(o.jobs or _cores(), len(tasks))):
+                found[one.lot] = one
+                step()
+    return [found[lot] for lot in chosen]
+
+
+def _spread(among: Sequence[Lot], count: int) -> set[Lot]:
+    """So many lots, evenly spaced, so that every kind has a chance."""
+    step = max(len(among) / count, 1.0) if count else 1.0
+    return {among[int(i * step)] for i in range(min(count, len(among)))}
+
+
+def _each(tasks: Sequence[Task], jobs: int) -> Iterator[Worked]:
+    """Outcomes as they come; the longest kinds are not known beforehand."""
+    if jobs == 1:
+        yield from map(worked, tasks)
+        return
+    pool = ProcessPoolExecutor(jobs, get_context("spawn"), _begin)
+    try:
+        for future in as_completed([pool.submit(worked, task) for task in tasks]):
+            yield future.result()
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _cores() -> int:
+    """Cores that this process may use."""
+    usable: Callable[[int], set[int]] | None = getattr(os, "sched_getaffinity", None)
+    return len(usable(0)) if usable is not None else os.cpu_count() or 1
+
+
+def _begin() -> None:
+    """A worker ends at once with Ctrl-C, and with the process that started it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

@@ -1,0 +1,59 @@
+"""`geocontact gap diagnose`: the options of the command; the work is in `gap_analysis`."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+Flag = Parameter(negative="")
+THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+"""Matrices here are small: threads of a linear algebra library would only wait for each other."""
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class DiagnoseOptions:
+    """Options of a diagnosis as typed.
+
+    Parameters
+    ----------
+    out
+        Folder for the results.
+    many
+        CASE is a folder of cases: every sub-folder with a case.toml is diagnosed, results in OUT/<case>.
+    bare
+        Write tables, diagnosis.json and run.json only: no page, no figures.
+    workers
+        Processes with --many; as many as there are cores by default. Results do not depend on it.
+    """
+
+    out: Path
+    many: Annotated[bool, Flag] = False
+    bare: Annotated[bool, Flag] = False
+    workers: int | None = None
+
+
+def diagnose(case: Path, /, *, options: DiagnoseOptions) -> int:
+    """Diagnose a gap case: which effect the model lacks, where it shows, how far the gap shrinks with it.
+
+    Writes diagnosis.json, report.html, gap_map.csv, ranking.csv, held_out.csv, figures (.png, .svg) and run.json into
+    OUT. With --many a case that cannot be used is one line on stderr and exit 2; the others are diagnosed all the same.
+
+    Parameters
+    ----------
+    case
+        Folder with case.toml and trials, see docs/reference/gap_case.md.
+    """
+    for name in THREADS:
+        os.environ.setdefault(name, "1")  # before numpy is imported, here and in the processes that are started
+    if options.many:
+        from geocontact.cli.gap_many import diagnose_many
+
+        return diagnose_many(case, options)
+    from geocontact.cli.gap_analysis import diagnose_one  # numpy and friends: not for --help
+
+    return diagnose_one(case, options)

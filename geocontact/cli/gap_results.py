@@ -1,0 +1,115 @@
+"""Everything a diagnosis writes."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from geocontact.cli.record import Record
+from geocontact.data.gap_case import GapCase
+from geocontact.gap.diagnose import Findings
+from geocontact.io.results import write_table
+from geocontact.view.contact_page import inputs_table
+from geocontact.view.curves.save import save
+from geocontact.view.gap_curves import HeldOut, held_out
+from geocontact.view.gap_figures import axis_units, gap_figures, ranking
+from geocontact.view.gap_page import write_gap_report
+from geocontact.view.page.content import Table
+
+
+def write_results(record: Record, case: GapCase, findings: Findings, folder: Path, pictures: bool) -> None:
+    """Answer, tables, and unless they are not wanted figures and page."""
+    text = json.dumps(plain(findings.diagnosis.as_dict()), indent=2, ensure_ascii=False, allow_nan=False)
+    (folder / "diagnosis.json").write_text(text + "\n", encoding="utf-8")
+    write_table(gap_map_table(findings), folder, parquet=False, name="gap_map")
+    write_table(ranking_table(findings), folder, parquet=False, name="ranking")
+    trials = held_out(findings)
+    write_table(held_out_table(findings, trials), folder, parquet=False, name="held_out")
+    if not pictures:
+        return
+    figures = gap_figures(findings, trials)
+    for name, figure in figures.items():
+        for ending in ("png", "svg"):
+            save(figure, folder / f"{name}.{ending}")
+    tables = [inputs_table(record.inputs), _options_table(record)]
+    write_gap_report(folder / "report.html", case, findings, trials, figures, tables, record.warnings)
+
+
+def plain(value: Any) -> Any:
+    """What JSON can hold: Python's own numbers, None for what is not finite; probabilities sum to 1 as they stand."""
+    if isinstance(value, dict):
+        return {str(key): plain(each) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(each) for each in value]
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    if isinstance(value, (int, np.integer)):
+        return int(value)
+    if isinstance(value, (float, np.floating)):
+        return float(value) if math.isfinite(value) else None
+    return None if value is None else str(value)
+
+
+def gap_map_table(findings: Findings) -> pd.DataFrame:
+    """A row per cell; `low` and `high` in the unit of the axis, `gap` in that of the channel, SI."""
+    units, system = axis_units(findings), findings.attribution.problem.system
+    return pd.DataFrame(
+        {
+            "channel": [c.channel for c in findings.cells],
+            "axis": [c.axis for c in findings.cells],
+            "low": [c.low for c in findings.cells],
+            "high": [c.high for c in findings.cells],
+            "axis_unit": [units.get(c.axis, "-").replace("–", "-") for c in findings.cells],
+            "gap": [c.gap for c in findings.cells],
+            "gap_unit": [system.unit(c.channel) for c in findings.cells],
+            "share [-]": [c.share for c in findings.cells],
+            "p_value [-]": [c.p_value for c in findings.cells],
+        }
+    )
+
+
+def ranking_table(findings: Findings) -> pd.DataFrame:
+    """A row per model that was tried, the largest gain first."""
+    rows = ranking(findings)
+    return pd.DataFrame(
+        {
+            "model": [one.label for one in rows],
+            "answer": [one.effects for one in rows],
+            "gain [nats]": [one.gain for one in rows],
+            "gain_calibration [nats]": [one.calibration for one in rows],
+            "probability [-]": [one.probability for one in rows],
+        }
+    )
+
+
+def held_out_table(findings: Findings, trials: Sequence[HeldOut]) -> pd.DataFrame:
+    """A row per sample of the held-out trials: measured, base model, and with what was named."""
+    system = findings.attribution.problem.system
+    parts = []
+    for trial in trials:
+        columns: dict[str, object] = {"trial": trial.name, "time [s]": trial.time}
+        for c, name in enumerate(system.outputs):
+            unit = system.unit(name)
+            columns[f"{name} [{unit}]"] = trial.measured[:, c]
+            columns[f"{name}_base [{unit}]"] = trial.base[:, c]
+            if trial.named is not None:
+                columns[f"{name}_with_effects [{unit}]"] = trial.named[:, c]
+        parts.append(pd.DataFrame(columns))
+    return pd.concat(parts, ignore_index=True)
+
+
+def _options_table(record: Record) -> Table:
+    """How it was made, without the folders of files: a page is passed on."""
+    given = [
+        (key, value.name if isinstance(value, Path) else str(value))
+        for key, value in record.options.items()
+        if value not in (None, False)
+    ]
+    rows = [("command", f"geocontact {record.command}"), *given, *record.versions().items()]
+    return Table("How it was made", ("option", "value"), rows)

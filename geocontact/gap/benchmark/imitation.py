@@ -1,0 +1,58 @@
+"""Whether some candidate imitates an effect outside the table; from the truth, not from a diagnosis.
+
+Every candidate is refitted together with the base to the calibration trials as they would be without noise and without
+trial-to-trial variation, residuals weighed by the true covariance of both (that of the label's nats). The effect is
+imitated where the best candidate leaves less than a tenth of what the base alone leaves: nobody who knows the table
+only could tell then that the effect is not in it. Mistakes in the data are not tried, being gross where they apply.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.system import System
+from geocontact.gap.benchmark.planted.ideal import IdealTrial
+from geocontact.gap.refit import Measured, refit
+
+LEFT = 0.1
+"""Of the visible energy."""
+ROUNDS = 15
+
+
+def imitation(
+    system: System, trials: Sequence[IdealTrial], candidates: Sequence[Candidate], rough: Mapping[str, float]
+) -> tuple[float, str]:
+    """Share of the visible energy that the best candidate leaves, and its label; 1 and "" where none helps.
+
+    Parameters
+    ----------
+    system
+        Base model; what was planted is added to its own prediction, so that the two base models need not agree.
+    trials
+        Calibration trials without noise.
+    candidates
+        For this system.
+    rough
+        Noise of each channel, for samples where the model has no value.
+    """
+    system = system.as_measured()
+    measured = _measured(system, trials, np.array([rough[name] for name in system.outputs]))
+    base = refit(system, measured, trials, [trials[0].nominal], ROUNDS)
+    label, best = "", base.cost
+    for one in candidates:
+        if not one.parameters:
+            continue
+        starts = [{**base.values, **start} for start in one.starts]
+        found = refit(one.apply(system), measured, trials, starts, ROUNDS)
+        if found.cost < best:
+            label, best = one.label, found.cost
+    return (best / base.cost if base.cost > 0.0 else 1.0), label
+
+
+def _measured(system: System, trials: Sequence[IdealTrial], rough: Float[np.ndarray, " c"]) -> Measured:
+    predicted = tuple(system.simulate(one.trial, one.nominal) + one.effect.T for one in trials)
+    return Measured(tuple(one.trial for one in trials), predicted, rough)

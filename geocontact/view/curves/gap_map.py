@@ -1,0 +1,86 @@
+"""Where a model misses the measurement: share of each channel's gap over phase, states and frequency bands."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geocontact.gap.locate import Cell
+from geocontact.view.curves.style import DOUBLE, SMALL, empty, in_style
+from geocontact.view.curves.text import plain
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from matplotlib.image import AxesImage
+
+SIGNIFICANT = 0.05
+"""Family-wise: a map without any gap has such a cell once in twenty times."""
+BESIDE = 4  # axes of states in one row
+ROW = 0.0055  # height of a channel's row [m]
+MARKS = {1: "+", -1: "−", 0: "•"}  # measured above, below the prediction; no sign
+LIGHT = 0.55  # of the colour scale, from which marks are white
+
+
+@in_style
+def gap_map_figure(cells: Sequence[Cell], units: Mapping[str, str]) -> Figure:
+    """Draw the map as strips, a row per channel, a strip per axis; significant cells carry the sign of the gap.
+
+    The colour is the share of the channel's squared gap along the axis of the strip, noise taken off: the cells of one
+    row of one strip sum to 1, or to 0 where there is no gap. States are cut at their quantiles, bands at 1 and 5 Hz.
+
+    Parameters
+    ----------
+    cells
+        The map.
+    units
+        Of each axis by its name, as printed.
+    """
+    if not cells:
+        raise ValueError("cells: no map to draw")
+    channels = list(dict.fromkeys(cell.channel for cell in cells))
+    others = [axis for axis in dict.fromkeys(cell.axis for cell in cells) if axis != "phase"]
+    rows = 1 + -(-len(others) // BESIDE)
+    figure = empty(DOUBLE, rows * (0.022 + ROW * len(channels)))
+    grid = figure.add_gridspec(rows, BESIDE)
+    places = [grid[0, :], *(grid[1 + k // BESIDE, k % BESIDE] for k in range(len(others)))]
+    strips: list[Axes] = []
+    pictures = []
+    for k, axis in enumerate(["phase", *others]):
+        panel = figure.add_subplot(places[k])
+        strips.append(panel)
+        pictures.append(_strip(panel, [c for c in cells if c.axis == axis], channels))
+        panel.set_xlabel(plain(f"{axis} [{units[axis]}]" if axis in units else axis, 30))
+        first = k == 0 or (k - 1) % BESIDE == 0
+        panel.set_yticks(range(len(channels)), [plain(name, 24) if first else "" for name in channels])
+    strips[0].set_ylabel("channel")
+    bar = figure.colorbar(pictures[0], ax=strips, shrink=0.8, pad=0.01)
+    bar.set_label("share of the channel's gap [–]")
+    note = f"+ / −: measured above / below the prediction, p ≤ {SIGNIFICANT:g} for the whole map; •: a band, p likewise"
+    figure.suptitle(note, fontsize=SMALL, x=0.01, ha="left")
+    return figure
+
+
+def _strip(panel: Axes, cells: Sequence[Cell], channels: Sequence[str]) -> AxesImage:
+    lows = sorted({cell.low for cell in cells})
+    table = np.full((len(channels), len(lows)), np.nan)
+    for cell in cells:
+        row, column = channels.index(cell.channel), lows.index(cell.low)
+        table[row, column] = cell.share
+        if cell.p_value <= SIGNIFICANT:
+            sign = 0 if cell.axis == "band" else int(np.sign(cell.gap))
+            colour = "white" if cell.share > LIGHT else "black"
+            panel.text(column, row, MARKS[sign], ha="center", va="center", fontsize=8.0, color=colour)
+    picture = panel.imshow(table, "Blues", vmin=0.0, vmax=1.0, aspect="auto", interpolation="nearest")
+    panel.set_facecolor("0.85")
+    last = max((cell.high for cell in cells), default=0.0)
+    edges = [*lows, last]
+    shown = range(0, len(edges), max(1, (len(edges) - 1) // (5 if len(edges) > 10 else 3)))
+    panel.set_xticks([k - 0.5 for k in shown], [_edge(edges[k]) for k in shown])
+    return picture
+
+
+def _edge(value: float) -> str:
+    return "∞" if np.isinf(value) else f"{value:.3g}".replace("-", "−")

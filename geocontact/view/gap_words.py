@@ -1,0 +1,117 @@
+"""A diagnosis in sentences: what is missing, where it sits, how far the gap shrinks, what cannot be told apart."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from geocontact.data.diagnosis import ChannelGap, Diagnosis, Where
+from geocontact.gap.locate import Cell
+
+SIGNIFICANT = 0.05  # family-wise
+TELLING = 0.35  # share of a channel's gap along one axis that a part of its range must hold to be named
+MISTAKES = ("unit_error", "sign_flip", "side_swap")  # of the data; nothing that a model could lack
+MOST = 0.1  # share of the whole gap from which a further channel is mentioned
+
+
+def verdict_sentences(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
+    """The verdict first, then what limits it; one sentence each, without a full stop."""
+    found = {"explained": _explained, "no_gap": _no_gap, "unknown": _unknown, "unresolved": _unresolved}[d.verdict]
+    return [*found(d, cells), *_faults(d), *(f"odd: {remark}" for remark in d.remarks)]
+
+
+def place(where: Where, cells: Sequence[Cell]) -> str:
+    """Where one channel's gap is: "force (phase 42–61 %, fast part of beta)"."""
+    low, high = (100.0 * edge for edge in where.phase)
+    parts = [f"phase {low:.0f}–{high:.0f} %", *states(where.channel, cells)]
+    return f"{where.channel} ({', '.join(parts)})"
+
+
+def states(channel: str, cells: Sequence[Cell]) -> list[str]:
+    """Parts of the inputs, of their rates and of the load that hold most of a channel's gap, the fullest first."""
+    found: list[tuple[float, str]] = []
+    axes = dict.fromkeys(c.axis for c in cells if c.channel == channel and c.axis not in ("phase", "band"))
+    for axis in axes:
+        own = sorted((c for c in cells if c.channel == channel and c.axis == axis), key=lambda c: c.low)
+        words = ["low", "middle", "high"]
+        thirds = [own[len(own) * k // 3 : len(own) * (k + 1) // 3] for k in range(3)]
+        held = [sum(c.share for c in third if c.p_value <= SIGNIFICANT) for third in thirds]
+        if axis.endswith("'"):  # fast is far from standing still, either way
+            held, words = [held[0] + held[2], held[1]], ["fast", "slow"]
+        best = max(range(len(held)), key=lambda k: held[k])
+        chance = 2.0 / 3.0 if axis.endswith("'") and best == 0 else 1.0 / 3.0
+        if held[best] > chance + (1.0 - chance) * TELLING:
+            found.append((held[best] / chance, f"{words[best]} part of {axis.rstrip(chr(39))}"))
+    found.sort(key=lambda each: -each[0])
+    return [words for _, words in found[:2]]
+
+
+def percent(share: float) -> str:
+    """A share as a whole percentage, with a minus sign."""
+    return f"{100.0 * share:.0f}".replace("-", "−") if round(100.0 * share) else "0"
+
+
+def names(some: Sequence[str], last: str = "and") -> str:
+    """`a, b and c`."""
+    return f" {last} ".join([", ".join(some[:-1]), some[-1]]) if len(some) > 1 else "".join(some)
+
+
+def _explained(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
+    mistakes = [name for name in d.effects if name in MISTAKES]
+    lacking = [name for name in d.effects if name not in mistakes]
+    parts = [*_named(lacking, "missing"), *_named(mistakes, "a mistake in the data")]
+    it, main = "it" if len(d.effects) == 1 else "them", d.where[0].channel if d.where else next(iter(d.gap))
+    if d.where:
+        parts.append(f"{'it sits' if it == 'it' else 'they sit'} in {place(d.where[0], cells)}")
+    others = [w.channel for w in d.where[1:] if w.share >= MOST]
+    removed = [f"{_removed(d.gap[main])} of the error{f' of {main}' if others else ''} on trials not used"]
+    removed += [f"{_removed(d.gap[name])} of that of {name}" for name in others]
+    doing = " and ".join([*["adding"] * bool(lacking), *["undoing"] * bool(mistakes)])
+    parts.append(f"{doing} {it} removes {', '.join(removed)}")
+    rest = d.gap[main].unexplained
+    if rest is not None:
+        parts.append(f"{percent(rest)} % stays unexplained")
+    said = ["; ".join(parts)]
+    rivals = [name for name in d.ambiguity if name not in d.effects]
+    if rivals:
+        said.append(f"these data cannot tell {names(d.effects)} from {names(rivals, 'or')}")
+    return said + _absorbed(d)
+
+
+def _named(some: Sequence[str], what: str) -> list[str]:
+    return [f"{names(some)} {'is' if len(some) == 1 else 'are'} {what}"] if some else []
+
+
+def _removed(gap: ChannelGap) -> str:
+    return f"{percent(gap.reduction)} % [{percent(gap.ci95[0])}, {percent(gap.ci95[1])}]"
+
+
+def _no_gap(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
+    return ["nothing is missing beyond noise and trial-to-trial variation", *_absorbed(d)]
+
+
+def _unknown(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
+    where = f" in {place(d.where[0], cells)}" if d.where else ""
+    said = [f"there is a gap{where} and none of the known effects explains it"]
+    if d.ambiguity:
+        said.append(f"{names(d.ambiguity)} {'is' if len(d.ambiguity) == 1 else 'are'} not ruled out")
+    return said + _absorbed(d)
+
+
+def _unresolved(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
+    where = f" in {place(d.where[0], cells)}" if d.where else ""
+    return [f"there is a gap{where}; these data cannot tell {names(d.ambiguity)} apart", *_absorbed(d)]
+
+
+def _absorbed(d: Diagnosis) -> list[str]:
+    if not d.absorbed:
+        return []
+    return [f"base parameters would imitate {names(d.absorbed, 'or')}: not to be seen here, whether there or not"]
+
+
+def _faults(d: Diagnosis) -> list[str]:
+    said = []
+    for fault in d.faults:
+        what = f"{fault.effect} of {fault.channel}" if fault.channel else fault.effect
+        times = f" (reads {fault.factor:.4g} times what it should)" if fault.factor != 1.0 else ""
+        said.append(f"mistake in the data: {what}{times} in {names(fault.trials)}, taken as undone in all that follows")
+    return said

@@ -1,0 +1,166 @@
+"""Small gap cases on disk: an elbow whose cuff damps, and folders of it that are spoilt in one place."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from unittest import mock
+
+import numpy as np
+
+from geocontact import __version__
+from geocontact.data.gap_case import GapCase
+from geocontact.gap.admission import admitted
+from geocontact.gap.diagnose import Findings, diagnose
+from geocontact.io.gap_case import read_gap_case
+from geocontact.systems.catalogue import system_of
+from tests.systems.examples import (
+    ELBOW_CONSTANTS,
+    ELBOW_VALUES,
+    elbow,
+    elbow_angle,
+    example,
+    recording,
+    spheres,
+)
+
+CALIBRATION, EVALUATION = ("t01", "t02"), ("t03", "t04")
+DAMPING = 25.0
+"""N s/m."""
+NOISE = 0.15
+"""N, white."""
+SETTINGS = f"""format = 1
+system = "elbow"
+calibration = {list(CALIBRATION)}
+evaluation = {list(EVALUATION)}
+
+[noise]
+force = {NOISE}
+
+[constants]
+l_ex = {ELBOW_CONSTANTS["l_ex"]}
+z_ex = {ELBOW_CONSTANTS["z_ex"]}
+
+[parameters.k]
+start = 280.0
+lower = 50.0
+upper = 1000.0
+unit = "N/m"
+
+[parameters.x]
+start = 0.03
+lower = 0.0
+upper = 0.1
+unit = "m"
+
+[parameters.y]
+start = 0.04
+lower = 0.0
+upper = 0.12
+unit = "m"
+
+[trial.t01]
+condition = "synthetic"
+"""
+
+
+def damped_elbow(folder: Path, damping: float = DAMPING, samples: int = 160) -> Path:
+    """The case in `folder`: force of the elbow's formula and of a linear damper along its deflection."""
+    (folder / "trials").mkdir(parents=True)
+    (folder / "case.toml").write_text(SETTINGS, encoding="utf-8")
+    rng = np.random.default_rng(11)
+    for k, name in enumerate((*CALIBRATION, *EVALUATION)):
+        time = 0.04 * np.arange(samples + 4 * k)
+        beta = elbow_angle(time + 0.9 * k, 2.5 + 0.6 * k)
+        empty = np.full(time.size, np.nan)
+        force = elbow().simulate(recording(name, time, {"beta": beta, "force": empty}), ELBOW_VALUES)[:, 0]
+        force = force + damping / ELBOW_VALUES["k"] * np.gradient(force, time) + NOISE * rng.standard_normal(time.size)
+        write_trial(folder, name, time, beta, force)
+    return folder
+
+
+@cache
+def diagnosed_elbow() -> tuple[GapCase, Findings]:
+    """The case, and its diagnosis, made once for all tests."""
+    with TemporaryDirectory() as folder:
+        case = read_gap_case(damped_elbow(Path(folder) / "elbow_7"))
+    system = system_of(case)
+    return case, diagnose(admitted(case, system), system, __version__)
+
+
+@contextmanager
+def known() -> Iterator[None]:
+    """The command line is given that diagnosis instead of making it again."""
+    findings = diagnosed_elbow()[1]
+    with mock.patch("geocontact.cli.gap_analysis.diagnose", return_value=findings):
+        yield
+
+
+def write_trial(folder: Path, name: str, time: np.ndarray, beta: np.ndarray, force: np.ndarray) -> None:
+    """A trial file, all digits."""
+    rows = [",".join(map(repr, row)) for row in np.column_stack((time, beta, force)).tolist()]
+    text = "\n".join(["time [s],beta [rad],force [N]", *rows]) + "\n"
+    (folder / "trials" / f"{name}.csv").write_text(text, encoding="utf-8")
+
+
+def spoilt(good: Path, folder: Path, file: str, old: str, new: str) -> Path:
+    """A copy of a case with a text replaced in one file; both must be there."""
+    shutil.copytree(good, folder)
+    path = folder / file
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    return folder
+
+
+def reordered(good: Path, folder: Path, calibration: Sequence[str], evaluation: Sequence[str]) -> Path:
+    """A copy that lists its trials in another order."""
+    spoilt(good, folder, "case.toml", f"calibration = {list(CALIBRATION)}", f"calibration = {list(calibration)}")
+    text = (folder / "case.toml").read_text(encoding="utf-8")
+    text = text.replace(f"evaluation = {list(EVALUATION)}", f"evaluation = {list(evaluation)}")
+    (folder / "case.toml").write_text(text, encoding="utf-8")
+    return folder
+
+
+def in_degrees_and_kilonewtons(good: Path, folder: Path) -> Path:
+    """A copy with its columns in other units, noise with them."""
+    spoilt(good, folder, "case.toml", f"force = {NOISE}", f"force = {NOISE * 1e-3!r}")
+    for path in (folder / "trials").glob("*.csv"):
+        table = np.loadtxt(path, delimiter=",", skiprows=1)
+        table[:, 0] *= 1e3
+        table[:, 1] = np.degrees(table[:, 1])
+        table[:, 2] *= 1e-3
+        rows = [",".join(map(repr, row)) for row in table.tolist()]
+        path.write_text("\n".join(["time [ms],beta [deg],force [kN]", *rows]) + "\n", encoding="utf-8")
+    return folder
+
+
+def foot_case(folder: Path) -> Path:
+    """A foot on three zones of spheres, two trials each side, without an effect."""
+    system, trials = example("foot")
+    (folder / "trials").mkdir(parents=True)
+    names = ("t01", "t02")
+    head = [f"{name} [{system.unit(name)}]" for name in (*system.inputs, *system.outputs)]
+    for name, trial in zip(names, trials, strict=True):
+        table = np.column_stack((trial.time, *(trial.column(one) for one in (*system.inputs, *system.outputs))))
+        rows = [",".join("" if np.isnan(v) else repr(v) for v in row) for row in table.tolist()]
+        text = "\n".join([",".join(["time [s]", *head]), *rows]) + "\n"
+        (folder / "trials" / f"{name}.csv").write_text(text, encoding="utf-8")
+    spheres().to_csv(folder / "spheres.csv", index=False)
+    lines = [
+        "format = 1",
+        'system = "foot"',
+        'calibration = ["t01"]',
+        'evaluation = ["t02"]',
+        'spheres = "spheres.csv"',
+    ]
+    lines += ["[constants]", *(f"{name} = {value}" for name, value in system.constants.items())]
+    for p in system.parameters:
+        lines += [f"[parameters.{p.name}]", f"start = {p.start}", f"lower = {p.lower}", f"upper = {p.upper}"]
+        lines += [f'unit = "{p.unit}"']
+    (folder / "case.toml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return folder

@@ -1,0 +1,154 @@
+"""`geocontact gap benchmark`: fresh or given cases, labels that nobody sees, figures that add up."""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from geocontact.cli.gap_benchmark_case import Task, alike, renamed, worked
+from geocontact.gap.benchmark.drawing import KINDS, SHARES, Lot, drawn, lots, shares
+from geocontact.io.gap_case import read_gap_case
+from tests.cli.calls import ROOT, Call, call, done, process
+
+FILES = {"benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg", "run.json"}
+SEED = 20
+
+
+@pytest.fixture(scope="session")
+def ran(tmp_path_factory: pytest.TempPathFactory) -> Call:
+    """Two elbow cases, without an effect and outside the table; one is diagnosed twice.
+
+    In processes of their own, where shapes are not checked: that takes ten times as long.
+    """
+    out = tmp_path_factory.mktemp("benchmark") / "out"
+    options = ("--system", "elbow", "--cases", 2, "--kinds", "none,outside", "--again", 1, "--jobs", 2, "--keep")
+    child = process("gap", "benchmark", "--out", out, "--seed", SEED, *options)
+    return done(Call(child.returncode, child.stdout, child.stderr, out))
+
+
+@pytest.fixture(scope="session")
+def content(ran: Call) -> dict:
+    """benchmark.json; NaN is no JSON."""
+
+    def refused(word: str) -> float:
+        raise AssertionError(f"{word} is not JSON")
+
+    return json.loads((ran.folder / "benchmark.json").read_text("utf-8"), parse_constant=refused)
+
+
+def rows(ran: Call) -> list[dict[str, str]]:
+    with (ran.folder / "cases.csv").open(encoding="utf-8", newline="") as text:
+        return list(csv.DictReader(text))
+
+
+def test_files_and_table(ran: Call) -> None:
+    assert {p.name for p in ran.folder.iterdir()} == FILES | {f"cases-{SEED}"}
+    printed = (ran.folder / "benchmark.md").read_text("utf-8")
+    assert printed in ran.out and f"Seed {SEED}" in printed
+    for words in ("false alarms | ≤ 5 %", "first-ranked right", "points ahead of", "seconds of one core"):
+        assert words in printed
+
+
+def test_figures_are_those_of_the_rows(ran: Call, content: dict) -> None:
+    """Counted again from cases.csv, without the scoring code."""
+    assert content["seed"] == SEED and content["cases"] == {"elbow": {"none": 1, "outside": 1}}
+    ours = content["figures"]["elbow"]["diagnosis"]
+    calm = [row for row in rows(ran) if row["kind"] == "none"]
+    assert ours["false_alarms"]["count"] == len(calm) == 1
+    assert ours["false_alarms"]["hits"] == sum(row["verdict"] != "no_gap" for row in calm)
+    strange = [row for row in rows(ran) if row["kind"] == "outside" and float(row["imitation_left [-]"]) >= 0.1]
+    assert ours["unknown_called"]["hits"] == sum(row["verdict"] == "unknown" for row in strange)
+    assert ours["brier"] == pytest.approx(np.mean([float(row["brier [-]"]) for row in rows(ran)]), abs=1e-9)
+    assert content["cpu_seconds"]["elbow"]["most"] == pytest.approx(max(float(r["cpu [s]"]) for r in rows(ran)), abs=1e-3)
+    assert content["same_in_another_dress"]["elbow"]["count"] == 1
+    oracle = content["figures"]["elbow"]["oracle"]
+    assert oracle["brier"] == 0.0 and oracle["false_alarms"]["hits"] == 0
+
+
+def test_case_folders_do_not_tell_the_answer(ran: Call) -> None:
+    """Labels lie beside the folders and nothing in these, names included, tells the kind."""
+    home = ran.folder / f"cases-{SEED}"
+    labels = json.loads((home / "labels.json").read_text("utf-8"))
+    folders = {p.name for p in home.iterdir() if p.is_dir()}
+    assert set(labels) == folders == {row["case"] for row in rows(ran)}
+    for name in folders:
+        files = [p for p in (home / name).rglob("*") if p.is_file()]
+        assert {p.name for p in files} == {"case.toml", *(f"t{i:02d}.csv" for i in range(1, len(files)))}
+        text = " ".join([name, *(p.name for p in files), (home / name / "case.toml").read_text("utf-8")])
+        assert not [word for word in ("none", "outside", "label", "effect", "nats", "seed") if word in text]
+
+
+def test_a_kept_case_is_the_planted_one(ran: Call) -> None:
+    for lot in lots(("elbow",), 2, ("none", "outside"), SEED):
+        planted = drawn(lot).case
+        kept = read_gap_case(ran.folder / f"cases-{SEED}" / planted.name)
+        for one, other in zip(planted.calibration, kept.calibration, strict=True):
+            np.testing.assert_allclose(one.signals.values, other.signals.values, rtol=1e-8)
+
+
+def test_a_case_that_breaks_down_is_told_and_scored_as_wrong(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("geocontact.cli.gap_benchmark_case.from_folder", lambda home: 1 / 0)
+    found = worked(Task(Lot("elbow", "none", SEED, 0), tmp_path))
+    assert found.answers["diagnosis"]["verdict"] == "failed" and np.isnan(found.cpu)
+    assert len(found.trouble) == 1 and "ZeroDivisionError" in found.trouble[0] and found.name in found.trouble[0]
+    assert not list(tmp_path.iterdir())
+
+
+def test_another_dress_is_another_dress() -> None:
+    case = drawn(Lot("elbow", "none", SEED, 0)).case
+    other = renamed(case)
+    assert not {t.name for t in case.calibration} & {t.name for t in other.calibration}
+    assert other.calibration[0].signals is case.calibration[-1].signals
+    said = {"verdict": "explained", "effects": ["slip"], "ambiguity": [], "absorbed": [], "probabilities": {"slip": 0.9}}
+    said |= {"gap": {"force": {"reduction": 0.5}}}
+    assert alike(said, said | {"probabilities": {"slip": 0.9005, "none": 0.0005}})
+    assert not alike(said, said | {"probabilities": {"slip": 0.89}})
+    assert not alike(said, said | {"gap": {"force": {"reduction": 0.51}}})
+    assert not alike(said, said | {"effects": ["damping"]})
+
+
+@pytest.mark.parametrize("cases", [1, 3, 7, 150, 151])
+def test_shares_add_up(cases: int) -> None:
+    assert sum(shares(cases).values()) == cases
+    assert shares(150) == SHARES and SHARES["none"] >= 50
+    assert sum(shares(cases, ("none", "fault")).values()) == cases
+
+
+def test_lots_are_the_seeds_own() -> None:
+    """A kind gets the same cases whatever else is asked for; another seed gives others."""
+    few = list(lots(("foot",), 2, ("fault",), 5))
+    many = list(lots(("elbow", "foot"), 150, KINDS, 5))
+    assert set(few) <= set(many)
+    names = {drawn(Lot("elbow", "none", seed, place)).case.name for seed in (5, 6) for place in (0, 1)}
+    assert len(names) == 4
+
+
+@pytest.mark.parametrize(
+    ("options", "complaint"),
+    [
+        (("--kinds", "none,single_effect"), "unknown kind ['single_effect']; kinds are none, single"),
+        (("--cases", 0), "0 is less than one case"),
+        (("--jobs", 0), "0 is less than one process"),
+        (("--again", "-1"), "-1 is less than none"),
+        (("--seed", "-1"), "-1 is negative"),
+        (("--system", "knee"), "knee"),
+    ],
+)
+def test_options_that_mean_nothing_are_refused(tmp_path: Path, options: tuple, complaint: str) -> None:
+    result = call("gap", "benchmark", "--out", tmp_path / "out", *options)
+    assert result.code == 2 and complaint in result.err and len(result.complaints) == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_help_imports_nothing_heavy() -> None:
+    program = "import sys; from geocontact.cli.main import run; run(['gap', 'benchmark', '--help']);"
+    program += "sys.stderr.write(' '.join({name.partition('.')[0] for name in sys.modules}))"
+    child = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, encoding="utf-8")
+    assert "--kinds" in child.stdout
+    assert not {"numba", "matplotlib", "pandas", "scipy"} & set(child.stderr.split())

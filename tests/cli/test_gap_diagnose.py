@@ -1,0 +1,232 @@
+"""`geocontact gap diagnose`: what it writes, that it is the contract's, and that names and units do not matter."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from geocontact.cli.gap_results import plain
+from tests.cli.calls import Call, call, done, inventory, process
+from tests.cli.gap_cases import DAMPING, damped_elbow, in_degrees_and_kilonewtons, known, reordered, spoilt
+
+TABLES = {"diagnosis.json", "run.json", "gap_map.csv", "ranking.csv", "held_out.csv"}
+FIGURES = {f"{name}.{ending}" for name in ("gap_map", "ranking", "gap_residuals") for ending in ("png", "svg")}
+KEYS = ["case", "system", "verdict", "effects", "probabilities", "ambiguity", "absorbed", "where", "gap", "parameters"]
+KEYS += ["faults", "remarks", "seconds", "version"]
+CHANNEL = ["rmse_before", "rmse_after", "noise_floor", "reduction", "ci95", "unexplained"]
+
+
+@pytest.fixture(scope="session")
+def good(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The case of a damped elbow."""
+    return damped_elbow(tmp_path_factory.mktemp("gap") / "elbow_7")
+
+
+@pytest.fixture(scope="session")
+def diagnosed(good: Path, tmp_path_factory: pytest.TempPathFactory) -> Call:
+    """Its diagnosis with everything that is written."""
+    out = tmp_path_factory.mktemp("diagnosed") / "out"
+    with known():
+        return done(call("gap", "diagnose", good, "--out", out, folder=out))
+
+
+@pytest.fixture(scope="session")
+def answer(diagnosed: Call) -> dict[str, Any]:
+    """diagnosis.json; NaN and Infinity are no JSON."""
+    return answer_in(diagnosed.folder)
+
+
+def answer_in(folder: Path) -> dict[str, Any]:
+    def refused(word: str) -> float:
+        raise AssertionError(f"{word} is not JSON")
+
+    return json.loads((folder / "diagnosis.json").read_text(encoding="utf-8"), parse_constant=refused)
+
+
+def numbers(value: Any) -> Iterator[float]:
+    """Every number in a nested answer."""
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list):
+        for each in value:
+            yield from numbers(each)
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        yield float(value)
+
+
+def test_everything_is_written_and_listed(diagnosed: Call) -> None:
+    expected = TABLES | FIGURES | {"report.html", "before_after_force.png", "before_after_force.svg"}
+    assert set(inventory(diagnosed.folder)) == expected
+    record = diagnosed.record()
+    assert record["command"] == "gap diagnose" and set(record["files"]) == expected
+    roles = [entry["role"] for entry in record["inputs"]]
+    assert roles == ["case", "calibration", "calibration", "evaluation", "evaluation"]
+    assert all(re.fullmatch("[0-9a-f]{64}", entry["sha256"]) for entry in record["inputs"])
+
+
+def test_the_answer_has_the_keys_of_the_contract_and_values_in_range(answer: dict[str, Any]) -> None:
+    assert list(answer) == KEYS
+    assert (answer["case"], answer["system"]) == ("elbow_7", "elbow")
+    assert answer["verdict"] in ("explained", "no_gap", "unknown", "unresolved")
+    assert (answer["verdict"] == "explained") == bool(answer["effects"])
+    assert all(math.isfinite(value) for value in numbers(answer))
+    probabilities = answer["probabilities"]
+    assert sum(probabilities.values()) == pytest.approx(1.0, abs=1e-12)
+    assert all(0.0 <= value <= 1.0 for value in probabilities.values())
+    assert {"none", "unknown"} <= set(probabilities)
+    assert answer["ambiguity"][: len(answer["effects"])] == answer["effects"]
+    assert len(answer["absorbed"]) <= 10
+    for where in answer["where"]:
+        assert set(where) <= {"channel", "phase", "share", "p_value", "stage"}
+        low, high = where["phase"]
+        assert 0.0 <= low < high <= 1.0 and 0.0 < where["p_value"] <= 1.0
+    assert sum(where["share"] for where in answer["where"]) == pytest.approx(1.0)
+    for gap in answer["gap"].values():
+        assert list(gap) == CHANNEL
+        low, high = gap["ci95"]
+        assert low <= gap["reduction"] <= high <= 1.0
+        assert gap["rmse_after"] > 0.0 and gap["noise_floor"] > 0.0
+        assert gap["unexplained"] is None or gap["unexplained"] >= 0.0
+    for parameter in answer["parameters"].values():
+        assert list(parameter) == ["value", "ci95", "unit", "identifiable"]
+        low, high = parameter["ci95"]
+        assert low <= parameter["value"] <= high and isinstance(parameter["identifiable"], bool)
+
+
+def test_the_damper_is_found_and_measured(answer: dict[str, Any]) -> None:
+    assert answer["effects"] == ["damping"] and answer["where"][0]["stage"] == "constitutive"
+    assert answer["gap"]["force"]["reduction"] > 0.8
+    low, high = answer["parameters"]["damping.b"]["ci95"]
+    assert 0.7 * DAMPING < low < high < 1.3 * DAMPING
+
+
+def test_the_verdict_is_said_in_one_sentence(diagnosed: Call, answer: dict[str, Any]) -> None:
+    said = diagnosed.out.splitlines()[0]
+    gap = answer["gap"]["force"]
+    low, high = (100.0 * edge for edge in answer["where"][0]["phase"])
+    assert said.startswith(f"damping is missing; it sits in force (phase {low:.0f}–{high:.0f} %, fast part of beta); ")
+    interval = ", ".join(f"{100.0 * edge:.0f}" for edge in gap["ci95"])
+    assert f"adding it removes {100.0 * gap['reduction']:.0f} % [{interval}] of the error on trials not used; " in said
+    assert said.endswith("% stays unexplained")
+
+
+def test_tables_agree_with_the_answer(diagnosed: Call, answer: dict[str, Any]) -> None:
+    ranking = diagnosed.table("ranking.csv")
+    assert ranking["gain [nats]"].is_monotonic_decreasing
+    told = ranking.dropna(subset="probability [-]").set_index("answer")["probability [-]"]
+    assert {name: told[name] for name in told.index} == pytest.approx(
+        {name: answer["probabilities"].get(name, 0.0) for name in told.index}, abs=1e-9
+    )
+    assert told.sum() <= 1.0 + 1e-9
+    cells = diagnosed.table("gap_map.csv")
+    assert {"phase", "beta", "beta'", "load", "band"} == set(cells["axis"])
+    sums = cells.groupby(["channel", "axis"])["share [-]"].sum()
+    assert all(value == pytest.approx(1.0) or value == 0.0 for value in sums)
+    assert cells["p_value [-]"].min() == pytest.approx(answer["where"][0]["p_value"])
+
+
+def test_held_out_curves_have_the_errors_of_the_answer(diagnosed: Call, answer: dict[str, Any]) -> None:
+    table = diagnosed.table("held_out.csv")
+    assert sorted(set(table["trial"])) == ["t03", "t04"]
+    for column, key in (("force_base [N]", "rmse_before"), ("force_with_effects [N]", "rmse_after")):
+        off = table["force [N]"] - table[column]
+        assert np.sqrt(np.mean(off**2)) == pytest.approx(answer["gap"]["force"][key], rel=1e-6)
+
+
+@dataclass(frozen=True)
+class Many:
+    """What one call with --many returned, said and wrote."""
+
+    code: int
+    out: str
+    err: str
+    folder: Path
+
+
+SAME = {"elbow_7": "itself", "Ωmega case 12": "another name", "turned": "another order", "degrees": "other units"}
+
+
+@pytest.fixture(scope="session")
+def many(good: Path, tmp_path_factory: pytest.TempPathFactory) -> Many:
+    """The same case in four guises, a wrong one and a folder that is none, in processes of their own."""
+    folder = tmp_path_factory.mktemp("many")
+    cases, out = folder / "cases", folder / "out"
+    cases.mkdir()
+    for name in ("elbow_7", "Ωmega case 12"):
+        spoilt(good, cases / name, "case.toml", "format = 1", "format = 1  # the same")
+    reordered(good, cases / "turned", ["t02", "t01"], ["t04", "t03"])
+    in_degrees_and_kilonewtons(good, cases / "degrees")
+    spoilt(good, cases / "wrong", "trials/t02.csv", "force [N]", "force [furlong]")
+    (cases / "no case").mkdir()
+    found = process("gap", "diagnose", cases, "--many", "--bare", "--workers", 2, "--out", out)
+    return Many(found.returncode, found.stdout, found.stderr, out)
+
+
+def test_a_wrong_case_costs_the_others_nothing(many: Many) -> None:
+    assert many.code == 2, many.err
+    (line,) = many.err.splitlines()
+    assert "wrong" in line and "t02.csv line 1, column 3: 'force' is in 'furlong'" in line
+    expected = {"run.json", "summary.csv", *SAME, *(f"{name}/{table}" for name in SAME for table in TABLES)}
+    assert set(inventory(many.folder)) == expected
+    assert pd.read_csv(many.folder / "summary.csv")["effects"].tolist() == ["damping"] * len(SAME)
+    told = json.loads((many.folder / "run.json").read_text(encoding="utf-8"))["results"]["cases"]
+    assert told.keys() == {*SAME, "wrong"} and told["turned"] == "done" and "furlong" in told["wrong"]
+    assert all(f"{name}: damping is missing; it sits in force" in many.out for name in SAME)
+
+
+@pytest.mark.parametrize("name", SAME)
+def test_names_order_and_units_do_not_change_the_answer(answer: dict[str, Any], many: Many, name: str) -> None:
+    """Also not from one process to another: the answer beside it was made in this one."""
+    again = answer_in(many.folder / name)
+    assert again["case"] == name
+    same, other = ({k: v for k, v in a.items() if k not in ("case", "seconds")} for a in (answer, again))
+    for key in ("verdict", "effects", "ambiguity", "absorbed", "faults", "remarks"):
+        assert same[key] == other[key]
+    for first, second in zip(numbers(same), numbers(other), strict=True):
+        assert first == pytest.approx(second, rel=1e-5, abs=1e-9)
+
+
+def test_bare_leaves_pictures_out_and_takes_old_ones_away(good: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "ranking.png").write_text("old")
+    (out / "notes.txt").write_text("mine")
+    (out / "run.json").write_text(json.dumps({"command": "gap diagnose", "files": ["ranking.png", "notes.txt"]}))
+    with known():
+        done(call("gap", "diagnose", good, "--bare", "--out", out))
+    assert set(inventory(out)) == TABLES | {"notes.txt"}
+
+
+def test_cases_that_are_gone_leave_nothing_behind(good: Path, tmp_path: Path) -> None:
+    """OUT/<case> of the run before goes when the case can no longer be diagnosed, unless another run has filled it."""
+    cases, out = tmp_path / "cases", tmp_path / "out"
+    cases.mkdir()
+    spoilt(good, cases / "a", "case.toml", "format = 1", "format = 1 ")
+    for name in ("gone", "others"):
+        (out / name).mkdir(parents=True)
+        (out / name / "diagnosis.json").write_text("{}")
+    told = {"command": "gap diagnose", "files": ["diagnosis.json"]}
+    top = {**told, "inputs": [{"folder": "gone"}, {"folder": "others"}], "results": {"run": "1"}}
+    for place, run in ((out, top), (out / "gone", {**told, "results": {"run": "1"}}), (out / "others", told)):
+        (place / "run.json").write_text(json.dumps(run))
+    with known():
+        done(call("gap", "diagnose", cases, "--many", "--bare", "--out", out))
+    left = {name.partition("/")[0] for name in inventory(out)}
+    assert left == {"run.json", "summary.csv", "a", "gone", "others"}
+    assert not (out / "gone" / "diagnosis.json").exists() and (out / "others" / "diagnosis.json").exists()
+
+
+def test_json_holds_pythons_own_numbers() -> None:
+    given = {"a": np.float64(1.5), "b": [np.nan, np.inf, -np.inf], "c": np.bool_(True), "d": (np.int64(3), None, "x")}
+    made = plain(given)
+    assert made == {"a": 1.5, "b": [None, None, None], "c": True, "d": [3, None, "x"]}
+    assert type(made["a"]) is float and type(made["d"][0]) is int and made["c"] is True

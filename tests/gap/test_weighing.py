@@ -1,0 +1,42 @@
+"""Whitening with trial-to-trial variation, and evidence, against dense covariances."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from geocontact.gap.evidence import log_evidence
+from geocontact.gap.weighing import Weighing
+from geocontact.identify.covariance import Layout, Levels, Sensitivity
+
+
+def parts(rng: np.random.Generator) -> tuple[Layout, Levels, np.ndarray]:
+    time = 0.05 * np.arange(60)
+    still = np.zeros((60, 1, 1))
+    levels = Levels(np.array([0.4]), np.array([0.6]), np.array([0.2]), np.array([1.0]))
+    return Layout.of(time, np.ones((60, 1), bool), Sensitivity(still, still)), levels, rng.standard_normal((60, 1, 2))
+
+
+def test_weighing_is_the_inverse_root_of_the_whole_covariance() -> None:
+    rng = np.random.default_rng(0)
+    layout, levels, varied = parts(rng)
+    weighing = Weighing.of(layout.whitener(levels), varied)
+    dense = layout.blocks[0].covariance(levels) + varied[:, 0] @ varied[:, 0].T
+    r = rng.standard_normal((60, 1, 1))
+    white = weighing(r)[:, 0]
+    assert white @ white == pytest.approx(float(r[:, 0, 0] @ np.linalg.solve(dense, r[:, 0, 0])))
+    assert weighing.log_scale == pytest.approx(0.5 * np.linalg.slogdet(dense)[1])
+
+
+def test_without_variation_it_is_the_whitener() -> None:
+    layout, levels, _ = parts(np.random.default_rng(1))
+    weighing = Weighing.of(layout.whitener(levels), np.zeros((60, 1, 0)))
+    assert weighing.log_scale == layout.whitener(levels).log_scale
+
+
+def test_evidence_is_that_of_the_dense_normal_distribution() -> None:
+    rng = np.random.default_rng(2)
+    design, spread, r = rng.standard_normal((40, 3)), np.array([0.5, 2.0, 0.0]), rng.standard_normal(40)
+    dense = np.eye(40) + (design * spread) @ (design * spread).T
+    expected = -0.5 * r @ np.linalg.solve(dense, r) - 0.5 * np.linalg.slogdet(dense)[1]
+    assert log_evidence(r, design, spread) == pytest.approx(expected)

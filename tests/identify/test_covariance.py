@@ -1,0 +1,111 @@
+"""Noise of several kinds: its covariance, its whitening, its levels."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.signal import butter, filtfilt
+
+from geocontact.identify.covariance import Block, Layout, Levels, Sensitivity, low_passed, most_likely
+
+COUNT, STEP = 150, 0.02
+
+
+def layout(present: np.ndarray | None = None) -> Layout:
+    time = STEP * np.arange(COUNT)
+    there = np.ones((COUNT, 2), bool) if present is None else present
+    to_value = np.ones((COUNT, 2, 1)) * np.array([[[5.0], [2.0]]])
+    to_rate = np.zeros((COUNT, 2, 1))
+    to_rate[:, 1] = 0.3
+    return Layout.of(time, there, Sensitivity(to_value, to_rate))
+
+
+LEVELS = Levels(np.array([0.3, 0.2]), np.array([0.5, 0.1]), np.array([0.1, 0.05]), np.array([0.04]))
+
+
+def whole(block: Block) -> np.ndarray:
+    return block.covariance(LEVELS)
+
+
+def test_rows_are_cut_into_blocks_and_every_measured_sample_is_in_one() -> None:
+    there = np.ones((COUNT, 2), bool)
+    there[40:60, 1] = False
+    found = layout(there)
+    assert len(found.blocks) > 1
+    assert sorted(found.rows) == sorted(np.flatnonzero(there.ravel()))
+
+
+def test_covariance_is_symmetric_and_sums_white_coloured_and_input_noise() -> None:
+    block = layout().blocks[0]
+    total = whole(block)
+    assert_allclose(total, total.T, atol=1e-12)
+    first = block.of_channel[0][0]
+    assert total[first, first] == pytest.approx(0.3**2 + 0.5**2 + 25.0 * 0.04**2, rel=1e-6)
+    second = block.of_channel[0][1]
+    away = low_passed(np.array([[STEP]]))[0][0, 0]
+    assert total[first, second] == pytest.approx(0.25 * np.exp(-STEP / 0.1) + 25.0 * 0.04**2 * away, rel=1e-6)
+
+
+def test_kernel_is_that_of_filtered_noise() -> None:
+    rng = np.random.default_rng(0)
+    noise = filtfilt(*butter(2, 6.0, fs=200.0), rng.standard_normal(400_000))
+    noise /= noise.std()
+    rate = np.gradient(noise, 0.005)
+    lags = np.array([0, 4, 10, 20])
+    value, mixed, both = low_passed(0.005 * lags[None].astype(float))
+    ends = len(noise) - lags.max()
+    for k, lag in enumerate(lags):
+        assert value[0, k] == pytest.approx(np.mean(noise[lag : lag + ends] * noise[:ends]), abs=0.02)
+        assert mixed[0, k] == pytest.approx(np.mean(rate[lag : lag + ends] * noise[:ends]), abs=0.6)
+        assert both[0, k] == pytest.approx(np.mean(rate[lag : lag + ends] * rate[:ends]), rel=0.05, abs=12.0)
+
+
+def test_whitened_noise_is_white_and_colouring_is_the_way_back() -> None:
+    rng = np.random.default_rng(1)
+    found = layout()
+    whitener = found.whitener(LEVELS)
+    independent = rng.standard_normal(len(found.rows))
+    flat = np.zeros(COUNT * 2)
+    flat[np.concatenate(whitener.rows)] = whitener.coloured(independent)
+    assert_allclose(whitener(flat.reshape(COUNT, 2, 1))[:, 0], independent, atol=1e-9)
+    logdet = sum(np.linalg.slogdet(whole(block))[1] for block in found.blocks)
+    assert whitener.log_scale == pytest.approx(0.5 * logdet)
+
+
+def test_derivatives_are_those_of_the_covariance() -> None:
+    block = layout().blocks[0]
+    rng = np.random.default_rng(2)
+    pull = rng.standard_normal((len(block.rows),) * 2)
+    pull = pull + pull.T
+    logs = LEVELS.logarithms()
+    exact = block.pulls(LEVELS, pull)
+    for k in range(len(logs)):
+        up, down = logs.copy(), logs.copy()
+        up[k] += 1e-5
+        down[k] -= 1e-5
+        change = (block.covariance(LEVELS.at(up)) - block.covariance(LEVELS.at(down))) / 2e-5
+        assert exact[k] == pytest.approx(float((pull * change).sum()), rel=1e-4, abs=1e-6)
+
+
+def test_levels_are_found_again() -> None:
+    rng = np.random.default_rng(3)
+    layouts = [layout() for _ in range(8)]
+    residuals = []
+    for each in layouts:
+        flat = np.zeros(COUNT * 2)
+        whitener = each.whitener(LEVELS)
+        flat[np.concatenate(whitener.rows)] = whitener.coloured(rng.standard_normal(len(each.rows)))
+        residuals.append(flat.reshape(COUNT, 2))
+    prior = LEVELS.at(LEVELS.logarithms() + 0.5)
+    nothing = [np.zeros((COUNT, 2, 0)) for _ in layouts]
+    found, surprise, _ = most_likely(layouts, residuals, nothing, prior, np.eye(7), prior)
+    assert_allclose(found.coloured[0], 0.5, rtol=0.15)
+    assert_allclose(found.memory[0], 0.1, rtol=0.35)
+    assert_allclose(found.inputs, 0.04, rtol=0.15)
+    assert surprise > 0.0
+
+
+def test_a_covariance_without_a_factor_is_raised_until_it_has_one() -> None:
+    loud = Levels(np.full(2, 1e-9), np.full(2, 1e-9), LEVELS.memory, np.array([1e3]))
+    assert np.isfinite(layout().whitener(loud).log_scale)
