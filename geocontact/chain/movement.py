@@ -132,7 +132,10 @@ def local_fit(
 def movement(
     time: Float[np.ndarray, " t"], inputs: tuple[str, ...], position: Float[np.ndarray, "i t"], reach: float = REACH
 ) -> Movement:
-    """Differentiate measured inputs by local fits over `reach` to either side [s]; ValueError when one was never measured."""
+    """Differentiate measured inputs by local fits over `reach` to either side [s].
+
+    ValueError when an input was never measured.
+    """
     fitted = np.empty((2, *position.shape))
     for row, name in enumerate(inputs):
         there = np.isfinite(position[row])
@@ -145,7 +148,9 @@ def movement(
     return Movement(time, inputs, np.where(np.isfinite(position), position, place), rate, acceleration)
 
 
-def by_differences(time: Float[np.ndarray, " t"], inputs: tuple[str, ...], position: Float[np.ndarray, "i t"]) -> Movement:
+def by_differences(
+    time: Float[np.ndarray, " t"], inputs: tuple[str, ...], position: Float[np.ndarray, "i t"]
+) -> Movement:
     """Inputs as they were measured, with central differences: what a simulator sees that smooths nothing.
 
     Empty cells are bridged by straight lines; ValueError when an input was never measured.

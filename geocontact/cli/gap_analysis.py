@@ -12,7 +12,6 @@ from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.admission import admitted
 from geocontact.gap.diagnose import Findings, diagnose
 from geocontact.io.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
@@ -41,7 +40,7 @@ def diagnosed(record: Record, folder: Path, draft: Path, o: DiagnoseOptions) -> 
     case = read_gap_case(folder)
     system = system_of(case)
     _add_inputs(record, folder, case)
-    findings = diagnose(admitted(case, system), system, __version__)
+    findings = diagnose(case, system, __version__)
     record.results["diagnosis"] = {
         "verdict": findings.diagnosis.verdict,
         "effects": list(findings.diagnosis.effects),

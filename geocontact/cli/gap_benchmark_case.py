@@ -15,7 +15,6 @@ from geocontact.cli.gap_results import plain
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.admission import admitted
 from geocontact.gap.benchmark.drawing import Lot, Planted, drawn
 from geocontact.gap.benchmark.imitation import LEFT, imitation
 from geocontact.gap.benchmark.residual_regression import residual_regression
@@ -121,7 +120,7 @@ def from_folder(home: Path) -> Findings:
     """The whole path of `gap diagnose` but for what is written."""
     case = read_gap_case(home)
     system = system_of(case)
-    return diagnose(admitted(case, system), system, __version__)
+    return diagnose(case, system, __version__)
 
 
 def _opponents(problem: Problem) -> dict[str, dict[str, Any]]:

@@ -20,7 +20,17 @@ def offer(system: System) -> tuple[Candidate, ...]:
     law = with_law(
         {"stiffening.gain": a.name, "stiffening.exponent": p.name, "stiffening.reference": system.scale.deflection}
     )
-    return (Candidate("stiffening", "", "constitutive", (a, p), law, {a.name: 0.0}, ({a.name: 1.5, p.name: 3.0}, {a.name: 0.5, p.name: 6.0})),)
+    return (
+        Candidate(
+            "stiffening",
+            "",
+            "constitutive",
+            (a, p),
+            law,
+            {a.name: 0.0},
+            ({a.name: 1.5, p.name: 3.0}, {a.name: 0.5, p.name: 6.0}),
+        ),
+    )
 
 
 STIFFENING = Effect(

@@ -11,6 +11,7 @@ from geocontact.data.gap_case import GapCase
 from geocontact.gap.contest import Contender, base_contender, mates, singles
 from geocontact.gap.evidence import settled
 from geocontact.gap.faults import Fault, fault_of
+from geocontact.gap.mending import mended
 from geocontact.gap.oddities import Oddity, oddities
 from geocontact.gap.problem import Problem, problem_of
 from geocontact.gap.surrogate import Surrogate, surrogate
@@ -62,7 +63,7 @@ def attribute(case: GapCase, system: System, offer: Offer) -> Attribution:
     """Which effect a case lacks; `offer` gives the candidates for a system once its scale is known."""
     problem = problem_of(case, system)
     fault = fault_of(problem, offer(problem.system))
-    clean = problem if fault is None else problem_of(case, fault.candidate.apply(system))
+    clean = problem if fault is None else problem_of(mended(case, fault), system)
     candidates = offer(clean.system)
     base = base_contender(clean)
     single = singles(clean, base, candidates)

@@ -58,8 +58,7 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
     Noise fitted to the base model explains away what it misses, so all are fitted under quieter noise first, then under
     the noise that suits the best of them; the leading ones of both rounds get noise of their own.
     """
-    new = [one for one in candidates if one.label not in problem.system.effects]
-    movable = [one for one in new if one.parameters or _nearly_a_gain(one)]
+    movable = [one for one in candidates if one.parameters or _nearly_a_gain(one)]
     reference = base.judged.model
     noise = problem.quieter(base.judged.noise)
     rounds: list[dict[str, Refit]] = []
@@ -90,7 +89,7 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
 
 def _nearly_a_gain(one: Candidate) -> bool:
     """Whether it is a wrong unit by a factor that refitted base parameters may take for their own."""
-    return one.somewhere is not None and 1.0 != one.factor and 1.0 / MODEST <= one.factor <= MODEST
+    return one.somewhere is not None and one.factor != 1.0 and 1.0 / MODEST <= one.factor <= MODEST
 
 
 def mates(problem: Problem, first: Contender, candidates: Sequence[Candidate]) -> list[Contender]:

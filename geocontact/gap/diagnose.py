@@ -13,6 +13,7 @@ from geocontact.data.diagnosis import ChannelGap, Diagnosis, Estimate, FaultFoun
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.absorbed import absorbed
+from geocontact.gap.admission import admitted
 from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.evidence import Judged, prior_spread
 from geocontact.gap.locate import Cell, gap_map, windows
@@ -45,6 +46,7 @@ def diagnose(case: GapCase, system: System, version: str = "") -> Findings:
         Of the package, for the record.
     """
     began = time.perf_counter()
+    case = admitted(case, system)
     found = attribute(case, system, candidates)
     said, problem = found.answer, found.problem
     named = bool(said.effects) or said.verdict == "unresolved"
@@ -54,13 +56,17 @@ def diagnose(case: GapCase, system: System, version: str = "") -> Findings:
     cells = gap_map(found.clean, found.base.judged)
     gap = {
         name: ChannelGap(s.rmse_before, s.rmse_after, s.floor, s.reduction, (s.low, s.high), s.unexplained)
-        for name, s in shrinkage(problem, chosen, named).items()
+        for name, s in shrinkage(problem, found.clean, chosen, named, found.fault).items()
     }
     stages = {one.name: one.stage for one in offered}
     stage = stages.get(said.effects[0], "") if said.effects else ""
-    where = () if said.verdict == "no_gap" else tuple(
-        Where(w.channel, w.phase, w.share, w.p_value, stage)
-        for w in windows(problem, found.base.judged, chosen if named else None, cells)
+    where = (
+        ()
+        if said.verdict == "no_gap"
+        else tuple(
+            Where(w.channel, w.phase, w.share, w.p_value, stage)
+            for w in windows(problem, found.clean, found.base.judged, chosen if named else None, found.fault, cells)
+        )
     )
     diagnosis = Diagnosis(
         case=case.name,

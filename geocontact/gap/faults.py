@@ -45,7 +45,8 @@ def fault_of(problem: Problem, candidates: Sequence[Candidate]) -> Fault | None:
         for one, cost in _costs(problem, mistakes, some):
             if best is None or cost < best[0]:
                 best = (cost, one, some)
-    assert best is not None
+    if best is None:
+        return None
     cost, one, some = best
     before = _cost(problem, problem.system, problem.calibration, problem.plain.values).sum()
     if cost > FIXED_BY * before:
@@ -55,7 +56,9 @@ def fault_of(problem: Problem, candidates: Sequence[Candidate]) -> Fault | None:
 
 def gross(problem: Problem, measured: Measured) -> bool:
     """Whether some channel of some trial is missed by a large share of its size."""
-    for residual, outputs in zip(measured.residuals(problem.system, problem.plain.values), measured.outputs, strict=True):
+    for residual, outputs in zip(
+        measured.residuals(problem.system, problem.plain.values), measured.outputs, strict=True
+    ):
         size = np.sqrt(np.nanmean(outputs**2, axis=0))
         if (np.sqrt(np.mean(residual**2, axis=0)) > GROSS * np.maximum(size, 3.0 * problem.floor_of_noise)).any():
             return True

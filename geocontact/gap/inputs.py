@@ -2,15 +2,16 @@
 
 A low-pass filter, an inertia or a damper that a model does not have can look useful merely because it smooths the noise
 of the inputs that the model is driven by. The noise of each input is estimated from what the base model misses
-(`identify.covariance`), its spectrum is that of the low-pass filter that motion usually has been through, and the Wiener
-filter 1 - N/P takes it off: P is the spectrum of the recording, N that of the noise. Where the signal stands far above
-the noise nothing changes.
+(`identify.covariance`), its spectrum is that of the low-pass filter that motion usually has been through, and the
+Wiener filter 1 - N/P takes it off: P is the spectrum of the recording, N that of the noise. Where the signal stands
+far above the noise nothing changes.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Complex, Float
@@ -59,7 +60,7 @@ def seen_noise(trials: Sequence[Trial], name: str) -> float | None:
     return plateau(recordings) if recordings else None
 
 
-def plateau(recordings: Sequence[tuple[Float[np.ndarray, " n"], float]]) -> float | None:
+def plateau(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]]) -> float | None:
     """Standard deviation of an input's noise where its spectrum shows it, else None.
 
     A movement slower than the low-pass filter leaves a plateau of noise between its own frequencies and the corner:
@@ -67,7 +68,7 @@ def plateau(recordings: Sequence[tuple[Float[np.ndarray, " n"], float]]) -> floa
     and their step [s].
     """
     levels = []
-    for low, high in zip(PLATEAU[:-1], PLATEAU[1:], strict=True):
+    for low, high in pairwise(PLATEAU):
         power = []
         for values, step in recordings:
             spectrum, frequency, scale = _spectrum(values, step)

@@ -10,12 +10,15 @@ each frequency band is compared with that of noise drawn from the fitted levels,
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.movement import recorded
 from geocontact.gap.evidence import Judged
+from geocontact.gap.faults import Fault
+from geocontact.gap.mending import put_back
 from geocontact.gap.problem import Problem, noise_variance
 
 PHASES = 20
@@ -68,8 +71,18 @@ def gap_map(problem: Problem, base: Judged) -> tuple[Cell, ...]:
     return (*_means(problem, base), *_bands(problem, base))
 
 
-def windows(problem: Problem, base: Judged, after: Judged | None, cells: tuple[Cell, ...]) -> tuple[Window, ...]:
+def windows(
+    problem: Problem,
+    clean: Problem,
+    base: Judged,
+    after: Judged | None,
+    fault: Fault | None,
+    cells: tuple[Cell, ...],
+) -> tuple[Window, ...]:
     """Channels with a gap, the one with most of it first, on the held-out trials.
+
+    `problem` is the case as it came, `clean` the one with the mistake `fault` undone. `base`, and `after` where
+    something was named, were fitted to the latter.
 
     With a model that explains the gap it is the difference of the two predictions; without one it is the squared
     residual less the variance of the noise.
@@ -80,10 +93,11 @@ def windows(problem: Problem, base: Judged, after: Judged | None, cells: tuple[C
     before = problem.evaluation.residuals(problem.system, problem.plain.values)
     for i, (trial, there) in enumerate(zip(problem.evaluation.trials, problem.evaluation.present, strict=True)):
         if after is None:
-            noise = noise_variance(problem.layouts[count + i], base.noise.levels)
+            noise = noise_variance(clean.layouts[count + i], base.noise.levels)
             square = before[i] ** 2 - noise
         else:
-            square = (before[i] - after.model.residuals[count + i]) ** 2
+            left = put_back(fault, trial.name, problem.system.outputs, after.model.residuals[count + i])
+            square = (before[i] - left) ** 2
         own = (trial.time - trial.time[0]) / (trial.time[-1] - trial.time[0])
         for c in range(curves.shape[1]):
             if there[:, c].any():
@@ -182,8 +196,8 @@ def _axes(problem: Problem, base: Judged) -> list[tuple[str, list[np.ndarray], F
     found = [("phase", phase, np.linspace(0.0, 1.0, PHASES + 1))]
     movements = [recorded(t.signals, problem.system.inputs) for t in trials]
     for row, name in enumerate(problem.system.inputs):
-        for axis, values in ((name, [m.position[row] for m in movements]), (f"{name}'", [m.rate[row] for m in movements])):
-            found.append((axis, values, _quantiles(values)))
+        position, rate = [m.position[row] for m in movements], [m.rate[row] for m in movements]
+        found += [(axis, values, _quantiles(values)) for axis, values in ((name, position), (f"{name}'", rate))]
     load = [m[:, 0] - r[:, 0] for m, r in zip(outputs, base.model.residuals, strict=True)]
     found.append(("load", [np.nan_to_num(v) for v in load], _quantiles(load)))
     return found
@@ -228,6 +242,5 @@ def _energies(time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t c"]) -
     power = np.abs(np.fft.rfft(np.nan_to_num(values), axis=0)) ** 2 / len(time) ** 2
     power[1:] *= 2.0
     frequency = np.fft.rfftfreq(len(time), step)
-    return np.array(
-        [power[(frequency >= low) & (frequency < high)].sum(axis=0) for low, high in zip(BANDS[:-1], BANDS[1:], strict=True)]
-    ).T
+    bands = [power[(frequency >= low) & (frequency < high)].sum(axis=0) for low, high in pairwise(BANDS)]
+    return np.array(bands).T

@@ -1,8 +1,8 @@
 """What no candidate makes and no surrogate sees: a narrow line, a burst, held samples, coarse steps.
 
-Noise is coloured at most, its spectrum smooth; whitened by the right model it is white. Each check compares the whitened
-residual, or the recording itself, with that, and says in nats (minus the logarithm of a p-value that is corrected for
-everything that was looked at) how far off it is.
+Noise is coloured at most, its spectrum smooth; whitened by the right model it is white. Each check compares the
+whitened residual, or the recording itself, with that, and says in nats (minus the logarithm of a p-value that is
+corrected for everything that was looked at) how far off it is.
 """
 
 from __future__ import annotations

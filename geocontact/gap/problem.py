@@ -18,6 +18,7 @@ from geocontact.identify.trial_variation import Products, variation
 
 REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own
+BARELY = 0.5  # trials that the usual variation counts as where the trials are to speak
 MEMORY = 2.0  # times its usual correlation time that quiet noise may remember
 MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
 
@@ -65,7 +66,7 @@ class Problem:
     @property
     def floor_of_noise(self) -> Float[np.ndarray, " c"]:
         """Noise of each channel as it was believed beforehand: a scale, no estimate."""
-        return np.hypot(self.prior.white, self.prior.coloured)
+        return np.asarray(np.hypot(self.prior.white, self.prior.coloured))
 
     def weighed(self, model: Refit, before: Noise | None = None) -> Noise:
         """Noise levels and variation that make a model's residuals most likely, calibration trials only."""
@@ -82,7 +83,8 @@ class Problem:
                 self.prior if levels is None else levels,
             )
             sd = self._variation(model, levels)
-        assert levels is not None
+        if levels is None:
+            raise ValueError("noise was not estimated")
         return Noise(levels, sd, surprise, self._whiteners(levels))
 
     def quieter(self, noise: Noise) -> Noise:
@@ -106,13 +108,17 @@ class Problem:
     def _whiteners(self, levels: Levels) -> tuple[Whitener, ...]:
         return tuple(layout.whitener(levels) for layout in self.layouts)
 
-    def _variation(self, model: Refit, levels: Levels) -> Float[np.ndarray, " q"]:
+    def _variation(self, model: Refit, levels: Levels, weight: float = 4.0) -> Float[np.ndarray, " q"]:
         products = []
-        for layout, residual, jacobian in zip(self.calibration_layouts, model.residuals, model.jacobian, strict=True):
+        for layout, residual, jacobian in zip(self.calibration_layouts, model.residuals, model.jacobian, strict=False):
             whitener = layout.whitener(levels)
             design = whitener(jacobian[..., : len(self.usual)])
             products.append(Products.of(whitener(residual[..., None])[:, 0], design))
-        return np.minimum(variation(products, self.usual).sd, MOST_VARIATION * self.usual)
+        return np.asarray(np.minimum(variation(products, self.usual, weight).sd, MOST_VARIATION * self.usual))
+
+    def seen_variation(self, model: Refit, noise: Noise) -> Float[np.ndarray, " q"]:
+        """How much trials of the calibration do differ, with next to nothing believed beforehand."""
+        return self._variation(model, noise.levels, BARELY)
 
     def fitting(self, noise: Noise, model: Refit) -> list[Weighing]:
         """Whitening of the calibration trials."""
@@ -232,7 +238,10 @@ def base_starts(system: System) -> list[dict[str, float]]:
     return [
         {},
         *(
-            {p.name: float(p.lower + (0.1 + 0.8 * u) * (p.upper - p.lower)) for p, u in zip(parameters, row, strict=True)}
+            {
+                p.name: float(p.lower + (0.1 + 0.8 * u) * (p.upper - p.lower))
+                for p, u in zip(parameters, row, strict=True)
+            }
             for row in spread
         ),
     ]
@@ -256,9 +265,9 @@ def floor_of(problem: Problem, noise: Noise, model: Refit) -> Float[np.ndarray, 
     for layout, jacobian, present in zip(
         problem.calibration_layouts, model.jacobian, problem.calibration.present, strict=True
     ):
-        own = noise_variance(layout, noise.levels) + (
-            (jacobian[..., : len(noise.varies)] * noise.varies) ** 2
-        ).sum(axis=-1)
+        own = noise_variance(layout, noise.levels) + ((jacobian[..., : len(noise.varies)] * noise.varies) ** 2).sum(
+            axis=-1
+        )
         squares += np.where(present, own, 0.0).sum(axis=0)
         counts += present.sum(axis=0)
     return np.sqrt(squares / np.maximum(counts, 1))

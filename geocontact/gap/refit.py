@@ -141,7 +141,7 @@ def refit(
         return weighed([r[..., None] for r in measured.residuals(system, values_at(z))])[:, 0]
 
     def slope(z: Float[np.ndarray, " p"]) -> np.ndarray:
-        return -weighed(derivatives(system, measured, values_at(z))) * scale
+        return np.asarray(-weighed(derivatives(system, measured, values_at(z))) * scale)
 
     best, least = None, np.inf
     for start in starts:
@@ -155,13 +155,12 @@ def refit(
         )
         if found.cost < least:
             best, least = found.x, found.cost
-    assert best is not None
+    if best is None:
+        raise ValueError("a search without a start")
     return at(system, measured, weighings, values_at(best))
 
 
-def at(
-    system: System, measured: Measured, weighings: Sequence[Weigh] | None, values: Mapping[str, float]
-) -> Refit:
+def at(system: System, measured: Measured, weighings: Sequence[Weigh] | None, values: Mapping[str, float]) -> Refit:
     """A model at given values, nothing fitted; without weighings nothing is whitened either."""
     residuals = measured.residuals(system, values)
     jacobian = derivatives(system, measured, values, residuals)

@@ -2,14 +2,15 @@
 
 What is asked for is the reduction on fresh trials of the same kind, of which the held-out ones are a few. The error
 that stays is noise, noise of the inputs and trial-to-trial variation; it is estimated from all trials together, with
-what the fitted noise levels imply counted as a few trials more. The error that goes is the difference between the two
-models' predictions. With a² the first and g² the second, mean squares over the held-out trials,
+what the fitted noise levels imply counted as part of a trial more. The error that goes is the difference between the
+two models' predictions. With a² the first and g² the second, mean squares over the held-out trials,
 
     reduction = 1 - rmse_after / rmse_before = 1 - (1 + g²/a²)^(-1/2).
 
 Both models are given the inputs as they were measured, with central differences for rates, since that is what a
-simulator in somebody's hands does; smoothing them first leaves less of an error than is reported here. The interval comes from the spread of log(g²/a²): parameters (from the fit), trials that differ in motion and in their
-deviations, and the form of the effect, which is never exactly that of the candidate.
+simulator in somebody's hands does; smoothing them first leaves less of an error than is reported here. The interval
+comes from the spread of log(g²/a²): parameters (from the fit), trials that differ in motion and in their deviations,
+and the form of the effect, which is never exactly that of the candidate.
 """
 
 from __future__ import annotations
@@ -20,11 +21,14 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap.evidence import Judged, prior_spread
+from geocontact.gap.faults import Fault
+from geocontact.gap.mending import put_back
 from geocontact.gap.problem import Plain, Problem, noise_variance
 from geocontact.gap.refit import refit
 
 IMPLIED = 0.3  # trials that the fitted noise levels count as
 FORM = 0.04  # relative standard deviation of g² for the form of the effect
+WIDE = 1.0  # half-width of the interval of log(g²/a²) beyond which it is taken of g²/a² itself
 Z95 = 1.959964
 TELLING = 2.0  # times the squared floor that the squared error before must be, for a share to mean something
 
@@ -54,12 +58,32 @@ class Shrinkage:
     unexplained: float | None
 
 
-def shrinkage(problem: Problem, after: Judged, named: bool) -> dict[str, Shrinkage]:
-    """Of every channel; `after` is the model with what was named, or the base where nothing was."""
+def shrinkage(
+    problem: Problem, clean: Problem, after: Judged, named: bool, fault: Fault | None = None
+) -> dict[str, Shrinkage]:
+    """Of every channel.
+
+    Parameters
+    ----------
+    problem, clean
+        The case as it came, and with a mistake in its data undone; the same where there is none.
+    after
+        The model with what was named, fitted to the clean case, or the base where nothing was.
+    named
+        Whether anything was.
+    fault
+        The mistake. Calibration trials that have it while others have not tell nothing of what stays on others.
+    """
+    varies = clean.seen_variation(after.model, after.noise)
+    outputs = problem.system.outputs
+    names = [trial.name for trial in problem.recorded.trials]
+    jacobian = [put_back(fault, n, outputs, j) for n, j in zip(names, after.model.jacobian, strict=True)]
+    sound = [fault is None or trial.name not in fault.trials for trial in problem.calibration.trials]
+    used = [*(sound if any(sound) else [True] * len(sound)), *(True for _ in problem.evaluation.trials)]
     count = len(problem.calibration.trials)
-    residuals = as_measured(problem, after)
+    residuals = as_measured(problem, clean, after, fault)
     present = problem.recorded.present
-    floors = _floors(problem, after, residuals.after)
+    floors = _floors(clean, after, varies, fault)
     found = {}
     for c, name in enumerate(problem.system.outputs):
         error = _mean_square(residuals.before[count:], present[count:], c)
@@ -68,11 +92,14 @@ def shrinkage(problem: Problem, after: Judged, named: bool) -> dict[str, Shrinka
         if not named:
             found[name] = Shrinkage(error**0.5, error**0.5, floor**0.5, 0.0, 0.0, 0.0, None)
             continue
-        gone, gone_sd = _gone(problem, after, residuals, c)
-        left, left_sd = _left(problem, after, residuals.after, floors, c)
+        gone, gone_sd = _gone(problem, after, jacobian, residuals, c)
+        left, left_sd = _left(problem, jacobian, varies, used, residuals.after, floors, c)
         ratio = gone / left
-        spread = Z95 * np.hypot(gone_sd / max(gone, 1e-300), left_sd / left)
-        low, middle, high = (1.0 - (1.0 + ratio * np.exp(s)) ** -0.5 for s in (-spread, 0.0, spread))
+        spread = Z95 * float(np.hypot(gone_sd / max(gone, 1e-300), left_sd / left))
+        ratios = (ratio * np.exp(-spread), ratio, ratio * np.exp(spread))
+        if spread > WIDE:  # little goes, so little that it might be nothing: its own error, not that of its logarithm
+            ratios = (ratio * max(1.0 - spread, 0.0), ratio, ratio * (1.0 + spread))
+        low, middle, high = (1.0 - (1.0 + each) ** -0.5 for each in ratios)
         share = None
         if error >= TELLING * floor:
             share = float(max(left - floor, 0.0) / (left + gone - floor)) if left + gone > floor else 0.0
@@ -88,7 +115,7 @@ class Residuals:
     after: list[Float[np.ndarray, "_ c"]]
 
 
-def as_measured(problem: Problem, after: Judged) -> Residuals:
+def as_measured(problem: Problem, clean: Problem, after: Judged, fault: Fault | None) -> Residuals:
     """Base model refitted by plain least squares, and the model with the effect at its values."""
     base = problem.system.as_measured()
     count = len(problem.calibration.trials)
@@ -96,8 +123,11 @@ def as_measured(problem: Problem, after: Judged) -> Residuals:
     first = replace(whole, trials=whole.trials[:count], outputs=whole.outputs[:count])
     weigh = [Plain(there, problem.floor) for there in first.present]
     values = refit(base, first, weigh, [problem.plain.values], 20).values
+    later = clean.recorded.residuals(after.model.system.as_measured(), after.model.values)
+    names, outputs = [trial.name for trial in whole.trials], problem.system.outputs
     return Residuals(
-        whole.residuals(base, values), whole.residuals(after.model.system.as_measured(), after.model.values)
+        whole.residuals(base, values),
+        [put_back(fault, name, outputs, each) for name, each in zip(names, later, strict=True)],
     )
 
 
@@ -106,24 +136,31 @@ def _mean_square(residuals: list[np.ndarray], present: tuple[np.ndarray, ...], c
     return float(np.mean(values**2)) if len(values) else 0.0
 
 
-def _floors(problem: Problem, after: Judged, seen: list[np.ndarray]) -> list[Float[np.ndarray, " c"]]:
-    """Mean square per channel of what no model can predict, trial by trial: sensor noise, noise that inputs bring in,
-    what smoothing them would take off, and trial-to-trial variation."""
+def _floors(clean: Problem, after: Judged, varies: np.ndarray, fault: Fault | None) -> list[Float[np.ndarray, " c"]]:
+    """Mean square per channel of what no model can predict, trial by trial.
+
+    Sensor noise, noise that inputs bring in, what smoothing them would take off, and trial-to-trial variation.
+    """
     found = []
+    raw = clean.recorded.residuals(after.model.system.as_measured(), after.model.values)
     everything = zip(
-        problem.layouts, after.model.jacobian, problem.recorded.present, after.model.residuals, seen, strict=True
+        clean.layouts, after.model.jacobian, clean.recorded.present, after.model.residuals, raw, strict=True
     )
-    for layout, jacobian, there, smooth, rough in everything:
-        own = noise_variance(layout, after.noise.levels) + _varied(problem, after, jacobian) + (smooth - rough) ** 2
+    for trial, (layout, jacobian, there, smooth, rough) in zip(clean.recorded.trials, everything, strict=True):
+        own = noise_variance(layout, after.noise.levels) + _varied(jacobian, varies) + (smooth - rough) ** 2
+        own = put_back(fault, trial.name, clean.system.outputs, np.sqrt(own)) ** 2
         found.append(np.where(there, own, 0.0).sum(axis=0) / np.maximum(there.sum(axis=0), 1))
     return found
 
 
-def _varied(problem: Problem, after: Judged, jacobian: np.ndarray) -> Float[np.ndarray, "t c"]:
-    return np.asarray(((jacobian[..., : len(problem.usual)] * after.noise.varies) ** 2).sum(axis=-1))
+def _varied(jacobian: Float[np.ndarray, "t c p"], varies: Float[np.ndarray, " q"]) -> Float[np.ndarray, "t c"]:
+    """Variance that trial-to-trial variation brings to each sample."""
+    return np.asarray(((jacobian[..., : len(varies)] * varies) ** 2).sum(axis=-1))
 
 
-def _gone(problem: Problem, after: Judged, residuals: Residuals, c: int) -> tuple[float, float]:
+def _gone(
+    problem: Problem, after: Judged, derivatives: list[np.ndarray], residuals: Residuals, c: int
+) -> tuple[float, float]:
     """Mean square difference of the two models' predictions on held-out trials, and its standard deviation."""
     count = len(problem.calibration.trials)
     spread = prior_spread(after.model.system, after.model.values)
@@ -134,7 +171,7 @@ def _gone(problem: Problem, after: Judged, residuals: Residuals, c: int) -> tupl
         residuals.before[count:],
         residuals.after[count:],
         problem.evaluation.present,
-        after.model.jacobian[count:],
+        derivatives[count:],
         strict=True,
     ):
         off = (first - second)[there[:, c], c]
@@ -149,18 +186,22 @@ def _gone(problem: Problem, after: Judged, residuals: Residuals, c: int) -> tupl
 
 
 def _left(
-    problem: Problem, after: Judged, seen: list[np.ndarray], floors: list[np.ndarray], c: int
+    problem: Problem,
+    derivatives: list[np.ndarray],
+    varies: np.ndarray,
+    used: list[bool],
+    seen: list[np.ndarray],
+    floors: list[np.ndarray],
+    c: int,
 ) -> tuple[float, float]:
     """Mean square error that stays on a fresh trial, and its standard deviation."""
     count = len(problem.calibration.trials)
     each = []
-    for i, (residual, there, jacobian) in enumerate(
-        zip(seen, problem.recorded.present, after.model.jacobian, strict=True)
-    ):
-        if not there[:, c].any():
+    for i, (residual, there, jacobian) in enumerate(zip(seen, problem.recorded.present, derivatives, strict=True)):
+        if not there[:, c].any() or not used[i]:
             continue
         own = float(np.mean(residual[there[:, c], c] ** 2))
-        taken = float(np.mean(_varied(problem, after, jacobian)[there[:, c], c])) / count if i < count else 0.0
+        taken = float(np.mean(_varied(jacobian, varies)[there[:, c], c])) / count if i < count else 0.0
         each.append(own + taken)
     implied = float(np.mean([f[c] for f in floors[count:]]))
     weight = len(each) + IMPLIED

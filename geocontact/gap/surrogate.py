@@ -1,8 +1,8 @@
 """A flexible stand-in for whatever a model misses: bumps over position, rate, both, and time, changing parameters.
 
-A discrepancy as of Kennedy & O'Hagan (2001, J. R. Stat. Soc. B 63:425), on a grid of radial functions of which only those
-are taken, one by one, that are worth their price (matching pursuit: Mallat & Zhang, IEEE Trans. Signal Process. 41:3397,
-1993), their weights integrated out. It cannot name a cause. It answers whether
+A discrepancy as of Kennedy & O'Hagan (2001, J. R. Stat. Soc. B 63:425), on a grid of radial functions of which only
+those are taken, one by one, that are worth their price (matching pursuit: Mallat & Zhang, IEEE Trans. Signal Process.
+41:3397, 1993), their weights integrated out. It cannot name a cause. It answers whether
 there is anything systematic to explain, and how much of it a named effect leaves over.
 """
 
@@ -125,7 +125,7 @@ def chosen(
 
 
 def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
-    """Name and features of every family, one array per trial, calibration first, each channel with weights of its own."""
+    """Name and features of every family: one array per trial, calibration first, channels with weights of their own."""
     trials = problem.calibration.trials + problem.evaluation.trials
     system, scale = problem.system, problem.floor_of_noise
     movements = [recorded(trial.signals, system.inputs) for trial in trials]

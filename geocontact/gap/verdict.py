@@ -20,8 +20,9 @@ Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
 SURE = 8.0  # nats below which a gain may be luck
 FORM = 0.02  # tolerance of form, as a share of what is explained
 LEFT_OVER = 0.12  # of all there is to explain may be left by the effect that is named
-PAIR = 0.12  # of what is explained that a second effect must add
+PAIR = 0.07  # of what is explained that a second effect must add
 ALIVE = 0.03  # least probability of a candidate that is still in question
+BEYOND = 0.3  # part of what a gain exceeds that by that counts
 STRANGER = 6.0  # nats more that something without a name must gain: a stand-in also finds what models smooth away
 ALLOWED = 4.0  # nats that luck may add on held-out trials
 MOST = 4  # candidates still in question beyond which nothing is named
@@ -44,14 +45,13 @@ def borne_out(total: float, calibration: float, share: float) -> float:
     An effect that is there shows in the trials that it was fitted to about as much as in the others. `share` is the
     calibration trials' part of all samples.
     """
-    return min(total, calibration / share + ALLOWED)
+    expected = calibration / share + ALLOWED
+    return total if total <= expected else expected + BEYOND * (total - expected)
 
 
 def gain_of(one: Contender, over: Contender, share: float) -> float:
     """What a model gains over another [nats]."""
-    return borne_out(
-        one.judged.nats - over.judged.nats, one.judged.calibration - over.judged.calibration, share
-    )
+    return borne_out(one.judged.nats - over.judged.nats, one.judged.calibration - over.judged.calibration, share)
 
 
 def answer(
@@ -152,8 +152,10 @@ def _said(
         return Answer("no_gap", (), probabilities, (), base)
     if joint[("unknown",)] >= effects_odds:
         return Answer("unknown", (), probabilities, alive, base)
-    named = top if top[0] not in ("none", "unknown") else max(
-        (names for names in joint if names[0] not in ("none", "unknown")), key=lambda names: joint[names]
+    named = (
+        top
+        if top[0] not in ("none", "unknown")
+        else max((names for names in joint if names[0] not in ("none", "unknown")), key=lambda names: joint[names])
     )
     chosen = max((c for c in living if c.names == named), key=lambda c: gains[c.label])
     if len(alive) > MOST:

@@ -72,9 +72,7 @@ def sensitivity(system: System, trial: Trial, values: Mapping[str, float]) -> Se
         columns = []
         for row, name in enumerate(system.inputs):
             step = BUMP * per_second * system.scale.span.get(name, 1.0)
-            above, below = (
-                _bumped(system, kind, row, sign * step).simulate(trial, values) for sign in (1.0, -1.0)
-            )
+            above, below = (_bumped(system, kind, row, sign * step).simulate(trial, values) for sign in (1.0, -1.0))
             columns.append(np.nan_to_num((above - below) / (2.0 * step)))
         answers.append(np.stack(columns, axis=-1))
     return Sensitivity(*answers)

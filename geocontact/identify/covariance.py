@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -49,7 +50,7 @@ class Levels:
 
     def logarithms(self) -> Float[np.ndarray, " h"]:
         """All numbers in one vector of logarithms."""
-        return np.log(np.concatenate([self.white, self.coloured, self.memory, self.inputs]))
+        return np.asarray(np.log(np.concatenate([self.white, self.coloured, self.memory, self.inputs])))
 
     def at(self, logarithms: Float[np.ndarray, " h"]) -> Levels:
         """Levels of the same shape from such a vector."""
@@ -107,7 +108,7 @@ class Layout:
         """Blocks of a trial; `present` (t, c) says which samples were measured."""
         count = max(1, round(present.sum() / BLOCK_ROWS))
         edges = [round(each) for each in np.linspace(0, len(time), count + 1)]
-        blocks = [_block(time, present, sensitivity, a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+        blocks = [_block(time, present, sensitivity, a, b) for a, b in pairwise(edges)]
         return cls(present.shape, tuple(block for block in blocks if len(block.rows)))
 
     def whitener(self, levels: Levels) -> Whitener:
@@ -247,7 +248,7 @@ def most_likely(
     middle = prior.logarithms()
     pieces = []
     for layout, residual, moved in zip(layouts, residuals, jitter, strict=True):
-        flat = moved.reshape(residual.size, -1)
+        flat = moved.reshape(residual.size, moved.shape[-1])
         pieces += [(block, residual.ravel()[block.rows], flat[block.rows]) for block in layout.blocks]
 
     def cost(x: Float[np.ndarray, " h"]) -> tuple[float, Float[np.ndarray, " h"]]:

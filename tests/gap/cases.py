@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.signal import butter, filtfilt
 
 from geocontact.chain.system import System
+from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
+from geocontact.gap.contest import base_contender
+from geocontact.gap.diagnose import diagnose
+from geocontact.gap.locate import Cell, Window, gap_map, windows
+from geocontact.gap.oddities import oddities
+from geocontact.gap.problem import problem_of
+from geocontact.gap.surrogate import Surrogate, surrogate
 from geocontact.systems.catalogue import system_of
 
 TRUE = {"k": 260.0, "x": 0.035, "y": 0.05}
@@ -32,8 +40,10 @@ def elbow_case(
     seed: int = 0,
     duration: float = 16.0,
     change: Change | None = None,
+    recorded: Change | None = None,
 ) -> GapCase:
-    """Three calibration trials and two held out; `change` alters (trial, time, force) before it is recorded."""
+    """Three calibration trials and two held out; `change` alters (trial, time, force) before noise comes in, `recorded`
+    what is written down."""
     rng = np.random.default_rng(seed)
     names = ("t01", "t02", "t03", "t04", "t05")
     motions = {name: _motion(rng, duration) for name in names}
@@ -48,9 +58,126 @@ def elbow_case(
         time = STEP * np.arange(len(clean))
         clean = change(name, time, clean) if change else clean
         forces[name] = clean + NOISE * rng.standard_normal(len(clean))
+        if recorded:
+            forces[name] = recorded(name, time, forces[name])
     measured = {name: beta + _smooth(rng, len(beta), 0.002) for name, beta in motions.items()}
     calibration, evaluation = _split(measured, forces)
     return GapCase("case", "elbow", calibration, evaluation, PARAMETERS, empty.constants, {"force": NOISE})
+
+
+def diagnosis(*arguments: object, **options: object) -> Diagnosis:
+    """Diagnosis of `elbow_case` with these arguments."""
+    case = elbow_case(*arguments, **options)  # type: ignore[arg-type]
+    return diagnose(case, system_of(case)).diagnosis
+
+
+def renamed(case: GapCase, names: Mapping[str, str]) -> GapCase:
+    """The same case under another name, its trials renamed and in another order."""
+    return replace(
+        case,
+        name="something else",
+        calibration=tuple(replace(t, name=names[t.name]) for t in case.calibration[::-1]),
+        evaluation=tuple(replace(t, name=names[t.name]) for t in case.evaluation[::-1]),
+    )
+
+
+def diagnosis_of_renamed(names: Mapping[str, str], *arguments: object, **options: object) -> Diagnosis:
+    """Diagnosis of a renamed case."""
+    case = renamed(elbow_case(*arguments, **options), names)  # type: ignore[arg-type]
+    return diagnose(case, system_of(case)).diagnosis
+
+
+def odd(change: Change | None, after: Change | None = None) -> dict[str, float]:
+    """Everything odd in the residual of the base model, by words; `after` alters what was recorded."""
+    case = elbow_case(seed=8, duration=24.0, change=change)
+    for trial in case.calibration + case.evaluation:
+        if after:
+            trial.signals.values[:, 1] = after(trial.name, trial.time, trial.signals.values[:, 1])
+    problem = problem_of(case, system_of(case))
+    return {each.words: each.nats for each in oddities(problem, base_contender(problem).judged)}
+
+
+def located(change: Change | None) -> tuple[tuple[Cell, ...], tuple[Window, ...]]:
+    """Gap map and windows of the base model alone."""
+    case = elbow_case(seed=6, change=change)
+    problem = problem_of(case, system_of(case))
+    base = base_contender(problem).judged
+    cells = gap_map(problem, base)
+    return cells, windows(problem, problem, base, None, None, cells)
+
+
+def stood_in(change: Change | None) -> Surrogate:
+    """What the stand-in for anything unknown finds on the base model."""
+    case = elbow_case(seed=5, change=change)
+    problem = problem_of(case, system_of(case))
+    return surrogate(problem, base_contender(problem).judged)
+
+
+@dataclass(frozen=True)
+class Bump:
+    """A push around a time [s], as wide as `width`, of a size [N]."""
+
+    size: float
+    time: float
+    width: float
+
+    def __call__(self, _: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+        return force + self.size * np.exp(-0.5 * ((time - self.time) / self.width) ** 2)
+
+
+@dataclass(frozen=True)
+class Tremor:
+    """A line at a frequency [Hz] of an amplitude [N]."""
+
+    size: float
+    frequency: float
+
+    def __call__(self, _: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+        return force + self.size * np.sin(2.0 * np.pi * self.frequency * time)
+
+
+@dataclass(frozen=True)
+class Times:
+    """A factor on the force of some trials."""
+
+    factor: float
+    trials: tuple[str, ...]
+
+    def __call__(self, name: str, _: np.ndarray, force: np.ndarray) -> np.ndarray:
+        return force * (self.factor if name in self.trials else 1.0)
+
+
+@dataclass(frozen=True)
+class Late:
+    """A delay [s]."""
+
+    delay: float
+
+    def __call__(self, _: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+        return np.interp(time - self.delay, time, force)
+
+
+def knock(name: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Something rings in one trial."""
+    return force + 1.5 * np.exp(-(time - 9.0) / 0.3) * np.sin(40.0 * time) * (time > 9.0) * (name == "t02")
+
+
+def held(_: str, __: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Three samples repeat the one before them, now and then."""
+    out = force.copy()
+    for start in range(20, len(out) - 5, 40):
+        out[start + 1 : start + 4] = out[start]
+    return out
+
+
+def in_steps(_: str, __: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Rounded to 0.2 N."""
+    return np.asarray(np.round(force / 0.2) * 0.2)
+
+
+def lost(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Not measured for two seconds."""
+    return np.where((time > 3.0) & (time < 5.0), np.nan, force)
 
 
 def _with(system: System, effect: str) -> System:

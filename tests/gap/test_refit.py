@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.gap.cases import NOISE, TRUE, elbow_case
 
 from geocontact.gap.problem import Plain, base_starts, rough_noise
 from geocontact.gap.refit import Measured, derivatives, free, refit
 from geocontact.systems.catalogue import system_of
+from tests.gap.cases import NOISE, TRUE, elbow_case, lost
 
 
 def measured() -> tuple:
@@ -38,12 +38,9 @@ def test_derivatives_are_central_differences() -> None:
 
 
 def test_samples_that_were_not_measured_count_for_nothing() -> None:
-    def lose(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
-        return np.where((time > 3.0) & (time < 5.0), np.nan, force)
-
-    case = elbow_case(seed=3, change=lose)
+    case = elbow_case(seed=3, change=lost)
     system = system_of(case)
     data = Measured.of(system, case.calibration, np.array([NOISE]))
-    lost = ~data.present[0][:, 0]
-    assert lost.any()
-    assert (data.residuals(system, TRUE)[0][lost] == 0.0).all()
+    missing = ~data.present[0][:, 0]
+    assert missing.any()
+    assert (data.residuals(system, TRUE)[0][missing] == 0.0).all()

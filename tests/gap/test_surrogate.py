@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.gap.cases import elbow_case
 
-from geocontact.gap.contest import base_contender
-from geocontact.gap.problem import problem_of
-from geocontact.gap.surrogate import chosen, surrogate
-from geocontact.systems.catalogue import system_of
+from geocontact.gap.surrogate import chosen
+from tests.gap.cases import Bump, stood_in
+from tests.gap.conftest import Elsewhere
 
 
 def test_a_bump_is_found_among_many_columns() -> None:
@@ -24,7 +22,9 @@ def test_a_bump_is_found_among_many_columns() -> None:
 
 def test_nothing_is_found_in_noise() -> None:
     rng = np.random.default_rng(1)
-    hits = [chosen(rng.standard_normal(300), rng.standard_normal((300, 40)), np.zeros((300, 1)), 200, 1.0).columns for _ in range(40)]
+    nothing = np.zeros((300, 1))
+    draws = [(rng.standard_normal(300), rng.standard_normal((300, 40))) for _ in range(40)]
+    hits = [chosen(residual, columns, nothing, 200, 1.0).columns for residual, columns in draws]
     assert sum(map(bool, hits)) <= 2
 
 
@@ -34,17 +34,11 @@ def test_what_fitted_parameters_explain_is_not_paid_for() -> None:
     assert chosen(30.0 * known[:, 0], known[:, :1], known, 200, 1.0).columns == []
 
 
-@pytest.mark.parametrize("push", [0.0, 1.5])
-def test_a_push_in_the_middle_of_every_trial(push: float) -> None:
-    def pushed(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
-        return force + push * np.exp(-0.5 * ((time - 8.0) / 0.8) ** 2)
+def test_a_push_in_the_middle_of_every_trial(elsewhere: Elsewhere) -> None:
+    found = elsewhere(stood_in, Bump(1.5, 8.0, 0.8))
+    assert found.nats > 20.0
+    assert found.predicted[0][200, 0] == pytest.approx(1.5, rel=0.5)
 
-    case = elbow_case(seed=5, change=pushed)
-    problem = problem_of(case, system_of(case))
-    found = surrogate(problem, base_contender(problem).judged)
-    if push:
-        assert found.nats > 20.0
-        middle = found.predicted[0][200, 0]
-        assert middle == pytest.approx(push, rel=0.5)
-    else:
-        assert found.nats < 3.0
+
+def test_the_stand_in_finds_nothing_where_nothing_is(elsewhere: Elsewhere) -> None:
+    assert elsewhere(stood_in, None).nats < 3.0

@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,8 @@ ROOMS = "Rooms know only the rooms below them"
 PLOTS = "Numerics do not plot"
 DOOR = "Rooms do not come in by the front door"
 ARRAYS = "Force laws take arrays, never a Surface"
+PLANTED = "Planted cases share nothing with the candidates"
+WITHHELD = "Only the benchmark knows the planted cases"
 
 
 def lint(folder: Path) -> subprocess.CompletedProcess[str]:
@@ -64,6 +67,11 @@ def test_contracts_hold() -> None:
         ("geometry/plane.py", "import matplotlib.pyplot", PLOTS),
         ("gap/locate.py", "def late():\n    import pyvista", PLOTS),
         ("geometry/plane.py", "from geocontact import read_mesh", DOOR),
+        ("gap/benchmark/planted/elbow.py", "import geocontact.chain.links", PLANTED),
+        ("gap/benchmark/planted/noise.py", "def late():\n    import geocontact.gap.refit", PLANTED),
+        ("gap/benchmark/planted/cases.py", "import geocontact.gap.benchmark.score", PLANTED),
+        ("gap/diagnose.py", "import geocontact.gap.benchmark.planted.label", WITHHELD),
+        ("cli/gap_many.py", "from geocontact.gap.benchmark.planted import plant", WITHHELD),
     ],
 )
 def test_contract_fails_when_broken(copy: Path, module: str, line: str, contract: str) -> None:
@@ -73,3 +81,15 @@ def test_contract_fails_when_broken(copy: Path, module: str, line: str, contract
     result = lint(copy)
     assert result.returncode == 1, result.stdout + result.stderr
     assert f"{contract} BROKEN" in result.stdout
+
+
+def test_planted_cases_are_walled_off_from_every_module_of_the_diagnosis() -> None:
+    """A new module of geocontact.gap has to be added to the contract."""
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"][
+        "contracts"
+    ]
+    wall = next(set(one["forbidden_modules"]) for one in contracts if one["name"] == PLANTED)
+    gap = ROOT / "geocontact" / "gap"
+    modules = {f"geocontact.gap.{file.stem}" for file in gap.glob("*.py") if file.stem != "__init__"}
+    modules |= {f"geocontact.gap.benchmark.{f.stem}" for f in (gap / "benchmark").glob("*.py") if f.stem != "__init__"}
+    assert modules <= wall, sorted(modules - wall)

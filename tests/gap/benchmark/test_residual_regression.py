@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -23,9 +24,9 @@ from geocontact.gap.benchmark.residual_regression import residual_regression
 from geocontact.gap.problem import problem_of
 from geocontact.systems.catalogue import system_of
 
-def regressed(planted, aware):
+def regressed(planted, *ways):
     problem = problem_of(planted.case, system_of(planted.case))
-    return residual_regression(problem, candidates(problem.system), aware=aware)
+    return [residual_regression(problem, candidates(problem.system), aware=aware) for aware in ways]
 
 def imitated(planted):
     system = system_of(planted.case)
@@ -47,9 +48,9 @@ def visible(planted):
 damped = plant("elbow", "single", 3, effect="damping", nats=3000.0)
 tremor = plant("elbow", "outside", 2, effect="tremor", nats=200.0)
 json.dump({
-    "damped": {str(aware): regressed(damped, aware) for aware in (False, True)},
+    "damped": regressed(damped, False, True),
     "reduction": damped.label.reduction["force"],
-    "calm": [regressed(plant("elbow", "none", seed), True)["verdict"] for seed in (1, 2, 3)],
+    "calm": [regressed(plant("elbow", "none", seed), True)[0]["verdict"] for seed in (1, 2)],
     "imitation": {"damped": imitated(damped), "tremor": imitated(tremor)},
     "nats": [damped.label.nats["damping"], visible(damped)],
 }, sys.stdout)
@@ -60,13 +61,15 @@ json.dump({
 @pytest.fixture(scope="module")
 def found() -> dict:
     """What the opponent and the search for imitations say of a few cases."""
-    child = subprocess.run([sys.executable, "-c", PROGRAM], cwd=ROOT, capture_output=True, encoding="utf-8")
+    alone = os.environ | dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"), "1")
+    command = [sys.executable, "-c", PROGRAM]
+    child = subprocess.run(command, cwd=ROOT, env=alone, capture_output=True, encoding="utf-8")
     assert child.returncode == 0, child.stderr
     return json.loads(child.stdout)
 
 
-@pytest.mark.parametrize("aware", ["False", "True"])
-def test_a_strong_effect_is_found(found: dict, aware: str) -> None:
+@pytest.mark.parametrize("aware", [False, True])
+def test_a_strong_effect_is_found(found: dict, aware: bool) -> None:
     answer = found["damped"][aware]
     assert answer["verdict"] == "explained" and answer["effects"] == ["damping"] == answer["ambiguity"][:1]
     assert sum(answer["probabilities"].values()) == pytest.approx(1.0)
@@ -76,7 +79,7 @@ def test_a_strong_effect_is_found(found: dict, aware: str) -> None:
 
 
 def test_nothing_is_said_where_nothing_is(found: dict) -> None:
-    assert found["calm"].count("no_gap") >= 2, found["calm"]
+    assert found["calm"] == ["no_gap", "no_gap"]
 
 
 def test_the_candidate_of_its_name_imitates_an_effect_and_nobody_a_tremor(found: dict) -> None:
@@ -86,7 +89,7 @@ def test_the_candidate_of_its_name_imitates_an_effect_and_nobody_a_tremor(found:
 
 
 def test_trials_without_noise_weigh_as_the_label_does(found: dict) -> None:
-    """Half the squared norm of the planted effect, base parameters projected out to first order, is the label's nats."""
+    """Half the squared norm of the planted effect, base parameters projected out to first order."""
     told, counted = found["nats"]
     assert counted == pytest.approx(told, rel=0.02)
 
