@@ -3,7 +3,9 @@
 What is asked for is the reduction on fresh trials of the same kind, of which the held-out ones are a few. The error
 that stays is noise, noise of the inputs and trial-to-trial variation; it is estimated from all trials together, with
 what the fitted noise levels imply counted as part of a trial more. The error that goes is the difference between the
-two models' predictions. With a² the first and g² the second, mean squares over the held-out trials,
+two models' predictions, and what both get wrong alike because few trials were fitted: the reduction is that of the
+model with the effect at its true values, whose error is the floor. With a² the first and g² the second, mean squares
+over the held-out trials,
 
     reduction = 1 - rmse_after / rmse_before = 1 - (1 + g²/a²)^(-1/2).
 
@@ -28,6 +30,8 @@ from geocontact.gap.refit import refit
 
 IMPLIED = 0.3  # trials that the fitted noise levels count as
 FORM = 0.04  # relative standard deviation of g² for the form of the effect
+COUNTS = 0.4  # part of what is misjudged alike: fits reckon with more trial-to-trial variation than most trials show
+LEAST = 0.3  # of a held-out trial's squared error that stays when what was misjudged is taken off
 WIDE = 1.0  # half-width of the interval of log(g²/a²) beyond which it is taken of g²/a² itself
 Z95 = 1.959964
 TELLING = 2.0  # times the squared floor that the squared error before must be, for a share to mean something
@@ -93,7 +97,7 @@ def shrinkage(
             found[name] = Shrinkage(error**0.5, error**0.5, floor**0.5, 0.0, 0.0, 0.0, None)
             continue
         gone, gone_sd = _gone(problem, after, jacobian, residuals, c)
-        left, left_sd = _left(problem, jacobian, varies, used, residuals.after, floors, c)
+        left, left_sd = _left(problem, after, jacobian, varies, used, residuals.after, floors, c)
         ratio = gone / left
         spread = Z95 * float(np.hypot(gone_sd / max(gone, 1e-300), left_sd / left))
         ratios = (ratio * np.exp(-spread), ratio, ratio * np.exp(spread))
@@ -161,11 +165,12 @@ def _varied(jacobian: Float[np.ndarray, "t c p"], varies: Float[np.ndarray, " q"
 def _gone(
     problem: Problem, after: Judged, derivatives: list[np.ndarray], residuals: Residuals, c: int
 ) -> tuple[float, float]:
-    """Mean square difference of the two models' predictions on held-out trials, and its standard deviation."""
+    """Mean square that the base model's error has beyond what stays, and its standard deviation.
+
+    The difference of the two predictions on held-out trials, and what both err by alike because few trials were fitted.
+    """
     count = len(problem.calibration.trials)
-    spread = prior_spread(after.model.system, after.model.values)
-    scaled = after.model.whitened_jacobian[: after.fitted_rows] * spread
-    posterior = spread[:, None] * np.linalg.inv(np.eye(len(spread)) + scaled.T @ scaled) * spread
+    posterior = _posterior(after)
     squares, slopes = [], []
     for first, second, there, jacobian in zip(
         residuals.before[count:],
@@ -180,13 +185,34 @@ def _gone(
         squares.append(float(np.mean(off**2)))
         slopes.append(2.0 * off @ jacobian[there[:, c], c] / len(off))
     gone = float(np.mean(squares)) if squares else 0.0
-    slope = np.mean(slopes, axis=0) if slopes else np.zeros(len(spread))
+    slope = np.mean(slopes, axis=0) if slopes else np.zeros(len(posterior))
     between = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (0.3 * gone) ** 2
-    return gone, float(np.sqrt(slope @ posterior @ slope + between + (FORM * gone) ** 2))
+    alike = _misjudged(problem.evaluation.present, derivatives[count:], posterior, c)
+    return gone + COUNTS * alike, float(np.sqrt(slope @ posterior @ slope + between + (FORM * gone) ** 2 + alike**2))
+
+
+def _posterior(after: Judged) -> Float[np.ndarray, "p p"]:
+    """Covariance of the fitted parameters, trial-to-trial variation of the few trials included."""
+    spread = prior_spread(after.model.system, after.model.values)
+    scaled = after.model.whitened_jacobian[: after.fitted_rows] * spread
+    return np.asarray(spread[:, None] * np.linalg.inv(np.eye(len(spread)) + scaled.T @ scaled) * spread)
+
+
+def _misjudged(
+    present: tuple[np.ndarray, ...], derivatives: list[np.ndarray], posterior: Float[np.ndarray, "p p"], c: int
+) -> float:
+    """Mean square error of predictions because parameters are known from few trials only."""
+    parts = [
+        np.einsum("tp,pq,tq->t", j[p[:, c], c], posterior, j[p[:, c], c])
+        for p, j in zip(present, derivatives, strict=True)
+    ]
+    together = np.concatenate(parts)
+    return float(np.mean(together)) if len(together) else 0.0
 
 
 def _left(
     problem: Problem,
+    after: Judged,
     derivatives: list[np.ndarray],
     varies: np.ndarray,
     used: list[bool],
@@ -196,13 +222,14 @@ def _left(
 ) -> tuple[float, float]:
     """Mean square error that stays on a fresh trial, and its standard deviation."""
     count = len(problem.calibration.trials)
+    alike = COUNTS * _misjudged(problem.evaluation.present, derivatives[count:], _posterior(after), c)
     each = []
     for i, (residual, there, jacobian) in enumerate(zip(seen, problem.recorded.present, derivatives, strict=True)):
         if not there[:, c].any() or not used[i]:
             continue
         own = float(np.mean(residual[there[:, c], c] ** 2))
-        taken = float(np.mean(_varied(jacobian, varies)[there[:, c], c])) / count if i < count else 0.0
-        each.append(own + taken)
+        taken = float(np.mean(_varied(jacobian, varies)[there[:, c], c])) / count if i < count else -alike
+        each.append(max(own + taken, LEAST * own))
     implied = float(np.mean([f[c] for f in floors[count:]]))
     weight = len(each) + IMPLIED
     left = (sum(each) + IMPLIED * implied) / weight
