@@ -86,7 +86,7 @@ def test_very_short_recordings_do_not_fail(rows: int) -> None:
 
 def test_what_is_remembered_goes_with_its_recording() -> None:
     signals = Signals(np.arange(9.0), np.arange(9.0)[:, None], ("a",), ("m",))
-    key = (id(signals), ("a",))
+    key = (id(signals), ("a",), module.REACH)
     recorded(signals, ("a",))
     assert key in module._SEEN
     del signals
