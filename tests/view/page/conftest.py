@@ -6,6 +6,7 @@ import os
 import shutil
 import time
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -81,7 +82,11 @@ def browser() -> Iterator[Browser]:
     executable = next(filter(None, map(shutil.which, CHROMIUM)), None)
     if executable is None:
         absent("no chromium on PATH: apt install chromium")
-    with sync_api.sync_playwright() as playwright:
+    with ExitStack() as open_until_the_end:
+        try:
+            playwright = open_until_the_end.enter_context(sync_api.sync_playwright())
+        except Exception as broken:  # noqa: BLE001 - the driver is a program of its own and fails in ways of its own
+            absent(f"the driver of the browser does not start: {broken}")
         chromium = playwright.chromium.launch(executable_path=executable, args=SOFTWARE)
         yield chromium
         chromium.close()
