@@ -61,12 +61,14 @@ def test_the_practice_foot_with_something_unknown(practice: dict[str, dict[str, 
     assert practice["foot_04"]["verdict"] == "unknown"
 
 
-@pytest.mark.parametrize("name", list(EXPLAINED))
+TOO_MUCH = pytest.mark.xfail(reason="force_y of foot_03 is said to shrink by 0.16, truly by 0.04", strict=True)
+
+
+@pytest.mark.parametrize("name", [*sorted(EXPLAINED.keys() - {"foot_03"}), pytest.param("foot_03", marks=TOO_MUCH)])
 def test_reductions_are_near_those_of_many_fresh_trials(name: str, practice: dict[str, dict[str, Any]]) -> None:
     labels = json.loads((PRACTICE / "labels.json").read_text(encoding="utf-8"))[name]
     for channel, true in labels["reduction"].items():
-        near = 0.06 if true > 0.25 else 0.15  # where little goes, the luck of a few trials decides
-        assert practice[name]["gap"][channel]["reduction"] == pytest.approx(true, abs=near)
+        assert practice[name]["gap"][channel]["reduction"] == pytest.approx(true, abs=0.06)
 
 
 @pytest.fixture(scope="module")
