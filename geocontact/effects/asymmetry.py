@@ -17,9 +17,9 @@ def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude a, shape v."""
     rate = system.scale.rate
     a = Parameter("asymmetry.excess", "-", 0.1, 0.0, 0.9)
-    v = Parameter("asymmetry.turning", f"{system.law.deflection}/s", 0.1 * rate, 1e-3 * rate, 3.0 * rate)
+    v = Parameter("asymmetry.turning", f"{system.law.deflection}/s", 0.1 * rate, 1e-3 * rate, 0.5 * rate)
     law = with_law({"asymmetry.excess": a.name, "asymmetry.turning": v.name})
-    return (Candidate("asymmetry", "", "constitutive", (a, v), law, {a.name: 0.0}, ({v.name: rate},)),)
+    return (Candidate("asymmetry", "", "constitutive", (a, v), law, {a.name: 0.0}, ({v.name: 0.3 * rate},)),)
 
 
 ASYMMETRY = Effect(

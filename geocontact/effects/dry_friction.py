@@ -18,16 +18,16 @@ def over_a_stroke(system: System) -> Candidate:
     """Amplitude F_c, shape reach."""
     stroke = system.scale.high - system.scale.low
     unit = system.law.deflection
-    reach = Parameter("dry_friction.stroke.reach", unit, 0.02 * stroke, 1e-4 * stroke, 0.5 * stroke)
-    return rubbing(system, "stroke", reach, 0.15 * stroke)
+    reach = Parameter("dry_friction.stroke.reach", unit, 0.02 * stroke, 1e-4 * stroke, 0.2 * stroke)
+    return rubbing(system, "stroke", reach, 0.1 * stroke)
 
 
 def over_rates(system: System) -> Candidate:
     """Amplitude F_c, shape v."""
     rate = system.scale.rate
     unit = f"{system.law.deflection}/s"
-    turning = Parameter("dry_friction.rate.turning", unit, 0.1 * rate, 1e-3 * rate, 2.0 * rate)
-    return rubbing(system, "rate", turning, 0.5 * rate)
+    turning = Parameter("dry_friction.rate.turning", unit, 0.1 * rate, 1e-3 * rate, 0.5 * rate)
+    return rubbing(system, "rate", turning, 0.3 * rate)
 
 
 def rubbing(system: System, variant: str, shape: Parameter, other: float) -> Candidate:

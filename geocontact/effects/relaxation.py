@@ -12,12 +12,15 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_law
 
+DASHPOT = 0.03  # of the time that a stroke takes at the rms rate: a branch that forgets sooner is a dashpot
+
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude g, shape tau."""
     scale = system.scale
+    swing = (scale.high - scale.low) / max(scale.rate, 1e-300)
     g = Parameter("relaxation.ratio", "-", 0.2, 0.0, 5.0)
-    quick, slow = 0.5 * scale.step, 2.0 * scale.duration
+    quick, slow = min(max(0.5 * scale.step, DASHPOT * swing), scale.duration), 2.0 * scale.duration
     tau = Parameter("relaxation.tau", "s", quick ** (2 / 3) * slow ** (1 / 3), quick, slow)
     law = with_law({"relaxation.ratio": g.name, "relaxation.tau": tau.name})
     other = {tau.name: quick ** (1 / 3) * slow ** (2 / 3)}

@@ -35,7 +35,7 @@ def saturated(system: System, name: str) -> Candidate:
     column = system.outputs.index(name)
     most = system.scale.of(name)
     level = Parameter(f"saturation.{name}.level", system.unit(name), 0.95 * most, 0.05 * most, most)
-    softness = Parameter(f"saturation.{name}.softness", "-", 0.03, 0.0, 0.06)
+    softness = Parameter(f"saturation.{name}.softness", "-", 0.03, 0.0, 0.15)
 
     def change(outputs: Channels, _: Movement, values: Values) -> Channels:
         out = outputs.copy()

@@ -16,7 +16,7 @@ from geocontact.effects.parts import with_law
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude a, shape p."""
     a = Parameter("stiffening.gain", "-", 0.3, 0.0, 10.0)
-    p = Parameter("stiffening.exponent", "-", 1.5, 0.5, 8.0)
+    p = Parameter("stiffening.exponent", "-", 1.5, 0.25, 8.0)
     law = with_law(
         {"stiffening.gain": a.name, "stiffening.exponent": p.name, "stiffening.reference": system.scale.deflection}
     )

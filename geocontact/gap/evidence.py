@@ -66,8 +66,11 @@ def judged_anew(problem: Problem, everywhere: Refit, noise: Noise) -> Judged:
     return Judged(
         everywhere,
         noise,
-        log_evidence(everywhere.whitened, design, spread) - float(scales.sum()) - noise.surprise,
-        log_evidence(everywhere.whitened[:rows], design[:rows], spread) - float(fitted),
+        log_evidence(everywhere.whitened, design, spread)
+        + held_back(everywhere)
+        - float(scales.sum())
+        - noise.surprise,
+        log_evidence(everywhere.whitened[:rows], design[:rows], spread) + held_back(everywhere, rows) - float(fitted),
         rows,
     )
 
@@ -91,6 +94,39 @@ def log_evidence(
     part = scaled.T @ residual
     quadratic = float(residual @ residual) - float(part @ np.linalg.solve(inner, part))
     return -0.5 * quadratic - 0.5 * float(np.linalg.slogdet(inner)[1])
+
+
+def held_back(model: Refit, rows: int | None = None) -> float:
+    """What parameters on a bound cost: the share of their range that the data leave them [nats, at most 0].
+
+    Where the fit is held at a bound the likelihood falls off as exp(-g x - h x²/2) with the distance x from it; its
+    mean over the range W of a flat prior is
+
+        sqrt(π/2h) (erfcx(a) - exp(-g W - h W²/2) erfcx(a + W sqrt(h/2)))/W, a = g/sqrt(2h).
+    """
+    from scipy.special import erfcx
+
+    spread = prior_spread(model.system, model.values)
+    residual, design = model.whitened[:rows], model.whitened_jacobian[:rows]
+    if spread.all():
+        return 0.0
+    others = design[:, spread > 0.0] * spread[spread > 0.0]
+    inner = np.linalg.cholesky(np.eye(others.shape[1]) + others.T @ others)
+    total = 0.0
+    for k in np.flatnonzero(spread == 0.0):
+        p = free(model.system)[k]
+        width = p.upper - p.lower
+        if not 0.0 < width < np.inf:
+            continue
+        inward = width if model.values[p.name] - p.lower < p.upper - model.values[p.name] else -width
+        along = np.linalg.solve(inner, others.T @ np.column_stack([residual, design[:, k] * inward]))
+        fall = -float(design[:, k] @ residual) * inward + float(along[:, 0] @ along[:, 1])
+        bend = float(design[:, k] @ design[:, k]) * width**2 - float(along[:, 1] @ along[:, 1])
+        root = np.sqrt(0.5 * max(bend, 1e-9))
+        a = max(0.5 * fall / root, 0.0)
+        mean = 0.5 * np.sqrt(np.pi) / root * (erfcx(a) - np.exp(-2.0 * a * root - root**2) * erfcx(a + root))
+        total += min(float(np.log(max(mean, 1e-300))), 0.0)
+    return total
 
 
 def prior_spread(system: System, values: dict[str, float]) -> Float[np.ndarray, " p"]:

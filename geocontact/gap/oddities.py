@@ -1,4 +1,4 @@
-"""What no candidate makes and no surrogate sees: a narrow line, a burst, held samples, coarse steps.
+"""What no candidate makes and no surrogate sees: a narrow line, ringing, a burst, held samples, coarse steps.
 
 Noise is coloured at most, its spectrum smooth; whitened by the right model it is white. Each check compares the
 whitened residual, or the recording itself, with that, and says in nats (minus the logarithm of a p-value that is
@@ -19,6 +19,8 @@ WINDOWS = (4, 8, 16, 32, 64)  # samples
 SHORTEST = 64  # samples of a trial whose spectrum is looked at
 BESIDE = (-8, -7, -6, -5, -4, -3, 3, 4, 5, 6, 7, 8)  # bins that a line is compared with
 OTHERS = 4  # times the width of a stretch that what it is compared with counts for
+PACKETS = (16, 24, 32)  # samples that an oscillation is looked for in
+CYCLES = 4  # periods per window from which it counts as one
 HELD_USUALLY = 2e-3  # share of samples that repeat the last by chance, at the least
 COARSE, SURELY = 0.33, 12.0  # steps, in noise levels, that are coarse, and how sure that makes of it [nats]
 
@@ -34,7 +36,13 @@ class Oddity:
 
 def oddities(problem: Problem, judged: Judged) -> list[Oddity]:
     """Every check, the surest first."""
-    found = [*lines(problem, judged), *bursts(problem, judged), *held(problem), *steps(problem)]
+    found = [
+        *lines(problem, judged),
+        *ringing(problem, judged),
+        *bursts(problem, judged),
+        *held(problem),
+        *steps(problem),
+    ]
     return sorted(found, key=lambda each: -each.nats)
 
 
@@ -79,6 +87,49 @@ def lines(problem: Problem, judged: Judged) -> list[Oddity]:
 def _around(power: Float[np.ndarray, " f"]) -> Float[np.ndarray, " f"]:
     """Mean power of the bins a little to either side."""
     return np.asarray(np.mean([np.roll(power, shift) for shift in BESIDE], axis=0))
+
+
+def ringing(problem: Problem, judged: Judged) -> list[Oddity]:
+    """An oscillation that comes at the same phase of every trial and dies away: power there against that elsewhere.
+
+    Of one frequency, beyond what all frequencies gain there.
+    """
+    from scipy.stats import f
+
+    found = []
+    rows = innovations(problem, judged)
+    for c, name in enumerate(problem.system.outputs):
+        best, hertz = 0.0, 0.0
+        for width in PACKETS:
+            spectra = [_packets(trial[c], width) for trial in rows if len(trial[c]) >= 4 * width]
+            if not spectra:
+                continue
+            frames = min(map(len, spectra))
+            grid = np.linspace(0.0, 1.0, frames)
+            together = np.mean([_along(each, grid) for each in spectra], axis=0)
+            usual = np.mean([each.mean(axis=0) for each in spectra], axis=0)
+            others = (usual * frames - together) / (frames - 1)
+            freedom = 2 * len(spectra)
+            ratio = together / others
+            ratio /= np.maximum(np.median(ratio, axis=1, keepdims=True), 1.0)  # louder at all frequencies is no ringing
+            nats = -f.logsf(ratio, freedom, freedom * frames // 2) - np.log(ratio.size * len(PACKETS))
+            frame, at = np.unravel_index(int(np.argmax(nats)), nats.shape)
+            if nats[frame, at] > best:
+                best, hertz = float(nats[frame, at]), (at + CYCLES) / (width * problem.system.scale.step)
+        found.append(Oddity(f"ringing at {hertz:.3g} Hz at the same phase of every trial", name, best))
+    return found
+
+
+def _packets(values: Float[np.ndarray, " n"], width: int) -> Float[np.ndarray, "m f"]:
+    """Power spectra of half-overlapping windows, without their lowest frequencies."""
+    starts = range(0, len(values) - width + 1, width // 2)
+    frames = np.array([values[a : a + width] for a in starts]) * np.hanning(width)
+    return np.asarray(np.abs(np.fft.rfft(frames, axis=1)[:, CYCLES:-1]) ** 2)
+
+
+def _along(power: Float[np.ndarray, "m f"], grid: Float[np.ndarray, " p"]) -> Float[np.ndarray, "p f"]:
+    """Frames nearest in phase."""
+    return np.asarray(power[np.round(grid * (len(power) - 1)).astype(int)])
 
 
 def bursts(problem: Problem, judged: Judged) -> list[Oddity]:

@@ -18,7 +18,7 @@ from geocontact.identify.trial_variation import Products, variation
 
 REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own
-BARELY = 0.5  # trials that the usual variation counts as where the trials are to speak
+BARELY = 1.0  # trials that the usual variation counts as where the trials are to speak
 MEMORY = 2.0  # times its usual correlation time that quiet noise may remember
 MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
 
@@ -70,14 +70,14 @@ class Problem:
 
     def weighed(self, model: Refit, before: Noise | None = None) -> Noise:
         """Noise levels and variation that make a model's residuals most likely, calibration trials only."""
-        count = len(self.usual)
+        count, fitted = len(self.usual), len(self.calibration.trials)
         sd = self.usual if before is None else before.varies
         levels, surprise = None if before is None else before.levels, 0.0
         for _ in range(2 if before is None else 1):
             levels, surprise, _ = most_likely(
                 self.calibration_layouts,
-                model.residuals,
-                [j[..., :count] * sd for j in model.jacobian],
+                model.residuals[:fitted],
+                [j[..., :count] * sd for j in model.jacobian[:fitted]],
                 self.prior,
                 self.factor,
                 self.prior if levels is None else levels,
@@ -108,17 +108,22 @@ class Problem:
     def _whiteners(self, levels: Levels) -> tuple[Whitener, ...]:
         return tuple(layout.whitener(levels) for layout in self.layouts)
 
-    def _variation(self, model: Refit, levels: Levels, weight: float = 4.0) -> Float[np.ndarray, " q"]:
+    def _variation(self, model: Refit, levels: Levels) -> Float[np.ndarray, " q"]:
+        found = variation(self._products(self.calibration_layouts, model, levels), self.usual)
+        return np.asarray(np.minimum(found.sd, MOST_VARIATION * self.usual))
+
+    def _products(self, layouts: Sequence[Layout], model: Refit, levels: Levels) -> list[Products]:
         products = []
-        for layout, residual, jacobian in zip(self.calibration_layouts, model.residuals, model.jacobian, strict=False):
+        for layout, residual, jacobian in zip(layouts, model.residuals, model.jacobian, strict=False):
             whitener = layout.whitener(levels)
             design = whitener(jacobian[..., : len(self.usual)])
             products.append(Products.of(whitener(residual[..., None])[:, 0], design))
-        return np.asarray(np.minimum(variation(products, self.usual, weight).sd, MOST_VARIATION * self.usual))
+        return products
 
-    def seen_variation(self, model: Refit, noise: Noise) -> Float[np.ndarray, " q"]:
-        """How much trials of the calibration do differ, with next to nothing believed beforehand."""
-        return self._variation(model, noise.levels, BARELY)
+    def seen_variation(self, model: Refit, levels: Levels) -> Float[np.ndarray, " q"]:
+        """How much all trials do differ, little believed beforehand, around parameters that were fitted to all."""
+        found = variation(self._products(self.layouts, model, levels), self.usual, BARELY, spent=1.0)
+        return np.asarray(np.minimum(found.sd, MOST_VARIATION * self.usual))
 
     def fitting(self, noise: Noise, model: Refit) -> list[Weighing]:
         """Whitening of the calibration trials."""

@@ -1,11 +1,10 @@
 """How far the gap shrinks on trials that were not used once the effect is in the model.
 
-What is asked for is the reduction on fresh trials of the same kind, of which the held-out ones are a few. The error
-that stays is noise, noise of the inputs and trial-to-trial variation; it is estimated from all trials together, with
-what the fitted noise levels imply counted as part of a trial more. The error that goes is the difference between the
-two models' predictions, and what both get wrong alike because few trials were fitted: the reduction is that of the
-model with the effect at its true values, whose error is the floor. With a² the first and g² the second, mean squares
-over the held-out trials,
+What is asked for is the reduction on fresh trials of the same kind, of which the held-out ones are a few, against the
+model with the effect at its true values. Where these lie is best told by all trials together. The error that stays, a²,
+is what that best fit leaves of each trial and what it bent towards it, with what the fitted noise levels imply counted
+as part of a trial more. The error that goes, g², is how far the base model, fitted to few trials, is from the truth on
+the held-out ones: from the best fit, and what that errs by itself. Then
 
     reduction = 1 - rmse_after / rmse_before = 1 - (1 + g²/a²)^(-1/2).
 
@@ -30,10 +29,7 @@ from geocontact.gap.refit import refit
 
 IMPLIED = 0.3  # trials that the fitted noise levels count as
 FORM = 0.04  # relative standard deviation of g² for the form of the effect
-COUNTS = 0.4  # part of what is misjudged alike: fits reckon with more trial-to-trial variation than most trials show
-LEAST = 0.3  # of a held-out trial's squared error that stays when what was misjudged is taken off
 WIDE = 1.0  # half-width of the interval of log(g²/a²) beyond which it is taken of g²/a² itself
-Z95 = 1.959964
 TELLING = 2.0  # times the squared floor that the squared error before must be, for a share to mean something
 
 
@@ -78,7 +74,8 @@ def shrinkage(
     fault
         The mistake. Calibration trials that have it while others have not tell nothing of what stays on others.
     """
-    varies = clean.seen_variation(after.model, after.noise)
+    from scipy.stats import t
+
     outputs = problem.system.outputs
     names = [trial.name for trial in problem.recorded.trials]
     jacobian = [put_back(fault, n, outputs, j) for n, j in zip(names, after.model.jacobian, strict=True)]
@@ -86,8 +83,12 @@ def shrinkage(
     used = [*(sound if any(sound) else [True] * len(sound)), *(True for _ in problem.evaluation.trials)]
     count = len(problem.calibration.trials)
     residuals = as_measured(problem, clean, after, fault)
+    varies = seen(clean, after)
+    shift, known = from_all_trials(clean, after, varies)
+    best = [r - j @ shift for r, j in zip(residuals.after, jacobian, strict=True)]
     present = problem.recorded.present
     floors = _floors(clean, after, varies, fault)
+    student = float(t.ppf(0.975, max(sum(used) - 1, 1)))  # a spread that is known from as few trials
     found = {}
     for c, name in enumerate(problem.system.outputs):
         error = _mean_square(residuals.before[count:], present[count:], c)
@@ -96,13 +97,13 @@ def shrinkage(
         if not named:
             found[name] = Shrinkage(error**0.5, error**0.5, floor**0.5, 0.0, 0.0, 0.0, None)
             continue
-        gone, gone_sd = _gone(problem, after, jacobian, residuals, c)
-        left, left_sd = _left(problem, after, jacobian, varies, used, residuals.after, floors, c)
+        gone, gone_sd = _gone(problem, jacobian, known, residuals.before, best, c)
+        left, left_sd = _left(problem, jacobian, known, used, best, floors, c)
         ratio = gone / left
-        spread = Z95 * float(np.hypot(gone_sd / max(gone, 1e-300), left_sd / left))
+        spread = student * float(np.hypot(gone_sd / max(gone, 1e-300), left_sd / left))
         ratios = (ratio * np.exp(-spread), ratio, ratio * np.exp(spread))
         if spread > WIDE:  # little goes, so little that it might be nothing: its own error, not that of its logarithm
-            ratios = (ratio * max(1.0 - spread, 0.0), ratio, ratio * (1.0 + spread))
+            ratios = (ratio * max(1.0 - spread, 0.0), ratio, ratio * np.exp(spread))
         low, middle, high = (1.0 - (1.0 + each) ** -0.5 for each in ratios)
         share = None
         if error >= TELLING * floor:
@@ -162,74 +163,84 @@ def _varied(jacobian: Float[np.ndarray, "t c p"], varies: Float[np.ndarray, " q"
     return np.asarray(((jacobian[..., : len(varies)] * varies) ** 2).sum(axis=-1))
 
 
+def seen(clean: Problem, after: Judged) -> Float[np.ndarray, " q"]:
+    """How much the base parameters differ between trials, around the best fit to all of them."""
+    shift, _ = from_all_trials(clean, after, after.noise.varies)
+    moved = [r - j @ shift for r, j in zip(after.model.residuals, after.model.jacobian, strict=True)]
+    return clean.seen_variation(replace(after.model, residuals=moved), after.noise.levels)
+
+
+def from_all_trials(
+    clean: Problem, after: Judged, varies: np.ndarray
+) -> tuple[Float[np.ndarray, " p"], Float[np.ndarray, "p p"]]:
+    """How the parameters move when the held-out trials tell of them too, and their covariance then.
+
+    Nothing that is fitted is reported of a trial it was fitted to; this is where the true values are believed to lie.
+    Trials vary as much as they are seen to, so that few of them tell less than many samples would.
+    """
+    noise = replace(after.noise, varies=varies)
+    model = after.model.weighed(clean.weighings(noise, after.model))
+    spread = prior_spread(model.system, model.values)
+    scaled = model.whitened_jacobian * spread
+    covariance = np.linalg.inv(np.eye(len(spread)) + scaled.T @ scaled)
+    return spread * (covariance @ (scaled.T @ model.whitened)), spread[:, None] * covariance * spread
+
+
 def _gone(
-    problem: Problem, after: Judged, derivatives: list[np.ndarray], residuals: Residuals, c: int
+    problem: Problem,
+    derivatives: list[np.ndarray],
+    known: np.ndarray,
+    before: list[np.ndarray],
+    best: list[np.ndarray],
+    c: int,
 ) -> tuple[float, float]:
     """Mean square that the base model's error has beyond what stays, and its standard deviation.
 
-    The difference of the two predictions on held-out trials, and what both err by alike because few trials were fitted.
+    The base model, fitted to few trials, misses the truth by d + e, d the difference to the best fit with the effect, e
+    that fit's own error; an efficient fit errs independently of what others differ from it by, so the squares add.
     """
-    count = len(problem.calibration.trials)
-    posterior = _posterior(after)
-    squares, slopes = [], []
-    for first, second, there, jacobian in zip(
-        residuals.before[count:],
-        residuals.after[count:],
-        problem.evaluation.present,
-        derivatives[count:],
-        strict=True,
-    ):
-        off = (first - second)[there[:, c], c]
-        if not len(off):
+    squares, slopes, alike = [], [], []
+    for i in range(len(problem.calibration.trials), len(before)):
+        there = problem.recorded.present[i][:, c]
+        own = derivatives[i][there, c]
+        if not len(own):
             continue
+        off = (before[i] - best[i])[there, c]
         squares.append(float(np.mean(off**2)))
-        slopes.append(2.0 * off @ jacobian[there[:, c], c] / len(off))
-    gone = float(np.mean(squares)) if squares else 0.0
-    slope = np.mean(slopes, axis=0) if slopes else np.zeros(len(posterior))
+        slopes.append(2.0 * off @ own / len(off))
+        alike.append(_misjudged(own, known))
+    if not squares:
+        return 0.0, 0.0
+    slope, more = np.mean(slopes, axis=0), float(np.mean(alike))
+    gone = float(np.mean(squares)) + more
     between = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (0.3 * gone) ** 2
-    alike = _misjudged(problem.evaluation.present, derivatives[count:], posterior, c)
-    return gone + COUNTS * alike, float(np.sqrt(slope @ posterior @ slope + between + (FORM * gone) ** 2 + alike**2))
+    return gone, float(np.sqrt(slope @ known @ slope + between + (FORM * gone) ** 2 + more**2))
 
 
-def _posterior(after: Judged) -> Float[np.ndarray, "p p"]:
-    """Covariance of the fitted parameters, trial-to-trial variation of the few trials included."""
-    spread = prior_spread(after.model.system, after.model.values)
-    scaled = after.model.whitened_jacobian[: after.fitted_rows] * spread
-    return np.asarray(spread[:, None] * np.linalg.inv(np.eye(len(spread)) + scaled.T @ scaled) * spread)
-
-
-def _misjudged(
-    present: tuple[np.ndarray, ...], derivatives: list[np.ndarray], posterior: Float[np.ndarray, "p p"], c: int
-) -> float:
-    """Mean square error of predictions because parameters are known from few trials only."""
-    parts = [
-        np.einsum("tp,pq,tq->t", j[p[:, c], c], posterior, j[p[:, c], c])
-        for p, j in zip(present, derivatives, strict=True)
-    ]
-    together = np.concatenate(parts)
-    return float(np.mean(together)) if len(together) else 0.0
+def _misjudged(derivatives: Float[np.ndarray, "t p"], posterior: Float[np.ndarray, "p p"]) -> float:
+    """Mean square error of predictions because parameters are not known exactly."""
+    return float(np.einsum("tp,pq,tq->", derivatives, posterior, derivatives)) / len(derivatives)
 
 
 def _left(
     problem: Problem,
-    after: Judged,
     derivatives: list[np.ndarray],
-    varies: np.ndarray,
+    known: np.ndarray,
     used: list[bool],
-    seen: list[np.ndarray],
+    best: list[np.ndarray],
     floors: list[np.ndarray],
     c: int,
 ) -> tuple[float, float]:
-    """Mean square error that stays on a fresh trial, and its standard deviation."""
+    """Mean square error that stays on a fresh trial, and its standard deviation.
+
+    The best fit bent towards each trial, so each shows less than a fresh one will.
+    """
     count = len(problem.calibration.trials)
-    alike = COUNTS * _misjudged(problem.evaluation.present, derivatives[count:], _posterior(after), c)
     each = []
-    for i, (residual, there, jacobian) in enumerate(zip(seen, problem.recorded.present, derivatives, strict=True)):
-        if not there[:, c].any() or not used[i]:
-            continue
-        own = float(np.mean(residual[there[:, c], c] ** 2))
-        taken = float(np.mean(_varied(jacobian, varies)[there[:, c], c])) / count if i < count else -alike
-        each.append(max(own + taken, LEAST * own))
+    for i, (residual, there, jacobian) in enumerate(zip(best, problem.recorded.present, derivatives, strict=True)):
+        own = there[:, c]
+        if own.any() and used[i]:
+            each.append(float(np.mean(residual[own, c] ** 2)) + _misjudged(jacobian[own, c], known))
     implied = float(np.mean([f[c] for f in floors[count:]]))
     weight = len(each) + IMPLIED
     left = (sum(each) + IMPLIED * implied) / weight

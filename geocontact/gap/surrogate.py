@@ -8,8 +8,8 @@ there is anything systematic to explain, and how much of it a named effect leave
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -18,13 +18,15 @@ from geocontact.chain.movement import recorded
 from geocontact.gap.evidence import Judged, judged_anew, log_evidence, prior_spread
 from geocontact.gap.problem import Problem
 
-ALONG = 12  # bumps over one input's position or rate
-ACROSS = 6  # bumps per side over position and rate together
-THROUGH = 16  # bumps over a trial
-ALONE = 10  # bumps over a trial that are a trial's own
+ALONG = (12, 30)  # bumps over one input's position or rate, wide ones and narrow ones
+ACROSS = (6,)  # bumps per side over position and rate together
+THROUGH = (6, 16, 40)  # bumps over a trial
+ALONE = (5, 12)  # bumps over a trial that are a trial's own
 STRETCHES = 8  # of a trial, that parameters may differ between
-SLOWLY = 6  # broad bumps over a trial
-DEEPEST = 10  # bumps that are taken at most
+NARROWEST = 1.5  # steps, in noise levels of the channel, that are looked for
+FEWEST_STAIRS, MOST_STAIRS = 8, 200  # half waves over the range of a channel
+RENEWED = 2  # times that the noise is estimated anew with the stand-in in place
+DEEPEST = 24  # bumps that are taken at most
 RIDGE = 1e-6  # against parameters that do nothing
 SIZES = (0.3, 1.0, 3.0, 10.0, 30.0)  # standard deviation of the weights, in noise levels of the channel
 
@@ -52,34 +54,56 @@ class Surrogate:
 
 
 def surrogate(problem: Problem, judged: Judged) -> Surrogate:
-    """The family that gains most on top of a model, under its own noise or under quieter noise.
+    """The family that gains most on top of a model, under the noise that suits model and stand-in together.
 
-    Noise that was fitted to what a model misses explains it away; with the stand-in in its place it may be quieter.
+    Noise that was fitted to what a model misses explains it away. So the stand-in is chosen under the model's own noise
+    and under quieter noise, and noise levels are estimated anew from what the latter's choice leaves over.
     """
-    quiet = judged_anew(problem, judged.model, problem.quieter(judged.noise))
     spread = prior_spread(judged.model.system, judged.model.values)
     made = [*families(problem), *lonely(problem, judged)]
-    best = Surrogate("", 0.0, 0.0, tuple(np.zeros_like(each) for each in judged.model.residuals))
-    for one in (judged, quiet):
+    price = float(np.log(len(made) * (2 + RENEWED)))
+
+    def under(one: Judged) -> Surrogate:
         weighings = problem.weighings(one.noise, one.model)
         known = one.model.whitened_jacobian * spread
-        behind = one.nats - judged.nats
-        behind_calibration = one.calibration - judged.calibration
+        best = Surrogate("", 0.0, 0.0, tuple(np.zeros_like(each) for each in one.model.residuals))
         for name, features in made:
             white = np.concatenate([w(part) for w, part in zip(weighings, features, strict=True)])
-            found = chosen(one.model.whitened, white, known, judged.fitted_rows, float(np.log(2 * len(made))))
-            if found.nats + behind > best.nats:
-                predicted = tuple(part[..., found.columns] @ found.weights for part in features)
-                best = Surrogate(name, found.nats + behind, found.calibration + behind_calibration, predicted)
-    return best
+            found = chosen(one.model.whitened, white, known, one.fitted_rows, price)
+            if found.nats > best.nats:
+                shift = spread * found.shift
+                predicted = tuple(
+                    part[..., found.columns] @ found.weights + jacobian @ shift
+                    for part, jacobian in zip(features, one.model.jacobian, strict=True)
+                )
+                best = Surrogate(name, found.nats, found.calibration, predicted)
+        return replace(
+            best,
+            nats=best.nats + one.nats - judged.nats,
+            calibration=best.calibration + one.calibration - judged.calibration,
+        )
+
+    quiet = judged_anew(problem, judged.model, problem.quieter(judged.noise))
+    found = [under(judged), under(quiet)]
+    for _ in range(RENEWED):
+        if not found[-1].family:
+            break
+        left = tuple(a - b for a, b in zip(judged.model.residuals, found[-1].predicted, strict=True))
+        noise = problem.weighed(replace(judged.model, residuals=left), quiet.noise)
+        found.append(under(judged_anew(problem, judged.model, noise)))
+    return max(found, key=lambda each: each.nats)
 
 
 @dataclass(frozen=True)
 class Choice:
-    """Columns of a family that are worth their price, their weights, and what they gain."""
+    """Columns of a family that are worth their price, their weights, and what they gain.
+
+    `shift` is how the fitted parameters move to make room, in units of their prior spread.
+    """
 
     columns: list[int]
     weights: Float[np.ndarray, " k"]
+    shift: Float[np.ndarray, " p"]
     nats: float
     calibration: float
 
@@ -119,9 +143,13 @@ def chosen(
         rest = rest - direction * (direction @ rest)
         free = free - np.outer(direction, direction @ free)
     if not taken:
-        return Choice([], np.zeros(0), 0.0, 0.0)
+        return Choice([], np.zeros(0), np.zeros(known.shape[1]), 0.0, 0.0)
     part = log_evidence(left[:rows], design[:rows], spread) + 0.5 * float(left[:rows] @ left[:rows])
-    return Choice(taken, _posterior(left, design, spread), total, part - each * len(taken) - price)
+    weights = _posterior(left, design, spread)
+    ridge = RIDGE * np.eye(known.shape[1])
+    apart = np.concatenate([residual - columns[:, taken] @ weights, np.zeros(known.shape[1])])
+    shift = np.linalg.lstsq(np.concatenate([known, ridge]), apart, rcond=None)[0]
+    return Choice(taken, weights, shift, total, part - each * len(taken) - price)
 
 
 def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
@@ -139,7 +167,6 @@ def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ 
         yield f"position and rate of {name}", [_per_channel(bumps, scale) for bumps in crossed]
     phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
     yield "time within the trial", [_per_channel(bumps, scale) for bumps in _line(phase, THROUGH)]
-    yield "broad stretches of the trial", [_per_channel(bumps, scale) for bumps in _line(phase, SLOWLY)]
 
 
 def lonely(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
@@ -155,6 +182,35 @@ def lonely(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[n
     ]
     yield "parameters that change during a trial", _apart(changing)
     yield "parameters that change at one moment of every trial", changing
+    yield from stairs(problem, judged)
+
+
+def stairs(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
+    """Waves over the prediction itself, which recording in coarse steps leaves: first harmonics of a sawtooth."""
+    clean = [own_course(problem, judged, i) for i in range(len(judged.model.residuals))]
+    for c, name in enumerate(problem.system.outputs):
+        together = np.concatenate([each[:, c] for each in clean])
+        extent, noise = float(together.max() - together.min()), float(problem.floor_of_noise[c])
+        count = min(int(2.0 * extent / (NARROWEST * noise)), MOST_STAIRS) if noise > 0.0 else 0
+        if count < FEWEST_STAIRS:
+            continue
+        turns = np.pi * np.arange(FEWEST_STAIRS, count + 1) / extent
+        waves = []
+        for each in clean:
+            angle = each[:, c, None] * turns
+            waves.append(np.zeros((*each.shape, 2 * len(turns))))
+            waves[-1][:, c] = noise * np.concatenate([np.sin(angle), np.cos(angle)], axis=1)
+        yield f"steps of {name}", waves
+
+
+def own_course(problem: Problem, judged: Judged, i: int) -> Float[np.ndarray, "t c"]:
+    """What a model predicts for a trial with the trial's own deviations as they most probably were."""
+    model, noise = judged.model, judged.noise
+    moved = model.jacobian[i][..., : len(noise.varies)] * noise.varies
+    whitener = noise.whiteners[i]
+    design, residual = whitener(moved), whitener(model.residuals[i][..., None])[:, 0]
+    deviation = np.linalg.solve(np.eye(design.shape[1]) + design.T @ design, design.T @ residual)
+    return np.asarray(np.nan_to_num(problem.recorded.outputs[i]) - model.residuals[i] + moved @ deviation)
 
 
 def _apart(features: list[Float[np.ndarray, "_ c m"]]) -> list[Float[np.ndarray, "_ c k"]]:
@@ -167,12 +223,16 @@ def _apart(features: list[Float[np.ndarray, "_ c m"]]) -> list[Float[np.ndarray,
     return out
 
 
-def _line(values: list[Float[np.ndarray, " _"]], count: int) -> list[Float[np.ndarray, "_ m"]]:
+def _line(values: list[Float[np.ndarray, " _"]], counts: Sequence[int]) -> list[Float[np.ndarray, "_ m"]]:
     """Gaussian bumps, evenly spaced over the range that 98 % of the samples are in, as wide as their distance."""
     low, high = np.percentile(np.concatenate(values), [1.0, 99.0])
-    centres = np.linspace(low, high, count)
-    width = max((high - low) / (count - 1), 1e-300)
-    return [np.exp(-0.5 * ((np.clip(v, low, high)[:, None] - centres) / width) ** 2) for v in values]
+    clipped = [np.clip(v, low, high)[:, None] for v in values]
+    made = []
+    for count in counts:
+        centres = np.linspace(low, high, count)
+        width = max((high - low) / (count - 1), 1e-300)
+        made.append([np.exp(-0.5 * ((v - centres) / width) ** 2) for v in clipped])
+    return [np.concatenate(scales, axis=1) for scales in zip(*made, strict=True)]
 
 
 def _per_channel(bumps: Float[np.ndarray, "t m"], scale: Float[np.ndarray, " c"]) -> Float[np.ndarray, "t c k"]:

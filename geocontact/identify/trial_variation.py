@@ -46,14 +46,24 @@ class Variation:
 
 
 def variation(
-    trials: Sequence[Products], prior_sd: Float[np.ndarray, " q"], weight: float = 4.0, rounds: int = 50
+    trials: Sequence[Products],
+    prior_sd: Float[np.ndarray, " q"],
+    weight: float = 4.0,
+    spent: float = 0.0,
+    rounds: int = 50,
 ) -> Variation:
-    """Most likely variation, with a prior worth `weight` trials of standard deviation `prior_sd`."""
+    """Most likely variation, with a prior worth `weight` trials of standard deviation `prior_sd`.
+
+    `spent` trials count as used up, 1 where the parameters' means were fitted to the same trials, as far as the trials
+    tell of a parameter's deviations at all.
+    """
     sd = prior_sd.copy()
     for _ in range(rounds):
         pairs = [_conditional(trial, sd) for trial in trials]
-        squares = sum(mean**2 + np.diag(cov) for mean, cov in pairs)
-        new = np.sqrt((weight * prior_sd**2 + squares) / (weight + len(trials)))
+        unsure = sum(np.diag(cov) for _, cov in pairs)
+        squares = unsure + sum(mean**2 for mean, _ in pairs)
+        told = 1.0 - unsure / np.maximum(len(trials) * sd**2, 1e-300)
+        new = np.sqrt((weight * prior_sd**2 + squares) / (weight + len(trials) - spent * told))
         done = bool(np.allclose(new, sd, rtol=1e-6))
         sd = new
         if done:
