@@ -88,7 +88,7 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
     for _ in range(RENEWED):
         if not found[-1].family:
             break
-        left = tuple(a - b for a, b in zip(judged.model.residuals, found[-1].predicted, strict=True))
+        left = [a - b for a, b in zip(judged.model.residuals, found[-1].predicted, strict=True)]
         noise = problem.weighed(replace(judged.model, residuals=left), quiet.noise)
         found.append(under(judged_anew(problem, judged.model, noise)))
     return max(found, key=lambda each: each.nats)
