@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.cli import quantities
 from geocontact.cli.area import AreaOptions
 from geocontact.cli.left_over import PARAVIEW
 from geocontact.cli.maps import FILE, write_maps
 from geocontact.cli.pictures import write_paraview, write_stills
+from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
@@ -68,7 +68,7 @@ def write_results(
             record.warn(note)
             reservations = [*reservations, note]
     inputs = [i for i in record.inputs if i.get("folder", a.name or ".") == (a.name or ".")]
-    tables = [inputs_table(inputs), _options_table(record)]
+    tables = [inputs_table(inputs), options_table(record)]
     if comparison is not None:
         tables.insert(0, _comparison_table(comparison))
     write_report(
@@ -83,20 +83,6 @@ def _with_coordinate(evolution: AreaEvolution, motion: Motion) -> pd.DataFrame:
         name, angle = motion.coordinate
         table[f"{name} [deg]"] = np.repeat(np.degrees(angle), len(evolution.thresholds))
     return table
-
-
-def _options_table(record: Record) -> Table:
-    """Options without the folders of files: a page is passed on, and where its files lay is nobody's business."""
-    given = [(key, _shown(value)) for key, value in record.options.items() if value not in (None, False, [])]
-    rows = [("command", f"geocontact {record.command}"), *given, *record.versions().items()]
-    return Table("How it was made", ("option", "value"), rows)
-
-
-def _shown(value: object) -> str:
-    if isinstance(value, (list, tuple)):
-        return ", ".join(_shown(item) for item in value)
-    text = str(value)
-    return Path(text).name if isinstance(value, Path) or quantities.named_file(text) is not None else text
 
 
 def _comparison_table(rows: pd.DataFrame) -> Table:

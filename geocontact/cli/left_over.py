@@ -18,9 +18,14 @@ COP = (
     "zones.csv",
     "zones.parquet",
 )
+LOADCELLS = (
+    *(f"{name}.{ending}" for name in ("forces", "cycles", "ensemble", "styles") for ending in ("csv", "parquet")),
+    *(f"{name}.{ending}" for name in ("loadcells", "ensemble") for ending in ("png", "svg")),
+    "report.html",
+)
 GAP = ("diagnosis.json", "gap_map.csv", "ranking.csv", "held_out.csv", "summary.csv", "report.html")
 BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
-NAMES = frozenset({*AREA, *COP, *GAP, *BENCHMARK, RUN})
+NAMES = frozenset({*AREA, *COP, *LOADCELLS, *GAP, *BENCHMARK, RUN})
 PARAVIEW = "paraview"
 PICTURES = re.compile(
     r"(gap_map|ranking|gap_residuals|before_after_\w+)\.(png|svg)"

@@ -30,6 +30,7 @@ app.command("geocontact.cli.cop:cop", name="cop")
 app.command("geocontact.cli.demo:demo", name="demo")
 app.command("geocontact.cli.doctor:doctor", name="doctor")
 app.command("geocontact.cli.gap:gap", name="gap")
+app.command("geocontact.cli.loadcells:loadcells", name="loadcells")
 app.command("geocontact.cli.view:view", name="view")
 
 

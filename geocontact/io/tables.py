@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 import warnings
 from dataclasses import dataclass
 from os import PathLike, fspath
@@ -20,6 +21,9 @@ from geocontact.io.units import split_header
 
 LARGEST_FILE = 256_000_000
 """Bytes; a table of 60 columns at 1 kHz for two hours."""
+
+_TIME = re.compile(r"time\s*(?:\((?P<unit>[^()]*)\))?", re.IGNORECASE)
+"""Name of the time column; recorders also write its unit in round brackets: Time(sec)."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +143,9 @@ def _read_csv(stream: TextIO, file: str) -> Table:
 
 
 def _split_commas(line: str, _separator: None, most: int) -> list[str]:
-    return line.split(",", most) if line.strip() else []
+    """At most `most` + 1 cells of a line; a comma at its end, as some recorders write it, is not one more cell."""
+    cells = line.split(",", most) if line.strip() else []
+    return cells[:most] if len(cells) > most and not cells[most].strip() else cells
 
 
 def _label_line(stream: TextIO, file: str, number: int) -> str:
@@ -158,12 +164,14 @@ def _table(
     angles: AngleEvidence | None,
 ) -> Table:
     """Take the time column out and check it; `angles` is None for .csv."""
-    places = [i for i, name in enumerate(names) if name.lower() == "time"]
+    places = [i for i, name in enumerate(names) if _TIME.fullmatch(name)]
     if len(places) != 1:
         what = f"{len(places) or 'no'} columns named 'time'"
         raise InputError(file, f"line {lines[0] - 1}", what, f"one is needed; columns are: {listed(names)}")
     rest = [i for i in range(len(names)) if i != places[0]]
-    time, time_unit = _time(values[:, places[0]], units[places[0]], lines, file)
+    found = _TIME.fullmatch(names[places[0]])
+    unit = units[places[0]] or (found["unit"] or "" if found else "")
+    time, time_unit = _time(values[:, places[0]], unit, lines, file)
     return Table(
         time=time,
         values=values[:, rest],
@@ -180,7 +188,7 @@ def _table(
 def _time(
     values: Float[np.ndarray, " t"], unit: str, lines: Int[np.ndarray, " t"], file: str
 ) -> tuple[Float[np.ndarray, " t"], str]:
-    seconds = {"": 1.0, "s": 1.0, "ms": 1e-3, "%": 1.0}
+    seconds = {"": 1.0, "s": 1.0, "sec": 1.0, "ms": 1e-3, "%": 1.0}
     if unit not in seconds:
         raise InputError(file, "", f"time is in '{unit}'", "write `time [s]`, [ms] or [%]")
     bad = np.flatnonzero(~np.isfinite(values))

@@ -7,10 +7,9 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.identify.cycles import normalised
 from geocontact.view.curves.given import array, positions
 from geocontact.view.curves.quantity import TIME
-
-STEPS = np.linspace(0.0, 100.0, 101)  # [%]
 
 
 def cycles(
@@ -34,5 +33,4 @@ def cycles(
         raise ValueError(f"starts: {begins}; expected two or more, increasing, the end of the last cycle included")
     if begins[0] < t[0] or begins[-1] > t[-1]:
         raise ValueError(f"starts: {begins[0]:g} to {begins[-1]:g} s, but the recording has {t[0]:g} to {t[-1]:g} s")
-    within = [begin + (end - begin) * STEPS / 100.0 for begin, end in pairwise(begins)]
-    return np.array([np.interp(np.minimum(x, t[-1]), t, y) for x in within])
+    return np.array([normalised(t, y, begin, end) for begin, end in pairwise(begins.tolist())])

@@ -1,0 +1,84 @@
+"""Everything that the load cells' analysis writes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from geocontact.cli.loadcells import LoadcellOptions
+from geocontact.cli.loadcells_cycles import SIDES, Cut, cycle_table, ensemble_table, stacked, style_table
+from geocontact.cli.provenance import options_table
+from geocontact.cli.record import Record
+from geocontact.data.cell_regression import CellRegression
+from geocontact.io.load_cells import CellRecording
+from geocontact.io.results import write_table
+from geocontact.loads.loadcells import CompartmentForces
+from geocontact.view.contact_page import inputs_table
+from geocontact.view.curves.given import SERIES
+from geocontact.view.curves.save import save
+from geocontact.view.loadcells_figure import ensemble_figure, loadcell_figure
+from geocontact.view.loadcells_page import CYCLES, STYLES, write_loadcell_report
+from geocontact.view.page.content import Table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def write_ensemble(record: Record, cuts: list[Cut], o: LoadcellOptions, folder: Path) -> bytes | None:
+    """Tables and figure of the cycles of all recordings; returns the figure for the pages."""
+    if not cuts:
+        return None
+    write_table(cycle_table(cuts), folder, o.parquet, "cycles")
+    write_table(ensemble_table(cuts), folder, o.parquet, "ensemble")
+    totals = stacked(cuts, SIDES[0])
+    if len(totals) > 1:
+        write_table(style_table(cuts), folder, o.parquet, "styles")
+    if len(totals) > SERIES:
+        record.warn(f"{len(totals)} styles are more than a figure tells apart ({SERIES}); ensemble.csv has them all")
+        return None
+    along = "cycle" if o.part is None else f"first {o.part} of the cycle"
+    figure = ensemble_figure({side: stacked(cuts, side) for side in SIDES[:2]}, along)
+    return _save(figure, folder, "ensemble")
+
+
+def write_recording(
+    record: Record,
+    recording: CellRecording,
+    forces: CompartmentForces,
+    regression: CellRegression,
+    cuts: list[Cut],
+    ensemble: bytes | None,
+    o: LoadcellOptions,
+    folder: Path,
+    name: str,
+) -> None:
+    """Table, figure and page of one recording; `name` is that of its sub-folder, empty where there is one recording."""
+    columns = {f"{side} [N]": values for side, values in forces.curves.items()}
+    write_table(pd.DataFrame({"time [s]": forces.time, **columns}), folder, o.parquet, "forces")
+    cells = dict(zip(regression.cells, recording.forces.T, strict=True))
+    mine = tuple(cut.span for cut in cuts if cut.recording == Path(recording.file).stem)
+    _save(loadcell_figure(forces.time, cells, forces.curves, mine), folder, "loadcells")
+    inputs = [i for i in record.inputs if i.get("folder", name or ".") == (name or ".")]
+    tables = [inputs_table(inputs), options_table(record)]
+    if cuts:
+        tables.append(_shown(CYCLES, cycle_table(cuts)))
+    if len(stacked(cuts, SIDES[0])) > 1:
+        tables.append(_shown(STYLES, style_table(cuts)))
+    title = f"Load cells of {Path(recording.file).name}"
+    write_loadcell_report(
+        folder / "report.html", title, cells, forces, regression, ensemble, tables, list(record.warnings)
+    )
+
+
+def _save(figure: Figure, folder: Path, name: str) -> bytes:
+    """Write the figure in both forms; returns the drawing that scales."""
+    for ending in ("png", "svg"):
+        save(figure, folder / f"{name}.{ending}")
+    return (folder / f"{name}.svg").read_bytes()
+
+
+def _shown(title: str, rows: pd.DataFrame) -> Table:
+    texts = rows.map(lambda value: f"{value:.5g}" if isinstance(value, float) else str(value))
+    return Table(title, tuple(map(str, rows.columns)), texts.to_numpy().tolist())

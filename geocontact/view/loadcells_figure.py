@@ -1,0 +1,59 @@
+"""The static figures of load cells: cells and compartments over time, and the mean of the compartments over a cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.identify.cycles import STEPS, Span
+from geocontact.view.curves.over_cycle import mean_over_cycle
+from geocontact.view.curves.quantity import CYCLE, FORCE, TIME
+from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, legend, panels
+from geocontact.view.curves.text import plain
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@in_style
+def loadcell_figure(
+    time: Float[np.ndarray, " t"],
+    cells: Mapping[str, Float[np.ndarray, " t"]],
+    sides: Mapping[str, Float[np.ndarray, " t"]],
+    spans: tuple[Span, ...] = (),
+) -> Figure:
+    """Forces of the cells above, those of the compartments below [N]; cycles are shaded in turns."""
+    figure, (above, below) = panels(2, 1, DOUBLE, 0.12)
+    for axes, curves in ((above, cells), (below, sides)):
+        _lines(axes, time, curves)
+        for k, span in enumerate(spans):
+            axes.axvspan(span.start, span.end, color=GREY, alpha=0.12 if k % 2 else 0.2, lw=0, zorder=0)
+    above.set_ylabel("force of a cell [N]")
+    below.set_ylabel(FORCE.label)
+    below.set_xlabel(TIME.label)
+    return figure
+
+
+def _lines(axes: Axes, time: Float[np.ndarray, " t"], curves: Mapping[str, Float[np.ndarray, " t"]]) -> None:
+    drawn = [
+        (axes.plot(time, values, color=PALETTE[k % len(PALETTE)], ls=LINES[k % len(LINES)])[0], plain(name))
+        for k, (name, values) in enumerate(curves.items())
+    ]
+    axes.set_xlim(time[0], time[-1])
+    axes.axhline(0.0, color=GREY, lw=0.6, zorder=1)
+    legend(axes, drawn)
+
+
+@in_style
+def ensemble_figure(sides: Mapping[str, Mapping[str, Float[np.ndarray, "_ 101"]]], along: str = "cycle") -> Figure:
+    """Mean and SD over the cycle, a panel per compartment, a line per gait style."""
+    figure, row = panels(1, len(sides), DOUBLE, 0.07)
+    for axes, (side, styles) in zip(row, sides.items(), strict=True):
+        named = f"{side} contact force"
+        mean_over_cycle(STEPS, styles, replace(FORCE, name=named), axes, replace(CYCLE, name=along))
+    return figure
