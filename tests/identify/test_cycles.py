@@ -74,6 +74,14 @@ def test_a_short_pause_ends_no_load_and_a_knock_is_none() -> None:
     )
 
 
+def test_a_long_dip_just_below_the_level_ends_no_load() -> None:
+    """A slow walker's middle of stance: 0.3 s at 0.9 of the level, then at 0.7 of it."""
+    dip = (TIME > 0.7) & (TIME < 1.0)
+    shallow, deep = (np.where(dip, share * 400.0, walk(TIME)) for share in (0.9, 0.7))
+    assert len(loaded_spans(TIME, shallow, 400.0)) == len(loaded_spans(TIME, walk(TIME), 400.0)) == 4
+    assert len(loaded_spans(TIME, deep, 400.0)) == 5
+
+
 def test_no_load_no_cycles() -> None:
     assert loaded_spans(TIME, walk(TIME), 2000.0) == strides(TIME, walk(TIME), 2000.0) == []
 
