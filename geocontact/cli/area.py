@@ -75,6 +75,18 @@ class AreaOptions:
         Also write both bodies with their distances over time for ParaView (folder paraview).
     stills
         Also write 3-D pictures of the frame with the largest area (still_superior.png and others).
+    pressure
+        Also press MOVING, taken as rigid, into FIXED as an elastic layer: pressures, forces, centres of pressure.
+    modulus
+        Young's modulus of FIXED for --pressure: 500MPa.
+    poisson
+        Poisson's ratio of FIXED for --pressure, below 0.5.
+    thickness
+        Of FIXED's layer: a length such as 8mm, or rays (measured along the normal, which is the default).
+    foundation
+        linear or logarithmic (finite strain); linear unless given.
+    piece
+        Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
     parquet
         Also write area.parquet.
     workers
@@ -109,6 +121,12 @@ class AreaOptions:
     save_map: Annotated[bool, Flag] = False
     paraview: Annotated[bool, Flag] = False
     stills: Annotated[bool, Flag] = False
+    pressure: Annotated[bool, Flag] = False
+    modulus: str | None = None
+    poisson: float | None = None
+    thickness: str | None = None
+    foundation: Literal["linear", "logarithmic"] | None = None
+    piece: str | None = None
     parquet: Annotated[bool, Flag] = False
     workers: int | None = None
 

@@ -18,6 +18,7 @@ from geocontact.cli.idle import refuse_idle
 from geocontact.cli.motions import motions_given
 from geocontact.cli.output import written_whole
 from geocontact.cli.patience import preparing, progress
+from geocontact.cli.pressure import PressureEvolution, pressure_evolution
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import AreaEvolution
@@ -66,11 +67,12 @@ def analyse(moving: Path, fixed: Path, more_motions: Sequence[str], o: AreaOptio
             folder.mkdir(exist_ok=True)
             analysis = Analysis(*bodies, motion, settings, o, name)
             evolution, maps = _evaluated(record, analysis)
+            pressure = _pressures(record, analysis, maps) if o.pressure else None
             comparison = None if reference is None else _compared(record, evolution, reference)
             if reference is not None and comparison is not None:
                 within &= reference.accepts(comparison)
             reservations = record.warnings[:shared] + record.warnings[before:]
-            write_results(record, analysis, evolution, maps, comparison, reservations, folder)
+            write_results(record, analysis, evolution, maps, comparison, pressure, reservations, folder)
         record.write(draft, *(draft / name for name, _ in motions))
         written = sorted(str(file.relative_to(draft)) for file in draft.rglob("*") if file.is_file())
     record.say(f"results in {o.out}: {', '.join(written)}")
@@ -113,6 +115,11 @@ def _evaluated(record: Record, a: Analysis) -> tuple[AreaEvolution, DistanceMaps
     _warn_of_doubts(record, evolution, a.settings, o.bounds is not None)
     _summarise(record, evolution, a.name)
     return evolution, maps
+
+
+def _pressures(record: Record, a: Analysis, maps: DistanceMaps) -> PressureEvolution:
+    """Loads of all frames; maps of the frames whose distances are kept."""
+    return pressure_evolution(record, a.moving, a.fixed, a.motion, a.settings, a.options, maps.frames, a.name)
 
 
 def _refuse_strangers(evolution: AreaEvolution, o: AreaOptions) -> None:

@@ -12,6 +12,8 @@ from geocontact.cli.area import AreaOptions
 from geocontact.cli.left_over import PARAVIEW
 from geocontact.cli.maps import FILE, write_maps
 from geocontact.cli.pictures import write_paraview, write_stills
+from geocontact.cli.pressure import PressureEvolution
+from geocontact.cli.pressure_results import write_pressures
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.evolution import AreaEvolution
@@ -22,7 +24,7 @@ from geocontact.geometry.surface import Surface
 from geocontact.io.results import write_table
 from geocontact.view.area_figure import draw_areas
 from geocontact.view.contact_page import inputs_table, write_report
-from geocontact.view.page.content import Table
+from geocontact.view.page.content import Curves, Picture, Table
 
 
 @dataclass(frozen=True)
@@ -48,10 +50,14 @@ def write_results(
     evolution: AreaEvolution,
     maps: DistanceMaps,
     comparison: pd.DataFrame | None,
+    pressure: PressureEvolution | None,
     reservations: list[str],
     folder: Path,
 ) -> None:
     """Table, static figure, page, and what was asked for beside them."""
+    shown: list[Curves | Picture] = []
+    if pressure is not None:
+        shown = write_pressures(pressure, a.fixed, a.motion, folder, a.options.parquet, a.options.save_map)
     write_table(_with_coordinate(evolution, a.motion), folder, a.options.parquet)
     if comparison is not None:
         comparison.to_csv(folder / "comparison.csv", index=False)
@@ -62,7 +68,8 @@ def write_results(
         (folder / "area.png", folder / "area.svg"), a.motion.course,
     )  # fmt: skip
     if a.options.paraview:
-        write_paraview(folder / PARAVIEW, a.moving, a.fixed, a.motion, evolution, maps)
+        pressures = None if pressure is None else dict(zip(pressure.frames, pressure.pressure, strict=True))
+        write_paraview(folder / PARAVIEW, a.moving, a.fixed, a.motion, evolution, maps, pressures)
     if a.options.stills:
         for note in write_stills(folder, a.moving, a.fixed, a.motion, evolution, maps, a.title):
             record.warn(note)
@@ -72,7 +79,17 @@ def write_results(
     if comparison is not None:
         tables.insert(0, _comparison_table(comparison))
     write_report(
-        folder / "report.html", a.moving, a.fixed, a.motion, a.settings, evolution, maps, a.title, tables, reservations
+        folder / "report.html",
+        a.moving,
+        a.fixed,
+        a.motion,
+        a.settings,
+        evolution,
+        maps,
+        a.title,
+        tables,
+        reservations,
+        shown,
     )
 
 

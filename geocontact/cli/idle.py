@@ -19,6 +19,10 @@ def refuse_idle(o: AreaOptions, files: Sequence[str]) -> None:
         "--osim": o.osim, "--joint": o.joint, "--map": o.map, "--order": o.order, "--angles": o.angles,
         "--convention": o.convention, "--side": o.side, "--moving": o.moving_body,
     }  # fmt: skip
+    layer = {
+        "--modulus": o.modulus, "--poisson": o.poisson, "--thickness": o.thickness, "--foundation": o.foundation,
+        "--piece": o.piece,
+    }  # fmt: skip
     _refuse(
         ((o.sweep is None) == (not files), "--motion", "give either --motion or --sweep", "see geocontact area --help"),
         (o.workers is not None and o.workers < 1, "--workers", "is less than one thread", "give 1 or more"),
@@ -37,6 +41,10 @@ def refuse_idle(o: AreaOptions, files: Sequence[str]) -> None:
         (o.medial is not None and o.split is None, "--medial", "does nothing without --split", "give --split"),
         (o.tolerance is not None and o.compare is None, "--tolerance", "does nothing without --compare",
          "give your measured areas too, or leave it out"),
+        *((not o.pressure and value is not None, option, "does nothing without --pressure", "give --pressure")
+          for option, value in layer.items()),
+        (o.pressure and o.modulus is None, "--modulus", "is missing beside --pressure", "give for example 500MPa"),
+        (o.pressure and o.poisson is None, "--poisson", "is missing beside --pressure", "give for example 0.46"),
     )  # fmt: skip
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 RUN = "run.json"
 AREA = ("area.csv", "area.parquet", "area.png", "area.svg", "comparison.csv", "distances.npz", "report.html")
+PRESSURE = ("pressure.csv", "pressure.parquet", "pressure.png", "pressure.svg", "pressure.npz")
 COP = (
     "cop.csv",
     "cop.parquet",
@@ -25,7 +26,7 @@ LOADCELLS = (
 )
 GAP = ("diagnosis.json", "gap_map.csv", "ranking.csv", "held_out.csv", "summary.csv", "report.html")
 BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
-NAMES = frozenset({*AREA, *COP, *LOADCELLS, *GAP, *BENCHMARK, RUN})
+NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *GAP, *BENCHMARK, RUN})
 PARAVIEW = "paraview"
 PICTURES = re.compile(
     r"(gap_map|ranking|gap_residuals|before_after_\w+)\.(png|svg)"

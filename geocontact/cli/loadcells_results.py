@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from geocontact.cli.figures import save_both
 from geocontact.cli.loadcells import LoadcellOptions
 from geocontact.cli.loadcells_cycles import SIDES, Cut, cycle_table, ensemble_table, stacked, style_table
 from geocontact.cli.provenance import options_table
@@ -17,13 +17,9 @@ from geocontact.io.results import write_table
 from geocontact.loads.loadcells import CompartmentForces
 from geocontact.view.contact_page import inputs_table
 from geocontact.view.curves.given import SERIES
-from geocontact.view.curves.save import save
 from geocontact.view.loadcells_figure import ensemble_figure, loadcell_figure
 from geocontact.view.loadcells_page import CYCLES, STYLES, write_loadcell_report
 from geocontact.view.page.content import Table
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def write_ensemble(record: Record, cuts: list[Cut], o: LoadcellOptions, folder: Path) -> bytes | None:
@@ -40,7 +36,7 @@ def write_ensemble(record: Record, cuts: list[Cut], o: LoadcellOptions, folder: 
         return None
     along = "cycle" if o.part is None else f"first {o.part} of the cycle"
     figure = ensemble_figure({side: stacked(cuts, side) for side in SIDES[:2]}, along)
-    return _save(figure, folder, "ensemble")
+    return save_both(figure, folder, "ensemble")
 
 
 def write_recording(
@@ -59,7 +55,7 @@ def write_recording(
     write_table(pd.DataFrame({"time [s]": forces.time, **columns}), folder, o.parquet, "forces")
     cells = dict(zip(regression.cells, recording.forces.T, strict=True))
     mine = tuple(cut.span for cut in cuts if cut.recording == Path(recording.file).stem)
-    _save(loadcell_figure(forces.time, cells, forces.curves, mine), folder, "loadcells")
+    save_both(loadcell_figure(forces.time, cells, forces.curves, mine), folder, "loadcells")
     inputs = [i for i in record.inputs if i.get("folder", name or ".") == (name or ".")]
     tables = [inputs_table(inputs), options_table(record)]
     if cuts:
@@ -70,13 +66,6 @@ def write_recording(
     write_loadcell_report(
         folder / "report.html", title, cells, forces, regression, ensemble, tables, list(record.warnings)
     )
-
-
-def _save(figure: Figure, folder: Path, name: str) -> bytes:
-    """Write the figure in both forms; returns the drawing that scales."""
-    for ending in ("png", "svg"):
-        save(figure, folder / f"{name}.{ending}")
-    return (folder / f"{name}.svg").read_bytes()
 
 
 def _shown(title: str, rows: pd.DataFrame) -> Table:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact import __version__
 from geocontact.data.evolution import AreaEvolution
@@ -21,14 +23,21 @@ STILL = "still_"
 
 
 def write_paraview(
-    folder: Path, moving: Surface, fixed: Surface, motion: Motion, evolution: AreaEvolution, maps: DistanceMaps
+    folder: Path,
+    moving: Surface,
+    fixed: Surface,
+    motion: Motion,
+    evolution: AreaEvolution,
+    maps: DistanceMaps,
+    pressures: Mapping[int, Float[np.ndarray, " f"]] | None = None,
 ) -> None:
-    """Write the frames kept in `maps` as .vtp files with .pvd collections."""
+    """Write the frames kept in `maps` as .vtp files with .pvd collections; `pressures` [Pa] of FIXED's faces."""
     frames = np.asarray(maps.frames, np.int64)
+    pressure = None if pressures is None else np.array([pressures[k] for k in maps.frames])
     series = ContactSeries(
         time=motion.time[frames],
         poses=motion.poses[frames],
-        fixed=MappedBody(fixed.vertices, fixed.faces, maps.fixed),
+        fixed=MappedBody(fixed.vertices, fixed.faces, maps.fixed, pressure),
         moving=MappedBody(moving.vertices, moving.faces, maps.moving),
         thresholds=evolution.thresholds,
         signed=evolution.signed,

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 
 from geocontact.data.errors import InputError
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.sweep import Axis
-from geocontact.io.units import ANGLE, LENGTH
+from geocontact.io.units import ANGLE, DIMENSIONS, LENGTH, si_unit
+
+_NUMBER_AND_UNIT = re.compile(r"(?P<number>[-+0-9.eE]+?)\s*(?P<unit>[a-zA-Z][a-zA-Z/^0-9]*)")
 
 
 def named_file(text: str) -> Path | None:
@@ -39,6 +42,20 @@ def length(text: str, option: str, unit: str = "mm") -> float:
             text, unit = text[: -len(name)], name
             break
     return number(text, option, f"{option} 4 or {option} 4mm") * LENGTH[unit]
+
+
+def modulus(text: str, option: str) -> float:
+    """ "500MPa", "0.5 GPa" to pascals; the unit is never guessed."""
+    found = _NUMBER_AND_UNIT.fullmatch(text.strip())
+    known = si_unit(found["unit"]) if found else None
+    if found is None or known is None or known[0] != "Pa":
+        raise InputError(
+            "", option, f"{text!r} is not a pressure", f"write 500MPa (one of {', '.join(DIMENSIONS['Pa'])})"
+        )
+    value = number(found["number"], option, "500MPa") * known[1]
+    if value <= 0.0:
+        raise InputError("", option, f"{text!r} is not positive", "write for example 500MPa")
+    return value
 
 
 def thresholds(text: str) -> tuple[float, ...]:

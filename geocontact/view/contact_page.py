@@ -17,7 +17,7 @@ from geocontact.geometry.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.view.contact_words import reviewers_words
 from geocontact.view.directions import camera_directions
-from geocontact.view.page.content import Body, Curve, Curves, Page, Readout, Row, Scene, Section, Strip, Table
+from geocontact.view.page.content import Body, Curve, Curves, Page, Picture, Readout, Row, Scene, Section, Strip, Table
 from geocontact.view.page.write import write_page
 
 TICK = 0.5e-3  # m; the colours end at a round number
@@ -37,6 +37,7 @@ def write_report(
     title: str = "",
     provenance: Sequence[Table] = (),
     warnings: Sequence[str] = (),
+    more: Sequence[Curves | Picture] = (),
 ) -> int:
     """Write the self-contained page of one contact-area analysis; returns its size in bytes.
 
@@ -56,13 +57,15 @@ def write_report(
         Further tables: inputs with hashes, options, versions.
     warnings
         Reservations that came up on the way.
+    more
+        Further curves, over all frames of the motion, and pictures.
     """
     if not maps.frames:
         raise ValueError("the distance maps hold no frame; gather them with area_evolution(..., each=maps.add)")
     most = FRAMES
     while True:
         told = Told(moving, fixed, motion, settings, evolution, maps, shown_frames(maps, most))
-        size = write_page(contact_page(told, title, provenance, warnings), Path(path))
+        size = write_page(contact_page(told, title, provenance, warnings, more), Path(path))
         most = min(most, len(told.kept)) // 2
         if size <= LARGEST_FILE or most < FEWEST:
             return size
@@ -103,13 +106,20 @@ def shown_frames(maps: DistanceMaps, most: int) -> Int[np.ndarray, " k"]:
     return places
 
 
-def contact_page(told: Told, title: str, provenance: Sequence[Table], warnings: Sequence[str]) -> Page:
+def contact_page(
+    told: Told,
+    title: str,
+    provenance: Sequence[Table],
+    warnings: Sequence[str],
+    more: Sequence[Curves | Picture] = (),
+) -> Page:
     """The page before it becomes a file."""
     e, frames, main = told.evolution, told.frames, told.main
     sections: list[Section] = [
         _scene(told),
         Readout(_rows(told), title=f"This frame, threshold {_mm(e, main)}"),
         *_curves(e, frames, main),
+        *(_at(section, frames) for section in more),
     ]
     if e.sensitivity_thresholds:
         sections.append(_strip(told))
@@ -244,6 +254,13 @@ def _curves(e: AreaEvolution, frames: Int[np.ndarray, " k"], main: int) -> list[
     areas += [within(k) for k in range(len(e.thresholds)) if k != main]
     distance = [Curve("smallest distance", e.min_distance[frames] * MM)]
     return [Curves("Contact area", "mm²", areas), Curves("Smallest distance (negative: overlap)", "mm", distance)]
+
+
+def _at(section: Curves | Picture, frames: Int[np.ndarray, " k"]) -> Curves | Picture:
+    """Curves over all frames at those shown."""
+    if isinstance(section, Picture):
+        return section
+    return Curves(section.title, section.unit, [Curve(c.name, c.values[frames]) for c in section.curves])
 
 
 def _strip(told: Told) -> Strip:

@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from contextlib import ExitStack, contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
@@ -92,8 +92,10 @@ def area(
 @contextmanager
 def unpictured() -> Iterator[None]:
     """Neither figure nor page are made."""
-    places = ("geocontact.cli.area_results.draw_areas", "geocontact.cli.area_results.write_report")
-    with mock.patch(places[0]), mock.patch(places[1]):
+    places = ("area_results.draw_areas", "area_results.write_report", "pressure_results.save_both")
+    with ExitStack() as stack:
+        for place in places:
+            stack.enter_context(mock.patch(f"geocontact.cli.{place}", return_value=b""))
         yield
 
 

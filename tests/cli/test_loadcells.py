@@ -57,7 +57,7 @@ def unpictured() -> Iterator[None]:
     """Neither figures nor pages are made."""
     room = "geocontact.cli.loadcells_results"
     with ExitStack() as stack:
-        for name in ("loadcell_figure", "ensemble_figure", "_save", "write_loadcell_report"):
+        for name in ("loadcell_figure", "ensemble_figure", "save_both", "write_loadcell_report"):
             stack.enter_context(mock.patch(f"{room}.{name}", return_value=b""))
         yield
 

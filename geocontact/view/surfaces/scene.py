@@ -50,12 +50,14 @@ class ContactScene:
 class MappedBody:
     """A body in its own frame [m] and the signed distance [m] of its vertices to the other body in each frame.
 
-    Distances are infinite where they were not asked for (negative: deep inside).
+    Distances are infinite where they were not asked for (negative: deep inside). `pressure` is that of its faces [Pa]
+    where it was computed.
     """
 
     vertices: Float[np.ndarray, "n 3"]
     faces: Int[np.ndarray, "m 3"]
     distance: Float[np.ndarray, "t n"]
+    pressure: Float[np.ndarray, "t m"] | None = None
 
     def __post_init__(self) -> None:
         _require_distances(self.distance)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pyvista import PolyData
 
 MM = 1e3
+MPA = 1e-6
 BODIES = ("fixed", "moving")
 
 
@@ -28,8 +29,9 @@ def write_vtp_series(series: ContactSeries, folder: Path, program: str) -> tuple
 
     Point data are `distance [mm]`, the signed distance to the other body, and `within 4 mm` (0 or 1) for each
     threshold. Distances are truncated at the field datum `truncated at [mm]`, so that value means "at least": not a
-    number would leave holes in ParaView's contour lines and infinity would spoil its colour range. Field data also give
-    TimeValue, the units, the thresholds, the frame of reference and the program.
+    number would leave holes in ParaView's contour lines and infinity would spoil its colour range. Cell data are
+    `pressure [MPa]`, where pressures were computed. Field data also give TimeValue, the units, the thresholds, the
+    frame of reference and the program.
 
     Parameters
     ----------
@@ -50,6 +52,8 @@ def write_vtp_series(series: ContactSeries, folder: Path, program: str) -> tuple
         placed = (series.fixed.vertices, series.placed(k))
         for body, mapped, vertices in zip(BODIES, (series.fixed, series.moving), placed, strict=True):
             surface = _surface(vertices, mapped.faces, mapped.distance[k], series.thresholds, limit)
+            if mapped.pressure is not None:
+                surface.cell_data["pressure [MPa]"] = (mapped.pressure[k] * MPA).astype(np.float32)
             _describe(surface, series, k, limit, body, program)
             names[body].append(f"frames/{body}_{k:0{digits}d}.vtp")
             (folder / names[body][-1]).write_bytes(_encoded(surface))

@@ -1,0 +1,95 @@
+"""Pressure maps per second on one core: `python -m benchmarks.pressure [--faces 10000 100000]`.
+
+A femoral component on a tibial insert, both synthetic, of about so many faces each, one piece per face; the poses of the
+shipped gait, sunk 0.2 mm so that something is pressed. Thickness by rays and trees are built beforehand. Then how far
+the force of the shipped meshes is from that of the finest ones, and of pieces from finer pieces.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+
+from benchmarks.one_core import pin
+
+HERE = Path(__file__).resolve().parent
+SUNK = 0.2e-3  # m
+MODULUS = 2.3e9  # Pa; confined modulus of 500 MPa and 0.46
+
+
+def main() -> None:
+    """Measure, print, write the JSON."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.pressure", description=__doc__.splitlines()[0])
+    parser.add_argument("--faces", type=int, nargs="+", default=[10_000, 100_000])
+    parser.add_argument("--frames", type=int, default=51)
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--out", type=Path, default=HERE / "results")
+    options = parser.parse_args()
+    pin()
+    from benchmarks.machine import machine
+
+    rows = [measured(faces, options.frames, options.rounds) for faces in options.faces]
+    refinement = [refined(faces) for faces in options.faces]
+    for row in [*rows, *refinement]:
+        print(json.dumps(row))
+    report = {"machine": machine(), "frames": options.frames, "speed": rows, "refinement": refinement}
+    (options.out / "pressure.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+
+
+def bed_of(insert, edge: float):
+    """The insert's upper faces as a layer."""
+    from geocontact.geometry.pieces import pieces_of
+    from geocontact.geometry.thickness import thickness_below
+    from geocontact.loads.foundation import Layer
+
+    started = time.process_time()
+    pieces = pieces_of(insert, edge, insert.face_normal[:, 1] > 0.25)
+    layer = Layer(pieces, thickness_below(insert, pieces.point, pieces.normal), MODULUS)
+    return layer, time.process_time() - started
+
+
+def measured(faces: int, frames: int, rounds: int) -> dict[str, float]:
+    """Frames per second of pressure maps, the best of some rounds, and the seconds of the rays."""
+    import numpy as np
+
+    from benchmarks.pairs import PAIRS
+    from geocontact.loads.foundation import pressed
+
+    pair = PAIRS["knee"](faces, frames)
+    femur, insert, rotation, translation = bodies(pair)
+    layer, rays = bed_of(insert, np.inf)
+    pressed(layer, femur, rotation[0], translation[0])
+    best, forces = np.inf, []
+    for _ in range(rounds):
+        started = time.process_time()
+        found = [pressed(layer, femur, r, t) for r, t in zip(rotation, translation, strict=True)]
+        best = min(best, time.process_time() - started)
+        forces = [frame.load.pressing for frame in found]
+        print(f"{faces} faces: {best:.3f} s", file=sys.stderr, flush=True)
+    return {
+        "faces_asked": faces, "faces_moving": len(femur.faces), "faces_fixed": len(insert.faces),
+        "pieces": len(layer.pieces.area), "frames_per_second": round(frames / best, 1), "rays_s": round(rays, 3),
+        "largest_force_N": round(max(forces), 3),
+    }  # fmt: skip
+
+
+def refined(faces: int) -> dict[str, float]:
+    """Force in one frame against pieces of 0.1 mm, one piece per face and at the default of 0.5 mm."""
+    import numpy as np
+
+    from benchmarks.pairs import PAIRS
+    from geocontact.loads.foundation import pressed
+
+    femur, insert, rotation, translation = bodies(PAIRS["knee"](faces, 3))
+    force = {}
+    for name, edge in (("per_face", np.inf), ("0.5_mm", 0.5e-3), ("0.1_mm", 0.1e-3)):
+        force[name] = pressed(bed_of(insert, edge)[0], femur, rotation[1], translation[1]).load.pressing
+    row: dict[str, float] = {"faces_asked": faces, "force_N": round(force["0.1_mm"], 3)}
+    for name in ("per_face", "0.5_mm"):
+        row[f"off_{name}"] = round(force[name] / force["0.1_mm"] - 1.0, 6)
+    return row
+
+

@@ -1,0 +1,18 @@
+"""A figure in the two forms in which every command leaves it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from geocontact.view.curves.save import save
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def save_both(figure: Figure, folder: Path, name: str) -> bytes:
+    """Write `name`.png and `name`.svg; returns the drawing that scales, for the page."""
+    for ending in ("png", "svg"):
+        save(figure, folder / f"{name}.{ending}")
+    return (folder / f"{name}.svg").read_bytes()

@@ -1,0 +1,199 @@
+"""Pressures on FIXED as an elastic layer, frame by frame: from options to numbers."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Bool, Float
+
+from geocontact.cli import quantities
+from geocontact.cli.area import AreaOptions
+from geocontact.cli.patience import progress
+from geocontact.cli.record import Record
+from geocontact.contact.elasticity import layer_modulus
+from geocontact.data.errors import InputError
+from geocontact.data.motion import Motion
+from geocontact.geometry.evolution import Settings
+from geocontact.geometry.pieces import Pieces, pieces_of
+from geocontact.geometry.surface import Surface
+from geocontact.geometry.thickness import thickness_below
+from geocontact.loads.foundation import Layer, Pressed, pressed
+from geocontact.loads.pressure_load import PressureLoad
+
+PIECE = "0.5mm"
+RAYS = "rays"
+AGREED = 0.01  # of the force; pieces of half the size may change it by no more without a word
+STRAINED = 0.2  # largest strain that the linear law is trusted to
+Faces = Bool[np.ndarray, " f"]
+
+
+@dataclass(frozen=True, eq=False)
+class PressureEvolution:
+    """Load on the layer in every frame, and the mean pressure of FIXED's faces in some.
+
+    Parameters
+    ----------
+    loads
+        Whole load, one per frame.
+    parts
+        Load of each compartment, one per frame.
+    frames, pressure
+        Numbers of the frames kept and pressure [Pa] of each face in them.
+    heaviest
+        Number of the frame with the largest force, which is among them.
+    """
+
+    loads: list[PressureLoad]
+    parts: dict[str, list[PressureLoad]]
+    frames: list[int]
+    pressure: Float[np.ndarray, "k f"]
+    heaviest: int
+
+    @property
+    def pressing(self) -> Float[np.ndarray, " t"]:
+        """Force of each frame [N]."""
+        return np.array([load.pressing for load in self.loads])
+
+
+def pressure_evolution(
+    record: Record, moving: Surface, fixed: Surface, motion: Motion, settings: Settings, o: AreaOptions,
+    kept: list[int], name: str,
+) -> PressureEvolution:  # fmt: skip
+    """Loads of all frames; pressures of the frames in `kept` and of the one with the largest force."""
+    if not moving.closed:
+        what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
+        raise InputError("", "--pressure", what, "close it, or see --assume-closed moving")
+    edge = quantities.length(PIECE if o.piece is None else o.piece, "--piece")
+    layer = _layer(record, fixed, settings.fixed_faces, settings, o, edge)
+    rotation = np.ascontiguousarray(motion.poses.rotation.as_matrix().reshape(-1, 3, 3))
+    translation = np.asarray(motion.poses.translation).reshape(-1, 3)
+    loads: list[PressureLoad] = []
+    parts: dict[str, list[PressureLoad]] = {side: [] for side in layer.parts}
+    maps: dict[int, np.ndarray] = {}
+    heaviest, strain = 0, 0.0
+    with (
+        ThreadPoolExecutor(o.workers or os.cpu_count() or 1) as pool,
+        progress(f"pressure {name}".strip(), len(motion)) as step,
+    ):
+        for k, found in enumerate(pool.map(lambda r, t: pressed(layer, moving, r, t), rotation, translation)):
+            loads.append(found.load)
+            for side, part in found.parts.items():
+                parts[side].append(part)
+            strain = max(strain, found.strain)
+            first = k == 0 or found.load.pressing > loads[heaviest].pressing
+            if first and heaviest not in kept:
+                maps.pop(heaviest, None)
+            heaviest = k if first else heaviest
+            if first or k in kept:
+                maps[k] = layer.pieces.face_means(found.pressure, len(fixed.faces))
+            step()
+    frames = sorted(maps)
+    evolution = PressureEvolution(loads, parts, frames, np.array([maps[k] for k in frames]), heaviest)
+    around = _around(fixed, evolution.pressure[frames.index(heaviest)] > 0.0, settings.fixed_faces)
+    finer = _layer(record, fixed, around, settings, o, 0.5 * edge)
+    again = pressed(finer, moving, rotation[heaviest], translation[heaviest])
+    _summarise(record, evolution, again, strain, layer, o, name)
+    return evolution
+
+
+def _around(fixed: Surface, faces: Faces, counted: Faces | None) -> Faces:
+    """These faces and their neighbours, as far as they count."""
+    touched = np.zeros(len(fixed.vertices), bool)
+    touched[fixed.faces[faces]] = True
+    near = touched[fixed.faces].any(axis=1)
+    return np.asarray(near if counted is None else near & counted)
+
+
+def _layer(
+    record: Record, fixed: Surface, faces: Faces | None, settings: Settings, o: AreaOptions, edge: float
+) -> Layer:
+    poisson = 0.0 if o.poisson is None else o.poisson
+    if not 0.0 <= poisson < 0.5:
+        raise InputError("", "--poisson", f"{poisson:g} is not from 0 to below 0.5", "give for example 0.46")
+    young = quantities.modulus(o.modulus or "", "--modulus")
+    if edge <= 0.0:
+        raise InputError("", "--piece", "is not a positive length", f"write for example {PIECE}")
+    try:
+        pieces = pieces_of(fixed, edge, faces)
+    except ValueError as error:
+        raise InputError("", "--piece", str(error), "give a longer edge") from error
+    thickness = _thickness(record, fixed, pieces, o)
+    parts: dict[str, Bool[np.ndarray, " p"]] = {}
+    if settings.split is not None:
+        medial = settings.split.height(pieces.point) * settings.medial_side > 0.0
+        parts = {"medial": medial, "lateral": ~medial}
+    return Layer(pieces, thickness, layer_modulus(young, poisson), o.foundation or "linear", parts)
+
+
+def _thickness(record: Record, fixed: Surface, pieces: Pieces, o: AreaOptions) -> Float[np.ndarray, " p"]:
+    if o.thickness is not None and o.thickness.strip() != RAYS:
+        given = quantities.length(o.thickness, "--thickness")
+        if given <= 0.0:
+            raise InputError("", "--thickness", f"{o.thickness!r} is not a positive length", "write 8mm, or rays")
+        return np.full(len(pieces.area), given)
+    if not fixed.closed:
+        what = f"{fixed.name} is open ({fixed.topology.why_open}): it has no thickness to measure"
+        raise InputError("", "--thickness", what, "give a length, for example 8mm")
+    found = thickness_below(fixed, pieces.point, pieces.normal)
+    lost = ~(np.isfinite(found) & (found > 0.0))
+    if lost.any():
+        usable = found[~lost]
+        if len(usable) == 0:
+            raise InputError("", "--thickness", f"no ray comes out of {fixed.name} again", "give a length")
+        found = np.where(lost, usable.min(), found)
+        record.warn(f"{int(lost.sum())} of {len(found)} rays do not come out of {fixed.name}: the thinnest is taken")
+    return found
+
+
+def _summarise(
+    record: Record, e: PressureEvolution, finer: Pressed, strain: float, layer: Layer, o: AreaOptions, name: str
+) -> None:
+    force, again = e.loads[e.heaviest].pressing, finer.load.pressing
+    off = abs(force - again) / again if again > 0.0 else 0.0
+    if off > AGREED:
+        record.warn(f"pieces of half the size change the largest force by {off:.1%}; give a smaller --piece")
+    if not force > 0.0:
+        record.warn("the bodies never overlap: an elastic layer is not pressed, and all forces are 0")
+    if layer.law == "linear" and strain > STRAINED:
+        record.warn(f"the layer is strained by up to {strain:.0%}: --foundation logarithmic is for that")
+    record.results[f"pressure {name}".strip()] = {
+        "law": layer.law,
+        "layer_modulus_Pa": layer.modulus,
+        "pieces": len(layer.pieces.area),
+        "largest_force_N": round(force, 6),
+        "with_pieces_of_half_the_size_N": round(again, 6),
+        "largest_pressure_Pa": max(load.peak for load in e.loads),
+        "largest_strain": round(strain, 6),
+        "thickness_mm": [round(float(v) * 1e3, 4) for v in (layer.thickness.min(), layer.thickness.max())],
+    }
+    label = f"{name}: " if name else ""
+    peak = max(load.peak for load in e.loads)
+    record.say(f"{label}{layer.law} foundation: force up to {force:.1f} N, pressure up to {peak * 1e-6:.2f} MPa")
+
+
+def pressure_table(motion: Motion, e: PressureEvolution) -> pd.DataFrame:
+    """A row per frame: force on FIXED, its moment about the frame's origin, centre of pressure (empty without load)."""
+    wrenches = [load.wrench for load in e.loads]
+    columns: dict[str, object] = {"time [s]": motion.time, "force [N]": e.pressing}
+    for axis, letter in enumerate("xyz"):
+        columns[f"force_{letter} [N]"] = [w.force[axis] for w in wrenches]
+    for axis, letter in enumerate("xyz"):
+        columns[f"moment_{letter} [N m]"] = [w.moment[axis] for w in wrenches]
+    columns |= _columns("", e.loads)
+    for side, loads in e.parts.items():
+        columns[f"force_{side} [N]"] = [load.pressing for load in loads]
+        columns |= _columns(f"_{side}", loads)
+    return pd.DataFrame(columns)
+
+
+def _columns(suffix: str, loads: list[PressureLoad]) -> dict[str, object]:
+    centres = np.array([load.centre for load in loads]) * 1e3
+    return {
+        f"peak{suffix} [MPa]": [load.peak * 1e-6 for load in loads],
+        f"pressed_area{suffix} [mm^2]": [load.area * 1e6 for load in loads],
+        **{f"cop{suffix}_{letter} [mm]": centres[:, axis] for axis, letter in enumerate("xyz")},
+    }

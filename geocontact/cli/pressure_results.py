@@ -1,0 +1,47 @@
+"""What an analysis writes of pressures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from geocontact.cli.figures import save_both
+from geocontact.cli.pressure import PressureEvolution, pressure_table
+from geocontact.data.motion import Motion
+from geocontact.geometry.surface import Surface
+from geocontact.io.results import write_table
+from geocontact.view.page.content import Curve, Curves, Picture
+from geocontact.view.pressure_figure import PressureMap, pressure_figure
+
+FILE = "pressure.npz"
+WORDS = (
+    "Force and largest pressure over the motion; right, the mean pressure of each face of the fixed body in the frame "
+    "with the largest force, and the way of the centre of pressure. The moving body is rigid, and each place of the "
+    "layer gives way by itself."
+)
+
+
+def write_pressures(
+    e: PressureEvolution, fixed: Surface, motion: Motion, folder: Path, parquet: bool, save_map: bool
+) -> list[Curves | Picture]:
+    """Table, figure and maps; returns what the page shows."""
+    write_table(pressure_table(motion, e), folder, parquet, "pressure")
+    if save_map:
+        np.savez_compressed(
+            folder / FILE, allow_pickle=False, frames=np.array(e.frames), time=motion.time[e.frames],
+            pressure=e.pressure, vertices=fixed.vertices, faces=fixed.faces,
+        )  # fmt: skip
+    sides = {side: np.array([load.pressing for load in loads]) for side, loads in e.parts.items()}
+    force = {**sides, "total": e.pressing}
+    peak = np.array([load.peak for load in e.loads])
+    centre = np.array([load.centre for load in e.loads])
+    at = PressureMap(fixed.vertices, fixed.faces, e.pressure[e.frames.index(e.heaviest)], centre, e.heaviest)
+    figure = pressure_figure(motion.course, force, peak, at)
+    drawing = save_both(figure, folder, "pressure")
+    curves = [Curve(name, values) for name, values in force.items()]
+    return [
+        Curves("Contact force, elastic foundation", "N", curves),
+        Curves("Largest contact pressure", "MPa", [Curve("largest pressure", peak * 1e-6)]),
+        Picture("Pressure", WORDS, drawing, wide=True),
+    ]
