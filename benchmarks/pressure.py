@@ -1,7 +1,7 @@
 """Pressure maps per second on one core: `python -m benchmarks.pressure [--faces 10000 100000]`.
 
 A femoral component on a tibial insert, both synthetic, of about so many faces each, one piece per face; the poses of
-the shipped gait, sunk 0.5 mm so that both sides are pressed. Thickness by rays and trees are built beforehand. Then how
+the shipped gait, sunk 0.5 mm so that something is pressed. Thickness by rays and trees are built beforehand. Then how
 far the force is from that of the same bodies in 400 000 faces each.
 """
 

@@ -78,11 +78,11 @@ def layer_faces(body: Surface) -> np.ndarray:
 
 
 def knee(edge: float) -> Pressed:
-    """The sample knee at the first frame of its gait, sunk 0.5 mm further, which loads both sides."""
+    """The sample knee in the middle of its gait, sunk 1.2 mm further, which loads both sides."""
     femur, insert = sample("femoral_component_right_medium.stl"), sample("tibial_insert_right_medium.stl")
-    row = np.loadtxt(MESHES / "gait.csv", delimiter=",", skiprows=1, max_rows=1)
+    row = np.loadtxt(MESHES / "gait.csv", delimiter=",", skiprows=51, max_rows=1)
     rotation = Rotation.from_quat(row[[5, 6, 7, 4]]).as_matrix()
-    return pressed(layer(insert, edge), femur, rotation, row[1:4] * MM - [0.0, 0.5 * MM, 0.0])
+    return pressed(layer(insert, edge), femur, rotation, row[1:4] * MM - [0.0, 1.2 * MM, 0.0])
 
 
 def test_force_on_the_sample_knee_is_within_one_per_cent_of_refined_pieces() -> None:
@@ -90,10 +90,8 @@ def test_force_on_the_sample_knee_is_within_one_per_cent_of_refined_pieces() -> 
     assert coarse.load.pressing == pytest.approx(fine.load.pressing, rel=0.01)
     np.testing.assert_allclose(coarse.load.centre, fine.load.centre, atol=0.1e-3)
     for name in ("medial", "lateral"):
-        assert (
-            coarse.parts[name].pressing == pytest.approx(fine.parts[name].pressing, rel=0.01)
-            and fine.parts[name].pressing > 50.0
-        )
+        assert coarse.parts[name].pressing == pytest.approx(fine.parts[name].pressing, rel=0.01)
+    assert min(part.pressing for part in fine.parts.values()) > 500.0
     assert sum(p.pressing for p in coarse.parts.values()) == pytest.approx(coarse.load.pressing, rel=1e-12)
 
 
