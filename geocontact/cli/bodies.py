@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 from jaxtyping import Bool
@@ -11,6 +13,7 @@ from geocontact.cli.quantities import named_file
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import Mesh
+from geocontact.geometry.patch_names import Values
 from geocontact.geometry.placement import placed
 from geocontact.geometry.regions import faces_where
 from geocontact.geometry.surface import Surface
@@ -20,9 +23,23 @@ from geocontact.io.osim_meshes import mesh_placement
 from geocontact.io.poses import read_pose
 from geocontact.io.units import LENGTH
 
+NOTHING: Mapping[str, Values] = MappingProxyType({})
+
 
 def read_body(record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool) -> Surface:
     """Surface of one body in its body frame; says on stderr what about it needs care.
+
+    `placement` is that of `read_surface`.
+    """
+    surface = read_surface(record, role, path, unit, placement, assume_closed)
+    _warn_of_sides(record, role, surface)
+    return surface
+
+
+def read_surface(
+    record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool = False
+) -> Surface:
+    """Surface in its body frame; says nothing.
 
     `placement` is a text file with a 4x4 matrix (translation in the mesh unit), or `model.osim:body[:mesh]`.
     """
@@ -38,14 +55,16 @@ def read_body(record: Record, role: str, path: Path, unit: str, placement: str |
         open_edges=topology.open_edges, irregular_edges=topology.irregular_edges,
         area_mm2=round(float(surface.face_area.sum()) * 1e6, 4), median_edge_mm=_median_edge(surface),
     )  # fmt: skip
-    _warn_of_sides(record, role, surface)
     return surface
 
 
 def chosen_faces(
-    record: Record, option: str, text: str | None, surface: Surface, unit: str
+    record: Record, option: str, text: str | None, surface: Surface, unit: str, more: Mapping[str, Values] = NOTHING
 ) -> Bool[np.ndarray, " f"] | None:
-    """Faces named by an expression or by a file of face numbers; None when all count."""
+    """Faces named by an expression or by a file of face numbers; None when all count.
+
+    `more` are names that the expression may use beside places and normals.
+    """
     if text is None:
         return None
     file = named_file(text)
@@ -55,7 +74,7 @@ def chosen_faces(
         chosen[read_face_indices(file, len(surface.faces))] = True
         return chosen
     try:
-        chosen = faces_where(surface, text, LENGTH[unit])
+        chosen = faces_where(surface, text, LENGTH[unit], more)
     except ValueError as error:
         raise InputError("", option, str(error), "or give a file of face numbers") from error
     if not chosen.any():

@@ -23,7 +23,7 @@ def refuse_idle(o: AreaOptions, files: Sequence[str]) -> None:
         "--modulus": o.modulus, "--poisson": o.poisson, "--thickness": o.thickness, "--foundation": o.foundation,
         "--piece": o.piece,
     }  # fmt: skip
-    _refuse(
+    refuse(
         ((o.sweep is None) == (not files), "--motion", "give either --motion or --sweep", "see geocontact area --help"),
         (o.workers is not None and o.workers < 1, "--workers", "is less than one thread", "give 1 or more"),
         *((o.sweep is not None and value is not None, option, "does nothing beside --sweep, which reads no motion file",
@@ -52,7 +52,7 @@ def refuse_unheeded(o: AreaOptions, motions: Mapping[Path, Motion]) -> None:
     """Refuse options of reading that had no say in any of the motions read."""
     heeded = frozenset[str]().union(*(motion.heeded for motion in motions.values()))
     files = ", ".join(map(str, motions))
-    _refuse(
+    refuse(
         (o.convention is not None and "convention" not in heeded, "--convention",
          f"does nothing here: no knee angle is read from {files}", "name its columns with --map"),
         (o.order is not None and "order" not in heeded, "--order",
@@ -62,7 +62,8 @@ def refuse_unheeded(o: AreaOptions, motions: Mapping[Path, Motion]) -> None:
     )  # fmt: skip
 
 
-def _refuse(*rows: Idle) -> None:
+def refuse(*rows: Idle) -> None:
+    """Refuse the first of these mistakes that is made."""
     for wrong, option, what, remedy in rows:
         if wrong:
             raise InputError("", option, what, remedy)

@@ -24,9 +24,13 @@ LOADCELLS = (
     *(f"{name}.{ending}" for name in ("loadcells", "ensemble") for ending in ("png", "svg")),
     "report.html",
 )
+FIT = (
+    "fit.json", "fit.png", "fit.svg", "fit.vtp", "profile.csv", "profile.parquet", "profile.png", "profile.svg",
+    "report.html",
+)  # fmt: skip
 GAP = ("diagnosis.json", "gap_map.csv", "ranking.csv", "held_out.csv", "summary.csv", "report.html")
 BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
-NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *GAP, *BENCHMARK, RUN})
+NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *GAP, *BENCHMARK, RUN})
 PARAVIEW = "paraview"
 PICTURES = re.compile(
     r"(gap_map|ranking|gap_residuals|before_after_\w+)\.(png|svg)"

@@ -12,9 +12,8 @@ from geocontact.cli.idle import refuse_unheeded
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
-from geocontact.geometry.cylinder import fit_cylinder
+from geocontact.geometry.fit.cylinder import fit_cylinder
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.sweep import Axis
 from geocontact.geometry.sweep import sweep as swept
 from geocontact.io.motion import read_motion
 
@@ -70,7 +69,6 @@ def _swept(text: str, axis: str | None, unit: str, moving: Surface, record: Reco
     fit = fit_cylinder(moving.vertices[moving.used])
     record.warn(
         f"no --axis: turned about the cylinder fitted to all of {moving.name}, "
-        f"radius {fit.radius * 1e3:.2f} mm, rms {fit.rms * 1e3:.2f} mm"
+        f"radius {(fit.radius or 0.0) * 1e3:.2f} mm, rms {fit.rms * 1e3:.2f} mm"
     )
-    point, direction = fit.point.tolist(), fit.direction.tolist()
-    return swept(Axis(tuple(point), tuple(direction)), start, stop, step, name)
+    return swept(fit.line, start, stop, step, name)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from geocontact.data.errors import InputError
 from geocontact.geometry.plane import Plane
+from geocontact.geometry.sagittal import Vector
 from geocontact.geometry.sweep import Axis
 from geocontact.io.units import ANGLE, DIMENSIONS, LENGTH, si_unit
 
@@ -89,16 +90,44 @@ def splitting_plane(text: str, unit: str) -> Plane:
 def sweep_range(text: str) -> tuple[str, float, float, float]:
     """ "flexion=0:90:1" to a name and start, stop, step [rad]; degrees are typed."""
     name, found, rest = text.partition("=")
-    parts = rest.split(":")
-    if not found or len(parts) not in (2, 3) or not name.strip():
+    if not found or not name.strip():
         raise InputError("", "--sweep", f"{text!r} is not a range", "write flexion=0:90:1 (degrees)")
-    start, stop, step = (number(part, "--sweep", "flexion=0:90:1") for part in (*parts, "1")[:3])
+    return (name.strip(), *angle_range(rest, "--sweep", "flexion=0:90:1"))
+
+
+def angle_range(text: str, option: str, example: str) -> tuple[float, float, float]:
+    """ "0:90:1" to start, stop, step [rad]; degrees are typed, and the step is 1 unless given."""
+    parts = text.split(":")
+    if len(parts) not in (2, 3):
+        raise InputError("", option, f"{text!r} is not a range", f"write {example} (degrees)")
+    start, stop, step = (number(part, option, example) for part in (*parts, "1")[:3])
     if step == 0.0 or (stop - start) * step < 0.0 or abs((stop - start) / step) > 1e5:
-        raise InputError("", "--sweep", f"{text!r} never arrives", "write start:stop:step in degrees, as in 0:90:1")
+        raise InputError("", option, f"{text!r} never arrives", f"write start:stop:step in degrees, as in {example}")
     steps = (stop - start) / step
     if abs(steps - round(steps)) > 1e-6:
-        raise InputError("", "--sweep", f"steps of {step:g} from {start:g} do not end at {stop:g}", "change the step")
-    return name.strip(), start * ANGLE["deg"], stop * ANGLE["deg"], step * ANGLE["deg"]
+        raise InputError("", option, f"steps of {step:g} from {start:g} do not end at {stop:g}", "change the step")
+    return start * ANGLE["deg"], stop * ANGLE["deg"], step * ANGLE["deg"]
+
+
+def directions(text: str, option: str) -> tuple[Vector, Vector]:
+    """ "-y,x" to two unit vectors along coordinate axes."""
+    names = [part.strip() for part in text.split(",")]
+    if len(names) != 2 or any(name.lstrip("+-") not in ("x", "y", "z") or len(name) > 2 for name in names):
+        raise InputError("", option, f"{text!r} is not two directions", f"write for example {option}=-y,x")
+    first, second = (tuple((-1.0 if name[0] == "-" else 1.0) * (name[-1] == axis) for axis in "xyz") for name in names)
+    return (first[0], first[1], first[2]), (second[0], second[1], second[2])
+
+
+def centre(text: str, unit: str) -> Vector:
+    """ "x,y,z" in the mesh unit, or a fit.json of a sphere, to metres."""
+    file = named_file(text)
+    if file is not None:
+        fit = _fit(file, "sphere")
+        return _three([float(value) * 1e-3 for value in fit["point_mm"]])
+    parts = text.split(",")
+    if len(parts) != 3:
+        raise InputError("", "--centre", f"{text!r} is neither a fit.json nor three numbers", "write x,y,z")
+    return _three([number(part, "--centre", "x,y,z") * LENGTH[unit] for part in parts])
 
 
 def axis(text: str, unit: str) -> Axis:
@@ -106,9 +135,9 @@ def axis(text: str, unit: str) -> Axis:
     file = named_file(text)
     source = text
     if file is not None:
-        source = file.read_text(encoding="utf-8", errors="replace")[:10_000]
         if file.suffix.lower() == ".json":
-            return _axis_of_fit(file, source)
+            return _axis_of_fit(file)
+        source = file.read_text(encoding="utf-8", errors="replace")[:10_000]
     parts = source.replace(",", " ").split()
     if len(parts) != 6:
         raise InputError("", "--axis", f"{text!r} is neither a file nor six numbers", "write x,y,z,dx,dy,dz")
@@ -117,16 +146,32 @@ def axis(text: str, unit: str) -> Axis:
     return _checked((values[0] * scale, values[1] * scale, values[2] * scale), (values[3], values[4], values[5]), text)
 
 
-def _axis_of_fit(file: Path, source: str) -> Axis:
+def _axis_of_fit(file: Path) -> Axis:
+    fit = _fit(file, "cylinder")
+    return _checked(
+        _three([float(v) * 1e-3 for v in fit["point_mm"]]), _three(list(map(float, fit["axis"]))), str(file)
+    )
+
+
+def _fit(file: Path, shape: str) -> dict[str, list[float]]:
+    """A fit.json of that shape, with three finite numbers wherever it says where."""
+    keys = ("point_mm", "axis") if shape == "cylinder" else ("point_mm",)
     try:
-        fit = json.loads(source)
-        point = [float(value) * 1e-3 for value in fit["point_mm"]]
-        direction = [float(value) for value in fit["axis"]]
-        x, y, z = point
-        dx, dy, dz = direction
-    except (ValueError, KeyError, TypeError) as error:
-        raise InputError(file, "", "holds no axis and point_mm", "give the fit.json of a cylinder fit") from error
-    return _checked((x, y, z), (dx, dy, dz), str(file))
+        fit = json.loads(file.read_text(encoding="utf-8", errors="replace")[:1_000_000])
+        if fit.get("shape", shape) != shape:
+            raise KeyError(shape)
+        found = {key: [float(value) for value in fit[key]] for key in keys}
+        for values in found.values():
+            _three(values)
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        what = f"holds no {' and '.join(reversed(keys))} of a {shape}"
+        raise InputError(file, "", what, f"give the fit.json of a {shape} fit") from error
+    return found
+
+
+def _three(values: list[float]) -> Vector:
+    x, y, z = values
+    return x, y, z
 
 
 def _checked(point: tuple[float, float, float], direction: tuple[float, float, float], text: str) -> Axis:

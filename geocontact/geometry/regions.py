@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import operator
 from collections.abc import Callable, Mapping
+from types import MappingProxyType
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -30,7 +31,12 @@ _COMBINE: Mapping[type, Callable[[Value, Value], Value]] = {
 _FUNCTIONS: Mapping[str, Callable[[Value], Value]] = {"abs": np.abs, "sqrt": np.sqrt}
 
 
-def faces_where(surface: Surface, expression: str, metres_per_unit: float = 1.0) -> Bool[np.ndarray, " m"]:
+def faces_where(
+    surface: Surface,
+    expression: str,
+    metres_per_unit: float = 1.0,
+    more: Mapping[str, Callable[[], Float[np.ndarray, " m"]]] = MappingProxyType({}),
+) -> Bool[np.ndarray, " m"]:
     """Faces for which the expression holds.
 
     Parameters
@@ -40,52 +46,59 @@ def faces_where(surface: Surface, expression: str, metres_per_unit: float = 1.0)
         `and`, `or`, `not`, + - * / **, abs, sqrt and parentheses.
     metres_per_unit
         Length unit of x, y, z: 1e-3 when the expression is in mm.
+    more
+        Further names and what gives their value for each face, called only where the expression has the name; see
+        `geometry.patch_names`. What it raises as `ValueError` is passed on.
 
     Raises
     ------
     ValueError
         The expression cannot be read, or does not say yes or no for each face.
     """
-    centroid = surface.vertices[surface.faces].mean(axis=1) / metres_per_unit
-    values = dict(zip(NAMES, [*centroid.T, *surface.face_normal.T], strict=True))
     try:
         tree = ast.parse(expression.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ValueError(f"{expression!r} cannot be read; write for example ny>0.25 and abs(z)<30") from None
+    used = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    centroid = surface.vertices[surface.faces].mean(axis=1) / metres_per_unit
+    values = dict(zip(NAMES, [*centroid.T, *surface.face_normal.T], strict=True))
+    values |= {name: compute() for name, compute in more.items() if name in used}
     try:
         with np.errstate(all="ignore"):
-            chosen = _evaluate(tree.body, values)
+            chosen = _evaluate(tree.body, values, (*NAMES, *more))
     except (ArithmeticError, RecursionError, MemoryError):
         raise ValueError(f"{expression!r} cannot be computed; write for example ny>0.25") from None
-    named = any(isinstance(node, ast.Name) and node.id in NAMES for node in ast.walk(tree))
-    if not named or chosen.dtype != bool or chosen.shape != (len(surface.faces),):
+    if not used & {*NAMES, *more} or chosen.dtype != bool or chosen.shape != (len(surface.faces),):
         raise ValueError(f"{expression!r} is not a condition on the faces; write for example ny>0.25")
     return chosen
 
 
-def _evaluate(node: ast.expr, values: Mapping[str, Float[np.ndarray, " m"]]) -> Value:
+def _evaluate(node: ast.expr, values: Mapping[str, Float[np.ndarray, " m"]], names: tuple[str, ...]) -> Value:
+    def of(part: ast.expr) -> Value:
+        return _evaluate(part, values, names)
+
     match node:
         case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
             return np.full(len(values["x"]), _finite(number))
         case ast.Name(id=name) if name in values:
             return values[name]
         case ast.BoolOp(op=op, values=parts):
-            both = [_condition(_evaluate(part, values)) for part in parts]
+            both = [_condition(of(part)) for part in parts]
             return np.asarray(np.logical_and.reduce(both) if isinstance(op, ast.And) else np.logical_or.reduce(both))
         case ast.UnaryOp(op=ast.Not(), operand=inner):
-            return ~_condition(_evaluate(inner, values))
+            return ~_condition(of(inner))
         case ast.UnaryOp(op=ast.USub(), operand=inner):
-            return -_number(_evaluate(inner, values))
+            return -_number(of(inner))
         case ast.BinOp(left=left, op=op, right=right) if type(op) in _COMBINE:
-            return _COMBINE[type(op)](_number(_evaluate(left, values)), _number(_evaluate(right, values)))
+            return _COMBINE[type(op)](_number(of(left)), _number(of(right)))
         case ast.Call(func=ast.Name(id=name), args=[inner], keywords=[]) if name in _FUNCTIONS:
-            return _FUNCTIONS[name](_number(_evaluate(inner, values)))
+            return _FUNCTIONS[name](_number(of(inner)))
         case ast.Compare(left=left, ops=ops, comparators=rest) if all(type(op) in _COMPARE for op in ops):
-            terms = [_number(_evaluate(term, values)) for term in (left, *rest)]
+            terms = [_number(of(term)) for term in (left, *rest)]
             pairs = zip(ops, terms, terms[1:], strict=False)
             return np.asarray(np.logical_and.reduce([np.asarray(_COMPARE[type(op)](a, b)) for op, a, b in pairs]))
     raise ValueError(
-        f"{ast.unparse(node)!r} is not understood; only {', '.join(NAMES)}, numbers, and/or/not, abs, sqrt"
+        f"{ast.unparse(node)!r} is not understood; only {', '.join(names)}, numbers, and/or/not, abs, sqrt"
     )
 
 

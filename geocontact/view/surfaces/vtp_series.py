@@ -56,7 +56,7 @@ def write_vtp_series(series: ContactSeries, folder: Path, program: str) -> tuple
                 surface.cell_data["pressure [MPa]"] = (mapped.pressure[k] * MPA).astype(np.float32)
             _describe(surface, series, k, limit, body, program)
             names[body].append(f"frames/{body}_{k:0{digits}d}.vtp")
-            (folder / names[body][-1]).write_bytes(_encoded(surface))
+            (folder / names[body][-1]).write_bytes(encoded_vtp(surface))
     written = []
     for collection, bodies in (("both", BODIES), ("fixed", BODIES[:1]), ("moving", BODIES[1:])):
         written.append(folder / f"{collection}.pvd")
@@ -109,8 +109,8 @@ def _describe(surface: PolyData, series: ContactSeries, frame: int, limit: float
     data["program"] = [program]
 
 
-def _encoded(surface: PolyData) -> bytes:
-    """Bytes of the .vtp file. VTK's own writing to a file ends the process when the disk is full."""
+def encoded_vtp(surface: PolyData) -> bytes:
+    """Bytes of a .vtp file. VTK's own writing to a file ends the process when the disk is full."""
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
     writer = vtkXMLPolyDataWriter()

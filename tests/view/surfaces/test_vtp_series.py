@@ -138,7 +138,7 @@ def test_the_order_of_names_is_that_of_the_frames(pyvista, monkeypatch: pytest.M
     """More than a thousand frames: all names have the same number of digits."""
     monkeypatch.setattr(vtp_series, "_surface", lambda *_: None)
     monkeypatch.setattr(vtp_series, "_describe", lambda *_: None)
-    monkeypatch.setattr(vtp_series, "_encoded", lambda _: b"")
+    monkeypatch.setattr(vtp_series, "encoded_vtp", lambda _: b"")
     point = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]) * MM
     many = MappedBody(point, np.array([[0, 1, 2]]), np.zeros((1001, 3)))
     write_vtp_series(series(1001, fixed=many, moving=many), tmp_path, PROGRAM)

@@ -1,0 +1,57 @@
+"""The circle that fits points best in the plane across a given direction: the local radius of a sagittal profile."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.geometry.fit.cylinder import circle_through
+from geocontact.geometry.fit.found import Quality, fitted, local
+
+LEAST = 5  # points
+
+
+@dataclass(frozen=True, eq=False)
+class CircleFit:
+    """Centre and radius [m] in the plane whose axes were given, and how well they are known."""
+
+    centre: Float[np.ndarray, " 2"]
+    radius: float
+    quality: Quality
+
+
+def fit_circle(points: Float[np.ndarray, "n 2"], robust: bool = True) -> CircleFit:
+    """Geometric least squares with a Cauchy loss (plain squares if not `robust`) from the algebraic circle."""
+    if len(points) < LEAST:
+        raise ValueError(f"a circle needs at least {LEAST} points, not {len(points)}")
+    here, middle, size = local(np.column_stack([points, np.zeros(len(points))]))
+    solution, quality = fitted(here, size, [CircleModel(np.array(circle_through(here[:, :2])))], robust)
+    x = solution.model.x
+    return CircleFit(middle[:2] + size * x[:2], float(x[2]) * size, quality)
+
+
+@dataclass(frozen=True)
+class CircleModel:
+    """x = p, q, R in the plane z = 0; the residual is hypot(x - p, y - q) - R."""
+
+    x: Float[np.ndarray, " 3"]
+
+    names: ClassVar[tuple[str, ...]] = ("centre_x [m]", "centre_y [m]", "radius [m]")
+    lengths: ClassVar[tuple[bool, ...]] = (True, True, True)
+
+    def residual(self, x: Float[np.ndarray, " 3"], points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
+        """Distance from the circle, positive outside."""
+        return np.asarray(np.hypot(points[:, 0] - x[0], points[:, 1] - x[1]) - x[2])
+
+    def jacobian(self, x: Float[np.ndarray, " 3"], points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+        """Derivative of `residual`."""
+        offset = points[:, :2] - x[:2]
+        out = offset / np.maximum(np.linalg.norm(offset, axis=1, keepdims=True), 1e-300)
+        return np.column_stack([-out, -np.ones(len(points))])
+
+    def moved(self, x: Float[np.ndarray, " 3"]) -> CircleModel:
+        """The same circle."""
+        return CircleModel(np.array([x[0], x[1], abs(float(x[2]))]))

@@ -1,0 +1,68 @@
+"""Intervals of the radius: how often they hold it, for independent noise and for errors that neighbours share."""
+
+import numpy as np
+import pytest
+
+from geocontact.geometry.fit.cylinder import fit_cylinder
+from geocontact.geometry.fit.uncertainty import cells, covariance, half_width
+from tests.geometry.fit.clouds import RADIUS, points, spoilt, wall
+
+RUNS = 100
+
+
+def rough(arc, seed, length=5e-3, size=1e-4, waves=40):
+    """A wall with a smooth random roughness of that correlation length [m] and standard deviation [m]."""
+    rng = np.random.default_rng(seed)
+    angle, height = wall(arc, 1500, seed=seed)
+    number, phase = rng.normal(size=(waves, 2)) / length, rng.uniform(0.0, 2.0 * np.pi, waves)
+    along = np.outer(angle * RADIUS, number[:, 0]) + np.outer(height, number[:, 1]) + phase
+    return points(angle, height, RADIUS + size * np.sqrt(2.0 / waves) * np.cos(along).sum(axis=1))
+
+
+CLOUDS = {
+    "independent noise and outliers": lambda seed: spoilt(120, 1200, seed, "anywhere"),
+    "few points": lambda seed: spoilt(120, 200, seed, "anywhere"),
+    "errors that neighbours share": lambda seed: rough(120, seed),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", CLOUDS)
+def test_the_interval_holds_the_radius_as_often_as_it_says(kind):
+    """Of 100 runs 88 to 99 (binomial, three standard errors about 95, and a little for the linearisation)."""
+    fits = [fit_cylinder(CLOUDS[kind](seed)) for seed in range(RUNS)]
+    held = sum(low <= RADIUS <= high for low, high in (fit.radius_interval for fit in fits))
+    assert 88 <= held <= 100, held
+    spread = np.std([fit.radius for fit in fits])
+    assert np.median([fit.quality.half_widths[-1] for fit in fits]) / spread == pytest.approx(2.0, rel=0.35)
+
+
+def test_a_finer_mesh_does_not_narrow_the_interval_of_a_wrong_shape():
+    """An ellipse of half-axes 36 and 38 mm; independent points would promise half the width with four times as many."""
+    wide = []
+    for count in (2000, 32_000):
+        angle, height = wall(120, count)
+        way = RADIUS * np.column_stack([np.cos(angle) * 36 / 37, np.sin(angle) * 38 / 37, height / RADIUS])
+        wide.append(fit_cylinder(way).quality.half_widths[-1])
+    assert wide[1] / wide[0] == pytest.approx(1.0, rel=0.25)
+
+
+def test_cells_are_compact_and_even():
+    cloud = np.random.default_rng(0).uniform(size=(4000, 3)) * [4.0, 1.0, 0.01]
+    cell = cells(cloud)
+    count = np.bincount(cell)
+    assert len(count) == 16 and count.min() == count.max() == 250
+    size = [np.ptp(cloud[cell == k, :2], axis=0).max() for k in range(16)]
+    assert max(size) < 0.62, "sixteen squares of half a unit"
+    np.testing.assert_array_equal(cells(cloud[:200]), np.arange(200))
+
+
+def test_what_the_points_do_not_tell_is_infinitely_uncertain():
+    """Two columns of the Jacobian are the same: only their sum is determined."""
+    rng = np.random.default_rng(2)
+    column = rng.normal(size=(2000, 1))
+    cell = cells(rng.uniform(size=(2000, 3)))
+    unknown = covariance(rng.normal(size=2000), np.hstack([column, column]), None, cell)
+    assert np.isinf(unknown).all() and np.isinf(half_width(float(unknown[0, 0]), cell, 2))
+    known = covariance(rng.normal(size=2000), column, None, cell)
+    assert known[0, 0] == pytest.approx(1.0 / 2000.0, rel=0.5)
