@@ -12,7 +12,8 @@ from geocontact import __version__
 from tests.cli.calls import ROOT, call
 
 HELP = [["--help"], ["area", "--help"], ["demo", "--help"], ["doctor", "--help"], ["view", "--help"]]
-HELP += [["cop", "--help"], ["loadcells", "--help"], ["gap", "--help"], ["gap", "diagnose", "--help"], ["--version"]]
+HELP += [["cop", "--help"], ["fit", "--help"], ["loadcells", "--help"], ["--version"]]
+HELP += [["gap", "--help"], ["gap", "diagnose", "--help"]]
 HEAVY = {"numba", "trimesh", "pyvista", "vtk", "matplotlib", "igl", "fcl", "pandas", "scipy", "open3d"}
 each_help = pytest.mark.parametrize("arguments", HELP, ids=" ".join)
 
@@ -38,7 +39,8 @@ def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
 
 
 def test_help_names_the_commands_and_every_option_of_the_contract() -> None:
-    assert all(name in call("--help").out for name in ("area", "cop", "demo", "doctor", "gap", "loadcells", "view"))
+    commands = ("area", "cop", "demo", "doctor", "fit", "gap", "loadcells", "view")
+    assert all(name in call("--help").out for name in commands)
     promised = (
         "motion unit threshold out osim joint moving map order angles sweep axis place-moving place-fixed convention "
         "side split medial region region-moving compare tolerance bounds save-map assume-closed parquet"
