@@ -30,6 +30,8 @@ class FitOptions:
         outward, with --axis and --sagittal flexion [deg], with --other distance; or a file of face numbers.
     axis
         x,y,z,dx,dy,dz (point in the mesh unit), a file of these, or a fit.json of a cylinder.
+    hold_axis
+        The cylinder is to be parallel to --axis.
     centre
         x,y,z (mesh unit), or a fit.json of a sphere: what radial and outward are counted from instead of an axis.
     sagittal
@@ -45,7 +47,7 @@ class FitOptions:
     robust
         Points far off do not count; --no-robust is plain least squares.
     split
-        x, y or z (or z=1.5): medial and lateral points are fitted apart as well.
+        x, y or z (or z=1.5): medial and lateral points are fitted apart as well, cylinders along the axis of the whole.
     medial
         Side of the splitting plane that is medial; - unless given.
     profile
@@ -63,6 +65,7 @@ class FitOptions:
     out: Path
     region: Annotated[str | None, Dashed] = None
     axis: Annotated[str | None, Dashed] = None
+    hold_axis: Annotated[bool, Flag] = False
     centre: Annotated[str | None, Dashed] = None
     sagittal: Annotated[str | None, Dashed] = None
     other: Path | None = None

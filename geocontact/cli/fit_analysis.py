@@ -17,6 +17,7 @@ from geocontact.cli.patience import preparing
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.geometry.fit.catalogue import SHAPES
+from geocontact.geometry.fit.circle import fit_cylinder_along
 from geocontact.geometry.fit.found import ShapeFit
 from geocontact.geometry.fit.profile import SagittalProfile, sagittal_profile
 from geocontact.geometry.plane import Plane
@@ -36,11 +37,14 @@ def analyse(mesh: Path, o: FitOptions) -> int:
         angles = None if o.profile is None else quantities.angle_range(o.profile, "--profile", "--profile=-30:120:5")
         with preparing():
             patch = patch_given(record, mesh, o)
-        whole = _fitted(record, patch.surface.name, patch.points, o)
+        held = axis_given(record, o) if o.hold_axis else None
+        along = None if held is None else np.asarray(held.direction, float)
+        whole = _fitted(record, patch.surface.name, patch.points, along, o)
         sides = {}
         for name, (plane, side) in patch.sides.items():
             points = patch.points
-            sides[name] = _fitted(record, name, points[plane.height(points) * side >= 0.0], o)
+            own = points[plane.height(points) * side >= 0.0]
+            sides[name] = _fitted(record, name, own, whole.axis, o)
         profiles = {} if angles is None else _profiles(record, patch, whole, angles, o)
         fitting = Fitting(patch, whole, sides, profiles, o)
         record.results["fit"] = describe(fitting)
@@ -57,7 +61,9 @@ def _refuse_idle(o: FitOptions) -> None:
     refuse(
         (o.axis is not None and o.centre is not None, "--centre", "beside --axis names two places to count from",
          "give one"),
-        (o.axis is not None and o.profile is None and not used & {"radial", "outward", "flexion"}, "--axis",
+        (o.hold_axis and (o.shape != "cylinder" or o.axis is None), "--hold-axis", "needs a cylinder and an --axis",
+         "give them, or leave it out"),
+        (o.axis is not None and o.profile is None and not o.hold_axis and not used & {"radial", "outward", "flexion"}, "--axis",
          "does nothing here: --region does not speak of radial, outward or flexion", "leave it out"),
         (o.centre is not None and not used & {"radial", "outward"}, "--centre",
          "does nothing here: --region does not speak of radial or outward", "leave it out"),
@@ -76,9 +82,13 @@ def _refuse_idle(o: FitOptions) -> None:
     )  # fmt: skip
 
 
-def _fitted(record: Record, name: str, points: np.ndarray, o: FitOptions) -> ShapeFit:
+def _fitted(record: Record, name: str, points: np.ndarray, along: np.ndarray | None, o: FitOptions) -> ShapeFit:
+    """Shape through the points; a cylinder parallel to `along` where that is given."""
     try:
-        fit = SHAPES[o.shape](np.ascontiguousarray(points), o.robust)
+        if o.shape == "cylinder" and along is not None:
+            fit = fit_cylinder_along(points, along, o.robust)
+        else:
+            fit = SHAPES[o.shape](np.ascontiguousarray(points), o.robust)
     except ValueError as error:
         raise InputError("", f"--shape {o.shape}", f"{name}: {error}", "choose more faces with --region") from error
     _warn_of_doubts(record, name, fit)

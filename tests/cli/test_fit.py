@@ -139,6 +139,17 @@ def test_fit_json_is_the_axis_of_a_sweep_and_of_a_patch(tmp_path: Path) -> None:
         assert refused.code == 2 and "give the fit.json of a cylinder fit" in refused.err
 
 
+def test_an_axis_that_is_held(tmp_path: Path) -> None:
+    """The wall of a rod seen a little askew: the radius of its section grows, and the axis is the one given."""
+    along = axis_of(CYLINDER)
+    way = np.roll([1.0, 0.1, 0.0], along)
+    region = f"abs(n{'xyz'[along]})<0.5"
+    given = ",".join(map(str, [0, 0, 0, *way]))
+    held = found(done(fit(tmp_path / "o", CYLINDER, "cylinder", "--axis", given, "--hold-axis", "--region", region)))
+    assert held["axis"] == pytest.approx((way / np.linalg.norm(way)).tolist(), abs=1e-12)
+    assert held["rms_mm"] > 0.3 and held["parameters"] == ["shift_u [m]", "shift_v [m]", "radius [m]"]
+
+
 def test_a_file_of_faces(tmp_path: Path) -> None:
     every = written(tmp_path / "faces.txt", "\n".join(map(str, range(0, 900, 3))))
     result = done(fit(tmp_path / "o", SPHERE, "sphere", "--region", every))
@@ -179,6 +190,7 @@ def test_doubts_are_said_and_kept(tmp_path: Path) -> None:
         (("--region", "x>0", "--axis", "0,0,0,0,0,1"), "--axis: does nothing here"),
         (("--region", "x>0", "--centre", "0,0,0"), "--centre: does nothing here"),
         (("--region", "x>0", "--other", "x.stl"), "--other: does nothing here"),
+        (("--hold-axis",), "--hold-axis: needs a cylinder and an --axis"),
         (("--sagittal=-y,x",), "--sagittal: does nothing here"),
         (("--axis", "0,0,0,0,0,1", "--centre", "0,0,0"), "--centre: beside --axis"),
         (("--profile", "0:90:5"), "--sagittal: is missing: which way the mesh's axes point is not known"),

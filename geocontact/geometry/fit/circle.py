@@ -1,4 +1,4 @@
-"""The circle that fits points best in the plane across a given direction: the local radius of a sagittal profile."""
+"""The circle that fits points best in a plane, and the cylinder of given direction whose section it is."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.geometry.fit.cylinder import circle_through
-from geocontact.geometry.fit.found import Quality, fitted, local
+from geocontact.geometry.fit.directions import across
+from geocontact.geometry.fit.found import Quality, ShapeFit, arc_covered, fitted, local
 
 LEAST = 5  # points
 
@@ -33,13 +34,30 @@ def fit_circle(points: Float[np.ndarray, "n 2"], robust: bool = True) -> CircleF
     return CircleFit(middle[:2] + size * x[:2], float(x[2]) * size, quality)
 
 
+def fit_cylinder_along(
+    points: Float[np.ndarray, "n 3"], along: Float[np.ndarray, " 3"], robust: bool = True
+) -> ShapeFit:
+    """Cylinder whose axis is parallel to `along`.
+
+    The points of one condyle are curved across as much as along, and the cylinder that fits them best may lie the other
+    way, with the coronal radius. Holding the direction asks for the sagittal one.
+    """
+    frame = across(along)
+    circle = fit_circle(np.ascontiguousarray(points @ frame[:2].T), robust)
+    height = float((points @ frame[2]).mean())
+    off = points[circle.quality.inlier] @ frame[:2].T - circle.centre
+    arc = arc_covered(np.arctan2(off[:, 1], off[:, 0]))
+    point = np.array([*circle.centre, height]) @ frame
+    return ShapeFit("cylinder", point, frame[2], circle.radius, arc, circle.quality)
+
+
 @dataclass(frozen=True)
 class CircleModel:
     """x = p, q, R in the plane z = 0; the residual is hypot(x - p, y - q) - R."""
 
     x: Float[np.ndarray, " 3"]
 
-    names: ClassVar[tuple[str, ...]] = ("centre_x [m]", "centre_y [m]", "radius [m]")
+    names: ClassVar[tuple[str, ...]] = ("shift_u [m]", "shift_v [m]", "radius [m]")
     lengths: ClassVar[tuple[bool, ...]] = (True, True, True)
 
     def residual(self, x: Float[np.ndarray, " 3"], points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from geocontact.geometry.fit.catalogue import SHAPES
-from geocontact.geometry.fit.circle import CircleModel, fit_circle
+from geocontact.geometry.fit.circle import CircleModel, fit_circle, fit_cylinder_along
 from geocontact.geometry.fit.cylinder import CylinderModel
 from geocontact.geometry.fit.directions import across
 from geocontact.geometry.fit.plane import PlaneModel
@@ -110,3 +110,24 @@ def test_circle_of_a_polygon():
 def test_too_few_points_are_refused(shape, least):
     with pytest.raises(ValueError, match=f"needs at least {least} points, not {least - 1}"):
         SHAPES[shape](cloud_of(shape, least - 1, 0), True)
+
+
+def test_held_cylinder_keeps_its_direction_where_the_best_one_lies_across():
+    """A patch of a torus, radii 33 and 8 mm: the best cylinder has the smaller, the held one the larger."""
+    along, across_it = np.meshgrid(np.radians(np.linspace(-25, 25, 41)), np.radians(np.linspace(-50, 50, 41)))
+    ring = 0.025 + 0.008 * np.cos(across_it)
+    cloud = np.stack([ring * np.cos(along), ring * np.sin(along), 0.008 * np.sin(across_it)], axis=-1).reshape(-1, 3)
+    free = SHAPES["cylinder"](cloud, True)
+    held = fit_cylinder_along(cloud, np.array([0.0, 0.0, -2.0]))
+    assert free.radius < 0.012 and abs(free.axis[2]) < 0.01
+    np.testing.assert_array_equal(held.axis, [0.0, 0.0, 1.0])
+    assert 0.025 < held.radius < 0.034 and held.rms > free.rms
+    np.testing.assert_allclose(held.distance(cloud), held.quality.residual, atol=1e-12)
+
+
+def test_held_cylinder_is_the_best_one_when_held_along_it():
+    cloud = cloud_of("cylinder", 3000, 9, 1e-4)
+    free = SHAPES["cylinder"](cloud, True)
+    held = fit_cylinder_along(cloud, free.axis)
+    assert held.radius == pytest.approx(free.radius, abs=2e-7) and held.arc == pytest.approx(free.arc, abs=1e-3)
+    assert np.linalg.norm(np.cross(held.point - free.point, free.axis)) < 2e-7
