@@ -6,6 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.cli import quantities
 from geocontact.cli.fit import FitOptions
@@ -57,13 +58,15 @@ def analyse(mesh: Path, o: FitOptions) -> int:
 
 
 def _refuse_idle(o: FitOptions) -> None:
-    used = set() if o.region is None else {name for name in NEEDS if name in o.region}
+    condition = "" if o.region is None or quantities.named_file(o.region) is not None else o.region
+    used = {name for name in NEEDS if name in condition}
+    about_axis = o.profile is not None or o.hold_axis or bool(used & {"radial", "outward", "flexion"})
     refuse(
         (o.axis is not None and o.centre is not None, "--centre", "beside --axis names two places to count from",
          "give one"),
         (o.hold_axis and (o.shape != "cylinder" or o.axis is None), "--hold-axis", "needs a cylinder and an --axis",
          "give them, or leave it out"),
-        (o.axis is not None and o.profile is None and not o.hold_axis and not used & {"radial", "outward", "flexion"}, "--axis",
+        (o.axis is not None and not about_axis, "--axis",
          "does nothing here: --region does not speak of radial, outward or flexion", "leave it out"),
         (o.centre is not None and not used & {"radial", "outward"}, "--centre",
          "does nothing here: --region does not speak of radial or outward", "leave it out"),
@@ -82,7 +85,9 @@ def _refuse_idle(o: FitOptions) -> None:
     )  # fmt: skip
 
 
-def _fitted(record: Record, name: str, points: np.ndarray, along: np.ndarray | None, o: FitOptions) -> ShapeFit:
+def _fitted(
+    record: Record, name: str, points: Float[np.ndarray, "n 3"], along: Float[np.ndarray, " 3"] | None, o: FitOptions
+) -> ShapeFit:
     """Shape through the points; a cylinder parallel to `along` where that is given."""
     try:
         if o.shape == "cylinder" and along is not None:

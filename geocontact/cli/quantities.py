@@ -90,7 +90,7 @@ def splitting_plane(text: str, unit: str) -> Plane:
 def sweep_range(text: str) -> tuple[str, float, float, float]:
     """ "flexion=0:90:1" to a name and start, stop, step [rad]; degrees are typed."""
     name, found, rest = text.partition("=")
-    if not found or not name.strip():
+    if not found or not name.strip() or ":" not in rest:
         raise InputError("", "--sweep", f"{text!r} is not a range", "write flexion=0:90:1 (degrees)")
     return (name.strip(), *angle_range(rest, "--sweep", "flexion=0:90:1"))
 
