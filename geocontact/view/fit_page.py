@@ -14,7 +14,6 @@ from geocontact.geometry.fit.found import OUTLYING, ShapeFit
 from geocontact.geometry.fit.profile import SagittalProfile
 from geocontact.geometry.surface import Surface
 from geocontact.view.contact_words import NOT_A_DEVICE
-from geocontact.view.directions import camera_directions
 from geocontact.view.page.content import Body, Page, Picture, Scene, Section, Table, Words
 from geocontact.view.page.write import write_page
 
@@ -30,6 +29,11 @@ OVER_FLEXION = (
     "Radius of circles fitted to windows of the outline as seen along the axis, with 95 % intervals; a single radius "
     "holds where the curve is level."
 )
+WAYS = {  # by axis: which way a mesh's axes point in the body is not known here
+    f"{sign}{axis}": tuple(turn * float(axis == other) for other in "xyz")
+    for axis in "xyz"
+    for sign, turn in (("+", 1.0), ("−", -1.0))
+}
 DRAWINGS = {"fit": ("The fit", BESIDE), "profile": ("Radius over flexion", OVER_FLEXION)}
 DISTANCES = (
     "Distances are geometric. Points far off do not count (biweight, its scale from the median distance), unless plain "
@@ -125,7 +129,7 @@ def _scene(fitted: FittedSurface) -> Scene:
         thresholds=(limit,),
         span=(0.0, 1.5 * limit),
         value_name=f"distance to the fitted {shape}, to either side; the line is three times the noise",
-        directions=camera_directions(np.zeros(3)),
+        directions=WAYS,
     )
 
 

@@ -8,6 +8,7 @@ from geocontact.geometry.fit.circle import CircleModel, fit_circle, fit_cylinder
 from geocontact.geometry.fit.cylinder import CylinderModel
 from geocontact.geometry.fit.directions import across
 from geocontact.geometry.fit.plane import PlaneModel
+from geocontact.geometry.fit.solver import biweight
 from geocontact.geometry.fit.sphere import SphereModel
 from tests.geometry.fit.clouds import RADIUS, SHIFT, TURN, points, wall
 
@@ -50,6 +51,17 @@ def test_jacobian_is_the_derivative(model):
         atol=1e-12,
     )  # fmt: skip
     assert len(model.names) == len(model.lengths) == len(model.x)
+
+
+def test_biweight_and_its_derivatives():
+    """A third at most, flat beyond the scale; the derivatives are those of the values."""
+    square = np.array([0.0, 0.1, 0.5, 0.9, 1.1, 5.0])
+    value, slope, bend = biweight(square)
+    np.testing.assert_allclose(value[[0, 4, 5]], [0.0, 1.0 / 3.0, 1.0 / 3.0])
+    step = 1e-5
+    for here, derivative in ((0, slope), (1, bend)):
+        difference = (biweight(square + step)[here] - biweight(square - step)[here]) / (2.0 * step)
+        np.testing.assert_allclose(derivative[1:], difference[1:], atol=1e-8)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
