@@ -18,8 +18,8 @@ Vector = tuple[float, float, float]
 class Sagittal:
     """Plane across `axis`, with the direction of 0 and one on the side of 90 degrees, all in the component's frame.
 
-    Which way a file's axes point is not known beforehand (of the femoral components of two public data sets that are
-    said to have x anterior both have it posterior), so both directions are the caller's.
+    Which way a file's axes point is not known beforehand (the femoral components of two public data sets, one of them
+    described as having x anterior, both have their condyles at +x), so both directions are the caller's.
 
     Parameters
     ----------
