@@ -20,6 +20,7 @@ from geocontact.gap.problem import Noise, Problem, evaluated
 from geocontact.gap.refit import Refit, free, magnitude
 
 AT_BOUND = 1e-4  # of a parameter's magnitude
+FLATTEST = 1e-4  # curvature over a range below which it makes no difference
 FLAT = float(np.sqrt(12.0))  # range of a flat prior over its standard deviation
 
 
@@ -97,19 +98,9 @@ def log_evidence(
 
 
 def held_back(model: Refit, rows: int | None = None) -> float:
-    """What parameters on a bound cost: the share of their range that the data leave them [nats, at most 0].
-
-    Where the fit is held at a bound the likelihood falls off as exp(-g x - h x²/2) with the distance x from it; its
-    mean over the range W of a flat prior is
-
-        sqrt(π/2h) (erfcx(a) - exp(-g W - h W²/2) erfcx(a + W sqrt(h/2)))/W, a = g/sqrt(2h).
-    """
-    from scipy.special import erfcx
-
+    """What parameters on a bound cost: the share of their range that the data leave them [nats, at most 0]."""
     spread = prior_spread(model.system, model.values)
     residual, design = model.whitened[:rows], model.whitened_jacobian[:rows]
-    if spread.all():
-        return 0.0
     others = design[:, spread > 0.0] * spread[spread > 0.0]
     inner = np.linalg.cholesky(np.eye(others.shape[1]) + others.T @ others)
     total = 0.0
@@ -119,14 +110,25 @@ def held_back(model: Refit, rows: int | None = None) -> float:
         if not 0.0 < width < np.inf:
             continue
         inward = width if model.values[p.name] - p.lower < p.upper - model.values[p.name] else -width
-        along = np.linalg.solve(inner, others.T @ np.column_stack([residual, design[:, k] * inward]))
-        fall = -float(design[:, k] @ residual) * inward + float(along[:, 0] @ along[:, 1])
-        bend = float(design[:, k] @ design[:, k]) * width**2 - float(along[:, 1] @ along[:, 1])
-        root = np.sqrt(0.5 * max(bend, 1e-9))
-        a = max(0.5 * fall / root, 0.0)
-        mean = 0.5 * np.sqrt(np.pi) / root * (erfcx(a) - np.exp(-2.0 * a * root - root**2) * erfcx(a + root))
-        total += min(float(np.log(max(mean, 1e-300))), 0.0)
+        move = design[:, k] * inward
+        along = np.linalg.solve(inner, others.T @ np.column_stack([residual, move]))  # what the others make up for
+        fall = float(along[:, 0] @ along[:, 1]) - float(move @ residual)
+        bend = float(move @ move) - float(along[:, 1] @ along[:, 1])
+        total += min(log_mean(max(fall, 0.0), max(bend, 0.0)), 0.0)
     return total
+
+
+def log_mean(fall: float, bend: float) -> float:
+    """Logarithm of the mean of exp(-fall t - bend t²/2) over 0 <= t <= 1, both at least 0.
+
+    With a = fall/sqrt(2 bend) and c = sqrt(bend/2) it is sqrt(π)/(2 c) (erfcx(a) - exp(-fall - bend/2) erfcx(a + c)).
+    """
+    from scipy.special import erfcx
+
+    c = np.sqrt(0.5 * max(bend, FLATTEST))
+    a = 0.5 * fall / c
+    mean = 0.5 * np.sqrt(np.pi) / c * (erfcx(a) - np.exp(-2.0 * a * c - c**2) * erfcx(a + c))
+    return float(np.log(max(mean, 1e-300)))
 
 
 def prior_spread(system: System, values: dict[str, float]) -> Float[np.ndarray, " p"]:

@@ -212,3 +212,13 @@ def _split(
 ) -> tuple[tuple[Trial, ...], tuple[Trial, ...]]:
     trials = _trials(motions, forces)
     return trials[:3], trials[3:]
+
+
+def stairs(_: str, __: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Rounded to 0.8 N."""
+    return np.asarray(np.round(force / 0.8) * 0.8)
+
+
+def rung(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """A blow at the same time of every trial, after which something rings."""
+    return force + 0.8 * np.exp(-(time - 9.0) / 0.4) * np.sin(2.0 * np.pi * 8.0 * (time - 9.0)) * (time > 9.0)

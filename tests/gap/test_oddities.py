@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.gap.cases import Tremor, held, in_steps, knock, odd
+from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung
 from tests.gap.conftest import Elsewhere
 
 
@@ -29,3 +29,10 @@ def test_samples_that_are_held(elsewhere: Elsewhere) -> None:
 
 def test_coarse_steps(elsewhere: Elsewhere) -> None:
     assert any(words.startswith("it comes in steps of 0.2") for words in elsewhere(odd, None, in_steps))
+
+
+def test_ringing_at_the_same_phase_of_every_trial(elsewhere: Elsewhere) -> None:
+    seen = elsewhere(odd, rung)
+    words, nats = max((each for each in seen.items() if "ringing" in each[0]), key=lambda each: each[1])
+    assert nats > 15.0
+    assert float(words.split()[2]) == pytest.approx(8.0, abs=1.6)

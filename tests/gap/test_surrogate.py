@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.gap.surrogate import chosen
-from tests.gap.cases import Bump, stood_in
+from tests.gap.cases import Bump, stairs, stood_in
 from tests.gap.conftest import Elsewhere
 
 
@@ -28,6 +28,13 @@ def test_nothing_is_found_in_noise() -> None:
     assert sum(map(bool, hits)) <= 2
 
 
+def test_fitted_parameters_make_room() -> None:
+    rng = np.random.default_rng(4)
+    known, column = rng.standard_normal((300, 2)), rng.standard_normal((300, 1))
+    found = chosen(2.0 * column[:, 0] + 3.0 * known[:, 1], column, known, 200, 1.0)
+    assert found.shift == pytest.approx([0.0, 3.0], abs=0.05)
+
+
 def test_what_fitted_parameters_explain_is_not_paid_for() -> None:
     rng = np.random.default_rng(2)
     known = rng.standard_normal((300, 2))
@@ -38,6 +45,18 @@ def test_a_push_in_the_middle_of_every_trial(elsewhere: Elsewhere) -> None:
     found = elsewhere(stood_in, Bump(1.5, 8.0, 0.8))
     assert found.nats > 20.0
     assert found.predicted[0][200, 0] == pytest.approx(1.5, rel=0.5)
+
+
+def test_a_short_push_that_noise_of_the_input_would_explain_away(elsewhere: Elsewhere) -> None:
+    found = elsewhere(stood_in, Bump(1.2, 8.0, 0.12))
+    assert found.nats > 20.0
+    assert found.family == "time within the trial"
+
+
+def test_coarse_steps_below_the_noise_are_waves_over_the_prediction(elsewhere: Elsewhere) -> None:
+    found = elsewhere(stood_in, stairs)
+    assert found.nats > 40.0
+    assert found.family == "steps of force"
 
 
 def test_the_stand_in_finds_nothing_where_nothing_is(elsewhere: Elsewhere) -> None:

@@ -49,3 +49,17 @@ def test_the_estimate_is_where_the_likelihood_is_largest():
     sd = variation(known, np.array([1.0]), weight=1e-9, rounds=5000).sd
     best = misfit(known, sd)
     assert all(misfit(known, sd * factor) > best for factor in (0.9, 0.97, 1.03, 1.1))
+
+
+def test_a_mean_that_was_fitted_to_the_same_trials_is_made_up_for():
+    rng = np.random.default_rng(3)
+    design = 40.0 * rng.normal(size=(30, 1))
+    deviations = rng.normal(size=3)
+    known = [Products.of(design[:, 0] * d, design) for d in deviations - deviations.mean()]
+    sd = [variation(known, np.ones(1), weight=1e-6, spent=spent, rounds=500).sd[0] for spent in (0.0, 1.0)]
+    assert sd == pytest.approx([np.std(deviations), np.std(deviations, ddof=1)], rel=0.01)
+
+
+def test_what_trials_do_not_tell_keeps_its_prior():
+    silent = [Products.of(np.zeros(20), np.zeros((20, 1))) for _ in range(4)]
+    assert variation(silent, np.array([0.3]), weight=1.0, spent=1.0).sd[0] == pytest.approx(0.3, rel=1e-6)
