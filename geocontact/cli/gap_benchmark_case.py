@@ -74,7 +74,7 @@ class Worked:
 
 def worked(task: Task) -> Worked:
     """Draw, write, read, diagnose; whatever breaks down is told and scored as wrong."""
-    where = f"{task.lot.system} {task.lot.kind} {task.lot.place} of seed {task.lot.seed}"
+    where = _where(task)
     try:
         planted = drawn(task.lot)
     except Exception as error:  # the other cases shall be scored all the same
@@ -86,6 +86,15 @@ def worked(task: Task) -> Worked:
     finally:
         if not task.keep:
             shutil.rmtree(home, ignore_errors=True)
+
+
+def lost(task: Task, why: BaseException) -> Worked:
+    """A case whose process ended before it could say anything; it is not scored."""
+    return Worked(task.lot, _where(task), None, {}, trouble=(f"{_where(task)} was lost: {type(why).__name__}: {why}",))
+
+
+def _where(task: Task) -> str:
+    return f"{task.lot.system} {task.lot.kind} {task.lot.place} of seed {task.lot.seed}"
 
 
 def _answered(task: Task, planted: Planted, home: Path) -> Worked:

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import os
 import secrets
-import signal
 import tempfile
-import threading
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Sequence
 from dataclasses import asdict
-from multiprocessing import get_context, parent_process
 from pathlib import Path
 
 from geocontact.cli.gap_benchmark import BenchmarkOptions
-from geocontact.cli.gap_benchmark_case import Task, Worked, worked
+from geocontact.cli.gap_benchmark_case import Task, Worked, lost, worked
 from geocontact.cli.gap_benchmark_results import Outcome, write_results
 from geocontact.cli.output import written_whole
 from geocontact.cli.patience import progress
 from geocontact.cli.record import Record
+from geocontact.cli.workers import each
 from geocontact.data.errors import InputError
 from geocontact.gap.benchmark.drawing import KINDS, SYSTEMS, Lot, lots
 
@@ -77,8 +73,8 @@ def _worked(chosen: Sequence[Lot], draft: Path, seed: int, o: BenchmarkOptions) 
         tasks = [Task(lot, folder, o.keep, lot in twice[lot.system]) for lot in chosen]
         found: dict[Lot, Worked] = {}
         with progress("cases", len(tasks)) as step:
-            for one in _each(tasks, min(o.jobs or _cores(), len(tasks))):
-                found[one.lot] = one
+            for task, became in each(worked, tasks, o.jobs):
+                found[task.lot] = became if isinstance(became, Worked) else lost(task, became)
                 step()
     return [found[lot] for lot in chosen]
 
@@ -87,35 +83,3 @@ def _spread(among: Sequence[Lot], count: int) -> set[Lot]:
     """So many lots, evenly spaced, so that every kind has a chance."""
     step = max(len(among) / count, 1.0) if count else 1.0
     return {among[int(i * step)] for i in range(min(count, len(among)))}
-
-
-def _each(tasks: Sequence[Task], jobs: int) -> Iterator[Worked]:
-    """Outcomes as they come; the longest kinds are not known beforehand."""
-    if jobs == 1:
-        yield from map(worked, tasks)
-        return
-    pool = ProcessPoolExecutor(jobs, get_context("spawn"), _begin)
-    try:
-        for future in as_completed([pool.submit(worked, task) for task in tasks]):
-            yield future.result()
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-def _cores() -> int:
-    """Cores that this process may use."""
-    usable: Callable[[int], set[int]] | None = getattr(os, "sched_getaffinity", None)
-    return len(usable(0)) if usable is not None else os.cpu_count() or 1
-
-
-def _begin() -> None:
-    """A worker ends at once with Ctrl-C, and with the process that started it."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)

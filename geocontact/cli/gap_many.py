@@ -6,19 +6,14 @@ independent, so the results are those of one call per case.
 
 from __future__ import annotations
 
-import os
 import shutil
-import signal
 import sys
-import threading
 import traceback
 import uuid
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from contextlib import redirect_stderr
 from dataclasses import asdict, dataclass
+from functools import partial
 from io import StringIO
-from multiprocessing import get_context, parent_process
 from pathlib import Path
 
 import pandas as pd
@@ -29,6 +24,7 @@ from geocontact.cli.left_over import RUN
 from geocontact.cli.output import written_whole
 from geocontact.cli.patience import progress
 from geocontact.cli.record import Record
+from geocontact.cli.workers import each
 from geocontact.data.errors import InputError
 from geocontact.io.gap_case import gap_case_folders
 from geocontact.io.results import write_table
@@ -94,35 +90,17 @@ def _all(folders: list[Path], draft: Path, o: DiagnoseOptions, token: str) -> li
     """Outcomes in the order of the folders."""
     found = {}
     with progress("cases", len(folders)) as step:
-        for one in _each(folders, draft, o, token):
-            found[one.name] = one
+        for folder, became in each(partial(outcome, draft=draft, o=o, token=token), folders, o.workers):
+            found[folder.name] = _outcome_of(folder, became, draft)
             step()
     return [found[folder.name] for folder in folders]
 
 
-def _each(folders: list[Path], draft: Path, o: DiagnoseOptions, token: str) -> Iterator[Outcome]:
-    """Outcomes as they come."""
-    workers = min(o.workers or _cores(), len(folders))
-    if workers == 1:
-        yield from (outcome(folder, draft, o, token) for folder in folders)
-        return
-    pool = ProcessPoolExecutor(workers, get_context("spawn"), _begin)
-    try:
-        futures: dict[Future[Outcome], Path] = {
-            pool.submit(outcome, folder, draft, o, token): folder for folder in folders
-        }
-        for future in as_completed(futures):
-            yield _outcome_of(future, futures[future], draft)
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-def _outcome_of(future: Future[Outcome], folder: Path, draft: Path) -> Outcome:
-    error = future.exception()
-    if error is None:
-        return future.result()
+def _outcome_of(folder: Path, became: Outcome | BaseException, draft: Path) -> Outcome:
+    if isinstance(became, Outcome):
+        return became
     shutil.rmtree(draft / folder.name, ignore_errors=True)  # a process that was killed leaves what it had written
-    return Outcome(folder.name, FAILED, f"{folder}: {type(error).__name__}: {error}")
+    return Outcome(folder.name, FAILED, f"{folder}: {type(became).__name__}: {became}")
 
 
 def outcome(folder: Path, draft: Path, o: DiagnoseOptions, token: str) -> Outcome:
@@ -162,22 +140,3 @@ def outcome(folder: Path, draft: Path, o: DiagnoseOptions, token: str) -> Outcom
 
 def _answer(verdict: str, effects: tuple[str, ...]) -> tuple[str, ...]:
     return effects or {"no_gap": ("none",), "unknown": ("unknown",)}.get(verdict, ())
-
-
-def _cores() -> int:
-    """Cores that this process may use."""
-    usable: Callable[[int], set[int]] | None = getattr(os, "sched_getaffinity", None)
-    return len(usable(0)) if usable is not None else os.cpu_count() or 1
-
-
-def _begin() -> None:
-    """A worker ends at once with Ctrl-C, and with the process that started it."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)

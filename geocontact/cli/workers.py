@@ -1,0 +1,54 @@
+"""Independent pieces of work in processes of their own, as many at a time as there are cores."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from multiprocessing import get_context, parent_process
+from typing import TypeVar
+
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+
+
+def cores() -> int:
+    """Cores that this process may use."""
+    usable: Callable[[int], set[int]] | None = getattr(os, "sched_getaffinity", None)
+    return len(usable(0)) if usable is not None else os.cpu_count() or 1
+
+
+def each(
+    work: Callable[[Task], Result], tasks: Sequence[Task], jobs: int | None
+) -> Iterator[tuple[Task, Result | BaseException]]:
+    """Tasks and what became of them, as they come: a result, or why there is none, such as a process that was killed.
+
+    `jobs` processes at most, as many as there are cores for None; with one the work is done here.
+    """
+    count = min(jobs or cores(), len(tasks))
+    if count <= 1:
+        yield from ((task, work(task)) for task in tasks)
+        return
+    pool = ProcessPoolExecutor(count, get_context("spawn"), _begin)
+    try:
+        futures = {pool.submit(work, task): task for task in tasks}
+        for future in as_completed(futures):
+            error = future.exception()
+            yield futures[future], future.result() if error is None else error
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _begin() -> None:
+    """A worker ends at once with Ctrl-C, and with the process that started it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
