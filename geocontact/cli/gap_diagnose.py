@@ -40,8 +40,9 @@ class DiagnoseOptions:
 def diagnose(case: Path, /, *, options: DiagnoseOptions) -> int:
     """Diagnose a gap case: which effect the model lacks, where it shows, how far the gap shrinks with it.
 
-    Writes diagnosis.json, report.html, gap_map.csv, ranking.csv, held_out.csv, figures (.png, .svg) and run.json into
-    OUT. With --many a case that cannot be used is one line on stderr and exit 2; the others are diagnosed all the same.
+    Writes diagnosis.json, report.html, gap_map.csv, ranking.csv, held_out.csv, trials.csv where something is named,
+    figures (.png, .svg) and run.json into OUT. With --many a case that cannot be used is one line on stderr and exit 2;
+    the others are diagnosed all the same.
 
     Parameters
     ----------

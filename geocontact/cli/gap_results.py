@@ -29,6 +29,8 @@ def write_results(record: Record, case: GapCase, findings: Findings, folder: Pat
     (folder / "diagnosis.json").write_text(text + "\n", encoding="utf-8")
     write_table(gap_map_table(findings), folder, parquet=False, name="gap_map")
     write_table(ranking_table(findings), folder, parquet=False, name="ranking")
+    if findings.trials:
+        write_table(trials_table(findings), folder, parquet=False, name="trials")
     trials = held_out(findings)
     write_table(held_out_table(findings, trials), folder, parquet=False, name="held_out")
     if not pictures:
@@ -84,6 +86,17 @@ def ranking_table(findings: Findings) -> pd.DataFrame:
             "gain [nats]": [one.gain for one in rows],
             "gain_calibration [nats]": [one.calibration for one in rows],
             "probability [-]": [one.probability for one in rows],
+        }
+    )
+
+
+def trials_table(findings: Findings) -> pd.DataFrame:
+    """A row per trial: how much better it is predicted from all others with what was named."""
+    return pd.DataFrame(
+        {
+            "trial": [one.trial for one in findings.trials],
+            "held_out": [one.held_out for one in findings.trials],
+            "gain_left_out [nats]": [one.nats for one in findings.trials],
         }
     )
 

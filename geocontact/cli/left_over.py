@@ -28,7 +28,11 @@ FIT = (
     "fit.json", "fit.png", "fit.svg", "fit.vtp", "profile.csv", "profile.parquet", "profile.png", "profile.svg",
     "report.html",
 )  # fmt: skip
-GAP = ("diagnosis.json", "gap_map.csv", "ranking.csv", "held_out.csv", "summary.csv", "report.html")
+GAP = (
+    "diagnosis.json",
+    *(f"{name}.csv" for name in ("gap_map", "ranking", "held_out", "trials", "summary")),
+    "report.html",
+)
 BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
 NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *GAP, *BENCHMARK, RUN})
 PARAVIEW = "paraview"

@@ -16,6 +16,7 @@ from geocontact.gap.absorbed import absorbed
 from geocontact.gap.admission import admitted
 from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.evidence import Judged, prior_spread
+from geocontact.gap.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.locate import Cell, gap_map, windows
 from geocontact.gap.refit import free
 from geocontact.gap.shrink import shrinkage
@@ -26,11 +27,15 @@ TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that 
 
 @dataclass(frozen=True)
 class Findings:
-    """A diagnosis with all that it rests on, for figures and further questions."""
+    """A diagnosis with all that it rests on, for figures and further questions.
+
+    `trials` tells how much better each is predicted from all others with what was named; none where nothing was.
+    """
 
     diagnosis: Diagnosis
     attribution: Attribution
     cells: tuple[Cell, ...]
+    trials: tuple[TrialGain, ...] = ()
 
 
 def diagnose(case: GapCase, system: System, version: str = "") -> Findings:
@@ -84,7 +89,8 @@ def diagnose(case: GapCase, system: System, version: str = "") -> Findings:
         faults=_faults(found, offered),
         remarks=tuple(f"{each.words} in {each.channel}" if each.channel else each.words for each in found.odd),
     )
-    return Findings(diagnosis, found, cells)
+    trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
+    return Findings(diagnosis, found, cells, trials)
 
 
 def estimates(judged: Judged) -> dict[str, Estimate]:

@@ -102,7 +102,9 @@ def gap_page(
     sections += [
         Picture(*CAPTIONS[name], _svg(figures[name]), wide=name in WIDE) for name in CAPTIONS if name in figures
     ]
-    sections += [_gap_table(findings), _ranking_table(findings), _parameters_table(d), _cells_table(findings)]
+    sections += [_gap_table(findings), _ranking_table(findings)]
+    sections += [_trials_table(findings)] if findings.trials else []
+    sections += [_parameters_table(d), _cells_table(findings)]
     sections += [_confounded(d), *provenance, _limits(case, d, missing)]
     if warnings:
         sections.append(Words("Reservations of this run", list(warnings)))
@@ -239,6 +241,13 @@ def _ranking_table(findings: Findings) -> Table:
         rows.append((one.label, one.effects, number(one.gain, 10.0), number(one.calibration, 10.0), probability))
     header = ("model", "answer", "gain, all trials [nats]", "gain, calibration trials [nats]", "probability")
     return Table("Ranking", header, rows)
+
+
+def _trials_table(findings: Findings) -> Table:
+    rows = [(one.trial, "yes" if one.held_out else "no", number(one.nats, 10.0)) for one in findings.trials]
+    better = sum(one.nats > 0.0 for one in findings.trials)
+    title = f"Each trial predicted from all others: better with what is named in {better} of {len(rows)}"
+    return Table(title, ("trial", "held out", "gain [nats]"), rows)
 
 
 def _parameters_table(d: Diagnosis) -> Table:

@@ -18,7 +18,7 @@ from geocontact.cli.gap_results import plain
 from tests.cli.calls import Call, call, done, inventory, process
 from tests.cli.gap_cases import DAMPING, damped_elbow, in_degrees_and_kilonewtons, known, reordered, spoilt
 
-TABLES = {"diagnosis.json", "run.json", "gap_map.csv", "ranking.csv", "held_out.csv"}
+TABLES = {"diagnosis.json", "run.json", "gap_map.csv", "ranking.csv", "held_out.csv", "trials.csv"}
 FIGURES = {f"{name}.{ending}" for name in ("gap_map", "ranking", "gap_residuals") for ending in ("png", "svg")}
 KEYS = ["case", "system", "verdict", "effects", "probabilities", "ambiguity", "absorbed", "where", "gap", "parameters"]
 KEYS += ["faults", "remarks", "seconds", "version"]

@@ -222,3 +222,9 @@ def stairs(_: str, __: np.ndarray, force: np.ndarray) -> np.ndarray:
 def rung(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
     """A blow at the same time of every trial, after which something rings."""
     return force + 0.8 * np.exp(-(time - 9.0) / 0.4) * np.sin(2.0 * np.pi * 8.0 * (time - 9.0)) * (time > 9.0)
+
+
+def gains(change: Change | None) -> list[tuple[bool, float]]:
+    """Of each trial, whether it was held out and what it gains when it is predicted from the others."""
+    case = elbow_case(seed=9, change=change)
+    return [(one.held_out, one.nats) for one in diagnose(case, system_of(case)).trials]
