@@ -50,6 +50,8 @@ class System:
         SI unit of each channel.
     own
         Effects that the model brings beside those of the vocabulary.
+    spare
+        Inputs that the base does not use; effects may.
     """
 
     name: str
@@ -64,11 +66,17 @@ class System:
     effects: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
     own: tuple[Offering, ...] = ()
+    spare: tuple[str, ...] = ()
 
     @property
     def inputs(self) -> tuple[str, ...]:
         """Channels that drive the model."""
         return self.motion.inputs
+
+    @property
+    def driving(self) -> tuple[str, ...]:
+        """Inputs that the base uses: what is wrong with another one does not show."""
+        return tuple(name for name in self.inputs if name not in self.spare)
 
     @property
     def outputs(self) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""The joint's axis wanders: x changes with the joint angle.
+"""A length of the joint changes with its angle: x of the elbow, whose axis wanders; R of the knee.
 
 x → x + a φ + c φ², φ = β - the middle of the measured range, so that x keeps its meaning there. a of either sign, a few
 centimetres per radian; the curvature c is the shape. Its rate moves the deflection as well.
@@ -25,8 +25,8 @@ def offer(system: System) -> tuple[Candidate, ...]:
 AXIS_MIGRATION = Effect(
     "axis_migration",
     "geometry",
-    ("elbow",),
+    ("elbow", "knee"),
     offer,
-    "instantaneous axis of the elbow: Bottlang et al. (2000) J. Orthop. Res. 18:821",
+    "instantaneous axis of the elbow: Bottlang et al. (2000) J. Orthop. Res. 18:821; R(φ) of a knee: `geocontact fit`",
     ("axis_migration.slope", "axis_migration.curvature", "axis_migration.centre"),
 )

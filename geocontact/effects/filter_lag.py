@@ -32,4 +32,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
     return (Candidate("filter_lag", "", "sensor", (lag, order), link, {lag.name: 0.0}, others),)
 
 
-FILTER_LAG = Effect("filter_lag", "sensor", ("elbow", "foot"), offer, "anti-alias and smoothing filters of amplifiers")
+FILTER_LAG = Effect(
+    "filter_lag", "sensor", ("elbow", "foot", "knee"), offer, "anti-alias and smoothing filters of amplifiers"
+)

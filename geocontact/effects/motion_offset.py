@@ -1,4 +1,4 @@
-"""Constant bias of one input that the model uses: angle, marker height, pitch.
+"""Constant bias of one input that the model uses: angle, marker height, pitch, contact area.
 
 input → input + offset, of either sign. The foot's x is not offered: only its rate enters, so a bias of it is invisible.
 """
@@ -19,7 +19,11 @@ from geocontact.effects.parts import with_motion
 RANK = 10.0
 PLAUSIBLE = {"rad": 0.35, "m": 0.01}
 """Largest bias that a careful laboratory might have, by unit."""
-USED = {"elbow": (("beta", "rad", 0.35),), "foot": (("y", "m", 0.01), ("pitch", "rad", 0.15))}
+USED = {
+    "elbow": (("beta", "rad", 0.35),),
+    "foot": (("y", "m", 0.01), ("pitch", "rad", 0.15)),
+    "knee": (("area_medial", "m^2", 1e-4), ("area_lateral", "m^2", 1e-4)),
+}
 """Inputs by system, with their unit and the largest bias; of other systems every angle and length."""
 
 
@@ -48,7 +52,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
 MOTION_OFFSET = Effect(
     "motion_offset",
     "kinematics",
-    ("elbow", "foot"),
+    ("elbow", "foot", "knee"),
     offer,
     "marker placement and alignment errors: Della Croce et al. (2005) Gait Posture 21:226",
 )

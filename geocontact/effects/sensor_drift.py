@@ -48,4 +48,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
     return tuple(drifting(system, name) for name in system.outputs)
 
 
-SENSOR_DRIFT = Effect("sensor_drift", "sensor", ("elbow", "foot"), offer, "warm-up drift of strain-gauge sensors")
+SENSOR_DRIFT = Effect(
+    "sensor_drift", "sensor", ("elbow", "foot", "knee"), offer, "warm-up drift of strain-gauge sensors"
+)

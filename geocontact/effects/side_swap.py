@@ -1,6 +1,7 @@
 """Two channels exchanged: every trial, or some only.
 
-The foot has no two sides; what can be exchanged are its two force channels. The elbow has one output: no candidate.
+Of the knee its two sides. The foot has no two sides; what can be exchanged are its two force channels. The elbow has
+one output: no candidate.
 No parameter: discrete.
 """
 
@@ -32,4 +33,4 @@ def swapped(system: System, a: str, b: str) -> Candidate:
     return output_fault("side_swap", f"{a}_{b}", SWAP, change)
 
 
-SIDE_SWAP = Effect("side_swap", "data", ("foot",), offer, "cables of two channels of one device exchanged")
+SIDE_SWAP = Effect("side_swap", "data", ("foot", "knee"), offer, "cables of two channels of one device exchanged")

@@ -18,9 +18,10 @@ def offer(system: System) -> tuple[Candidate, ...]:
         for column, name in enumerate(system.outputs)
     ]
     inputs = [
-        input_fault("sign_flip", name, input_over(row, -1.0), name, -1.0) for row, name in enumerate(system.inputs)
+        input_fault("sign_flip", name, input_over(system.inputs.index(name), -1.0), name, -1.0)
+        for name in system.driving
     ]
     return (*outputs, *inputs)
 
 
-SIGN_FLIP = Effect("sign_flip", "data", ("elbow", "foot"), offer, "sense of axes that two devices do not share")
+SIGN_FLIP = Effect("sign_flip", "data", ("elbow", "foot", "knee"), offer, "sense of axes that two devices do not share")

@@ -73,11 +73,11 @@ def offer(system: System) -> tuple[Candidate, ...]:
         for word, factor in factors(system.unit(name)).items()
     ]
     found += [
-        input_fault("unit_error", f"{name}.{word}", input_over(row, factor), name, factor)
-        for row, name in enumerate(system.inputs)
+        input_fault("unit_error", f"{name}.{word}", input_over(system.inputs.index(name), factor), name, factor)
+        for name in system.driving
         for word, factor in factors(system.unit(name)).items()
     ]
     return tuple(found)
 
 
-UNIT_ERROR = Effect("unit_error", "data", ("elbow", "foot"), offer, "NIST SP 811, conversion factors")
+UNIT_ERROR = Effect("unit_error", "data", ("elbow", "foot", "knee"), offer, "NIST SP 811, conversion factors")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -84,7 +85,8 @@ def attribute(case: GapCase, system: System, offer: Offer) -> Attribution:
     strange = float(sum(each.nats for each in odd))
     over = {label: borne_out(each.nats, each.calibration, share) + strange for label, each in left.items()}
     rest = remaining["none"]
-    said = answer(base, contenders, share, borne_out(rest.nats, rest.calibration, share), strange, over)
+    unnamed = borne_out(rest.nats, rest.calibration, share)
+    said = answer(base, contenders, share, unnamed, strange, over, Counter(one.name for one in candidates))
     if fault is not None:
         said = with_mistake(said, fault.candidate.name)
     return Attribution(problem, fault, clean, base, tuple(contenders), {**remaining, **left}, odd, said)

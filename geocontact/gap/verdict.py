@@ -61,6 +61,7 @@ def answer(
     unnamed: float,
     strange: float,
     left: Mapping[str, float],
+    variants: Mapping[str, int],
 ) -> Answer:
     """The verdict.
 
@@ -78,9 +79,12 @@ def answer(
         How sure it is that something is odd about the residual of the best model [nats].
     left
         What it gains on top of a contender, by label, where that was asked [nats].
+    variants
+        How many candidates each effect has: they share what is believed of it beforehand.
     """
     single = [c for c in contenders if len(c.candidates) == 1]
-    over_base = {c.label: gain_of(c, base, share) for c in contenders}
+    chosen_from = {c.label: float(np.log([variants[one.name] for one in c.candidates]).sum()) for c in contenders}
+    over_base = {c.label: gain_of(c, base, share) - chosen_from[c.label] for c in contenders}
     best_single = max((over_base[c.label] for c in single), default=0.0)
     needed = SURE + PAIR * max(best_single, 0.0)
     pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]

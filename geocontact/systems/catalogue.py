@@ -6,11 +6,12 @@ from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.systems.base import Base
 from geocontact.systems.elbow_exoskeleton import ELBOW
+from geocontact.systems.knee_implant import KNEE
 from geocontact.systems.own import own_system
 from geocontact.systems.prosthetic_foot import FOOT
 from geocontact.systems.tried import refusal, tried
 
-SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT)
+SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT, KNEE)
 
 
 def system_of(case: GapCase) -> System:

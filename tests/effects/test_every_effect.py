@@ -18,6 +18,8 @@ VOCABULARY = {
     "saturation unit_error sign_flip",
     "foot": "time_shift filter_lag motion_offset series_compliance stiffening damping relaxation asymmetry "
     "inertia_load sensor_gain sensor_offset sensor_drift saturation crosstalk unit_error sign_flip side_swap",
+    "knee": "time_shift filter_lag motion_offset axis_migration relaxation asymmetry sensor_gain sensor_offset "
+    "sensor_drift saturation crosstalk unit_error sign_flip side_swap",
     "joint": "time_shift filter_lag motion_offset series_compliance stiffening damping relaxation dry_friction "
     "dead_zone end_stop preload slip asymmetry gravity_load inertia_load sensor_gain sensor_offset sensor_drift "
     "saturation unit_error sign_flip",

@@ -17,7 +17,7 @@ from geocontact.effects.catalogue import candidates
 from tests.effects.runs import EXAMPLES, FITTED, label, outputs, truth
 from tests.systems.examples import recording
 
-LOAD = {"N m": 1.7, "N": 1.7, "kg m^2": 1.7, "kg": 1.7}
+LOAD = {"N m": 1.7, "N": 1.7, "kg m^2": 1.7, "kg": 1.7, "Pa": 1.7}
 ANGLE = {"rad": 0.6, "kg m^2": 1.0 / 0.6}
 
 

@@ -1,4 +1,4 @@
-"""Systems on synthetic trials: an elbow swept at several speeds, a foot rolling over, and an own model, a joint."""
+"""Systems on synthetic trials: a swept elbow, a foot rolling over, a knee, and an own model, a joint."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ from geocontact.chain.system import System
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.systems import elastic_joint, elbow_exoskeleton, prosthetic_foot
+from geocontact.systems import elastic_joint, elbow_exoskeleton, knee_implant, prosthetic_foot
 
 FOOT_CONSTANTS = {"n": 1.2, "delta_full": 0.002, "mu_s": 0.9, "mu_k": 0.7, "v_th": 0.25}
 ELBOW_CONSTANTS = {"l_ex": 0.185, "z_ex": 0.09}
 ELBOW_VALUES = {"k": 300.0, "x": 0.03, "y": 0.04}
 JOINT_CONSTANTS = {"angle0": 0.1, "hardening": 0.6}
-NAMES = ("elbow", "foot", "joint")
+KNEE_CONSTANTS = {"R": 0.037}
+NAMES = ("elbow", "foot", "knee", "joint")
 
 
 def recording(name: str, time: np.ndarray, columns: dict[str, np.ndarray], **covariates: float) -> Trial:
@@ -43,6 +44,22 @@ def foot_trial(name: str, depth: float, step: float = 0.005, duration: float = 0
     x = 0.02 * phase + 0.003 * np.sin(2.0 * np.pi * phase)
     empty = np.full(time.size, np.nan)
     return recording(name, time, {"x": x, "y": y, "pitch": pitch, "force_x": empty, "force_y": empty, "cop_x": empty})
+
+
+def knee_trial(name: str, speed: float, step: float = 0.01, duration: float = 3.0) -> Trial:
+    """Two steps; both sides always carry something, neither all the time the larger part."""
+    time = np.arange(round(duration / step) + 1) * step
+    phase = 2.0 * np.pi * speed * time / duration
+    flexion = 0.5 - 0.4 * np.cos(2.0 * phase) + 0.15 * np.sin(phase)
+    medial = 1e-4 * (4.0 + 2.0 * np.sin(phase) + 1.2 * np.sin(3.0 * phase + 0.4))
+    lateral = 1e-4 * (3.0 + 1.5 * np.sin(phase + 0.9) + 0.9 * np.cos(2.0 * phase))
+    columns = {"flexion": flexion, "adduction": 0.02 * np.sin(phase), "area_medial": medial, "area_lateral": lateral}
+    empty = np.full(time.size, np.nan)
+    return recording(name, time, {**columns, "force_medial": empty, "force_lateral": empty})
+
+
+def knee() -> System:
+    return knee_implant.build((Parameter("E_star", "Pa", 1.2e7, 2e6, 8e7),), KNEE_CONSTANTS, {})
 
 
 def joint_trial(name: str, speed: float, setting: float, step: float = 0.02, duration: float = 12.0) -> Trial:
@@ -90,6 +107,9 @@ def example(name: str, refine: int = 1) -> tuple[System, tuple[Trial, ...]]:
     if name == "elbow":
         system = elbow()
         trials = tuple(elbow_trial(f"t{i}", speed, 0.02 / refine) for i, speed in enumerate((1.3, 2.9)))
+    elif name == "knee":
+        system = knee()
+        trials = tuple(knee_trial(f"t{i}", speed, 0.01 / refine) for i, speed in enumerate((1.0, 1.7)))
     elif name == "joint":
         system = joint()
         told = enumerate(((1.3, -1.0), (2.9, 1.0)))

@@ -1,0 +1,79 @@
+"""What the contact areas of a knee implant's two sides press, through Hertz's law of one circle per side.
+
+A side's area is taken for one circle, a = sqrt(area/π), so F = (4/3) E* a³/R (`contact.area_hertz.disc_force`). Here
+a³/R [m²] is the deflection u and (4/3) E* [Pa] the stiffness, so that whatever acts on a deflection has its place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.links import Law, Loads, Values
+from geocontact.chain.movement import Movement
+from geocontact.chain.single_deflection import along
+from geocontact.chain.slots import Slots, Source
+from geocontact.contact.area_hertz import disc_force
+
+AREAS = ("area_medial", "area_lateral")
+KNEE_GEOMETRY = Slots(
+    {
+        "R": 1.0,
+        "axis_migration.slope": 0.0,
+        "axis_migration.curvature": 0.0,
+        "axis_migration.centre": 0.0,
+        "asymmetry.sides": 0.0,
+    }
+)
+UNIT_FORCE = 0.75
+"""Modulus at which `disc_force` is a³/R."""
+LEAST_RADIUS = 1e-3
+"""Of R(φ) [m], which an unlucky search might make negative."""
+
+
+@dataclass(frozen=True)
+class KneeContact:
+    """Geometry link of the knee: two areas, two deflections; R may change with flexion, the sides may differ."""
+
+    slots: Slots = KNEE_GEOMETRY
+
+    @property
+    def yields(self) -> str:
+        """Angle that the geometry may depend on; nothing here gives way to a spring in series."""
+        return "flexion"
+
+    def having(self, sources: Mapping[str, Source]) -> KneeContact:
+        """The same link with more of its numbers coming from somewhere."""
+        return replace(self, slots=self.slots.having(sources))
+
+    def deflection(
+        self, movement: Movement, values: Values
+    ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
+        """a³/R of each side [m²] and its rate; with R = R0 + s φ + c φ², φ the flexion from the middle of its range.
+
+        The medial side carries 1 + d times as much, the lateral 1 - d times, d the difference of the sides.
+        """
+        radius0, slope, bend, centre, sides = self.slots.numbers(values)
+        row = movement.row("flexion")
+        angle = movement.position[row] - centre
+        free = radius0 + angle * (slope + bend * angle)
+        radius = np.maximum(free, LEAST_RADIUS)
+        turning = np.where(free > LEAST_RADIUS, movement.rate[row] * (slope + 2.0 * bend * angle), 0.0)
+        columns, rates = [], []
+        for name, share in zip(AREAS, (1.0 + sides, 1.0 - sides), strict=True):
+            area = movement.position[movement.row(name)]
+            u = share * disc_force(area, radius, UNIT_FORCE)
+            growth = 1.5 * movement.rate[movement.row(name)] / np.where(area > 0.0, area, np.inf)
+            columns.append(u)
+            rates.append(u * (growth - turning / radius))
+        return np.stack(columns, axis=1), np.stack(rates, axis=1)
+
+    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+        """Force of each side along a movement, each with a memory of its own."""
+        u, rate = self.deflection(movement, values)
+        numbers = law.slots.numbers(values)
+        normal = np.stack([along(movement.time, u[:, i].copy(), rate[:, i].copy(), numbers) for i in (0, 1)], axis=1)
+        return Loads(normal, np.zeros_like(normal), np.zeros_like(normal))
