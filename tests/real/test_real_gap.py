@@ -1,4 +1,4 @@
-"""Diagnoses of cases that others made: the practice cases of elbow, foot and knee, and the loops of a prosthetic ankle."""
+"""Diagnoses of cases that others made: practice cases of elbow, foot and knee, and the loops of a prosthetic ankle."""
 
 from __future__ import annotations
 
