@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
+from jaxtyping import Float
 
 X = TypeVar("X", bound=Any)
 """A number, an array or a symbol."""
@@ -66,9 +67,12 @@ def threshold_force(area: X, radius: X, modulus: X, threshold: X) -> X:
 
 @dataclass(frozen=True)
 class Patch:
-    """What the readings take besides area and E*: radius R, length of a strip and threshold of the area, all [m]."""
+    """What the readings take besides area and E*: radius R, length of a strip and threshold of the area, all [m].
 
-    radius: float
+    A radius that follows flexion is an array as long as the area.
+    """
+
+    radius: float | Float[np.ndarray, " t"]
     length: float
     threshold: float
 

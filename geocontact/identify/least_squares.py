@@ -78,7 +78,7 @@ def fit(
 
     def residual(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
         predicted = predict(dict(zip(names, z * scale, strict=True)))
-        return np.concatenate([_divided(p, m, floor) for p, m in zip(predicted, measured, strict=True)])
+        return np.concatenate([divided(p, m, floor) for p, m in zip(predicted, measured, strict=True)])
 
     if not free:
         return _found(predict, measured, names, np.zeros(0), scale, residual(np.zeros(0)), True, ())
@@ -108,7 +108,7 @@ def _scale(p: Parameter) -> float:
     return abs(p.start) if abs(p.start) > 1e-3 * spare else spare
 
 
-def _divided(
+def divided(
     predicted: Float[np.ndarray, "t c"], measured: Float[np.ndarray, "t c"], floor: Float[np.ndarray, " c"]
 ) -> Float[np.ndarray, " n"]:
     """Residuals in floors, without the cells that were not measured."""

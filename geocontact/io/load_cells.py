@@ -75,13 +75,20 @@ def read_load_cells(
     if table.time_unit != "s":
         raise InputError(table.file, "", "time is in per cent of a cycle", "give a recording in seconds")
     sources = [mapping.get(cell, (1.0, cell)) for cell in cells]
-    units = {_unit(table, name, unit) for _, name in sources}
-    forces = np.column_stack([sign * table.needed(name) * FORCES[_unit(table, name, unit)] for sign, name in sources])
+    columns = [(sign, *column_in_newtons(table, name, unit)) for sign, name in sources]
+    units = {said for _, _, said in columns}
+    forces = np.column_stack([sign * values for sign, values, _ in columns])
     largest = float(np.abs(forces.sum(axis=1)).max())
     if largest > STRONGEST:
         what = f"all cells together reach {largest:.0f} N"
         raise InputError(table.file, "", what, f"is the file in {', '.join(sorted(units))} at all? see --unit")
     return CellRecording(table.file, table.time, forces, ", ".join(sorted(units)))
+
+
+def column_in_newtons(table: Table, name: str, given: str | None) -> tuple[Float[np.ndarray, " t"], str]:
+    """A column of forces [N] and its unit in the file, which its header says or `given` does."""
+    unit = _unit(table, name, given)
+    return np.asarray(table.needed(name) * FORCES[unit]), unit
 
 
 def _unit(table: Table, name: str, given: str | None) -> str:

@@ -1,0 +1,118 @@
+"""Contact force from the evolution of a contact area, with what may be unknown about the area and its clock."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float
+from scipy.interpolate import PchipInterpolator
+
+from geocontact.contact.area_hertz import Patch, Reading
+
+MODULUS, THRESHOLD, LAG = "modulus", "threshold", "lag"
+"""Names of the parameters: E* [Pa], threshold of the area [m], lag of the force's clock behind the area's [s]."""
+
+
+@dataclass(frozen=True, eq=False)
+class AreaEvolution:
+    """Area of one compartment, or of all, over time and threshold.
+
+    Parameters
+    ----------
+    time
+        (t,) [s], strictly increasing.
+    thresholds
+        (k,) [m], strictly increasing.
+    area
+        (t, k) [m^2].
+    radius
+        R at each frame [m]: one number repeated, or following flexion.
+    length
+        Of the strip in the reading "strip" [m].
+    """
+
+    time: Float[np.ndarray, " t"]
+    thresholds: Float[np.ndarray, " k"]
+    area: Float[np.ndarray, "t k"]
+    radius: Float[np.ndarray, " t"]
+    length: float
+
+    @cached_property
+    def _over_threshold(self) -> PchipInterpolator:
+        return PchipInterpolator(self.thresholds, self.area, axis=1)
+
+    def within(self, threshold: float) -> Float[np.ndarray, " t"]:
+        """Area within a threshold [m^2]: monotone cubic in the threshold between those that were evaluated."""
+        at = np.flatnonzero(self.thresholds == threshold)
+        if len(at):
+            return np.asarray(self.area[:, int(at[0])])
+        if len(self.thresholds) == 1:
+            raise ValueError(f"the area is known at {self.thresholds[0]:g} m only, not at {threshold:g} m")
+        return np.asarray(self._over_threshold(threshold), float)
+
+    def per_modulus(self, reading: Reading, threshold: float) -> Float[np.ndarray, " t"]:
+        """Force over E* at each frame [m^2]."""
+        patch = Patch(self.radius, self.length, threshold)
+        return np.asarray(reading.force(self.within(threshold), patch, 1.0), float)
+
+
+@dataclass(frozen=True, eq=False)
+class AreaForce:
+    """The area-integrated law as a model of one force curve.
+
+    Parameters
+    ----------
+    evolution, reading
+        Area over time, and what it is taken for.
+    frames
+        Times of the area's clock at which the force was measured [s].
+    taken
+        Lag with which the measured force was read [s]: force(t + taken) belongs to frame t.
+    threshold
+        Used unless it is a free parameter [m].
+    """
+
+    evolution: AreaEvolution
+    reading: Reading
+    frames: Float[np.ndarray, " n"]
+    taken: float
+    threshold: float
+
+    def per_modulus(self, values: Mapping[str, float]) -> Float[np.ndarray, " n"]:
+        """Force over E* at the frames [m^2].
+
+        Where the lag is not the one taken, the curve is shifted (monotone cubic in time), not the measured force: its
+        noise must not be interpolated anew at each trial value.
+        """
+        curve = self.evolution.per_modulus(self.reading, values.get(THRESHOLD, self.threshold))
+        shift = self.taken - values.get(LAG, self.taken)
+        if shift == 0.0:
+            return np.asarray(np.interp(self.frames, self.evolution.time, curve))
+        return np.asarray(PchipInterpolator(self.evolution.time, curve)(self.frames + shift), float)
+
+    def force(self, values: Mapping[str, float]) -> Float[np.ndarray, " n"]:
+        """Force at the frames [N]."""
+        return np.asarray(values[MODULUS] * self.per_modulus(values))
+
+    def predict(self, values: Mapping[str, float]) -> list[Float[np.ndarray, "_ c"]]:
+        """The same as `least_squares.Predict` has it: one trial, one channel."""
+        return [self.force(values)[:, None]]
+
+    def refit(
+        self, measured: Float[np.ndarray, "b n"], values: Mapping[str, float], bounds: tuple[float, float]
+    ) -> Float[np.ndarray, "b 1"]:
+        """E* of each row of forces by least squares; in closed form, as the law is linear in E*."""
+        unit = self.per_modulus(values)
+        return np.asarray(np.clip(measured @ unit / (unit @ unit), *bounds)[:, None])
+
+
+Sensitivity = Callable[[Mapping[str, float]], Float[np.ndarray, " n"]]
+
+
+def derivative(of: Sensitivity, values: Mapping[str, float], name: str, step: float) -> Float[np.ndarray, " n"]:
+    """Central difference with respect to one named value."""
+    ahead, behind = (of({**values, name: values[name] + way * step}) for way in (1.0, -1.0))
+    return np.asarray((ahead - behind) / (2.0 * step))

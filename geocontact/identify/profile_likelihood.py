@@ -1,0 +1,115 @@
+"""Intervals by profile likelihood when the residual remembers: the independence likelihood, adjusted.
+
+The profile of a parameter is the least sum of squares with the parameter held. In the linear case it rises by
+delta^2 / [(J'J)^-1]_jj at a distance delta. It is cut where that parabola would have the half-width that the
+estimate has under noise with a memory (`memory`), so that the interval keeps the profile's own shape, lopsided where
+the model is not linear, and has the right size. This is the vertical adjustment of Chandler and Bate (2007),
+Biometrika 94, 167.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+from scipy.optimize import brentq
+
+from geocontact.data.parameter import Parameter
+from geocontact.identify.least_squares import Fit, Predict
+from geocontact.identify.least_squares import fit as least_squares
+from geocontact.identify.memory import Memory, sandwich
+
+POINTS = 21  # of the curve that is drawn
+DOUBLINGS = 30  # of the half-width in search of an end
+
+
+@dataclass(frozen=True, eq=False)
+class Profile:
+    """Profile of one parameter.
+
+    Parameters
+    ----------
+    lower, upper
+        Ends of the interval.
+    lower_open, upper_open
+        True where the profile is still below the cut at the parameter's bound: the data set no limit on that side.
+    values, rise
+        The curve: the parameter, and how far the sum of squares rises above its least, in units of the cut.
+    """
+
+    name: str
+    best: float
+    lower: float
+    upper: float
+    lower_open: bool
+    upper_open: bool
+    values: Float[np.ndarray, " m"]
+    rise: Float[np.ndarray, " m"]
+
+
+def profile(
+    predict: Predict,
+    measured: Float[np.ndarray, " n"],
+    time: Float[np.ndarray, " n"],
+    parameters: Sequence[Parameter],
+    fit: Fit,
+    memory: Memory,
+    name: str,
+    level: float = 0.95,
+    points: int = POINTS,
+) -> Profile:
+    """Profile of one parameter of a fit of one channel in one trial, and its interval of probability `level`."""
+    jacobian = fit.jacobian[0][:, 0, :]
+    j, best = fit.names.index(name), fit.values[name]
+    parameter = next(p for p in parameters if p.name == name)
+    half = memory.half_width(np.sqrt(sandwich(memory, time, jacobian)[:, j, j]), level)
+    if half <= 1e-12 * abs(best):
+        return Profile(name, best, best, best, False, False, np.array([best]), np.zeros(1))
+    cut = half**2 / float(np.linalg.inv(jacobian.T @ jacobian)[j, j])
+    least = float(fit.residuals[0][:, 0] @ fit.residuals[0][:, 0])
+
+    def rise(value: float) -> float:
+        return (_held(predict, measured, parameters, fit, name, value) - least) / cut
+
+    ends = [_end(rise, best, way * half, parameter) for way in (-1.0, 1.0)]
+    span = [best + 1.3 * (end - best) for end, _ in ends]
+    values = np.linspace(max(span[0], parameter.lower), min(span[1], parameter.upper), points)
+    (lower, lower_open), (upper, upper_open) = ends
+    return Profile(name, best, lower, upper, lower_open, upper_open, values, np.array([rise(v) for v in values]))
+
+
+def _held(
+    predict: Predict,
+    measured: Float[np.ndarray, " n"],
+    parameters: Sequence[Parameter],
+    fit: Fit,
+    name: str,
+    value: float,
+) -> float:
+    """Least sum of squares with one parameter held at a value."""
+    held = [replace(p, start=value, lower=value, upper=value, fixed=True) if p.name == name else p for p in parameters]
+
+    def with_it(values: Mapping[str, float]) -> list[Float[np.ndarray, "_ c"]]:
+        return predict({**values, name: value})
+
+    size = np.array([max(float(np.sqrt(np.mean(measured**2))), np.finfo(float).tiny)])
+    found = least_squares(with_it, [measured[:, None]], held, size, [fit.values])
+    return float(found.residuals[0][:, 0] @ found.residuals[0][:, 0])
+
+
+def _end(rise: Callable[[float], float], best: float, step: float, parameter: Parameter) -> tuple[float, bool]:
+    """Where the profile reaches the cut in the direction of `step`, and whether it does not before the bound."""
+    limit = parameter.lower if step < 0.0 else parameter.upper
+    near, far = best, best
+    for _ in range(DOUBLINGS):
+        far = best + step
+        if (far - limit) * step >= 0.0:
+            far = limit
+        if rise(far) >= 1.0:
+            return float(brentq(lambda v: rise(v) - 1.0, near, far, xtol=1e-9 * abs(step), rtol=1e-10)), False
+        if far == limit:
+            return limit, True
+        near, step = far, 2.0 * step
+    return far, True

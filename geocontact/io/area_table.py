@@ -1,0 +1,105 @@
+"""area.csv as `geocontact area` writes it: area over time at one or several thresholds, whole and by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from os import fspath
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.data.errors import InputError
+
+TIME, THRESHOLD = "time [s]", "threshold [mm]"
+COLUMNS = {
+    "total": "area_fixed [mm^2]",
+    "medial": "area_fixed_medial [mm^2]",
+    "lateral": "area_fixed_lateral [mm^2]",
+}
+"""Column of each side."""
+
+MM, MM2 = 1e-3, 1e-6
+FEWEST = 8
+"""Frames below which nothing is identified."""
+
+
+@dataclass(frozen=True, eq=False)
+class AreaTable:
+    """Areas by side.
+
+    Parameters
+    ----------
+    file
+        Path as given, for messages.
+    time
+        (t,) [s].
+    thresholds
+        (k,) [m], increasing.
+    areas
+        (t, k) [m^2] by side: "total", and "medial" and "lateral" where the areas were split.
+    """
+
+    file: str
+    time: Float[np.ndarray, " t"]
+    thresholds: Float[np.ndarray, " k"]
+    areas: dict[str, Float[np.ndarray, "t k"]]
+
+
+def read_area_table(paths: Sequence[Path]) -> AreaTable:
+    """One table, or several of the same frames at other thresholds."""
+    tables = [_read(path) for path in paths]
+    file = ", ".join(fspath(path) for path in paths)
+    table = pd.concat(tables, ignore_index=True)
+    sides = [side for side, name in COLUMNS.items() if all(name in each for each in tables)]
+    thresholds = np.unique(table[THRESHOLD].to_numpy(float))
+    time = np.unique(table[TIME].to_numpy(float))
+    if len(time) < FEWEST:
+        raise InputError(
+            file, "", f"{len(time)} frames are too few", f"{FEWEST} at least; compute the area over a motion"
+        )
+    if len(table) != len(time) * len(thresholds) or table.duplicated([TIME, THRESHOLD]).any():
+        what = f"{len(table)} rows are not {len(time)} times at {len(thresholds)} thresholds, each once"
+        raise InputError(file, "", what, "give areas of the same frames at each threshold")
+    ordered = table.sort_values([TIME, THRESHOLD])
+    shape = (len(time), len(thresholds))
+    areas = {side: ordered[COLUMNS[side]].to_numpy(float).reshape(shape) * MM2 for side in sides}
+    return AreaTable(file, time, thresholds * MM, areas)
+
+
+def _read(path: Path) -> pd.DataFrame:
+    try:
+        table = pd.read_csv(path, comment="#")
+    except (OSError, ValueError, pd.errors.ParserError) as error:
+        raise InputError(path, "", f"cannot be read as a table ({error})", "give an area.csv") from error
+    table.columns = [str(name).strip() for name in table.columns]
+    names = [TIME, THRESHOLD, COLUMNS["total"]]
+    if missing := [name for name in names if name not in table]:
+        percent = " (time is in per cent of a cycle)" if "time [%]" in table else ""
+        what = f"no column {', '.join(missing)}{percent}; columns are: {', '.join(map(str, table.columns))[:300]}"
+        raise InputError(path, "line 1", what, "give the area.csv of geocontact area over a motion in seconds")
+    for name in [*names, *(each for each in COLUMNS.values() if each in table)]:
+        numbers = pd.to_numeric(table[name], errors="coerce").to_numpy(float)
+        bad = np.flatnonzero(~np.isfinite(numbers) | ((numbers < 0.0) & (name != TIME)))
+        if len(bad):
+            what = f"'{name}' is {table[name].iloc[int(bad[0])]}, not a number of 0 or more"
+            raise InputError(path, f"row {int(bad[0]) + 2}", what, "is it an area.csv?")
+        table[name] = numbers
+    return table
+
+
+def read_area_over_force(path: Path) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"]]:
+    """Measured areas over force from a table with the columns `force [N]` and `area [mm^2]`, in N and m^2."""
+    from geocontact.io.side_table import read_side_table
+
+    table = read_side_table(path)
+    for name in ("force [N]", "area [m^2]"):
+        if name not in table:
+            what = f"no column for {name.split()[0]} with its unit; columns are: {', '.join(map(str, table.columns))}"
+            raise InputError(path, "line 1", what, "write force [N], area [mm^2]")
+    force, area = table["force [N]"].to_numpy(float), table["area [m^2]"].to_numpy(float)
+    if (area <= 0.0).any() or len(np.unique(force)) < len(force):
+        raise InputError(path, "", "an area is not above 0 or a force occurs twice", "one row for each force")
+    return force, area
