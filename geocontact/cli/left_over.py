@@ -28,13 +28,17 @@ FIT = (
     "fit.json", "fit.png", "fit.svg", "fit.vtp", "profile.csv", "profile.parquet", "profile.png", "profile.svg",
     "report.html",
 )  # fmt: skip
+MODULUS = (
+    "modulus.json", "modulus.png", "modulus.svg", "report.html",
+    *(f"{name}.{ending}" for name in ("curves", "sensitivity", "prediction") for ending in ("csv", "parquet")),
+)  # fmt: skip
 GAP = (
     "diagnosis.json",
     *(f"{name}.csv" for name in ("gap_map", "ranking", "held_out", "trials", "summary")),
     "report.html",
 )
 BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
-NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *GAP, *BENCHMARK, RUN})
+NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *MODULUS, *GAP, *BENCHMARK, RUN})
 PARAVIEW = "paraview"
 PICTURES = re.compile(
     r"(gap_map|ranking|gap_residuals|before_after_\w+)\.(png|svg)"

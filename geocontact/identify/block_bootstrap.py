@@ -2,8 +2,8 @@
 
 Blocks of a short recording's residual, put together at random, vary too little: what reaches across their edges is
 lost. So each replicate is post-blackened (Davison and Hinkley 1997, Bootstrap Methods and their Application, sec.
-8.2.3): a correlation time is drawn from its weights (`memory`), the residual is whitened with it, blocks of what is left
-are drawn with random places and signs, and the memory is put back. The blocks are longer than the residual's
+8.2.3): a correlation time is drawn from its weights (`memory`), the residual is whitened with it, blocks of what is
+left are drawn with random places and signs, and the memory is put back. The blocks are longer than the residual's
 correlation, so that whatever memory the whitening misses stays inside them.
 """
 
@@ -28,7 +28,7 @@ class Replicates:
 
     Parameters
     ----------
-    values
+    estimates
         A row per replicate, a column per parameter.
     lower, upper
         Of each parameter.
@@ -38,7 +38,7 @@ class Replicates:
         In the recording; few of them mean a rough interval.
     """
 
-    values: Float[np.ndarray, "b p"]
+    estimates: Float[np.ndarray, "b p"]
     lower: Float[np.ndarray, " p"]
     upper: Float[np.ndarray, " p"]
     block: float

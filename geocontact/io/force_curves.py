@@ -1,4 +1,4 @@
-"""Contact forces by side over time: forces.csv of `geocontact loadcells`, or any .csv, .mot or .sto with such columns."""
+"""Contact forces by side over time: forces.csv of `geocontact loadcells`, or any table with such columns."""
 
 from __future__ import annotations
 

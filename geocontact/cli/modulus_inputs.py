@@ -1,0 +1,206 @@
+"""What an identification starts from: areas, forces, radius, and what is unknown, as the options say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.cli import quantities
+from geocontact.cli.idle import refuse
+from geocontact.cli.modulus import ModulusOptions
+from geocontact.cli.record import Record
+from geocontact.contact.area_hertz import READINGS, Reading
+from geocontact.data.errors import InputError
+from geocontact.data.parameter import Parameter
+from geocontact.identify.area_force import LAG, THRESHOLD, AreaEvolution, AreaForce
+from geocontact.io.area_table import FEWEST, AreaTable, read_area_table
+from geocontact.io.columns import angles_of, parse_map
+from geocontact.io.force_curves import SIDES, ForceCurves, read_force_curves
+from geocontact.io.radius_profile import RadiusProfile, read_radius_profile
+from geocontact.io.tables import read_table
+
+USUAL = 4.0e-3  # m, the threshold of the knee-implant paper
+LAGS = 0.1  # s, how far a lag is searched unless told
+FLEXION = "flexion"
+ORDER = ("total", "medial", "lateral")
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """Everything read; `evolutions` by side, as far as areas and forces have it; `lag` as given [s]."""
+
+    table: AreaTable
+    forces: ForceCurves
+    evolutions: Mapping[str, AreaEvolution]
+    reading: Reading
+    lag: float
+
+
+def refuse_idle(o: ModulusOptions) -> None:
+    """Options that would do nothing, and numbers that cannot be."""
+    poisson_ratios(o)
+    refuse(
+        ((o.radius_mm is None) == (o.profile is None), "--radius-mm",
+         "and --profile: exactly one says the radius of the contact", "give for example --radius-mm 37"),
+        (o.radius_mm is not None and not 0.1 <= o.radius_mm <= 1e4, "--radius-mm",
+         f"{o.radius_mm} is no radius of a contact in mm", "give for example 37"),
+        ((o.profile is None) != (o.flexion is None), "--flexion", "and --profile need each other", "give both"),
+        (o.angles is not None and o.flexion is None, "--angles", "does nothing without --flexion", "leave it out"),
+        (o.reading == "strip" and o.length_mm is None, "--length-mm", "is missing for a strip", "give it"),
+        (o.length_mm is not None and not 0.1 <= o.length_mm <= 1e4, "--length-mm", f"{o.length_mm} is no length in mm", "give for example 60"),
+        (o.predict_force is not None and not o.predict_area, "--predict-force", "does nothing without --predict-area",
+         "give it too"),
+        (o.predict_area is not None and o.profile is not None, "--predict-area", "and --profile do not go together: its flexion is not known", "give --radius-mm"),
+        (o.bootstrap != 0 and not 100 <= o.bootstrap <= 100_000, "--bootstrap", f"{o.bootstrap} is not 100 to 100000", "give 1000, or 0 for none"),
+        (o.lag is not None and not np.isfinite(o.lag), "--lag", f"{o.lag} is not a time", "give seconds"),
+        (o.calibrate is not None and o.threshold is not None, "--calibrate", "finds what --threshold gives", "give one"),
+    )  # fmt: skip
+
+
+def poisson_ratios(o: ModulusOptions) -> tuple[float, ...]:
+    """Those stated."""
+    ratios = tuple(quantities.number(part, "--poisson", "0.25,0.46") for part in o.poisson.split(","))
+    if any(not -1.0 < ratio <= 0.5 for ratio in ratios):
+        raise InputError("", "--poisson", f"{o.poisson!r} is not above -1 and at most 0.5", "write for example 0.46")
+    return ratios
+
+
+def inputs_given(record: Record, o: ModulusOptions) -> Inputs:
+    """Read what the options name."""
+    mapping = {} if o.map is None else parse_map(o.map, (*SIDES, FLEXION))
+    if FLEXION in mapping and o.flexion is None:
+        raise InputError("", "--map", "flexion does nothing without --flexion", "leave it out")
+    table = read_area_table(o.area)
+    forces = read_force_curves(o.force, o.unit, {side: mapping[side] for side in SIDES if side in mapping})
+    for path in o.area:
+        record.add_input("--area", path)
+    record.add_input("--force", o.force, unit=forces.unit)
+    sides: list[str] = [s for s in ORDER if s in table.areas and s in forces.forces]
+    if not sides:
+        what = f"areas of {', '.join(table.areas)}, forces of {', '.join(forces.forces)}"
+        raise InputError(o.force, "", what, "they need a side in common; split the area with --split")
+    radii = _radii(record, o, table, mapping, sides)
+    length = float("nan") if o.length_mm is None else o.length_mm * 1e-3
+    evolutions = {s: AreaEvolution(table.time, table.thresholds, table.areas[s], radii[s], length) for s in sides}
+    reading = next(each for each in READINGS if each.name == o.reading)
+    lag = 0.0 if o.lag is None else o.lag
+    return Inputs(table, forces, evolutions, reading, lag)
+
+
+def threshold_given(o: ModulusOptions, table: AreaTable) -> float:
+    """Threshold [m] of --threshold, or the usual one."""
+    if o.threshold is None:
+        near = np.isclose(table.thresholds, USUAL, rtol=1e-9)
+        if near.any() or len(table.thresholds) == 1:
+            return float(table.thresholds[int(np.argmax(near))])
+    wanted = USUAL if o.threshold is None else quantities.length(o.threshold, "--threshold")
+    near = np.isclose(table.thresholds, wanted, rtol=1e-9, atol=1e-12)
+    if not near.any():
+        levels = ", ".join(f"{level * 1e3:g}" for level in table.thresholds)
+        what = f"{wanted * 1e3:g} mm was not evaluated; {table.file} has {levels} mm"
+        raise InputError("", "--threshold", what, "name one of these, or --free threshold")
+    return float(table.thresholds[int(np.argmax(near))])
+
+
+def unknowns(o: ModulusOptions, table: AreaTable, threshold: float, lag: float) -> tuple[Parameter, ...]:
+    """Free parameters besides E*, with their bounds."""
+    found: dict[str, Parameter] = {}
+    for part in [] if o.free is None else o.free.split(","):
+        name, _, bounds = (piece.strip() for piece in part.partition("="))
+        if name not in (THRESHOLD, LAG) or name in found:
+            what = f"{part.strip()!r} is neither threshold nor lag, or is named twice"
+            raise InputError("", "--free", what, "write threshold,lag=-0.05:0.05")
+        found[name] = _threshold(bounds, table, threshold) if name == THRESHOLD else _lag(bounds, lag)
+    if THRESHOLD in found and o.calibrate is not None:
+        raise InputError("", "--free", "threshold beside --calibrate says it twice", "give one")
+    return tuple(found.values())
+
+
+def _threshold(bounds: str, table: AreaTable, start: float) -> Parameter:
+    levels = table.thresholds
+    if len(levels) < 3:
+        what = f"threshold needs areas at 3 thresholds or more; {table.file} has {len(levels)}"
+        raise InputError("", "--free", what, "compute them: geocontact area --threshold 1,2,3,4,5")
+    low, high = (float(levels[0]), float(levels[-1])) if not bounds else (v * 1e-3 for v in _pair(bounds))
+    if low < levels[0] - 1e-12 or high > levels[-1] + 1e-12:
+        what = f"threshold={bounds} reaches beyond the areas, {levels[0] * 1e3:g} to {levels[-1] * 1e3:g} mm"
+        raise InputError("", "--free", what, "compute areas at more thresholds")
+    return Parameter(THRESHOLD, "m", float(np.clip(start, low, high)), low, high)
+
+
+def _lag(bounds: str, start: float) -> Parameter:
+    low, high = (start - LAGS, start + LAGS) if not bounds else _pair(bounds)
+    return Parameter(LAG, "s", float(np.clip(start, low, high)), low, high)
+
+
+def _pair(text: str) -> tuple[float, float]:
+    low, colon, high = text.partition(":")
+    if not colon:
+        raise InputError("", "--free", f"{text!r} is not lower:upper", "write threshold=1:6")
+    values = (quantities.number(low, "--free", "lag=-0.05:0.05"), quantities.number(high, "--free", "lag=-0.05:0.05"))
+    if not values[0] < values[1]:
+        raise InputError("", "--free", f"{text!r} has no room between its bounds", "write lower:upper")
+    return values
+
+
+def model_of(
+    i: Inputs, side: str, threshold: float, others: tuple[Parameter, ...]
+) -> tuple[AreaForce, Float[np.ndarray, " n"]]:
+    """The law of one side on the frames that area and force share at every lag that is allowed, and the force there."""
+    time, clock, evolution = i.table.time, i.forces.time, i.evolutions[side]
+    free = next((p for p in others if p.name == LAG), None)
+    low, high = (i.lag, i.lag) if free is None else (free.lower, free.upper)
+    taken = i.lag if free is None else free.start
+    inside = (time + taken >= clock[0]) & (time + taken <= clock[-1])
+    inside &= (time + taken - high >= time[0] - 1e-12) & (time + taken - low <= time[-1] + 1e-12)
+    if inside.sum() < FEWEST:
+        what = f"{int(inside.sum())} frames of the area ({time[0]:g} to {time[-1]:g} s) lie in the force's time"
+        remedy = f"{FEWEST} at least; are the clocks the same? see --lag"
+        raise InputError(i.forces.file, "", f"{what} ({clock[0]:g} to {clock[-1]:g} s)", remedy)
+    frames = time[inside]
+    measured = np.interp(frames + taken, clock, i.forces.forces[side])
+    return AreaForce(evolution, i.reading, frames, taken, threshold), measured
+
+
+def _radii(
+    record: Record, o: ModulusOptions, table: AreaTable, mapping: Mapping[str, tuple[float, str]], sides: list[str]
+) -> dict[str, Float[np.ndarray, " t"]]:
+    if o.radius_mm is not None:
+        return {side: np.full(len(table.time), o.radius_mm * 1e-3) for side in sides}
+    profile_file, motion_file = o.profile, o.flexion
+    if profile_file is None or motion_file is None:
+        raise InputError("", "--profile", "needs --flexion", "give both")
+    profiles = read_radius_profile(profile_file)
+    record.add_input("--profile", profile_file)
+    record.add_input("--flexion", motion_file)
+    flexion = _flexion(motion_file, table.time, mapping.get(FLEXION, (1.0, FLEXION)), o.angles)
+    return {side: _followed(profiles, side, flexion, profile_file) for side in sides}
+
+
+def _flexion(
+    path: Path, time: Float[np.ndarray, " t"], source: tuple[float, str], angles: str | None
+) -> Float[np.ndarray, " t"]:
+    sign, name = source
+    motion = read_table(path)
+    values = sign * angles_of(motion, [name], angles)[:, 0]
+    if time[0] < motion.time[0] - 1e-6 or time[-1] > motion.time[-1] + 1e-6:
+        what = f"ends before the areas do ({motion.time[0]:g} to {motion.time[-1]:g} s)"
+        raise InputError(path, "", what, "give the motion that the areas were computed on")
+    return np.asarray(np.interp(time, motion.time, values))
+
+
+def _followed(
+    profiles: Mapping[str, RadiusProfile], side: str, flexion: Float[np.ndarray, " t"], path: Path
+) -> Float[np.ndarray, " t"]:
+    """Radius at each frame, of the side's own profile or of the mean of all there are."""
+    own = [profiles[side]] if side in profiles else list(profiles.values())
+    low, high = max(float(p.flexion[0]) for p in own), min(float(p.flexion[-1]) for p in own)
+    if flexion.min() < low - 1e-9 or flexion.max() > high + 1e-9:
+        reach = f"{np.degrees(flexion.min()):.1f} to {np.degrees(flexion.max()):.1f}"
+        what = f"profile from {np.degrees(low):.1f} to {np.degrees(high):.1f} degrees, flexion from {reach}"
+        raise InputError(path, "", what, "extend --profile of geocontact fit; see --map flexion=-… for the sign")
+    return np.asarray(np.mean([np.interp(flexion, p.flexion, p.radius) for p in own], axis=0))

@@ -1,0 +1,217 @@
+"""Everything an identification writes."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pandas as pd
+
+from geocontact.cli.figures import save_both
+from geocontact.cli.modulus import ModulusOptions
+from geocontact.cli.provenance import options_table
+from geocontact.cli.record import Record
+from geocontact.identify.area_force import LAG, MODULUS, THRESHOLD
+from geocontact.identify.elastic import Identification, agreement
+from geocontact.identify.identifiability import Identifiability
+from geocontact.io.results import write_table
+from geocontact.view.contact_page import inputs_table
+from geocontact.view.modulus_figure import ForcePair, modulus_figure
+from geocontact.view.modulus_page import write_modulus_report
+from geocontact.view.page.content import Table
+
+if TYPE_CHECKING:
+    from geocontact.cli.modulus_analysis import Identified
+
+ONE_NUMBER = "E and nu are one number here: area and force tell E* = E/(1 - nu^2) only, and E for a stated nu"
+RADIUS = "E* and a constant R are one number as well, E*/R: the radius is an input, not a result"
+PER_SI = {MODULUS: 1.0, THRESHOLD: 1e3, LAG: 1.0}
+UNITS = {MODULUS: "Pa", THRESHOLD: "mm", LAG: "s"}
+
+
+def write_results(record: Record, found: Identified, o: ModulusOptions, folder: Path) -> None:
+    """Numbers, tables, figure, page."""
+    text = json.dumps(describe(found), indent=2, ensure_ascii=False, allow_nan=False)
+    (folder / "modulus.json").write_text(text + "\n", encoding="utf-8")
+    write_table(curve_table(found), folder, o.parquet, "curves")
+    sensitivity = sensitivity_table(found)
+    write_table(sensitivity, folder, o.parquet, "sensitivity")
+    if found.predictions:
+        write_table(prediction_table(found), folder, o.parquet, "prediction")
+    pairs = {side: ForcePair(i.model.frames, i.measured, i.predicted) for side, i in found.sides.items()}
+    profiles = {side: i.profiles[MODULUS] for side, i in found.sides.items()}
+    drawing = save_both(modulus_figure(pairs, profiles), folder, "modulus")
+    tables = [
+        _moduli(found), _apart(found), _shown("Threshold and reading: what E* depends on", sensitivity),
+        inputs_table(record.inputs), options_table(record),
+    ]  # fmt: skip
+    title = f"E* from {Path(o.area[0]).name} and {Path(o.force).name}"
+    write_modulus_report(
+        folder / "report.html", title, pairs, drawing, tables, (ONE_NUMBER, *_lost(found)), record.warnings
+    )
+
+
+def describe(found: Identified) -> dict[str, Any]:
+    """`modulus.json`: the first side's numbers at the top, every side's under `compartments`."""
+    sides = {side: _numbers(each, found) for side, each in found.sides.items()}
+    first = next(iter(sides))
+    content: dict[str, Any] = {
+        "side": first,
+        **sides[first],
+        "identifiable": ["E*"] + [name for name in found.sides[first].fit.names if name != MODULUS],
+        "not_identifiable": [ONE_NUMBER, *_lost(found)],
+        "compartments": {side: numbers for side, numbers in sides.items() if side != "total"},
+        "threshold_sensitivity": [
+            {key: _finite(value) for key, value in row.items()}
+            for row in sensitivity_table(found).to_dict(orient="records")
+        ],
+    }
+    if found.calibration is not None:
+        c = found.calibration
+        content["calibration"] = {
+            "threshold_mm": c.threshold * 1e3, "rms_relative": c.rms, "frames": c.frames, "on_end": c.on_end,
+        }  # fmt: skip
+    if found.predictions:
+        content["prediction"] = {p.side: {"rmse_N": _finite(p.rmse), "r2": _finite(p.r2)} for p in found.predictions}
+    return content
+
+
+def _lost(found: Identified) -> list[str]:
+    """Whether E* and R are one number depends on the reading."""
+    each = next(iter(found.sides.values()))
+    return [RADIUS] if each.told_apart["E*, R"].verdict == "one number" else []
+
+
+def _numbers(each: Identification, found: Identified) -> dict[str, Any]:
+    model = each.model
+    values = dict(each.fit.values)
+    rmse, r2 = agreement(each.measured, each.predicted)
+    radius = model.evolution.radius
+    star, drawn = each.profiles[MODULUS], each.replicates
+    return {
+        "E_star_Pa": each.modulus,
+        "E_star_ci95_Pa": [star.lower, star.upper],
+        "E_Pa": {f"{nu:g}": each.modulus * (1.0 - nu**2) for nu in found.poisson},
+        "E_ci95_Pa": {f"{nu:g}": [end * (1.0 - nu**2) for end in (star.lower, star.upper)] for nu in found.poisson},
+        "reading": model.reading.name,
+        "reading_words": model.reading.words,
+        "threshold_mm": values.get(THRESHOLD, model.threshold) * 1e3,
+        "radius_mm": [float(radius.min()) * 1e3, float(radius.max()) * 1e3],
+        "lag_s": values.get(LAG, model.taken),
+        "rmse_N": rmse,
+        "r2": _finite(r2),
+        "frames": len(model.frames),
+        "window_s": [float(model.frames[0]), float(model.frames[-1])],
+        "intervals": {
+            name: {
+                "unit": UNITS[name],
+                "value": p.best * PER_SI[name],
+                "profile_likelihood": [p.lower * PER_SI[name], p.upper * PER_SI[name]],
+                "open": [p.lower_open, p.upper_open],
+                "block_bootstrap": None if drawn is None else [
+                    float(end[k]) * PER_SI[name] for end in (drawn.lower, drawn.upper)
+                ],
+            }
+            for k, (name, p) in enumerate(each.profiles.items())
+        },
+        "residual_correlation_time_s": each.memory.typical,
+        "bootstrap": None if drawn is None else {
+            "replicates": len(drawn.estimates), "block_s": drawn.block, "blocks": drawn.blocks
+        },
+        "starts": {"count": len(each.fit.costs), "costs": list(each.fit.costs)},
+        "identifiability": {name: _apartness(group) for name, group in each.told_apart.items()},
+    }  # fmt: skip
+
+
+def _apartness(group: Identifiability) -> dict[str, Any]:
+    return {
+        "numbers": list(group.names),
+        "singular_values": group.singular_values.tolist(),
+        "condition": _finite(group.condition),
+        "correlation": group.correlation.tolist(),
+        "verdict": group.verdict,
+    }
+
+
+def curve_table(found: Identified) -> pd.DataFrame:
+    """Measured and predicted force at each frame that was used, sides one after another."""
+    parts = []
+    for side, each in found.sides.items():
+        columns = {"side": side, "measured [N]": each.measured, "predicted [N]": each.predicted}
+        parts.append(pd.DataFrame({"time [s]": each.model.frames, **columns}))
+    return pd.concat(parts, ignore_index=True)
+
+
+def prediction_table(found: Identified) -> pd.DataFrame:
+    """The trial that was not used; empty where its force is not known."""
+    parts = [
+        pd.DataFrame({
+            "time [s]": p.time, "side": p.side, "predicted [N]": p.predicted,
+            "measured [N]": np.nan if p.measured is None else p.measured,
+        })
+        for p in found.predictions
+    ]  # fmt: skip
+    return pd.concat(parts, ignore_index=True)
+
+
+def sensitivity_table(found: Identified) -> pd.DataFrame:
+    """E* by side, reading and threshold; empty where the reading sees no contact."""
+    rows = [
+        {
+            "side": row.side,
+            "reading": row.reading,
+            "threshold [mm]": row.threshold * 1e3,
+            "E_star [Pa]": row.modulus if math.isfinite(row.modulus) else np.nan,
+            "rmse [N]": row.rmse,
+            "r2 [-]": row.r2,
+        }
+        for row in found.sensitivity
+    ]
+    return pd.DataFrame(rows)
+
+
+def _moduli(found: Identified) -> Table:
+    header = ("side", "number", "value", "profile likelihood, 95 %", "block bootstrap, 95 %", "RMSE [N]", "R²")
+    rows = []
+    for side, each in found.sides.items():
+        rmse, r2 = agreement(each.measured, each.predicted)
+        for k, (name, p) in enumerate(each.profiles.items()):
+            per, unit = (1e-6, "MPa") if name == MODULUS else (PER_SI[name], UNITS[name])
+            drawn = each.replicates
+            ends = None if drawn is None else (float(drawn.lower[k]), float(drawn.upper[k]))
+            label = "E*" if name == MODULUS else name
+            rows.append((
+                side, label, f"{p.best * per:.4g} {unit}", f"{p.lower * per:.4g} … {p.upper * per:.4g}",
+                "" if ends is None else f"{ends[0] * per:.4g} … {ends[1] * per:.4g}", f"{rmse:.0f}", f"{r2:.2f}",
+            ))  # fmt: skip
+        rows += [
+            (side, f"E for ν = {nu:g}", f"{each.modulus * (1.0 - nu**2) * 1e-6:.4g} MPa", "", "", "", "")
+            for nu in found.poisson
+        ]
+    return Table("What was identified", header, rows)
+
+
+def _apart(found: Identified) -> Table:
+    header = ("side", "numbers", "singular values", "condition", "correlation", "verdict")
+    rows = [
+        (side, ", ".join(g.names), ", ".join(f"{v:.3g}" for v in g.singular_values), _condition(g.condition),
+         f"{g.correlation[0, 1]:.4f}" if len(g.names) == 2 else "see modulus.json", g.verdict)
+        for side, each in found.sides.items() for g in each.told_apart.values()
+    ]  # fmt: skip
+    return Table("What the data tell apart", header, rows)
+
+
+def _condition(value: float) -> str:
+    return f"{value:.3g}" if math.isfinite(value) else "infinite"
+
+
+def _shown(title: str, rows: pd.DataFrame) -> Table:
+    texts = rows.map(lambda value: f"{value:.4g}" if isinstance(value, float) else str(value))
+    return Table(title, tuple(map(str, rows.columns)), texts.to_numpy().tolist())
+
+
+def _finite(value: object) -> object:
+    return None if isinstance(value, float) and not math.isfinite(value) else value
