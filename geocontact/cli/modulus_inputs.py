@@ -51,13 +51,17 @@ def refuse_idle(o: ModulusOptions) -> None:
         ((o.profile is None) != (o.flexion is None), "--flexion", "and --profile need each other", "give both"),
         (o.angles is not None and o.flexion is None, "--angles", "does nothing without --flexion", "leave it out"),
         (o.reading == "strip" and o.length_mm is None, "--length-mm", "is missing for a strip", "give it"),
-        (o.length_mm is not None and not 0.1 <= o.length_mm <= 1e4, "--length-mm", f"{o.length_mm} is no length in mm", "give for example 60"),
+        (o.length_mm is not None and not 0.1 <= o.length_mm <= 1e4, "--length-mm", f"{o.length_mm} is no length in mm",
+         "give for example 60"),
         (o.predict_force is not None and not o.predict_area, "--predict-force", "does nothing without --predict-area",
          "give it too"),
-        (o.predict_area is not None and o.profile is not None, "--predict-area", "and --profile do not go together: its flexion is not known", "give --radius-mm"),
-        (o.bootstrap != 0 and not 100 <= o.bootstrap <= 100_000, "--bootstrap", f"{o.bootstrap} is not 100 to 100000", "give 1000, or 0 for none"),
+        (o.predict_area is not None and o.profile is not None, "--predict-area",
+         "and --profile do not go together: its flexion is not known", "give --radius-mm"),
+        (o.bootstrap != 0 and not 100 <= o.bootstrap <= 100_000, "--bootstrap", f"{o.bootstrap} is not 100 to 100000",
+         "give 1000, or 0 for none"),
         (o.lag is not None and not np.isfinite(o.lag), "--lag", f"{o.lag} is not a time", "give seconds"),
-        (o.calibrate is not None and o.threshold is not None, "--calibrate", "finds what --threshold gives", "give one"),
+        (o.calibrate is not None and o.threshold is not None, "--calibrate", "finds what --threshold gives",
+         "give one"),
     )  # fmt: skip
 
 

@@ -16,7 +16,8 @@ from geocontact.identify.least_squares import Fit, Predict, divided, fit
 
 DECADES = 100.0  # bounds farther apart than this factor: the search is in the logarithm
 STEP = 1e-6  # of a search coordinate, for differences
-OPTIONS: Any = {"maxiter": 200, "ftol": 1e-10, "gtol": 1e-8}
+SMALLEST = 1e-8  # mean square residual, in floors, added before the logarithm is taken
+OPTIONS: Any = {"maxiter": 200, "ftol": 1e-10, "gtol": 1e-7}
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +72,8 @@ def search(
 ) -> Fit:
     """Least squares within bounds by L-BFGS-B, the best of several starts; as `least_squares.fit` otherwise.
 
-    Byrd, Lu, Nocedal and Zhu (1995), SIAM J. Sci. Comput. 16, 1190; gradients by central differences. The best search
+    Byrd, Lu, Nocedal and Zhu (1995), SIAM J. Sci. Comput. 16, 1190; gradients by central differences. What
+    is minimised is the logarithm of the mean square, so that starts decades away do no harm. The best search
     is finished by `least_squares.fit`, which a narrow valley does not slow down; `costs` are those before it.
     """
     free = [p for p in parameters if not p.fixed]
@@ -92,7 +94,8 @@ def search(
             step[k] = STEP
             ahead, behind = (residual(coordinates.values(z + way * step)) for way in (1.0, -1.0))
             slope[k] = off @ (ahead - behind) / (2.0 * STEP)
-        return 0.5 * float(off @ off), slope
+        square = float(off @ off) / len(off) + SMALLEST
+        return float(np.log(square)), 2.0 * slope / (len(off) * square)
 
     searches = []
     for start in starts:
@@ -101,6 +104,7 @@ def search(
             cost, begin, jac=True, method="L-BFGS-B", bounds=[(0.0, 1.0)] * len(free), options=OPTIONS
         )
         searches.append((float(found.fun), coordinates.values(np.asarray(found.x, float))))
+    count = int(sum(np.isfinite(m).sum() for m in measured))
     _, values = min(searches, key=lambda found: found[0])
     polished = fit(predict, measured, parameters, floor, [dict(zip(names, map(float, values), strict=True))])
-    return replace(polished, costs=tuple(cost for cost, _ in searches))
+    return replace(polished, costs=tuple(0.5 * count * max(float(np.exp(low)) - SMALLEST, 0.0) for low, _ in searches))

@@ -18,8 +18,8 @@ FIGURE = (
 )
 LAW = (
     "The law turns one area into one force. It has no friction, no damping, no liner that creeps, and it takes the "
-    "area of rigid surfaces within a threshold for that of an elastic contact: what E* says of a material is only as good "
-    "as that reading. Read it beside the table of thresholds and readings."
+    "area of rigid surfaces within a threshold for that of an elastic contact: what E* says of a material is only as "
+    "good as that reading. Read it beside the table of thresholds and readings."
 )
 
 
