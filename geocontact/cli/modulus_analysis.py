@@ -97,8 +97,9 @@ def _calibrated(record: Record, inputs: Inputs, path: Path) -> Calibration:
         raise InputError(path, "", "calibrating needs areas at 3 thresholds or more", "see geocontact area --threshold")
     record.add_input("--calibrate", path)
     model, measured = model_of(inputs, side, float(inputs.table.thresholds[0]), ())
+    measured_areas = read_area_over_force(path)
     try:
-        found = calibrated(inputs.evolutions[side], model.frames, measured, *read_area_over_force(path))
+        found = calibrated(inputs.evolutions[side], model.frames, measured, *measured_areas)
     except ValueError as error:
         raise InputError(path, "", str(error), "give areas at forces of the trial") from error
     if found.on_end:

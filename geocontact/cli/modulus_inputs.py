@@ -45,7 +45,7 @@ def refuse_idle(o: ModulusOptions) -> None:
     poisson_ratios(o)
     refuse(
         ((o.radius_mm is None) == (o.profile is None), "--radius-mm",
-         "and --profile: exactly one says the radius of the contact", "give for example --radius-mm 37"),
+         "or --profile: exactly one says the radius of the contact", "give for example --radius-mm 37"),
         (o.radius_mm is not None and not 0.1 <= o.radius_mm <= 1e4, "--radius-mm",
          f"{o.radius_mm} is no radius of a contact in mm", "give for example 37"),
         ((o.profile is None) != (o.flexion is None), "--flexion", "and --profile need each other", "give both"),

@@ -79,10 +79,12 @@ def modulus_parameter() -> Parameter:
     return Parameter(MODULUS, "Pa", 1e7, WEAKEST, STRONGEST)
 
 
-def fitted(model: AreaForce, measured: Float[np.ndarray, " n"], parameters: Sequence[Parameter]) -> Fit:
-    """Least squares by bounded quasi-Newton from several starts."""
+def fitted(
+    model: AreaForce, measured: Float[np.ndarray, " n"], parameters: Sequence[Parameter], starts: int = STARTS
+) -> Fit:
+    """Least squares by bounded quasi-Newton from the parameters' own start and `starts` more."""
     floor = np.array([max(float(np.sqrt(np.mean(measured**2))), np.finfo(float).tiny)])
-    return search(model.predict, [measured[:, None]], parameters, floor, spread_starts(parameters, STARTS))
+    return search(model.predict, [measured[:, None]], parameters, floor, spread_starts(parameters, starts))
 
 
 def identify(
@@ -91,6 +93,7 @@ def identify(
     others: Sequence[Parameter] = (),
     replicates: int = REPLICATES,
     level: float = 0.95,
+    starts: int = STARTS,
 ) -> Identification:
     """E* and the other free parameters of a model from the force at its frames.
 
@@ -100,9 +103,11 @@ def identify(
         Free parameters besides E*: "threshold" [m], "lag" [s].
     replicates
         Of the bootstrap; 0 for none.
+    starts
+        Of the search, besides the parameters' own.
     """
     parameters = (modulus_parameter(), *others)
-    fit = fitted(model, measured, parameters)
+    fit = fitted(model, measured, parameters, starts)
     jacobian = fit.jacobian[0][:, 0, :]
     memory = memory_of(model.frames, fit.residuals[0][:, 0], jacobian)
     profiles = {

@@ -21,7 +21,7 @@ from geocontact.identify.noise import Noise
 GRID = 30  # correlation times
 SHORTEST = 0.2  # of a step: no memory at all
 LONGEST = 1.0 / 3.0  # of the duration: more cannot be told from a wrong model
-NOTHING = 1e-9  # of the measured size: residuals below are rounding
+LEAST = 1e-8  # of the largest singular value: below, parameters act as one
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +71,7 @@ def memory_of(
     n, p = jacobian.shape
     tau = np.geomspace(SHORTEST * float(np.median(np.diff(time))), LONGEST * float(time[-1] - time[0]), GRID)
     logs, variance = np.empty(GRID), np.empty(GRID)
-    both = np.column_stack([residual, jacobian])[:, None, :]
+    both = np.column_stack([residual, jacobian / np.linalg.norm(jacobian, axis=0)])[:, None, :]
     for k, each in enumerate(tau):
         noise = Noise(np.ones(1), np.array([each]))
         white = noise.whitened(time, both)
@@ -79,7 +79,8 @@ def memory_of(
         rest = off - design @ np.linalg.lstsq(design, off, rcond=None)[0]
         square = max(float(rest @ rest), np.finfo(float).tiny)
         variance[k] = square / (n - p)
-        information = float(np.linalg.slogdet(design.T @ design)[1])
+        sizes = np.linalg.svd(design, compute_uv=False)
+        information = 2.0 * float(np.log(np.maximum(sizes, LEAST * sizes[0])).sum())
         logs[k] = -0.5 * (n - p) * np.log(square) - noise.log_scale(time, residual[:, None]) - 0.5 * information
     weight = np.exp(logs - logs.max())
     return Memory(tau, weight / weight.sum(), variance, n - p)
@@ -97,5 +98,12 @@ def sandwich(
         cross = past[:, :, None] * row
         middle += cross + cross.transpose(0, 2, 1) + np.outer(row, row)
         past = past + row
-    bread = np.linalg.inv(jacobian.T @ jacobian)
+    bread = spread(jacobian)
     return np.asarray(memory.variance[:, None, None] * (bread @ middle @ bread))
+
+
+def spread(jacobian: Float[np.ndarray, "n p"]) -> Float[np.ndarray, "p p"]:
+    """(J'J)^-1, whatever the units of the parameters; its pseudo-inverse where some of them act as one."""
+    size = np.linalg.norm(jacobian, axis=0)
+    columns = jacobian / size
+    return np.asarray(np.linalg.pinv(columns.T @ columns, rcond=LEAST, hermitian=True) / np.outer(size, size))

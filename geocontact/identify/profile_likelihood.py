@@ -19,7 +19,7 @@ from scipy.optimize import brentq
 from geocontact.data.parameter import Parameter
 from geocontact.identify.least_squares import Fit, Predict
 from geocontact.identify.least_squares import fit as least_squares
-from geocontact.identify.memory import Memory, sandwich
+from geocontact.identify.memory import Memory, sandwich, spread
 
 POINTS = 21  # of the curve that is drawn
 DOUBLINGS = 30  # of the half-width in search of an end
@@ -67,7 +67,7 @@ def profile(
     half = memory.half_width(np.sqrt(sandwich(memory, time, jacobian)[:, j, j]), level)
     if half <= 1e-12 * abs(best):
         return Profile(name, best, best, best, False, False, np.array([best]), np.zeros(1))
-    cut = half**2 / float(np.linalg.inv(jacobian.T @ jacobian)[j, j])
+    cut = half**2 / float(spread(jacobian)[j, j])
     least = float(fit.residuals[0][:, 0] @ fit.residuals[0][:, 0])
 
     def rise(value: float) -> float:

@@ -46,7 +46,7 @@ def coverage(runs: int, frames: int, sd: float, tau: float, replicates: int, see
     force = model.force({MODULUS: TRUE})
     held = np.zeros(2)
     for _ in range(runs):
-        found = identify(model, force + coloured(model.frames, sd, tau, rng), replicates=replicates)
+        found = identify(model, force + coloured(model.frames, sd, tau, rng), replicates=replicates, starts=0)
         profile, drawn = found.profiles[MODULUS], found.replicates
         held += profile.lower <= TRUE <= profile.upper, drawn is not None and drawn.lower[0] <= TRUE <= drawn.upper[0]
     return {"profile likelihood": float(held[0] / runs), "block bootstrap": float(held[1] / runs)}
