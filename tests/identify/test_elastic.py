@@ -65,8 +65,7 @@ def test_a_late_force_has_a_positive_lag() -> None:
 def test_intervals_cover_in_short_steps() -> None:
     """Small version of `benchmarks.modulus`: 60 runs at 41 frames, noise of 100 N that remembers 50 ms.
 
-    With a true coverage of 0.95 fewer than 51 of 60 would happen in one seed of a thousand; intervals that take the noise
-    for white hold the truth in about two of three.
+    With a true coverage of 0.95 fewer than 51 of 60 would happen in one seed of a thousand.
     """
     held = coverage(60, 41, 100.0, 0.05, 100, seed=11)
     assert held["profile likelihood"] >= 0.85
