@@ -143,7 +143,7 @@ def _machine() -> dict[str, Any]:
     return {"machine": platform.machine(), "processor": platform.processor(), "cores": os.cpu_count()}
 
 
-def _constants(module: ModuleType) -> dict[str, float]:
+def _constants(module: ModuleType) -> dict[str, int | float]:
     return {name: v for name, v in vars(module).items() if name.isupper() and isinstance(v, int | float)}
 
 

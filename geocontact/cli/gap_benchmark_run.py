@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import secrets
 import tempfile
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -30,7 +31,7 @@ def run_benchmark(o: BenchmarkOptions) -> int:
     record = Record(COMMAND, {**asdict(o), "seed": seed})
     record.results["seed"] = seed
     with record.catching_warnings(), written_whole(o.out) as draft:
-        done = _worked(list(lots(systems, o.cases, kinds, seed)), draft, seed, o)
+        done = _worked(record, list(lots(systems, o.cases, kinds, seed)), draft, o)
         for one in done:
             for line in one.trouble:
                 record.warn(line)
@@ -64,19 +65,36 @@ def _checked(o: BenchmarkOptions) -> tuple[str, ...]:
     return kinds
 
 
-def _worked(chosen: Sequence[Lot], draft: Path, seed: int, o: BenchmarkOptions) -> list[Worked]:
-    """Outcomes in the order of the lots."""
+def _worked(record: Record, chosen: Sequence[Lot], draft: Path, o: BenchmarkOptions) -> list[Worked]:
+    """Outcomes in the order of the lots; those that there are when somebody interrupts."""
     twice = {system: _spread([lot for lot in chosen if lot.system == system], o.again) for system in SYSTEMS}
     with tempfile.TemporaryDirectory(prefix="geocontact-") as scratch:
-        folder = draft / f"cases-{seed}" if o.keep else Path(scratch)
+        folder = draft / f"cases-{record.results['seed']}" if o.keep else Path(scratch)
         folder.mkdir(exist_ok=True)
-        tasks = [Task(lot, folder, o.keep, lot in twice[lot.system]) for lot in chosen]
+        tasks = [Task(lot, folder, o.keep, lot in twice[lot.system]) for lot in mixed(chosen)]
         found: dict[Lot, Worked] = {}
         with progress("cases", len(tasks)) as step:
-            for task, became in each(worked, tasks, o.jobs):
-                found[task.lot] = became if isinstance(became, Worked) else lost(task, became)
-                step()
-    return [found[lot] for lot in chosen]
+            try:
+                for task, became in each(worked, tasks, o.jobs):
+                    found[task.lot] = became if isinstance(became, Worked) else lost(task, became)
+                    step()
+            except KeyboardInterrupt:
+                if not found:
+                    raise
+                record.warn(f"interrupted after {len(found)} of {len(tasks)} cases, which are scored here")
+    return [found[lot] for lot in chosen if lot in found]
+
+
+def mixed(chosen: Sequence[Lot]) -> list[Lot]:
+    """Lots in an order in which every beginning has systems and kinds in about the proportions of the whole."""
+    count = Counter((lot.system, lot.kind) for lot in chosen)
+    seen: Counter[tuple[str, str]] = Counter()
+    along = {}
+    for lot in chosen:
+        key = lot.system, lot.kind
+        along[lot] = (seen[key] + 0.5) / count[key]
+        seen[key] += 1
+    return sorted(chosen, key=lambda lot: along[lot])
 
 
 def _spread(among: Sequence[Lot], count: int) -> set[Lot]:

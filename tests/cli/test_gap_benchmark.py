@@ -6,12 +6,16 @@ import csv
 import json
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from geocontact.cli.gap_benchmark_case import Task, alike, renamed, worked
+from geocontact.cli import gap_benchmark_run
+from geocontact.cli.gap_benchmark_case import ANSWERERS, Task, Worked, alike, failed, renamed, worked
+from geocontact.cli.gap_benchmark_run import mixed
+from geocontact.cli.gap_results import plain
 from geocontact.gap.benchmark.drawing import KINDS, SHARES, Lot, drawn, lots, shares
 from geocontact.io.gap_case import read_gap_case
 from tests.cli.calls import ROOT, Call, call, done, process
@@ -160,3 +164,36 @@ def test_help_imports_nothing_heavy() -> None:
     child = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, encoding="utf-8")
     assert "--kinds" in child.stdout
     assert not {"numba", "matplotlib", "pandas", "scipy"} & set(child.stderr.split())
+
+
+def test_every_beginning_of_the_work_is_a_small_benchmark() -> None:
+    order = mixed(list(lots(("elbow", "foot"), 100, KINDS, 3)))
+    assert set(order) == set(lots(("elbow", "foot"), 100, KINDS, 3))
+    half = order[: len(order) // 2]
+    for kind in KINDS:
+        whole = sum(lot.kind == kind for lot in order)
+        assert abs(sum(lot.kind == kind for lot in half) - whole / 2) <= 1.0
+    assert abs(sum(lot.system == "elbow" for lot in half) - len(half) / 2) <= 2.0
+
+
+def test_what_was_done_is_scored_when_somebody_interrupts(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def until_interrupted(work: object, tasks: list[Task], jobs: int | None) -> Iterator[tuple[Task, Worked]]:
+        label = plain(drawn(tasks[0].lot).label.as_dict())
+        yield tasks[0], Worked(tasks[0].lot, "elbow_1", label, {who: failed(label) for who in ANSWERERS}, 1.0, 1.0)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(gap_benchmark_run, "each", until_interrupted)
+    out = tmp_path / "out"
+    told = done(call("gap", "benchmark", "--out", out, "--system", "elbow", "--cases", 4, "--kinds", "none"))
+    assert "interrupted after 1 of 4 cases" in told.err
+    assert json.loads((out / "benchmark.json").read_text("utf-8"))["cases"] == {"elbow": {"none": 1}}
+
+
+def test_an_interruption_before_the_first_case_leaves_nothing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def at_once(work: object, tasks: list[Task], jobs: int | None) -> Iterator[tuple[Task, Worked]]:
+        raise KeyboardInterrupt
+        yield
+
+    monkeypatch.setattr(gap_benchmark_run, "each", at_once)
+    assert call("gap", "benchmark", "--out", tmp_path / "out", "--cases", 2, "--kinds", "none").code != 0
+    assert not list(tmp_path.iterdir())
