@@ -20,6 +20,7 @@ from geocontact.gap.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.locate import Cell, gap_map, windows
 from geocontact.gap.refit import free
 from geocontact.gap.shrink import shrinkage
+from geocontact.gap.verdict import SURE
 
 Z95 = 1.959964
 TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that the trials tell
@@ -87,10 +88,24 @@ def diagnose(case: GapCase, system: System, version: str = "") -> Findings:
         seconds=time.perf_counter() - began,
         version=version,
         faults=_faults(found, offered),
-        remarks=tuple(f"{each.words} in {each.channel}" if each.channel else each.words for each in found.odd),
+        remarks=(
+            *(f"{each.words} in {each.channel}" if each.channel else each.words for each in found.odd),
+            *(nearest(found) if said.verdict == "unknown" else ()),
+        ),
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     return Findings(diagnosis, found, cells, trials)
+
+
+def nearest(found: Attribution) -> tuple[str, ...]:
+    """In words what the model that gains most would do, where nothing was named although it gains something."""
+    best = max(found.contenders, key=lambda one: one.judged.nats, default=found.base)
+    gain = best.judged.nats - found.base.judged.nats
+    if gain < SURE:
+        return ()
+    shrunk = shrinkage(found.problem, found.clean, best.judged, True, found.fault)
+    parts = ", ".join(f"{100.0 * s.reduction:.0f} % of the error of {name}" for name, s in shrunk.items())
+    return (f"nearest of the known effects: {best.label}, which gains {gain:.0f} nats and would remove {parts}",)
 
 
 def estimates(judged: Judged) -> dict[str, Estimate]:

@@ -19,11 +19,12 @@ Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
 
 SURE = 6.0  # nats below which a gain may be luck
 FORM = 0.02  # tolerance of form, as a share of what is explained
-LEFT_OVER = 0.12  # of all there is to explain may be left by the effect that is named
+LEFT_OVER = 0.2  # of all there is to explain may be left by the effect that is named
 PAIR = 0.1  # of what is explained that a second effect must add
 ALIVE = 0.03  # least probability of a candidate that is still in question
 BEYOND = 0.3  # part of what a gain exceeds that by that counts
 STRANGER = 3.0  # nats more that something without a name must gain: a stand-in also finds what models smooth away
+ANY_FORM = 0.1  # of what something without a name gains, it gains because it has any form
 ALLOWED = 4.0  # nats that luck may add on held-out trials
 MOST = 4  # candidates still in question beyond which nothing is named
 
@@ -90,7 +91,7 @@ def answer(
     pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]
     living = [*single, *pairs]
     gains = {c.label: over_base[c.label] - (needed if len(c.candidates) == 2 else 0.0) for c in living}
-    unnamed = max(unnamed - STRANGER, 0.0) + strange
+    unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0) + strange
     most = max([*gains.values(), unnamed, 0.0])
     tolerance = 1.0 + FORM * most
     weights: dict[tuple[str, ...], float] = {("none",): np.exp((SURE - most) / tolerance)}

@@ -96,7 +96,10 @@ def test_no_known_effect_explains_the_loops_of_the_ankle(loops: dict[str, dict[s
     assert loops["joint"]["verdict"] == "unknown"
 
 
-def test_the_switching_cam_explains_most_of_them_at_settings_not_used(loops: dict[str, dict[str, Any]]) -> None:
+def test_the_switching_cam_comes_nearest_at_settings_not_used(loops: dict[str, dict[str, Any]]) -> None:
+    """More repeats in the loops than the cam explains, so nothing is named; what it would remove is said."""
     said = loops["ankle"]
-    assert "cam_switch" in said["effects"]
-    assert said["gap"]["torque"]["rmse_after"] < 0.6 * said["gap"]["torque"]["rmse_before"]
+    assert said["verdict"] == "unknown"
+    words = next(each for each in said["remarks"] if "nearest" in each)
+    assert "cam_switch" in words
+    assert float(words.split("remove ")[1].split(" %")[0]) > 40.0
