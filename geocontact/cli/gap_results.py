@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings
@@ -20,7 +21,6 @@ from geocontact.view.curves.save import save
 from geocontact.view.gap_curves import HeldOut, held_out
 from geocontact.view.gap_figures import axis_units, gap_figures, ranking
 from geocontact.view.gap_page import write_gap_report
-from geocontact.view.page.content import Table
 
 
 def write_results(record: Record, case: GapCase, findings: Findings, folder: Path, pictures: bool) -> None:
@@ -39,7 +39,7 @@ def write_results(record: Record, case: GapCase, findings: Findings, folder: Pat
     for name, figure in figures.items():
         for ending in ("png", "svg"):
             save(figure, folder / f"{name}.{ending}")
-    tables = [inputs_table(record.inputs), _options_table(record)]
+    tables = [inputs_table(record.inputs), options_table(record)]
     write_gap_report(folder / "report.html", case, findings, trials, figures, tables, record.warnings)
 
 
@@ -115,14 +115,3 @@ def held_out_table(findings: Findings, trials: Sequence[HeldOut]) -> pd.DataFram
                 columns[f"{name}_with_effects [{unit}]"] = trial.named[:, c]
         parts.append(pd.DataFrame(columns))
     return pd.concat(parts, ignore_index=True)
-
-
-def _options_table(record: Record) -> Table:
-    """How it was made, without the folders of files: a page is passed on."""
-    given = [
-        (key, value.name if isinstance(value, Path) else str(value))
-        for key, value in record.options.items()
-        if value not in (None, False)
-    ]
-    rows = [("command", f"geocontact {record.command}"), *given, *record.versions().items()]
-    return Table("How it was made", ("option", "value"), rows)
