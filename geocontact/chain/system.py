@@ -52,6 +52,8 @@ class System:
         Effects that the model brings beside those of the vocabulary.
     spare
         Inputs that the base does not use; effects may.
+    bias
+        Largest constant error of an input that is plausible, where the model knows more of it than its unit says.
     """
 
     name: str
@@ -67,6 +69,7 @@ class System:
     units: Mapping[str, str] = field(default_factory=dict)
     own: tuple[Offering, ...] = ()
     spare: tuple[str, ...] = ()
+    bias: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def inputs(self) -> tuple[str, ...]:

@@ -52,10 +52,12 @@ def diagnosed(record: Record, folder: Path, draft: Path, o: DiagnoseOptions) -> 
 
 
 def _add_inputs(record: Record, folder: Path, case: GapCase) -> None:
-    """What was read: case.toml, the tables that lie beside it, and the trials."""
+    """What was read: case.toml, the tables that lie beside it, the trials, and the meshes."""
     record.add_input("case", folder / "case.toml", system=case.system)
     for side, trials in (("calibration", case.calibration), ("evaluation", case.evaluation)):
         for trial in trials:
             record.add_input(side, folder / "trials" / f"{trial.name}.csv", samples=len(trial))
     for file in sorted(folder.glob("*.csv")):
         record.add_input("table", file)
+    for name, one in case.meshes.items():
+        record.add_input(f"mesh {name}", one.mesh.name, sha256=one.mesh.sha256, unit=one.mesh.unit)

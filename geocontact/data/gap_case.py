@@ -7,11 +7,31 @@ from dataclasses import dataclass, field
 
 import pandas as pd
 
+from geocontact.data.mesh import Mesh
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 
 LISTED_SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
 """Names that `system` may have besides "package.module:OBJECT"; the vocabulary of effects is stated for these."""
+
+
+@dataclass(frozen=True)
+class CaseMesh:
+    """A surface that a case brings, and which of its faces count.
+
+    Parameters
+    ----------
+    mesh
+        As it was read, vertices in m.
+    region
+        Expression in x y z (face centroid) and nx ny nz (`geometry.regions.faces_where`); "" for all faces.
+    metres_per_number
+        Of x, y, z in it: the unit of the mesh's file.
+    """
+
+    mesh: Mesh
+    region: str = ""
+    metres_per_number: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -34,6 +54,8 @@ class GapCase:
         Standard deviation of the sensor noise of some measured channels, in the channel's SI unit.
     tables
         Further tables by their key in case.toml ("spheres", "support"), units in the column names, SI.
+    meshes
+        Surfaces by their name in case.toml ("moving", "fixed").
     """
 
     name: str
@@ -44,3 +66,4 @@ class GapCase:
     constants: Mapping[str, float] = field(default_factory=dict)
     noise: Mapping[str, float] = field(default_factory=dict)
     tables: Mapping[str, pd.DataFrame] = field(default_factory=dict)
+    meshes: Mapping[str, CaseMesh] = field(default_factory=dict)

@@ -24,7 +24,7 @@ USED = {
     "foot": (("y", "m", 0.01), ("pitch", "rad", 0.15)),
     "knee": (("area_medial", "m^2", 1e-4), ("area_lateral", "m^2", 1e-4)),
 }
-"""Inputs by system, with their unit and the largest bias; of other systems every angle and length."""
+"""Inputs by system, with their unit and the largest bias; of other systems every angle and length (`System.bias`)."""
 
 
 def biased(system: System, name: str, unit: str, most: float) -> Candidate:
@@ -45,7 +45,7 @@ def biased(system: System, name: str, unit: str, most: float) -> Candidate:
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate per input that matters."""
     units = ((name, system.unit(name)) for name in system.inputs)
-    measured = tuple((name, unit, PLAUSIBLE[unit]) for name, unit in units if unit in PLAUSIBLE)
+    measured = tuple((name, unit, system.bias.get(name, PLAUSIBLE[unit])) for name, unit in units if unit in PLAUSIBLE)
     return tuple(biased(system, name, unit, most) for name, unit, most in USED.get(system.name, measured))
 
 

@@ -30,12 +30,13 @@ def case_folder(folder: str | PathLike[str]) -> Path:
     return home
 
 
-def inside(home: Path, name: str, key: str) -> Path:
+def inside(home: Path, name: str, key: str, endings: tuple[str, ...] = (".csv",)) -> Path:
     """The file that case.toml names, inside the case's folder."""
     parts = Path(name).parts
     usable = name.isprintable() and not any(sign in name for sign in '\\:*?"<>|')
-    if not usable or Path(name).is_absolute() or ".." in parts or not name.lower().endswith(".csv"):
-        remedy = 'name a .csv file inside the folder of the case, as in spheres = "spheres.csv"'
+    if not usable or Path(name).is_absolute() or ".." in parts or not name.lower().endswith(endings):
+        example = 'spheres = "spheres.csv"' if ".csv" in endings else 'file = "insert.stl"'
+        remedy = f"name a {' '.join(endings)} file inside the folder of the case, as in {example}"
         raise InputError(home / SETTINGS, key, f"{name[:80]!r} cannot be used", remedy)
     path = home / name
     try:

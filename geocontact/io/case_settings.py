@@ -63,6 +63,16 @@ class ParameterSettings(BaseModel):
     fixed: bool = False
 
 
+class MeshSettings(BaseModel):
+    """`[mesh.<name>]`: a file inside the folder of the case, its unit, and which faces count ("" for all)."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
+
+    file: str
+    unit: str
+    region: str = ""
+
+
 class CaseSettings(BaseModel):
     """case.toml, with the tables that it names gathered in `tables`."""
 
@@ -77,6 +87,7 @@ class CaseSettings(BaseModel):
     parameters: dict[Name, ParameterSettings] = {}
     trial: dict[FileName, dict[Name, Covariate]] = {}
     layout: dict[FileName, str] = {}
+    mesh: dict[Name, MeshSettings] = {}
     tables: dict[Name, str] = {}
 
     @property
@@ -125,7 +136,7 @@ def _refusal(error: ValidationError, file: str) -> InputError:
     place = [str(part) for part in first["loc"] if part != "[key]"]
     key = place.pop().strip() if first["type"] in ("extra_forbidden", "missing") else ""
     where = ".".join(place)
-    known = CaseSettings if not place else ParameterSettings
+    known = CaseSettings if not place else MeshSettings if place[0] == "mesh" else ParameterSettings
     keys = ", ".join(name for name in known.model_fields if name != "tables")
     if first["type"] == "extra_forbidden":
         more = ', or name a table: spheres = "spheres.csv"' if not place else ""

@@ -10,14 +10,16 @@ from pathlib import Path
 import pandas as pd
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_case import CaseMesh, GapCase
 from geocontact.data.trial import Trial
 from geocontact.io.case_consistency import KNOWN_SYSTEMS, check_settings, parameters_of
 from geocontact.io.case_folder import SETTINGS, case_folder, check_trial_files, inside, trial_file
 from geocontact.io.case_settings import CaseSettings, read_settings
+from geocontact.io.meshes import READERS, read_mesh
 from geocontact.io.side_table import read_side_table
 from geocontact.io.trial_set import alike, noise_in_si
 from geocontact.io.trial_table import TrialTable, read_trial
+from geocontact.io.units import LENGTH
 
 
 def gap_case_folders(folder: str | PathLike[str]) -> list[Path]:
@@ -66,6 +68,7 @@ def read_gap_case(folder: str | PathLike[str], known_systems: tuple[str, ...] = 
         constants=dict(settings.constants),
         noise=noise,
         tables=tables | _layouts(home, settings),
+        meshes=_meshes(home, settings),
     )
 
 
@@ -95,3 +98,11 @@ def _layouts(home: Path, settings: CaseSettings) -> dict[str, pd.DataFrame]:
         message = f"{home / SETTINGS} layout: cell channels are not used ({sites}); only the layout is read"
         warnings.warn(InputWarning(message), stacklevel=3)
     return tables
+
+
+def _meshes(home: Path, settings: CaseSettings) -> dict[str, CaseMesh]:
+    found = {}
+    for name, given in settings.mesh.items():
+        path = inside(home, given.file, f"[mesh.{name}] file", tuple(READERS))
+        found[name] = CaseMesh(read_mesh(path, given.unit), given.region, LENGTH[given.unit])
+    return found

@@ -38,6 +38,8 @@ def write_gap_case(
     digits
         Significant ones of a cell. Numbers in case.toml and in the tables are written in full.
     """
+    if case.meshes:
+        raise ValueError("a case with meshes is not written: its surfaces belong to files, which it does not know")
     home, wanted = Path(folder), units or {}
     (home / TRIALS).mkdir(parents=True, exist_ok=True)
     for trial in (*case.calibration, *case.evaluation):

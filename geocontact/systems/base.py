@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-import pandas as pd
-
 from geocontact.chain.system import System
+from geocontact.data.gap_case import GapCase
 from geocontact.data.parameter import Parameter
 
 
@@ -22,13 +21,29 @@ class Base:
     inputs, outputs
         Channels that drive it and that it predicts.
     build
-        (parameters, constants, tables) → system, its scale not set yet.
+        (parameters, constants, tables) → system, its scale not set yet; (parameters, constants, tables, meshes) where
+        `meshes` names some.
+    meshes
+        Names of the surfaces that it needs, `[mesh.<name>]` in case.toml.
     """
 
     name: str
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
-    build: Callable[[tuple[Parameter, ...], Mapping[str, float], Mapping[str, pd.DataFrame]], System]
+    build: Callable[..., System]
+    meshes: tuple[str, ...] = ()
+
+    def made(self, case: GapCase) -> System:
+        """The system of a case; ValueError when its meshes are not those that are needed, and whatever build raises."""
+        for name in self.meshes:
+            if name not in case.meshes:
+                raise ValueError(f"{self.name}: the mesh {name} is missing; give its file and unit under [mesh.{name}]")
+        for name in case.meshes:
+            if name not in self.meshes:
+                takes = f"it takes {', '.join(self.meshes)}" if self.meshes else "it takes none"
+                raise ValueError(f"{self.name}: the mesh {name} is not used; {takes}")
+        given = (case.parameters, case.constants, case.tables)
+        return self.build(*given, case.meshes) if self.meshes else self.build(*given)
 
 
 def require_numbers(

@@ -27,7 +27,7 @@ def system_of(case: GapCase) -> System:
         known = ", ".join(one.name for one in SYSTEMS)
         raise refusal(case, "has no base model here", f'there are {known}, and "package.module:OBJECT" for your own')
     try:
-        system = base.build(case.parameters, case.constants, case.tables)
+        system = base.made(case)
     except ValueError as error:
         raise refusal(case, str(error), "") from error
     return tried(system, case).scaled(case.calibration)

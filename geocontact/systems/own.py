@@ -31,7 +31,7 @@ def own_system(case: GapCase) -> System:
     """Own model of a case, tried once on every trial; InputError when it cannot be built or does not fit the case."""
     base = own_base(case)
     try:
-        system = base.build(case.parameters, case.constants, case.tables)
+        system = base.made(case)
     except Exception as error:  # the user's code may raise anything
         raise refusal(case, f"cannot be built: {said(error)}", "correct the case or the model") from error
     if not isinstance(system, System):
@@ -76,4 +76,6 @@ def _checked(found: object, case: GapCase) -> Base:
         raise refusal(case, what, "it needs name, inputs, outputs and build, as geocontact.systems.base.Base has")
     if name in LISTED_SYSTEMS:
         raise refusal(case, f"is named {name} like a listed system", "give it another name")
-    return found if isinstance(found, Base) else Base(name, channels[0] or (), channels[1] or (), build)
+    if isinstance(found, Base):
+        return found
+    return Base(name, channels[0] or (), channels[1] or (), build, tuple(getattr(found, "meshes", ())))
