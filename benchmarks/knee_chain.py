@@ -129,7 +129,8 @@ def write_case(folder: Path, knee: Knee, courses: list[Course], withheld: Withhe
     names = [f"t{i + 1:02d}" for i in range(len(courses))]
     for name, course in zip(names, courses, strict=True):
         columns = {"time [s]": course.time[:: truth.FINER]}
-        columns |= {f"{c} [{u}]": row for (c, u), row in zip(truth.POSE.items(), course.measured(withheld), strict=True)}
+        pose = zip(truth.POSE.items(), course.measured(withheld), strict=True)
+        columns |= {f"{channel} [{unit}]": row for (channel, unit), row in pose}
         columns |= {f"{c} [N]": row for c, row in zip(truth.CELLS, course.cells(withheld).T, strict=True)}
         pd.DataFrame(columns).to_csv(folder / "trials" / f"{name}.csv", index=False, float_format="%.9g")
     for file in (knee.moving, knee.fixed):
@@ -149,18 +150,20 @@ def answer(folder: Path) -> dict[str, object]:
     system = system_of(case)
     ready = time.perf_counter() - began
     found = diagnose(case, system)
-    d = found.diagnosis
+    d, tried = found.diagnosis, found.attribution
+    best = sorted(tried.contenders, key=lambda one: -one.judged.nats)[:6]
     return {
         "verdict": d.verdict,
         "effects": list(d.effects),
-        "contenders": [[c.label, round(c.judged.nats - found.attribution.base.judged.nats, 1)] for c in sorted(
-            found.attribution.contenders, key=lambda c: -c.judged.nats)[:6]],
+        "gains_nats": {one.label: round(one.judged.nats - tried.base.judged.nats, 1) for one in best},
         "probabilities": {k: round(p, 3) for k, p in list(d.probabilities.items())[:5]},
         "ambiguity": list(d.ambiguity),
         "absorbed": list(d.absorbed),
         "where": [[w.channel, [round(p, 2) for p in w.phase], round(w.share, 2)] for w in d.where],
         "reduction": {k: [round(g.reduction, 3), *(round(c, 3) for c in g.ci95)] for k, g in d.gap.items()},
-        "rmse": {k: [round(g.rmse_before, 2), round(g.rmse_after, 2), round(g.noise_floor, 2)] for k, g in d.gap.items()},
+        "rmse": {
+            k: [round(g.rmse_before, 2), round(g.rmse_after, 2), round(g.noise_floor, 2)] for k, g in d.gap.items()
+        },
         "parameters": {k: [e.value, *e.ci95] for k, e in d.parameters.items()},
         "remarks": list(d.remarks),
         "surfaces_s": round(ready, 1),
@@ -197,7 +200,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path, help="folder that gets the cases and answers.json")
     parser.add_argument("--meshes", choices=["sample", "dm"], default="sample")
-    parser.add_argument("--truth", choices=["coarse", "medium"], default="coarse", help="surfaces of the sample's truth")
+    parser.add_argument(
+        "--truth", choices=["coarse", "medium"], default="coarse", help="surfaces of the sample's truth"
+    )
     parser.add_argument("--only", nargs="*", choices=list(WITHHELD), default=list(WITHHELD))
     parser.add_argument("--seed", type=int, default=1)
     default = Path(os.environ.get("GEOCONTACT_DATA") or ROOT.parent / "shared" / "data")

@@ -1,4 +1,4 @@
-"""Synthetic trials of a knee implant with load cells, made by code that shares nothing with the chain that is diagnosed.
+"""Synthetic trials of a knee implant with load cells, by code that shares nothing with the chain that is diagnosed.
 
 Contact areas: distances by libigl, summed over the centroids of a finer surface (the chain: its own tree, triangles cut
 at the iso-line). Cells: lever rule and regression solved by Cramer's rule. Forces are made at a finer step, filtered
@@ -24,9 +24,10 @@ ROWS = (-0.015, 0.015)
 THRESHOLD, RADIUS, MODULUS = 4e-3, 0.037, 3e6
 FINER, DURATION = 2, (0.95, 1.2)
 """How much finer than the recordings the truth is sampled, and duration of a trial [s]."""
-FILTER = 10.0
+FILTER = 15.0
+"""Corner of the cells' low-pass, without phase [Hz]: of the signal, and of half the power of the noise."""
 NOISE, POSE_NOISE, REGISTRATION = 4.0, (5e-4, 3e-5), (5e-4, 3e-5)
-"""Of a cell [N]; of a pose (rad, m) from sample to sample, and from trial to trial."""
+"""Of a cell [N], half of it white; of a pose (rad, m) from sample to sample, and from trial to trial."""
 VARIES = 0.03
 """Of the modulus, from trial to trial."""
 WANDERS = np.array([0.03, 0.004, 0.010, 4e-4, 2.5e-4, 3e-4])
@@ -182,7 +183,8 @@ class Course:
         registration = np.array(REGISTRATION)[kinds] * rng.normal(size=6)
         some = np.array([coloured(rng, samples, FINER * fine, 6.0) for _ in range(6)])
         seen = pose[:, ::FINER] + registration[:, None] + np.array(POSE_NOISE)[kinds][:, None] * some
-        noise = NOISE * np.column_stack([coloured(rng, samples, FINER * fine, FILTER) for _ in CELLS])
+        slow = np.column_stack([coloured(rng, samples, FINER * fine, FILTER) for _ in CELLS])
+        noise = NOISE * (slow + rng.normal(size=slow.shape)) / np.sqrt(2.0)
         modulus = MODULUS * (1.0 + VARIES * rng.normal())
         return cls(time, pose, modulus, registration, bodies.patches(pose), seen, noise)
 

@@ -1,9 +1,9 @@
 """What four load cells under a tibial tray read when its two compartments are loaded: the regression read backwards.
 
-The regression gives two forces from four cells, F_medial = Σ m_c N_c and F_lateral = Σ l_c N_c, so two further equations
-are needed. The tray is taken for a rigid beam on two rows of cells, one at x_anterior, one at x_posterior: on each side
-the front cell carries the share s = (x - x_posterior)/(x_anterior - x_posterior) of that side's two cells, x the
-centre of the side's patch (lever rule). With S_medial = N_PM + N_AM, S_lateral = N_PL + N_AL
+The regression gives two forces from four cells, F_medial = Σ m_c N_c and F_lateral = Σ l_c N_c, so that two more
+equations are needed. The tray is taken for a rigid beam on two rows of cells, one at x_anterior, one at x_posterior: on
+each side the front cell carries the share s = (x - x_posterior)/(x_anterior - x_posterior) of that side's two cells, x
+the centre of the side's patch (lever rule). With S_medial = N_PM + N_AM, S_lateral = N_PL + N_AL
 
     F_medial  = S_medial (m_PM (1 - s_m) + m_AM s_m) + S_lateral (m_PL (1 - s_l) + m_AL s_l),
 

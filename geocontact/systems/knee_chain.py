@@ -1,7 +1,7 @@
 """Knee implant over its full chain: measured pose → two meshes → areas of the sides → Hertz's law → load cells.
 
-Inputs `flexion [rad]`, `adduction [rad]`, `rotation [rad]`, `tx [m]`, `ty [m]`, `tz [m]`: pose of the femoral component
-in the tibial one (`systems.posed_knee`). Outputs, of `CELLS` the four load cells `PM [N]`, `AM [N]`, `AL [N]`, `PL [N]`,
+Inputs `flexion [rad]`, `adduction [rad]`, `rotation [rad]`, `tx [m]`, `ty [m]`, `tz [m]`: pose of the femoral in the
+tibial component (`systems.posed_knee`). Outputs, of `CELLS` the four load cells `PM [N]`, `AM [N]`, `AL [N]`, `PL [N]`,
 of `SIDES` the forces `force_medial [N]`, `force_lateral [N]`.
 
     area of each side of FIXED within `threshold` of MOVING; F = (4/3) E* a³/R, a = sqrt(area/π) per side;

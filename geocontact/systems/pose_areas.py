@@ -38,6 +38,7 @@ PER_LENGTH = 28.0
 COORDINATES = 6
 NODES = np.array([-1.0, -0.5, 0.5, 1.0])
 CROSS = 0.5
+ROUNDING = 1e-9
 PAIRS = tuple(combinations(range(COORDINATES), 2))
 PROBES, WITHIN = 12, 0.5
 """Poses at which the error is measured, with random offsets of so much of the reach."""
@@ -99,7 +100,7 @@ class PoseAreas:
             grid = self._grids[key] = self.grid(pose)
             self._warn_of(self.error(grid), trial)
         z = (pose - grid.pose) / self.reach
-        near = (np.abs(z) <= 1.0).all(axis=0)
+        near = (np.abs(z) <= 1.0 + ROUNDING).all(axis=0)
         found = grid.at(np.where(near, z, 0.0))
         if not near.all():
             found[~near] = self._directly(np.ascontiguousarray(pose[:, ~near]))
@@ -142,8 +143,8 @@ class PoseAreas:
 
     def _warn_of(self, error: float, trial: str) -> None:
         if error > TOLERATED:
-            what = f"contact areas around its poses are interpolated with an error of {100.0 * error:.1f} %"
-            warn(InputWarning(f"trial {trial}: {what}; a larger threshold or finer meshes make it smaller"), stacklevel=2)
+            what = f"trial {trial}: areas around its poses are interpolated with an error of {100.0 * error:.1f} %"
+            warn(InputWarning(f"{what}; a larger threshold or finer meshes make it smaller"), stacklevel=2)
 
     def _directly(self, pose: Float[np.ndarray, "6 n"]) -> Float[np.ndarray, "n 2 4"]:
         key = pose.tobytes()

@@ -18,10 +18,12 @@ from geocontact.chain.slots import Slots, Source
 from geocontact.data.knee_angles import tibia_in_femur
 from geocontact.geometry.sided_areas import SidedAreas
 from geocontact.systems.knee_contact import AREAS, KneeContact
-from geocontact.systems.pose_areas import PoseAreas, Placed
+from geocontact.systems.pose_areas import Placed, PoseAreas
 
 ANGLES, SHIFTS = ("flexion", "adduction", "rotation"), ("tx", "ty", "tz")
 POSE = (*ANGLES, *SHIFTS)
+AS_MEASURED = KneeContact()
+"""The knee whose areas are measured."""
 LEAST_AREA = 1e-7
 """Area [m^2] below which a patch has no centre of its own."""
 
@@ -58,7 +60,7 @@ class PosedKnee:
     side: float
     middle: Float[np.ndarray, " 2"]
     reach: tuple[float, float]
-    contact: KneeContact = KneeContact()
+    contact: KneeContact = AS_MEASURED
 
     @classmethod
     def of(cls, pair: SidedAreas, side: float, reach: tuple[float, float]) -> PosedKnee:
