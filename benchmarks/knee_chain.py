@@ -31,13 +31,14 @@ from geocontact.io.tables import read_table
 from geocontact.systems.catalogue import system_of
 
 ROOT = Path(__file__).resolve().parents[1]
-CALIBRATION, EVALUATION, FRESH, SAMPLES = 4, 2, 4, 41
+CALIBRATION, EVALUATION, FRESH, SAMPLES = 4, 2, 10, truth.CYCLE + 1
 WITHHELD = {
     "nothing": (Withheld(), ""),
     "tx_1mm": (Withheld(offset=(0, 0, 0, 1e-3, 0, 0)), "motion_offset"),
     "ty_1mm": (Withheld(offset=(0, 0, 0, 0, 1e-3, 0)), "motion_offset"),
     "tz_1mm": (Withheld(offset=(0, 0, 0, 0, 0, 1e-3)), "motion_offset"),
-    "radius": (Withheld(bends=True), "axis_migration"),
+    "radius_slow": (Withheld(bends=0.3), "axis_migration"),
+    "radius_fast": (Withheld(bends=0.1), "axis_migration"),
     "crosstalk": (Withheld(coupling=("PM", "AM", 0.06)), "crosstalk"),
 }
 """Name of each case: what the base is not told, and the name of it in the vocabulary."""

@@ -23,7 +23,9 @@ ROWS = (-0.015, 0.015)
 """x of the rear and of the front row of cells [m]."""
 THRESHOLD, RADIUS, MODULUS = 4e-3, 0.037, 3e6
 FINER, DURATION = 2, (0.95, 1.2)
-"""How much finer than the recordings the truth is sampled, and duration of a trial [s]."""
+"""How much finer than the recordings the truth is sampled, and duration of a cycle [s]."""
+CYCLE = 40
+"""Recorded steps of a cycle."""
 FILTER = 15.0
 """Corner of the cells' low-pass, without phase [Hz]: of the signal, and of half the power of the noise."""
 NOISE, POSE_NOISE, REGISTRATION = 4.0, (5e-4, 3e-5), (5e-4, 3e-5)
@@ -116,20 +118,21 @@ class Withheld:
     offset
         Added to the measured coordinates [rad, m].
     bends
-        R falls from 34 to 22 mm around 0.5 rad of flexion, along a logistic curve, times the base radius over 34 mm.
+        R falls from that of the base to 22/34 of it around 0.5 rad of flexion, along a logistic curve of this width
+        [rad]; 0 where it does not. 34 and 22 mm are the distal and posterior radius of the sample knee.
     coupling
         Share of the first cell that shows up in the second.
     """
 
     offset: tuple[float, ...] = (0.0,) * 6
-    bends: bool = False
+    bends: float = 0.0
     coupling: tuple[str, str, float] = ("PM", "AM", 0.0)
 
     def radius(self, flexion: np.ndarray) -> np.ndarray:
         """R along a trial [m]."""
-        if not self.bends:
+        if self.bends == 0.0:
             return np.full_like(flexion, RADIUS)
-        return RADIUS / 34.0 * (22.0 + 12.0 / (1.0 + np.exp((flexion - 0.5) / 0.1)))
+        return RADIUS / 34.0 * (22.0 + 12.0 / (1.0 + np.exp((flexion - 0.5) / self.bends)))
 
     def mixed(self, cells: np.ndarray) -> np.ndarray:
         """What the cells read of what they carry."""
@@ -170,10 +173,10 @@ class Course:
 
     @classmethod
     def drawn(cls, bodies: Bodies, mean: CubicSpline, rng: np.random.Generator, samples: int) -> Course:
-        """A trial around the mean motion, a function of the phase 0 to 1."""
-        fine = rng.uniform(*DURATION) / (samples - 1) / FINER
+        """A trial around the mean motion, a function of the phase 0 to 1; fewer samples are a part of the cycle."""
+        fine = rng.uniform(*DURATION) / CYCLE / FINER
         time = fine * np.arange(FINER * (samples - 1) + 1)
-        phase = time / time[-1]
+        phase = np.arange(len(time)) / (FINER * CYCLE)
         wave = sum(
             rng.normal(size=(6, 1)) / k * np.sin(2 * np.pi * k * phase + rng.uniform(0, 2 * np.pi, (6, 1)))
             for k in (1, 2, 3)

@@ -8,7 +8,7 @@ import tomllib
 from collections.abc import Mapping
 from os import fspath
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, FiniteFloat, PlainValidator, ValidationError
 
@@ -69,7 +69,7 @@ class MeshSettings(BaseModel):
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
 
     file: str
-    unit: str
+    unit: Literal["m", "cm", "mm", "in"]
     region: str = ""
 
 

@@ -1,0 +1,86 @@
+"""The knee's chain in the gap diagnosis, a small version: the finer truth is right, and 1 mm is found where it was put."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmarks import knee_chain, knee_truth
+from benchmarks.knee_truth import Bodies, Course, Withheld
+from geocontact.cli.main import run
+from geocontact.io.gap_case import read_gap_case
+from geocontact.systems.posed_knee import PosedKnee
+from tests.systems.posed_knees import chain, poses
+
+KNEE = knee_chain.sample_knee()
+SAMPLES = 31
+
+
+def test_halving_keeps_the_surface_and_its_area() -> None:
+    vertices, faces = knee_truth.halved(KNEE.finer.femoral)
+    assert len(faces) == 4 * len(KNEE.finer.femoral[1])
+    area = [Bodies.of(KNEE.finer.femoral, mesh).area.sum() for mesh in (KNEE.finer.femoral, (vertices, faces))]
+    assert area[1] == pytest.approx(area[0], rel=1e-12)
+    assert len(np.unique(vertices, axis=0)) == len(vertices), "neighbours share the vertex in the middle of their edge"
+
+
+def test_areas_of_the_truth_are_those_of_the_chain_by_other_code() -> None:
+    geometry = chain().geometry
+    assert isinstance(geometry, PosedKnee)
+    pose = poses(25)[1]
+    area, centre = KNEE.finer.patches(pose)
+    found = geometry.areas.direct(pose)
+    np.testing.assert_allclose(area, found[..., 0], rtol=4e-3)
+    np.testing.assert_allclose(centre, found[..., 1] / found[..., 0], atol=5e-5)
+
+
+def test_cells_of_the_truth_are_those_of_the_chain_by_other_code() -> None:
+    from geocontact.loads.cell_shares import cell_forces
+    from geocontact.loads.loadcells import PUBLISHED
+
+    force, centre = np.array([[640.0, 310.0], [0.0, 90.0]]), np.array([[0.004, -0.002], [0.0, 0.02]])
+    want = cell_forces(force, centre, knee_truth.ROWS, PUBLISHED)
+    np.testing.assert_allclose(knee_truth.cells_of(force, centre), want, atol=1e-9)
+
+
+def test_what_is_withheld_changes_what_it_should() -> None:
+    rng = np.random.default_rng(5)
+    course = Course.drawn(KNEE.finer, KNEE.mean, rng, SAMPLES)
+    plain = course.cells(knee_truth.NOTHING)
+    offset, coupled = Withheld(offset=(0, 0, 0, 1e-3, 0, 0)), Withheld(coupling=("PM", "AM", 0.1))
+    np.testing.assert_array_equal(course.cells(offset), plain)
+    np.testing.assert_allclose(course.measured(offset)[3] - course.seen[3], 1e-3, rtol=1e-12)
+    changed = course.cells(coupled) - plain
+    assert np.abs(changed[:, [0, 2, 3]]).max() < 1e-9
+    assert changed[:, 1].mean() == pytest.approx(0.1 * plain[:, 0].mean(), rel=0.05)
+    assert np.ptp(Withheld(bends=0.1).radius(course.pose[0])) > 1e-3
+
+
+@pytest.mark.slow
+def test_one_millimetre_is_found(tmp_path: Path) -> None:
+    """Two calibration trials and one held out, 1 mm of height: found, measured, and the cells' errors fall."""
+    found = knee_chain.run(KNEE, tmp_path / "cases", ("ty_1mm",), trials=(2, 1, 0), samples=SAMPLES)["ty_1mm"]
+    assert found["verdict"] == "explained", found
+    assert found["effects"] == ["motion_offset"], found
+    value, low, high = found["parameters"]["motion_offset.ty.offset"]  # type: ignore[index]
+    assert low < -1e-3 < high, "what is added to the measured pose undoes the error"
+    assert value == pytest.approx(-1e-3, abs=2e-4)
+    assert min(row[0] for row in found["reduction"].values()) > 0.2, found  # type: ignore[attr-defined]
+
+
+def test_the_case_on_disk_is_one_for_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    courses = knee_chain.courses_of(KNEE, 3, 2, 21)
+    folder = knee_chain.write_case(tmp_path / "case", KNEE, courses, knee_truth.NOTHING, 1)
+    case = read_gap_case(folder)
+    assert sorted(case.meshes) == ["fixed", "moving"]
+    assert "motion_offset" not in (folder / "case.toml").read_text(encoding="utf-8"), "the answer stands nowhere in it"
+    assert run(["gap", "diagnose", str(folder), "--out", str(tmp_path / "out"), "--bare"]) == 0
+    record = json.loads((tmp_path / "out" / "run.json").read_text(encoding="utf-8"))
+    hashes = {one["role"]: one["sha256"] for one in record["inputs"]}
+    assert hashes["mesh fixed"] == case.meshes["fixed"].mesh.sha256
+    diagnosis = json.loads((tmp_path / "out" / "diagnosis.json").read_text(encoding="utf-8"))
+    assert sorted(diagnosis["gap"]) == ["AL", "AM", "PL", "PM"]
+    capsys.readouterr()
