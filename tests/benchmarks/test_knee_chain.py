@@ -1,4 +1,4 @@
-"""The knee's chain in the gap diagnosis, a small version: the finer truth is right, and 1 mm is found where it was put."""
+"""The knee's chain in the gap diagnosis, small: the finer truth is right, and 1 mm is found where it was put."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import knee_chain, knee_truth
+from benchmarks import knee_alike, knee_chain, knee_truth
 from benchmarks.knee_truth import Bodies, Course, Withheld
 from geocontact.cli.main import run
 from geocontact.io.gap_case import read_gap_case
+from geocontact.systems.catalogue import system_of
 from geocontact.systems.posed_knee import PosedKnee
 from tests.systems.posed_knees import chain, poses
 
@@ -75,6 +76,9 @@ def test_the_case_on_disk_is_one_for_the_command(tmp_path: Path, capsys: pytest.
     courses = knee_chain.courses_of(KNEE, 3, 2, 21)
     folder = knee_chain.write_case(tmp_path / "case", KNEE, courses, knee_truth.NOTHING, 1)
     case = read_gap_case(folder)
+    alike = knee_alike.signatures(case, system_of(case))
+    assert np.linalg.norm(alike["sensor_gain.forces"]) < 1e-9 < np.linalg.norm(alike["motion_offset.ty"])
+    assert "sensor_gain.forces" not in knee_alike.table(alike, 0.0).to_numpy()
     assert sorted(case.meshes) == ["fixed", "moving"]
     assert "motion_offset" not in (folder / "case.toml").read_text(encoding="utf-8"), "the answer stands nowhere in it"
     assert run(["gap", "diagnose", str(folder), "--out", str(tmp_path / "out"), "--bare"]) == 0

@@ -51,7 +51,7 @@ def test_a_case_without_meshes_has_none(tmp_path: Path) -> None:
         ('file = "surfaces/ball.stl"\nunit = "m"', r"ball.stl: .* looks like millimetres"),
         ('file = "surfaces/none.stl"\nunit = "mm"', r"none.stl"),
         ('file = "../ball.stl"\nunit = "mm"', r"\[mesh.ball\] file: '../ball.stl' cannot be used; name a .stl"),
-        ('file = "trials/t01.csv"\nunit = "mm"', r"'trials/t01.csv' cannot be used; name a .stl .ply .obj .vtp file"),
+        ('file = "trials/t01.csv"\nunit = "mm"', r"'trials/t01.csv' cannot be used; name a .stl .ply"),
         ('file = 3\nunit = "mm"', r"mesh.ball.file"),
     ],
 )

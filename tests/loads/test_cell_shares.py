@@ -41,4 +41,4 @@ def test_order_of_the_cells_in_the_regression_does_not_matter() -> None:
     )
     given = (np.array([[700.0, 300.0]]), np.array([[0.002, -0.006]]), ROWS)
     np.testing.assert_allclose(cell_forces(*given, turned), cell_forces(*given, PUBLISHED), rtol=1e-13)
-    assert CELLS == PUBLISHED.cells
+    assert PUBLISHED.cells == CELLS
