@@ -16,15 +16,17 @@ from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial.transform import Rotation
 
-RIGHT, LEFT = 1.0, -1.0
+SIGN = {"right": 1.0, "left": -1.0}
 """s of either knee."""
 
 
 def tibia_in_femur(
-    flexion: Float[np.ndarray, " t"], adduction: Float[np.ndarray, " t"], rotation: Float[np.ndarray, " t"], s: float
-) -> Float[np.ndarray, "t 3 3"]:
-    """Matrices `R_FT` from knee angles [rad]; signs in the module's docstring."""
+    flexion: Float[np.ndarray, " t"], adduction: Float[np.ndarray, " t"], rotation: Float[np.ndarray, " t"], side: str
+) -> Rotation:
+    """`R_FT` from knee angles [rad]; signs in the module's docstring."""
+    s = SIGN[side]
     cf, sf, ca, sa = np.cos(flexion), np.sin(flexion), np.cos(adduction), s * np.sin(adduction)
     cr, sr = np.cos(rotation), s * np.sin(rotation)
     rows = [
@@ -32,4 +34,4 @@ def tibia_in_femur(
         [cf * sa * sr - sf * cr, cf * ca, -sf * sr - cf * sa * cr],
         [-ca * sr, sa, ca * cr],
     ]
-    return np.moveaxis(np.array(rows, dtype=float), (0, 1), (-2, -1))
+    return Rotation.from_matrix(np.moveaxis(np.array(rows, dtype=float), (0, 1), (-2, -1)))

@@ -6,10 +6,10 @@ rotation): negate with `-name` in the map.
 
 from __future__ import annotations
 
-from scipy.spatial.transform import RigidTransform, Rotation
+from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.errors import InputError
-from geocontact.data.knee_angles import LEFT, RIGHT, tibia_in_femur
+from geocontact.data.knee_angles import SIGN, tibia_in_femur
 from geocontact.data.motion import Motion
 from geocontact.io.columns import mapped, parse_map
 from geocontact.io.tables import Table
@@ -39,7 +39,7 @@ def motion_from_grood_suntay(
 
     tx, ty, tz is the origin of MOVING along the x, y, z axes of FIXED (not Grood and Suntay's oblique e1, e2, e3).
     """
-    s = _sign(side)
+    _require_side(side)
     if moving not in ("tibia", "femur"):
         raise InputError("", "--moving", f"'{moving}' is not a body of the knee", "MOVING is tibia or femur")
     present = [name for name in _ANGLES + _SHIFTS if name in table.channels]
@@ -48,14 +48,13 @@ def motion_from_grood_suntay(
         raise InputError(table.file, "", "no columns flexion, adduction, rotation", "name them with --map")
     parsed = parse_map(text, _ANGLES + _SHIFTS)
     turned, moved = mapped(table, parsed, _ANGLES, _SHIFTS, angles)
-    rotation = Rotation.from_matrix(tibia_in_femur(turned[:, 0], turned[:, 1], turned[:, 2], s))
+    rotation = tibia_in_femur(turned[:, 0], turned[:, 1], turned[:, 2], side)
     poses = RigidTransform.from_components(moved, rotation if moving == "tibia" else rotation.inv())
     source = f"{table.file} with {text} (Grood-Suntay, {side} knee, {moving} moving)"
     heeded = frozenset({"angles", "convention"} if set(parsed) & set(_ANGLES) else ())
     return Motion(table.time, poses, source, table.time_unit, heeded=heeded)
 
 
-def _sign(side: str) -> float:
-    if side not in ("right", "left"):
+def _require_side(side: str) -> None:
+    if side not in SIGN:
         raise InputError("", "--side", f"'{side}' is not a side", "give right or left")
-    return RIGHT if side == "right" else LEFT

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
@@ -33,8 +34,11 @@ class Base:
     build: Callable[..., System]
     meshes: tuple[str, ...] = ()
 
-    def made(self, case: GapCase) -> System:
-        """The system of a case; ValueError when its meshes are not those that are needed, and whatever build raises."""
+    def made(self, case: GapCase) -> Any:
+        """What build gives for a case, a System if it is right.
+
+        ValueError when the case's meshes are not those that are needed; and whatever build raises.
+        """
         for name in self.meshes:
             if name not in case.meshes:
                 raise ValueError(f"{self.name}: the mesh {name} is missing; give its file and unit under [mesh.{name}]")

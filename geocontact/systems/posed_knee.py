@@ -15,7 +15,7 @@ from jaxtyping import Float
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.slots import Slots, Source
-from geocontact.data.knee_angles import tibia_in_femur
+from geocontact.data.knee_angles import SIGN, tibia_in_femur
 from geocontact.geometry.sided_areas import SidedAreas
 from geocontact.systems.knee_contact import AREAS, KneeContact
 from geocontact.systems.pose_areas import Placed, PoseAreas
@@ -30,10 +30,11 @@ LEAST_AREA = 1e-7
 
 def placed_as(side: float) -> Placed:
     """Coordinates `POSE` to X_TF; side +1 for a right and -1 for a left knee."""
+    knee = next(name for name, sign in SIGN.items() if sign == side)
 
     def placed(pose: Float[np.ndarray, "6 t"]) -> tuple[Float[np.ndarray, "t 3 3"], Float[np.ndarray, "t 3"]]:
-        femur_in_tibia = np.swapaxes(tibia_in_femur(pose[0], pose[1], pose[2], side), 1, 2)
-        return np.ascontiguousarray(femur_in_tibia), np.ascontiguousarray(pose[3:].T)
+        femur_in_tibia = tibia_in_femur(pose[0], pose[1], pose[2], knee).inv()
+        return np.ascontiguousarray(femur_in_tibia.as_matrix()), np.ascontiguousarray(pose[3:].T)
 
     return placed
 

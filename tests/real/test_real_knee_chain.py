@@ -1,4 +1,4 @@
-"""The knee's chain on the surfaces of subject DM, which are real; loads are synthetic, there are none for these poses."""
+"""The knee's chain on the surfaces of subject DM, which are real; loads are synthetic: none belong to these poses."""
 
 from __future__ import annotations
 
