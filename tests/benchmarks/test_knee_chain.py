@@ -72,6 +72,7 @@ def test_one_millimetre_is_found(tmp_path: Path) -> None:
     assert min(row[0] for row in found["reduction"].values()) > 0.2, found  # type: ignore[attr-defined]
 
 
+@pytest.mark.slow
 def test_the_case_on_disk_is_one_for_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     courses = knee_chain.courses_of(KNEE, 3, 2, 21)
     folder = knee_chain.write_case(tmp_path / "case", KNEE, courses, knee_truth.NOTHING, 1)
