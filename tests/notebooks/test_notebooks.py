@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from pathlib import Path
 
 import nbformat
@@ -30,8 +31,8 @@ def run(tmp_path, monkeypatch):
     return executed
 
 
-def test_there_is_one_for_the_contact_area_and_one_for_the_gap():
-    assert {"contact_area", "gap"} <= {notebook.stem for notebook in NOTEBOOKS}
+def test_there_is_one_for_the_contact_area_one_for_the_gap_and_one_for_the_knee():
+    assert {"contact_area", "gap", "knee"} <= {notebook.stem for notebook in NOTEBOOKS}
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
@@ -60,3 +61,15 @@ def test_gap_runs_on_the_case_that_it_plants(run):
     said = run(ROOT / "notebooks" / "gap.ipynb")
     assert "on fresh trials of this kind the error shrinks by" in said
     assert "planted: viscous damping" in said and "named: ('damping',) - right" in said
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")  # of the notebook machinery itself
+def test_knee_goes_from_meshes_to_a_modulus_that_was_planted(run, tmp_path):
+    said = run(ROOT / "notebooks" / "knee.ipynb", GEOCONTACT_DATA=str(tmp_path / "none"))
+    assert "no real data here; everything above is synthetic" in said
+    assert "sagittal radius 33.9 mm at 0°, 22.0 mm at 80° of flexion" in said
+    modulus = [float(value) for value in re.findall(r"E\* ([\d.]+) MPa, 95 %", said)]
+    assert modulus == pytest.approx([6.8, 6.8], rel=0.02)
+    explained = [float(value) for value in re.findall(r"trial not used: .* R² ([\d.]+)", said)]
+    assert len(explained) == 2 and min(explained) > 0.98

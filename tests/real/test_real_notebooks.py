@@ -27,3 +27,17 @@ def test_contact_area_notebook_reaches_the_real_implant(data_dir, tmp_path, monk
     assert found, said
     low, high, frames = (int(group) for group in found.groups()[:3])
     assert 2150 <= low < high <= 2800 and frames > 50 and found[4] == "both"
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")  # of the notebook machinery itself
+def test_knee_notebook_reaches_the_real_knee(data_dir, tmp_path, monkeypatch):
+    monkeypatch.setenv("GEOCONTACT_DATA", str(data_dir))
+    os.symlink(ROOT / "meshes", tmp_path / "meshes")
+    book = nbformat.read(ROOT / "notebooks" / "knee.ipynb", as_version=4)
+    NotebookClient(book, timeout=600, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    said = "".join(output["text"] for output in book.cells[-1].outputs)
+    found = re.search(r"JW og1: E\* ([\d.]+) MPa \(95 % ([\d.]+) … ([\d.]+)\), R² ([\d.]+)", said)
+    assert found, said
+    modulus, low, high, explained = (float(group) for group in found.groups())
+    assert modulus == pytest.approx(1.53, rel=0.02) and low < modulus < high and 0.2 < explained < 0.4
