@@ -23,8 +23,9 @@ from geocontact.geometry.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
 from geocontact.io.results import write_table
 from geocontact.view.area_figure import draw_areas
-from geocontact.view.contact_page import inputs_table, write_report
-from geocontact.view.page.content import Curves, Picture, Table
+from geocontact.view.contact_page import write_report
+from geocontact.view.contact_tables import inputs_table
+from geocontact.view.page.content import Table
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ def write_results(
     folder: Path,
 ) -> None:
     """Table, static figure, page, and what was asked for beside them."""
-    shown: list[Curves | Picture] = []
+    shown = None
     if pressure is not None:
         shown = write_pressures(pressure, a.fixed, a.motion, folder, a.options.parquet, a.options.save_map)
     write_table(_with_coordinate(evolution, a.motion), folder, a.options.parquet)

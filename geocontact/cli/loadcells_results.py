@@ -15,7 +15,7 @@ from geocontact.data.cell_regression import CellRegression
 from geocontact.io.load_cells import CellRecording
 from geocontact.io.results import write_table
 from geocontact.loads.loadcells import CompartmentForces
-from geocontact.view.contact_page import inputs_table
+from geocontact.view.contact_tables import inputs_table
 from geocontact.view.curves.given import SERIES
 from geocontact.view.loadcells_figure import ensemble_figure, loadcell_figure
 from geocontact.view.loadcells_page import CYCLES, STYLES, write_loadcell_report

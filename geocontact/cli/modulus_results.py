@@ -18,7 +18,7 @@ from geocontact.identify.area_force import LAG, MODULUS, THRESHOLD
 from geocontact.identify.elastic import Identification, agreement
 from geocontact.identify.identifiability import Identifiability
 from geocontact.io.results import write_table
-from geocontact.view.contact_page import inputs_table
+from geocontact.view.contact_tables import inputs_table
 from geocontact.view.modulus_figure import ForcePair, modulus_figure
 from geocontact.view.modulus_page import write_modulus_report
 from geocontact.view.page.content import Table

@@ -21,7 +21,7 @@ from geocontact.geometry.evolution import Settings
 from geocontact.geometry.pieces import Pieces, pieces_of
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.thickness import thickness_below
-from geocontact.loads.foundation import Layer, Pressed, pressed
+from geocontact.loads.foundation import Layer, pressed
 from geocontact.loads.pressure_load import PressureLoad
 
 PIECE = "0.5mm"
@@ -45,6 +45,10 @@ class PressureEvolution:
         Numbers of the frames kept and pressure [Pa] of each face in them.
     heaviest
         Number of the frame with the largest force, which is among them.
+    layer, strain
+        What was pressed, and its largest strain [-].
+    finer
+        Largest force again, with pieces of half the size [N].
     """
 
     loads: list[PressureLoad]
@@ -52,6 +56,9 @@ class PressureEvolution:
     frames: list[int]
     pressure: Float[np.ndarray, "k f"]
     heaviest: int
+    layer: Layer
+    strain: float
+    finer: float
 
     @property
     def pressing(self) -> Float[np.ndarray, " t"]:
@@ -92,11 +99,12 @@ def pressure_evolution(
                 maps[k] = layer.pieces.face_means(found.pressure, len(fixed.faces))
             step()
     frames = sorted(maps)
-    evolution = PressureEvolution(loads, parts, frames, np.array([maps[k] for k in frames]), heaviest)
-    around = _around(fixed, evolution.pressure[frames.index(heaviest)] > 0.0, settings.fixed_faces)
+    around = _around(fixed, maps[heaviest] > 0.0, settings.fixed_faces)
     finer = _layer(record, fixed, around, settings, o, 0.5 * edge)
-    again = pressed(finer, moving, rotation[heaviest], translation[heaviest])
-    _summarise(record, evolution, again, strain, layer, o, name)
+    again = pressed(finer, moving, rotation[heaviest], translation[heaviest]).load.pressing
+    pressure = np.array([maps[k] for k in frames])
+    evolution = PressureEvolution(loads, parts, frames, pressure, heaviest, layer, strain, again)
+    _summarise(record, evolution, name)
     return evolution
 
 
@@ -149,10 +157,8 @@ def _thickness(record: Record, fixed: Surface, pieces: Pieces, o: AreaOptions) -
     return found
 
 
-def _summarise(
-    record: Record, e: PressureEvolution, finer: Pressed, strain: float, layer: Layer, o: AreaOptions, name: str
-) -> None:
-    force, again = e.loads[e.heaviest].pressing, finer.load.pressing
+def _summarise(record: Record, e: PressureEvolution, name: str) -> None:
+    force, again, layer, strain = e.loads[e.heaviest].pressing, e.finer, e.layer, e.strain
     off = abs(force - again) / again if again > 0.0 else 0.0
     if off > AGREED:
         record.warn(f"pieces of half the size change the largest force by {off:.1%}; give a smaller --piece")

@@ -11,8 +11,9 @@ from geocontact.cli.pressure import PressureEvolution, pressure_table
 from geocontact.data.motion import Motion
 from geocontact.geometry.surface import Surface
 from geocontact.io.results import write_table
-from geocontact.view.page.content import Curve, Curves, Picture
+from geocontact.view.page.content import Picture
 from geocontact.view.pressure_figure import PressureMap, pressure_figure
+from geocontact.view.pressure_page import Pressures
 
 FILE = "pressure.npz"
 WORDS = (
@@ -24,7 +25,7 @@ WORDS = (
 
 def write_pressures(
     e: PressureEvolution, fixed: Surface, motion: Motion, folder: Path, parquet: bool, save_map: bool
-) -> list[Curves | Picture]:
+) -> Pressures:
     """Table, figure and maps; returns what the page shows."""
     write_table(pressure_table(motion, e), folder, parquet, "pressure")
     if save_map:
@@ -39,9 +40,18 @@ def write_pressures(
     at = PressureMap(fixed.vertices, fixed.faces, e.pressure[e.frames.index(e.heaviest)], centre, e.heaviest)
     figure = pressure_figure(motion.course, force, peak, at)
     drawing = save_both(figure, folder, "pressure")
-    curves = [Curve(name, values) for name, values in force.items()]
-    return [
-        Curves("Contact force, elastic foundation", "N", curves),
-        Curves("Largest contact pressure", "MPa", [Curve("largest pressure", peak * 1e-6)]),
-        Picture("Pressure", WORDS, drawing, wide=True),
-    ]
+    return Pressures(
+        force=force,
+        centre={
+            **{side: np.array([load.centre for load in loads]) for side, loads in e.parts.items()},
+            "total": centre,
+        },
+        peak=peak,
+        area=np.array([load.area for load in e.loads]),
+        maps=dict(zip(e.frames, e.pressure, strict=True)),
+        law=e.layer.law,
+        modulus=e.layer.modulus,
+        thickness=(float(e.layer.thickness.min()), float(e.layer.thickness.max())),
+        finer=e.finer,
+        picture=Picture("Pressure", WORDS, drawing, wide=True),
+    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,10 +15,12 @@ from geocontact.geometry.evolution import Settings
 from geocontact.geometry.maps import DistanceMaps
 from geocontact.geometry.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
+from geocontact.view.contact_tables import meshes_table
 from geocontact.view.contact_words import reviewers_words
 from geocontact.view.directions import camera_directions
-from geocontact.view.page.content import Body, Curve, Curves, Page, Picture, Readout, Row, Scene, Section, Strip, Table
+from geocontact.view.page.content import Body, Curve, Curves, Page, Readout, Row, Scene, Section, Strip, Table
 from geocontact.view.page.write import write_page
+from geocontact.view.pressure_page import Pressures, face_map, headline, pressure_sections, pressure_words
 
 TICK = 0.5e-3  # m; the colours end at a round number
 FRAMES = 201  # frames that the page animates at most; longer motions are thinned out, and the page says so
@@ -37,7 +39,7 @@ def write_report(
     title: str = "",
     provenance: Sequence[Table] = (),
     warnings: Sequence[str] = (),
-    more: Sequence[Curves | Picture] = (),
+    pressures: Pressures | None = None,
 ) -> int:
     """Write the self-contained page of one contact-area analysis; returns its size in bytes.
 
@@ -57,15 +59,16 @@ def write_report(
         Further tables: inputs with hashes, options, versions.
     warnings
         Reservations that came up on the way.
-    more
-        Further curves, over all frames of the motion, and pictures.
+    pressures
+        Pressures on FIXED; the page then opens with their map, in the frame with the largest force.
     """
     if not maps.frames:
         raise ValueError("the distance maps hold no frame; gather them with area_evolution(..., each=maps.add)")
     most = FRAMES
     while True:
-        told = Told(moving, fixed, motion, settings, evolution, maps, shown_frames(maps, most))
-        size = write_page(contact_page(told, title, provenance, warnings, more), Path(path))
+        shown = shown_frames(maps, most, () if pressures is None else (pressures.heaviest,))
+        told = Told(moving, fixed, motion, settings, evolution, maps, shown, pressures)
+        size = write_page(contact_page(told, title, provenance, warnings), Path(path))
         most = min(most, len(told.kept)) // 2
         if size <= LARGEST_FILE or most < FEWEST:
             return size
@@ -82,6 +85,7 @@ class Told:
     evolution: AreaEvolution
     maps: DistanceMaps
     kept: Int[np.ndarray, " k"]
+    pressures: Pressures | None = None
 
     @property
     def frames(self) -> Int[np.ndarray, " k"]:
@@ -99,10 +103,14 @@ class Told:
         return self.settings.rule not in (REFINED, CLIP)
 
 
-def shown_frames(maps: DistanceMaps, most: int) -> Int[np.ndarray, " k"]:
-    """Places in `maps` of about `most` frames, evenly spread, with that of most contact and of smallest distance."""
+def shown_frames(maps: DistanceMaps, most: int, also: Sequence[int] = ()) -> Int[np.ndarray, " k"]:
+    """Places in `maps` of about `most` frames, evenly spread, with that of most contact and of smallest distance.
+
+    Frames in `also` are shown where `maps` holds them.
+    """
     regular = np.arange(0, len(maps.frames), -(-len(maps.frames) // most))
-    places: Int[np.ndarray, " k"] = np.unique([*regular, *map(maps.frames.index, (maps.largest, maps.nearest))])
+    wanted = [maps.largest, maps.nearest, *(frame for frame in also if frame in maps.frames)]
+    places: Int[np.ndarray, " k"] = np.unique([*regular, *map(maps.frames.index, wanted)])
     return places
 
 
@@ -111,27 +119,32 @@ def contact_page(
     title: str,
     provenance: Sequence[Table],
     warnings: Sequence[str],
-    more: Sequence[Curves | Picture] = (),
 ) -> Page:
     """The page before it becomes a file."""
-    e, frames, main = told.evolution, told.frames, told.main
+    e, frames, main, pressures = told.evolution, told.frames, told.main, told.pressures
+    course = told.motion.course
     sections: list[Section] = [
         _scene(told),
         Readout(_rows(told), title=f"This frame, threshold {_mm(e, main)}"),
         *_curves(e, frames, main),
-        *(_at(section, frames) for section in more),
     ]
+    if pressures is not None:
+        sections[2:2] = pressure_sections(pressures, frames)
     if e.sensitivity_thresholds:
         sections.append(_strip(told))
-    sections += [_meshes(told.moving, told.fixed), *provenance]
-    sections += reviewers_words(told.moving, told.fixed, told.settings, e, main, len(frames), warnings)
+    sections += [meshes_table(told.moving, told.fixed), *provenance]
+    pressed = pressures is not None
+    words = reviewers_words(told.moving, told.fixed, told.settings, e, main, len(frames), warnings, pressed)
+    sections += words if pressures is None else [*words[:2], pressure_words(pressures), *words[2:]]
     return Page(
         title=title or f"{told.moving.name} on {told.fixed.name}",
         subtitle=_subtitle(told),
-        time=told.motion.course.values[frames],
-        time_label=told.motion.course.label,
-        headline=_headline(e, main, told.motion.course),
-        start_frame=int(np.argmax(e.fixed.area[frames, main])),
+        time=course.values[frames],
+        time_label=course.label,
+        headline=[*(headline(pressures, course) if pressures is not None else ()), *_headline(e, main, course)],
+        start_frame=int(
+            np.argmax(e.fixed.area[frames, main] if pressures is None else pressures.force["total"][frames])
+        ),
         sections=tuple(sections),
         numbers=frames + 1,
         total=len(told.motion),
@@ -199,6 +212,7 @@ def _scene(told: Told) -> Scene:
         span=(unsigned if e.signed == "none" else float(-np.ceil(-deepest / TICK) * TICK), farthest),
         value_name="distance to the other body" if e.signed == "none" else "signed distance to the other body",
         directions=camera_directions(np.asarray(e.split_normal) * e.medial_side),
+        maps=() if told.pressures is None else (face_map(told.pressures, told.frames, 0),),
     )  # fmt: skip
 
 
@@ -256,13 +270,6 @@ def _curves(e: AreaEvolution, frames: Int[np.ndarray, " k"], main: int) -> list[
     return [Curves("Contact area", "mm²", areas), Curves("Smallest distance (negative: overlap)", "mm", distance)]
 
 
-def _at(section: Curves | Picture, frames: Int[np.ndarray, " k"]) -> Curves | Picture:
-    """Curves over all frames at those shown."""
-    if isinstance(section, Picture):
-        return section
-    return Curves(section.title, section.unit, [Curve(c.name, c.values[frames]) for c in section.curves])
-
-
 def _strip(told: Told) -> Strip:
     e = told.evolution
     order = np.argsort(e.sensitivity_thresholds)
@@ -277,25 +284,3 @@ def _strip(told: Told) -> Strip:
         unit="mm²",
         current=e.thresholds[told.main] * MM,
     )
-
-
-def _meshes(moving: Surface, fixed: Surface) -> Table:
-    """What the areas rest on."""
-    header = ("body", "vertices", "faces", "edge, median [mm]", "edge, longest [mm]", "size [mm]", "closed")
-    rows = []
-    for role, body in (("moving", moving), ("fixed", fixed)):
-        used = body.vertices[body.used]
-        size = np.ptp(used, axis=0) * MM
-        edges = body.edge_length * MM
-        closed = "yes" if body.topology.closed else ("assumed" if body.closed else "no: distances to it are unsigned")
-        rows.append((
-            f"{role}: {body.name}", f"{len(used)}", f"{len(body.faces)}", f"{np.median(edges):.2f}",
-            f"{edges.max():.2f}", " × ".join(f"{length:.1f}" for length in size), closed,
-        ))  # fmt: skip
-    return Table("The two surfaces", header, rows)
-
-
-def inputs_table(inputs: Sequence[Mapping[str, object]]) -> Table:
-    """Files that went in, as `run.json` lists them."""
-    rows = [(str(i["role"]), Path(str(i["file"])).name, str(i.get("unit", "")), str(i["sha256"])) for i in inputs]
-    return Table("Input files", ("role", "file", "unit", "SHA-256"), rows)

@@ -29,11 +29,12 @@ def reviewers_words(
     main: int,
     shown: int,
     warnings: Sequence[str],
+    pressed: bool = False,
 ) -> list[Words]:
     """Question, context of use, numerical error, what was not checked, and reservations."""
     words = [
         Words("Question", [_question(moving, fixed, settings, e, main)]),
-        Words("Context of use", [_context(e), NOT_A_DEVICE]),
+        Words("Context of use", [_context(e, pressed), NOT_A_DEVICE]),
         Words("Numerical error", _error(settings, e, main)),
         Words("What the numbers do not contain", _missing(len(e.time), shown)),
     ]
@@ -53,15 +54,20 @@ def _question(moving: Surface, fixed: Surface, settings: Settings, e: AreaEvolut
     return said
 
 
-def _context(e: AreaEvolution) -> str:
+def _context(e: AreaEvolution, pressed: bool) -> str:
     signs = {
         "both": "Both surfaces are closed, so distances carry a sign and overlap is known on both.",
         "fixed": "The moving surface is closed, the fixed one is not: overlap is known on the fixed surface only.",
         "moving": "The fixed surface is closed, the moving one is not: overlap is known on the moving surface only.",
         "none": "Neither surface is closed: distances are unsigned and overlap cannot be told from closeness.",
     }
+    forces = (
+        "areas and distances are those of undeformed bodies, and pressures those of a layer that they overlap in. "
+        if pressed
+        else "nothing deforms, no force is computed. "
+    )
     return (
-        "Geometric contact of two rigid triangulated surfaces in given poses: nothing deforms, no force is computed. "
+        f"Geometric contact of two rigid triangulated surfaces in given poses: {forces}"
         "An area within a threshold is a measure of congruence; it is the area that carries load only as far as the "
         f"threshold stands for the deformation. {signs[e.signed]}"
     )

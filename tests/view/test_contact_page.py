@@ -13,7 +13,8 @@ from geocontact.geometry.maps import DistanceMaps
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from geocontact.view import contact_page
-from geocontact.view.contact_page import Told, inputs_table, write_report
+from geocontact.view.contact_page import Told, write_report
+from geocontact.view.contact_tables import inputs_table
 from geocontact.view.contact_words import NOT_A_DEVICE
 from geocontact.view.directions import camera_directions
 from geocontact.view.page.content import Curves, Readout, Scene, Strip, Table, Words

@@ -9,12 +9,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.view.page.scene import Body, Scene
+from geocontact.view.page.scene import Body, FaceMap, Scene
 
 __all__ = [
     "Body",
     "Curve",
     "Curves",
+    "FaceMap",
     "Page",
     "Picture",
     "Readout",
@@ -183,7 +184,8 @@ def _lengths(sections: Sequence[Section]) -> list[tuple[str, int]]:
     found: list[tuple[str, int]] = []
     for section in sections:
         match section:
-            case Scene(bodies=bodies):
+            case Scene(bodies=bodies, maps=maps):
+                found += [(f"map {each.name}", len(each.values)) for each in maps]
                 found += [(f"poses of {b.name}", len(b.poses)) for b in bodies if b.poses is not None]
                 found += [(f"distance of {b.name}", len(b.distance)) for b in bodies if b.distance is not None]
             case Curves(curves=curves):

@@ -1,4 +1,4 @@
-"""Distances in 8 bits, with the threshold on an exact level."""
+"""Distances in 8 bits, with the threshold on an exact level; amounts in 8 bits from nothing to the largest."""
 
 from __future__ import annotations
 
@@ -50,6 +50,28 @@ class Levels:
         distance[codes == BEYOND] = np.inf
         distance[codes == DEEPEST] = -np.inf
         return distance
+
+
+@dataclass(frozen=True)
+class AmountLevels:
+    """Code c means the amount `c step`, 1 … 254; 255 means none."""
+
+    step: float
+
+    @classmethod
+    def of(cls, upper: float) -> AmountLevels:
+        """Levels up to the largest amount."""
+        return cls(upper / (BEYOND - 1))
+
+    @property
+    def error(self) -> float:
+        """Largest difference between an amount and its level; little ones are shown as the first level."""
+        return self.step
+
+    def codes(self, values: Float[np.ndarray, "t m"]) -> UInt8[np.ndarray, "t m"]:
+        """Nearest code of each amount; what is above 0 is never shown as none."""
+        nearest = np.clip(np.rint(values / self.step), 1.0, BEYOND - 1.0)
+        return np.asarray(np.where(values > 0.0, nearest, float(BEYOND)).astype(np.uint8))
 
 
 def across(faces: Int[np.ndarray, "m 3"], distance: Float[np.ndarray, "t n"], upper: float, most: float) -> float:

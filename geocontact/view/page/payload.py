@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.view.page.content import Body, Curves, Page, Readout, Scene, Strip
-from geocontact.view.page.levels import Levels, across
+from geocontact.view.page.content import Body, Curves, FaceMap, Page, Readout, Scene, Strip
+from geocontact.view.page.levels import AmountLevels, Levels, across
 from geocontact.view.page.opening import opacities, opening_view
 from geocontact.view.page.pack import Block, Grid, face_words, packed
 
@@ -85,7 +85,15 @@ def _scene(scene: Scene, frame: int, levels: Levels, blocks: list[Block]) -> dic
         "directions": [[name, [float(x) for x in vector]] for name, vector in scene.directions.items()],
         "up": [float(x) for x in scene.up],
         "view": opening_view(scene, frame).tolist(),
+        "maps": [_map(each, k, blocks) for k, each in enumerate(scene.maps)],
     }
+
+
+def _map(each: FaceMap, k: int, blocks: list[Block]) -> dict[str, object]:
+    levels = AmountLevels.of(each.upper)
+    blocks.append(packed(f"map-{k}", levels.codes(each.values)))
+    described = {"name": each.name, "unit": each.unit, "body": each.body, "upper": each.upper, "step": levels.step}
+    return described | {"values": blocks[-1].described()}
 
 
 def _middle(scene: Scene, frame: int) -> Float[np.ndarray, " 3"]:

@@ -1,4 +1,4 @@
-"""Bodies over time, coloured by distance."""
+"""Bodies over time, coloured by distance or by an amount on each face."""
 
 from __future__ import annotations
 
@@ -41,6 +41,40 @@ class Body:
 
 
 @dataclass(frozen=True, eq=False)
+class FaceMap:
+    """An amount on each face of one body over time, for colours that the reader may choose instead of the distance.
+
+    Parameters
+    ----------
+    name, unit
+        What is shown: "mean pressure of each face" in "MPa".
+    body
+        Place in the scene's bodies.
+    values
+        In that unit; grey where not above 0.
+    """
+
+    name: str
+    unit: str
+    body: int
+    values: Float[np.ndarray, "t m"]
+
+    @property
+    def upper(self) -> float:
+        """Upper end of the colours, the same in all frames: the largest value, or 1 where nothing is above 0."""
+        largest = float(self.values.max(initial=0.0))
+        return largest if largest > 0.0 else 1.0
+
+    def check(self, bodies: Sequence[Body]) -> None:
+        """Refuse a map of a body or of faces that are not there."""
+        if not 0 <= self.body < len(bodies):
+            raise ValueError(f"{self.name}: there is no body {self.body}")
+        faces = len(bodies[self.body].faces)
+        if self.values.shape[1] != faces:
+            raise ValueError(f"{self.name}: {self.values.shape[1]} values for {faces} faces")
+
+
+@dataclass(frozen=True, eq=False)
 class Scene:
     """Bodies over time in the frame S.
 
@@ -58,6 +92,8 @@ class Scene:
         Upwards in S.
     view
         Direction from which the page opens; None: the one from which the contact patch is seen.
+    maps
+        Amounts on faces; the page opens with the first one, where there is one.
     """
 
     bodies: Sequence[Body]
@@ -67,6 +103,7 @@ class Scene:
     directions: Mapping[str, Sequence[float]]
     up: Sequence[float] = (0.0, 1.0, 0.0)
     view: Sequence[float] | None = None
+    maps: Sequence[FaceMap] = ()
 
     def __post_init__(self) -> None:
         if not self.bodies:
@@ -83,6 +120,8 @@ class Scene:
                 raise ValueError(f"{body.name}: a face names a vertex that is not there")
             if body.distance is not None and body.distance.shape[1] != len(body.vertices):
                 raise ValueError(f"{body.name}: {body.distance.shape[1]} distances for {len(body.vertices)} vertices")
+        for each in self.maps:
+            each.check(self.bodies)
 
     @property
     def threshold(self) -> float:

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from geocontact.view.page.levels import Levels, across
+from geocontact.view.page.levels import BEYOND, AmountLevels, Levels, across
 from geocontact.view.page.pack import GRID, Grid, face_words, packed, unpacked
 
 SHAPES = hnp.array_shapes(min_dims=1, max_dims=2, max_side=40)
@@ -106,3 +106,13 @@ def test_faces_take_as_few_bytes_as_they_need(largest: int, kind: type) -> None:
     words = face_words(np.array([[0, 1, largest]]))
     assert words.dtype == kind
     assert words[0, 2] == largest
+
+
+def test_amounts_keep_their_zero_and_their_largest() -> None:
+    values = np.array([[0.0, 1e-9, 0.5, 7.3, 20.0, np.nan, -1.0]])
+    levels = AmountLevels.of(20.0)
+    codes = levels.codes(values)[0].astype(float)
+    assert codes[[0, 5, 6]].tolist() == [BEYOND] * 3, "none"
+    assert codes[1] == 1.0 and codes[4] == BEYOND - 1.0, "a little is not none, the largest is the last level"
+    np.testing.assert_allclose(codes[1:5] * levels.step, values[0, 1:5], atol=levels.error)
+    np.testing.assert_allclose(codes[2:5] * levels.step, values[0, 2:5], atol=0.5 * levels.error + 1e-12)

@@ -1,4 +1,4 @@
-// Distance → colour, for the surface, the legend and the saved picture alike.
+// Distance and other quantities → colour, for the surface, the legend and the saved picture alike.
 
 // viridis (van der Walt and Smith, CC0), near to far: lightness falls evenly, also for colour-blind eyes
 const NEAR_TO_FAR = [
@@ -6,6 +6,10 @@ const NEAR_TO_FAR = [
 ];
 // what overlaps is told apart by hue, by lightness and by hatching
 const SHALLOW_TO_DEEP = ["#ff9a3c", "#e8590c", "#b3261e", "#6a040f"];
+// inferno (van der Walt and Smith, CC0), little to much, without its black: what has its zero at one end, such as pressure
+const LITTLE_TO_MUCH = [
+  "#fcffa4", "#f6d746", "#fca50a", "#f37819", "#dd513a", "#bc3754", "#932667", "#6a176e", "#420a68", "#160b39",
+];
 export const BEYOND = "#c9cdd2";
 export const PLAIN = "#b9bec6";
 
@@ -25,11 +29,14 @@ export function colourOf(distance, [lower, upper]) {
   return between(NEAR_TO_FAR, (distance - from) / (upper - from));
 }
 
-/** Colours of the span from lower to upper end, RGBA bytes. */
-export function ramp(span, count) {
+/** sRGB triple of an amount, colours spread from nothing to the upper end. */
+export const amountColour = (amount, [, upper]) => between(LITTLE_TO_MUCH, amount / upper);
+
+/** Colours of a quantity's span from lower to upper end, RGBA bytes. */
+export function ramp({ span, colour }, count) {
   const bytes = new Uint8Array(4 * count);
   for (let i = 0; i < count; i++) {
-    bytes.set([...colourOf(span[0] + ((span[1] - span[0]) * (i + 0.5)) / count, span), 255], 4 * i);
+    bytes.set([...colour(span[0] + ((span[1] - span[0]) * (i + 0.5)) / count, span), 255], 4 * i);
   }
   return bytes;
 }

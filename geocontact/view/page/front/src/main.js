@@ -2,6 +2,7 @@
 import { curves, strip } from "./charts.js";
 import { cursor, keys, player } from "./controls.js";
 import { legend, scaleBar, triad } from "./overlays.js";
+import { quantitiesOf } from "./quantities.js";
 import { openScene } from "./scene.js";
 import { tools } from "./tools.js";
 
@@ -23,11 +24,19 @@ async function picture(data, time) {
   canvas.addEventListener("webglcontextlost", () => notice("The 3-D picture was lost (graphics driver); reload the page to get it back."));
   const scene = await openScene(data.scene, canvas);
   scene.presets = data.scene.directions.length;
-  legend(element("legend"), data.scene);
+  const choices = quantitiesOf(data.scene);
+  let chosen = choices[0];
+  const colour = () => {
+    chosen = choices[Number(element("colours")?.value ?? 0)];
+    scene.setQuantity(chosen);
+    legend(element("legend"), data.scene, chosen);
+  };
+  element("colours")?.addEventListener("change", colour);
+  colour();
   const overlays = [triad(element("triad"), data.scene, scene.view), scaleBar(element("scale"), scene.view)];
   for (const draw of overlays) scene.drawn(draw);
   const drawings = () => ({ legend: element("legend").firstChild, triad: element("triad").firstChild, scale: element("scale") });
-  tools(scene, drawings, () => [data.title, `${data.scene.valueName} [mm], ${time.words(time.frame())}`]);
+  tools(scene, drawings, () => [data.title, `${chosen.name} [${chosen.unit}], ${time.words(time.frame())}`]);
   time.listen(scene.show);
   return scene;
 }

@@ -1,4 +1,5 @@
-// How a body looks: distance as colour, contours at the thresholds, hatching where bodies overlap, grey beyond.
+// How a body looks: distance as colour, contours at the thresholds, hatching where bodies overlap, grey beyond; or an
+// amount on each face as colour, grey where there is none.
 import { Color, ColorManagement, DataTexture, GLSL3, NearestFilter, RawShaderMaterial, Vector4 } from "three";
 import { BEYOND, PLAIN, ramp } from "./colours.js";
 
@@ -27,7 +28,7 @@ uniform sampler2D ramp;
 uniform vec2 span;
 uniform float thresholds[COUNT];
 uniform vec4 section;
-uniform bool sectioned, coloured;
+uniform bool sectioned, coloured, amounts;
 uniform vec3 grey, plain, inside;
 uniform float opacity, pixel, stepSize;
 in vec3 seen, placed;
@@ -50,11 +51,12 @@ void main() {
   vec3 colour = plain;
   if (coloured) {
     vec3 near = texture(ramp, vec2((value - span.x) / (span.y - span.x), 0.5)).rgb;
-    if (value < -2.0 * stepSize && mod(gl_FragCoord.x + gl_FragCoord.y, 7.0 * pixel) < 2.0 * pixel) near *= 0.45;
-    colour = mix(plain, mix(near, grey, max(smoothstep(0.0, 0.7, beyond), smoothstep(-0.5, 0.5, (value - span.y) / slope / pixel))), solid);
+    if (!amounts && value < -2.0 * stepSize && mod(gl_FragCoord.x + gl_FragCoord.y, 7.0 * pixel) < 2.0 * pixel) near *= 0.45;
+    float far = amounts ? 0.0 : smoothstep(-0.5, 0.5, (value - span.y) / slope / pixel);
+    colour = mix(plain, mix(near, grey, max(smoothstep(0.0, 0.7, beyond), far)), solid);
   }
   colour = colour * light + shine;
-  if (coloured && beyond < 0.3) {
+  if (coloured && !amounts && beyond < 0.3) {
     for (int k = COUNT - 1; k >= 0; k--) {
       float wide = k == 0 ? 1.0 : 0.45;
       if (k == 0 && value < thresholds[k]) colour = mix(colour, vec3(1.0), 0.85 * solid * line(thresholds[k], slope, 2.2));
@@ -68,15 +70,13 @@ void main() {
 
 /** Uniforms that all bodies share: colours, section plane, size of a pixel. */
 export function sharedUniforms(scene) {
-  const colours = new DataTexture(ramp(scene.span, 512), 512, 1);
-  colours.magFilter = colours.minFilter = NearestFilter;
-  colours.needsUpdate = true;
   return {
-    ramp: { value: colours },
+    ramp: { value: null },
     span: { value: scene.span },
     thresholds: { value: scene.thresholds },
-    first: { value: scene.first },
-    stepSize: { value: scene.step },
+    first: { value: 0 },
+    stepSize: { value: 1 },
+    amounts: { value: false },
     section: { value: new Vector4(1, 0, 0, 0) },
     sectioned: { value: false },
     pixel: { value: 1 },
@@ -85,14 +85,27 @@ export function sharedUniforms(scene) {
   };
 }
 
+/** Let all bodies show a quantity. */
+export function showQuantity(shared, quantity) {
+  const colours = new DataTexture(ramp(quantity, 512), 512, 1);
+  colours.magFilter = colours.minFilter = NearestFilter;
+  colours.needsUpdate = true;
+  shared.ramp.value?.dispose();
+  shared.ramp.value = colours;
+  shared.span.value = quantity.span;
+  shared.first.value = quantity.first;
+  shared.stepSize.value = quantity.step;
+  shared.amounts.value = quantity.map !== null;
+}
+
 /** Material of one body; `inside` is what a section shows of its interior. */
-export function materialOf(shared, scene, coloured, inside) {
+export function materialOf(shared, scene, inside) {
   return new RawShaderMaterial({
     glslVersion: GLSL3,
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     defines: { COUNT: scene.thresholds.length },
-    uniforms: { ...shared, coloured: { value: coloured }, inside: { value: new Color(inside) }, opacity: { value: 1 } },
+    uniforms: { ...shared, coloured: { value: false }, inside: { value: new Color(inside) }, opacity: { value: 1 } },
     side: 2,
   });
 }

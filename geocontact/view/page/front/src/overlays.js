@@ -1,27 +1,27 @@
 // What lies over the picture: colour legend, directions, scale bar.
 import { Vector3 } from "three";
-import { BEYOND, colourOf, css } from "./colours.js";
+import { BEYOND, css } from "./colours.js";
 import { html, svg } from "./svg.js";
 import { brief, ticks } from "./ticks.js";
 
 const [LEFT, WIDTH, HIGH] = [24, 234, 14];
 const [BEYOND_AT, ROOM] = [304, 328];
-const overlaps = (scene) => scene.span[0] < 0 && scene.bodies.some((body) => body.distance && body.signed);
+const overlaps = (scene, of) => of.span[0] < 0 && scene.bodies.some((body) => body.distance && body.signed);
 
-/** Colours with ticks in mm; bold marks are the thresholds, hatched is overlap, the box beside is beyond. */
-export function legend(place, scene) {
-  const [lower, upper] = scene.span;
+/** Colours of a quantity with ticks; bold marks are the thresholds, hatched is overlap, the box beside is beyond. */
+export function legend(place, scene, of) {
+  const [lower, upper] = of.span;
   const x = (value) => LEFT + ((value - lower) / (upper - lower)) * WIDTH;
-  const bar = svg("svg", { viewBox: `0 0 ${ROOM} 38`, width: ROOM, height: 38, role: "img", "aria-label": label(scene) });
+  const bar = svg("svg", { viewBox: `0 0 ${ROOM} 38`, width: ROOM, height: 38, role: "img", "aria-label": label(scene, of) });
   const stripes = svg("pattern", { id: "hatch", width: 5, height: 5, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" });
   stripes.append(svg("rect", { width: 5, height: 1.6, fill: "#000", "fill-opacity": 0.55 }));
   bar.append(svg("defs", {}, stripes));
   const count = 125;
   for (let k = 0; k < count; k++) {
     const value = lower + ((upper - lower) * (k + 0.5)) / count;
-    bar.append(svg("rect", { y: 4, height: HIGH, x: LEFT + (k * WIDTH) / count, width: WIDTH / count + 0.5, fill: css(colourOf(value, scene.span)) }));
+    bar.append(svg("rect", { y: 4, height: HIGH, x: LEFT + (k * WIDTH) / count, width: WIDTH / count + 0.5, fill: css(of.colour(value, of.span)) }));
   }
-  if (overlaps(scene)) bar.append(svg("rect", { y: 4, height: HIGH, x: LEFT, width: x(Math.min(0, upper)) - LEFT, fill: "url(#hatch)" }));
+  if (overlaps(scene, of)) bar.append(svg("rect", { y: 4, height: HIGH, x: LEFT, width: x(Math.min(0, upper)) - LEFT, fill: "url(#hatch)" }));
   const taken = [];
   const mark = (value, kind) => {
     const half = 2 + 3.3 * brief(value).length;
@@ -29,7 +29,7 @@ export function legend(place, scene) {
     taken.push([x(value), half]);
     bar.append(svg("text", { class: `tick ${kind}`, x: x(value), y: 33, "text-anchor": "middle" }, brief(value)));
   };
-  for (const [k, threshold] of scene.thresholds.entries()) {
+  for (const [k, threshold] of of.thresholds.entries()) {
     bar.append(svg("line", { class: k ? "minor" : "main", y1: 1, y2: 22, x1: x(threshold), x2: x(threshold) }));
     mark(threshold, "main");
   }
@@ -38,23 +38,26 @@ export function legend(place, scene) {
     mark(value, "");
   }
   bar.append(svg("rect", { x: BEYOND_AT - 11, width: 22, y: 4, height: HIGH, fill: BEYOND }));
-  bar.append(svg("text", { class: "tick", x: BEYOND_AT, y: 33, "text-anchor": "middle" }, "beyond"));
-  const unsigned = without(scene).flatMap((name) => ["; ", html("bdi", "", name), `: ${UNSIGNED}`]);
-  const words = ` [mm]; ${lines(scene)}${overlaps(scene) ? ", hatched: overlap" : ""}`;
-  place.append(bar, html("p", "", html("bdi", "", scene.valueName), words, ...unsigned));
+  bar.append(svg("text", { class: "tick", x: BEYOND_AT, y: 33, "text-anchor": "middle" }, grey(of)));
+  const unsigned = without(scene, of).flatMap((name) => ["; ", html("bdi", "", name), `: ${UNSIGNED}`]);
+  const words = of.map === null ? `; ${lines(of)}${overlaps(scene, of) ? ", hatched: overlap" : ""}` : "; flat on each face";
+  place.replaceChildren(bar, html("p", "", html("bdi", "", of.name), " [", html("bdi", "", of.unit), `]${words}`, ...unsigned));
 }
 
-const lines = (scene) => `line${scene.thresholds.length > 1 ? "s" : ""}: ${scene.thresholds.map((t) => brief(t)).join(", ")} mm`;
+const grey = (of) => (of.map === null ? "beyond" : "none");
+const lines = (of) => `line${of.thresholds.length > 1 ? "s" : ""}: ${of.thresholds.map((t) => brief(t)).join(", ")} ${of.unit}`;
 
 const UNSIGNED = "distance without sign (other body open)";
-const without = (scene) => scene.bodies.filter((body) => body.distance && !body.signed).map((body) => body.name);
+const without = (scene, of) =>
+  of.map === null ? scene.bodies.filter((body) => body.distance && !body.signed).map((body) => body.name) : [];
 
-const label = (scene) =>
+const label = (scene, of) =>
   [
-    `Colours from ${brief(scene.span[0])} to ${brief(scene.span[1])} mm, ${lines(scene)}`,
-    ...(overlaps(scene) ? ["hatched where bodies overlap"] : []),
-    "grey beyond",
-    ...without(scene).map((name) => `${name}: ${UNSIGNED}`),
+    `Colours from ${brief(of.span[0])} to ${brief(of.span[1])} ${of.unit}`,
+    ...(of.thresholds.length ? [lines(of)] : []),
+    ...(overlaps(scene, of) ? ["hatched where bodies overlap"] : []),
+    `grey: ${grey(of)}`,
+    ...without(scene, of).map((name) => `${name}: ${UNSIGNED}`),
   ].join(", ");
 
 /** Arrows of the named directions as seen now. */

@@ -2,7 +2,7 @@
 import { Color, Group, LessEqualDepth, Matrix4, Mesh, Scene, Vector3, WebGLRenderer } from "three";
 import { cameraFor } from "./camera.js";
 import { geometryOf } from "./geometry.js";
-import { materialOf, sharedUniforms } from "./material.js";
+import { materialOf, sharedUniforms, showQuantity } from "./material.js";
 import { unpack } from "./unpack.js";
 
 const INSIDES = ["#8a6d52", "#5b6b80", "#7a5a70", "#5f7a5a"];
@@ -15,7 +15,8 @@ export async function openScene(data, canvas) {
   world.background = new Color(getComputedStyle(canvas).getPropertyValue("--scene").trim());
   const bodies = [];
   for (const [k, described] of data.bodies.entries()) {
-    bodies.push(await bodyOf(described, shared, data, INSIDES[k % INSIDES.length]));
+    const maps = data.maps.map((map) => (map.body === k ? map.values : null));
+    bodies.push(await bodyOf(described, maps, shared, data, INSIDES[k % INSIDES.length]));
     world.add(bodies[k].group);
   }
   const reach = reachOf(bodies);
@@ -58,6 +59,11 @@ export async function openScene(data, canvas) {
       for (const body of bodies) body.show(frame);
       later();
     },
+    setQuantity(quantity) {
+      showQuantity(shared, quantity);
+      for (const body of bodies) body.setMap(quantity.map, shown);
+      later();
+    },
     setVisible(k, visible) {
       bodies[k].group.visible = visible;
       later();
@@ -82,12 +88,12 @@ export async function openScene(data, canvas) {
   return scene;
 }
 
-async function bodyOf(described, shared, data, inside) {
-  const [steps, faces, poses, codes] = await Promise.all(
-    [described.positions, described.faces, described.poses, described.distance].map((block) => block && unpack(block)),
+async function bodyOf(described, maps, shared, data, inside) {
+  const [steps, faces, poses, distance, ...amounts] = await Promise.all(
+    [described.positions, described.faces, described.poses, described.distance, ...maps].map((block) => block && unpack(block)),
   );
   const geometry = geometryOf(steps, faces, described.size);
-  const material = materialOf(shared, data, Boolean(codes), inside);
+  const material = materialOf(shared, data, inside);
   const group = new Group();
   const depth = material.clone(); // drawn first where see-through, so that only the nearest layer is seen
   Object.assign(depth.uniforms, material.uniforms);
@@ -98,6 +104,7 @@ async function bodyOf(described, shared, data, inside) {
   group.matrixAutoUpdate = false;
   const vertices = steps.length / 3;
   const code = geometry.getAttribute("code");
+  let map = null;
 
   function setOpacity(opacity) {
     const solid = opacity >= 0.99;
@@ -114,13 +121,26 @@ async function bodyOf(described, shared, data, inside) {
   function show(frame) {
     matrixOf(poses, Math.min(frame, poses.length / 12 - 1), group.matrix);
     group.matrixWorldNeedsUpdate = true;
-    if (!codes) return;
-    const from = vertices * frame;
-    for (let i = 0; i < faces.length; i++) code.array[i] = codes[from + faces[i]];
+    colour(frame);
+  }
+
+  /** One code per corner: that of its vertex, or that of its face. */
+  function colour(frame) {
+    const codes = map === null ? distance : amounts[map];
+    if (!codes || frame < 0) return;
+    const from = (map === null ? vertices : faces.length / 3) * frame;
+    for (let i = 0; i < faces.length; i++) code.array[i] = codes[from + (map === null ? faces[i] : Math.floor(i / 3))];
     code.needsUpdate = true;
   }
+
+  /** Colour by a map on faces, or by distance (null); plain where this body has none. */
+  function setMap(chosen, frame) {
+    map = chosen;
+    material.uniforms.coloured.value = Boolean(map === null ? distance : amounts[map]);
+    colour(frame);
+  }
   setOpacity(described.opacity);
-  return { group, geometry, poses, setOpacity, show, size: described.size };
+  return { group, geometry, poses, setOpacity, setMap, show, size: described.size };
 }
 
 function matrixOf(poses, k, matrix = new Matrix4()) {

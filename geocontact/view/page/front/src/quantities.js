@@ -1,0 +1,27 @@
+// What the colours can mean: amounts on faces first, then the distance of vertices to the other body.
+import { amountColour, colourOf } from "./colours.js";
+
+/** Quantities in the order of the page's choice; `map` is the number of a map on faces, null for the distance. */
+export function quantitiesOf(scene) {
+  const distance = {
+    map: null,
+    name: scene.valueName,
+    unit: "mm",
+    span: scene.span,
+    first: scene.first,
+    step: scene.step,
+    thresholds: scene.thresholds,
+    colour: colourOf,
+  };
+  const maps = scene.maps.map(({ name, unit, upper, step }, map) => ({
+    map,
+    name,
+    unit,
+    span: [0, upper],
+    first: step,
+    step,
+    thresholds: [],
+    colour: amountColour,
+  }));
+  return [...maps, distance];
+}
