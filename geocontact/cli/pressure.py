@@ -45,8 +45,8 @@ class PressureEvolution:
         Numbers of the frames kept and pressure [Pa] of each face in them.
     heaviest
         Number of the frame with the largest force, which is among them.
-    layer, strain
-        What was pressed, and its largest strain [-].
+    layer, touched, strain
+        The layer, which of its pieces were pressed in some frame, and its largest strain [-].
     finer
         Largest force again, with pieces of half the size [N].
     """
@@ -57,6 +57,7 @@ class PressureEvolution:
     pressure: Float[np.ndarray, "k f"]
     heaviest: int
     layer: Layer
+    touched: Bool[np.ndarray, " p"]
     strain: float
     finer: float
 
@@ -64,6 +65,12 @@ class PressureEvolution:
     def pressing(self) -> Float[np.ndarray, " t"]:
         """Force of each frame [N]."""
         return np.array([load.pressing for load in self.loads])
+
+    @property
+    def thickness(self) -> tuple[float, float]:
+        """Least and greatest thickness of what was pressed, or of all where nothing was [m]."""
+        pressed_on = self.layer.thickness[self.touched] if self.touched.any() else self.layer.thickness
+        return float(pressed_on.min()), float(pressed_on.max())
 
 
 def pressure_evolution(
@@ -82,6 +89,7 @@ def pressure_evolution(
     parts: dict[str, list[PressureLoad]] = {side: [] for side in layer.parts}
     maps: dict[int, np.ndarray] = {}
     heaviest, strain = 0, 0.0
+    touched = np.zeros(len(layer.pieces.area), bool)
     with (
         ThreadPoolExecutor(o.workers or os.cpu_count() or 1) as pool,
         progress(f"pressure {name}".strip(), len(motion)) as step,
@@ -91,6 +99,7 @@ def pressure_evolution(
             for side, part in found.parts.items():
                 parts[side].append(part)
             strain = max(strain, found.strain)
+            touched |= found.pressure > 0.0
             first = k == 0 or found.load.pressing > loads[heaviest].pressing
             if first and heaviest not in kept:
                 maps.pop(heaviest, None)
@@ -103,7 +112,7 @@ def pressure_evolution(
     finer = _layer(record, fixed, around, settings, o, 0.5 * edge)
     again = pressed(finer, moving, rotation[heaviest], translation[heaviest]).load.pressing
     pressure = np.array([maps[k] for k in frames])
-    evolution = PressureEvolution(loads, parts, frames, pressure, heaviest, layer, strain, again)
+    evolution = PressureEvolution(loads, parts, frames, pressure, heaviest, layer, touched, strain, again)
     _summarise(record, evolution, name)
     return evolution
 

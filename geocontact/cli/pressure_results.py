@@ -51,7 +51,7 @@ def write_pressures(
         maps=dict(zip(e.frames, e.pressure, strict=True)),
         law=e.layer.law,
         modulus=e.layer.modulus,
-        thickness=(float(e.layer.thickness.min()), float(e.layer.thickness.max())),
+        thickness=e.thickness,
         finer=e.finer,
         picture=Picture("Pressure", WORDS, drawing, wide=True),
     )

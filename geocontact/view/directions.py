@@ -11,8 +11,10 @@ from jaxtyping import Float
 def camera_directions(medial: Float[np.ndarray, " 3"]) -> Mapping[str, tuple[float, float, float]]:
     """View-from vectors in FIXED's frame, named after anatomy where the frame is known, with the axis in each name.
 
-    OpenSim's axes are taken for granted as long as nothing speaks against it: x anterior, y superior, z to the right. A
-    medial direction across another axis than z says that the frame is another one; only it and the axes are named then.
+    y is taken for superior as long as nothing speaks against it. x and z are named by their axes alone: of three public
+    data sets of implants described with x anterior, all have x posterior (the anterior flange lies at -x and flexion is a
+    negative turn about z), and with it z to the left. Medial is what the caller says. A medial direction across another
+    axis than z says that the frame is another one; only it and the axes are named then.
 
     Parameters
     ----------
@@ -24,9 +26,9 @@ def camera_directions(medial: Float[np.ndarray, " 3"]) -> Mapping[str, tuple[flo
         named = {f"medial ({_axis(x, y, z)})": (x, y, z)}
         ways = [(s * float(k == 0), s * float(k == 1), s * float(k == 2)) for k in range(3) for s in (1, -1)]
         return named | {_axis(*way): way for way in ways if way != (x, y, z)}
-    side = f"medial ({_axis(0.0, 0.0, z)})" if z else "left (−z)"
+    side = f"medial ({_axis(0.0, 0.0, z)})" if z else "−z"
     return {
-        "anterior (+x)": (1.0, 0.0, 0.0),
+        "+x": (1.0, 0.0, 0.0),
         side: (0.0, 0.0, z or -1.0),
         "superior (+y)": (0.0, 1.0, 0.0),
         "plantar (−y)": (0.0, -1.0, 0.0),

@@ -28,7 +28,7 @@ class Pressures:
     maps
         Mean pressure of each face [Pa], by the number of the frame.
     law, modulus, thickness
-        Law of the layer, its confined modulus [Pa], and the least and greatest thickness [m].
+        Law of the layer, its confined modulus [Pa], and the least and greatest thickness where it is pressed [m].
     finer
         Largest force again, with pieces of half the size [N].
     picture
@@ -108,8 +108,9 @@ def pressure_words(p: Pressures) -> Words:
     largest = float(p.force["total"].max())
     layer = (
         f"FIXED is an elastic layer on a rigid base ({p.law} law, confined modulus {p.modulus * MPA:.4g} MPa, "
-        f"thickness {thin:.3g} … {thick:.3g} mm) and MOVING is rigid. Each place of the layer carries the pressure of "
-        "its own depth: what a patch does to the surface beside it, friction and creep are left out."
+        f"thickness {thin:.3g} … {thick:.3g} mm where it is pressed) and MOVING is rigid. Each place of "
+        "the layer carries the pressure of its own depth: what a patch does to the surface beside it, friction and creep "
+        "are left out."
     )
     more = p.modulus * DEEPER / p.thickness[0] * MPA
     pose = (

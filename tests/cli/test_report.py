@@ -71,7 +71,7 @@ def test_stills_show_the_frame_of_most_contact_from_the_medial_side_too(
     assert scene.time == table["time [s]"][largest]
     assert largest == 1
     assert {file.name: view.seen_from for file, view in views.items()} == {
-        "still_anterior.png": (1.0, 0.0, 0.0),
+        "still_plus_x.png": (1.0, 0.0, 0.0),
         "still_medial.png": (0.0, 0.0, -1.0),
         "still_superior.png": (0.0, 1.0, 0.0),
         "still_plantar.png": (0.0, -1.0, 0.0),

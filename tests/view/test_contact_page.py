@@ -210,11 +210,11 @@ def test_maps_keep_every_so_many_frames_and_those_that_answer():
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
-def test_directions_are_named_after_anatomy_where_the_frame_is_known(sign):
+def test_anterior_is_not_claimed_as_meshes_described_so_have_it_at_either_end(sign):
     named = camera_directions(np.array([0.0, 0.0, sign]))
     assert named[f"medial ({'+' if sign > 0 else '−'}z)"] == (0, 0, sign)
-    assert named["anterior (+x)"] == (1, 0, 0) and named["plantar (−y)"] == (0, -1, 0)
-    assert [name.split()[0] for name in named] == ["anterior", "medial", "superior", "plantar"]
+    assert named["+x"] == (1, 0, 0) and named["plantar (−y)"] == (0, -1, 0)
+    assert [name.split()[0] for name in named] == ["+x", "medial", "superior", "plantar"]
 
 
 def test_another_frame_names_its_axes_only():
@@ -223,8 +223,8 @@ def test_another_frame_names_its_axes_only():
     assert all(np.linalg.norm(way) == 1.0 for way in named.values())
 
 
-def test_unknown_side_is_left_and_not_medial():
-    assert "left (−z)" in camera_directions(np.zeros(3))
+def test_unknown_side_is_an_axis_and_not_medial():
+    assert "−z" in camera_directions(np.zeros(3))
 
 
 def test_inputs_are_listed_with_their_hashes():
