@@ -11,10 +11,10 @@ from jaxtyping import Float
 def camera_directions(medial: Float[np.ndarray, " 3"]) -> Mapping[str, tuple[float, float, float]]:
     """View-from vectors in FIXED's frame, named after anatomy where the frame is known, with the axis in each name.
 
-    y is taken for superior as long as nothing speaks against it. x and z are named by their axes alone: of three public
-    data sets of implants described with x anterior, all have x posterior (the anterior flange lies at -x and flexion is a
-    negative turn about z), and with it z to the left. Medial is what the caller says. A medial direction across another
-    axis than z says that the frame is another one; only it and the axes are named then.
+    y is taken for superior as long as nothing speaks against it. x and z are named by their axes alone: the public data
+    sets of implants that are described with x anterior have x posterior (the anterior flange lies at -x and flexion is
+    a negative turn about z), and with it z to the left. Medial is what the caller says. A medial direction across
+    another axis than z says that the frame is another one; only it and the axes are named then.
 
     Parameters
     ----------

@@ -109,8 +109,8 @@ def pressure_words(p: Pressures) -> Words:
     layer = (
         f"FIXED is an elastic layer on a rigid base ({p.law} law, confined modulus {p.modulus * MPA:.4g} MPa, "
         f"thickness {thin:.3g} … {thick:.3g} mm where it is pressed) and MOVING is rigid. Each place of "
-        "the layer carries the pressure of its own depth: what a patch does to the surface beside it, friction and creep "
-        "are left out."
+        "the layer carries the pressure of its own depth: what a patch does to the surface beside it, friction and "
+        "creep are left out."
     )
     more = p.modulus * DEEPER / p.thickness[0] * MPA
     pose = (
