@@ -76,7 +76,7 @@ class AreaOptions:
     stills
         Also write 3-D pictures of the frame with the largest area (still_superior.png and others).
     pressure
-        Also press MOVING, taken as rigid, into FIXED as an elastic layer: pressures, forces, centres of pressure.
+        Also press MOVING, rigid unless --modulus-moving, into FIXED as an elastic layer: pressures and forces.
     modulus
         Young's modulus of FIXED for --pressure: 500MPa.
     poisson
@@ -85,6 +85,14 @@ class AreaOptions:
         Of FIXED's layer: a length such as 8mm, or rays (measured along the normal, which is the default).
     foundation
         linear or logarithmic (finite strain); linear unless given.
+    facets
+        smooth: triangles stand for a smooth surface through their corners; flat: as they are. smooth unless given.
+    modulus_moving
+        Young's modulus of MOVING, which then is an elastic layer as well; rigid unless given.
+    poisson_moving
+        Its Poisson's ratio, below 0.5.
+    thickness_moving
+        Of its layer: a length such as 3mm, or rays.
     piece
         Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
     parquet
@@ -126,6 +134,10 @@ class AreaOptions:
     poisson: float | None = None
     thickness: str | None = None
     foundation: Literal["linear", "logarithmic"] | None = None
+    facets: Literal["smooth", "flat"] | None = None
+    modulus_moving: str | None = None
+    poisson_moving: float | None = None
+    thickness_moving: str | None = None
     piece: str | None = None
     parquet: Annotated[bool, Flag] = False
     workers: int | None = None

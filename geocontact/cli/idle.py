@@ -21,8 +21,9 @@ def refuse_idle(o: AreaOptions, files: Sequence[str]) -> None:
     }  # fmt: skip
     layer = {
         "--modulus": o.modulus, "--poisson": o.poisson, "--thickness": o.thickness, "--foundation": o.foundation,
-        "--piece": o.piece,
+        "--piece": o.piece, "--facets": o.facets, "--modulus-moving": o.modulus_moving,
     }  # fmt: skip
+    second = {"--poisson-moving": o.poisson_moving, "--thickness-moving": o.thickness_moving}
     refuse(
         ((o.sweep is None) == (not files), "--motion", "give either --motion or --sweep", "see geocontact area --help"),
         (o.workers is not None and o.workers < 1, "--workers", "is less than one thread", "give 1 or more"),
@@ -45,6 +46,10 @@ def refuse_idle(o: AreaOptions, files: Sequence[str]) -> None:
           for option, value in layer.items()),
         (o.pressure and o.modulus is None, "--modulus", "is missing beside --pressure", "give for example 500MPa"),
         (o.pressure and o.poisson is None, "--poisson", "is missing beside --pressure", "give for example 0.46"),
+        *((o.modulus_moving is None and value is not None, option, "does nothing without --modulus-moving",
+           "give it too") for option, value in second.items()),
+        (o.modulus_moving is not None and o.poisson_moving is None, "--poisson-moving",
+         "is missing beside --modulus-moving", "give for example 0.46"),
     )  # fmt: skip
 
 

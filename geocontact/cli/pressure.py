@@ -13,19 +13,15 @@ from jaxtyping import Bool, Float
 from geocontact.cli import quantities
 from geocontact.cli.area import AreaOptions
 from geocontact.cli.patience import progress
+from geocontact.cli.pressure_layers import PIECE, layer_given, skin_given
 from geocontact.cli.record import Record
-from geocontact.contact.elasticity import layer_modulus
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.geometry.evolution import Settings
-from geocontact.geometry.pieces import Pieces, pieces_of
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.thickness import thickness_below
-from geocontact.loads.foundation import Layer, pressed
+from geocontact.loads.foundation import Layer, Skin, pressed
 from geocontact.loads.pressure_load import PressureLoad
 
-PIECE = "0.5mm"
-RAYS = "rays"
 AGREED = 0.01  # of the force; pieces of half the size may change it by no more without a word
 STRAINED = 0.2  # largest strain that the linear law is trusted to
 Faces = Bool[np.ndarray, " f"]
@@ -45,8 +41,8 @@ class PressureEvolution:
         Numbers of the frames kept and pressure [Pa] of each face in them.
     heaviest
         Number of the frame with the largest force, which is among them.
-    layer, touched, strain
-        The layer, which of its pieces were pressed in some frame, and its largest strain [-].
+    layer, skin, touched, strain
+        The layer, what MOVING brings, which of its pieces were pressed in some frame, and its largest strain [-].
     finer
         Largest force again, with pieces of half the size [N].
     """
@@ -57,6 +53,7 @@ class PressureEvolution:
     pressure: Float[np.ndarray, "k f"]
     heaviest: int
     layer: Layer
+    skin: Skin
     touched: Bool[np.ndarray, " p"]
     strain: float
     finer: float
@@ -82,7 +79,8 @@ def pressure_evolution(
         what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
         raise InputError("", "--pressure", what, "close it, or see --assume-closed moving")
     edge = quantities.length(PIECE if o.piece is None else o.piece, "--piece")
-    layer = _layer(record, fixed, settings.fixed_faces, settings, o, edge)
+    layer = layer_given(record, fixed, settings.fixed_faces, settings, o, edge)
+    skin = skin_given(record, moving, o)
     rotation = np.ascontiguousarray(motion.poses.rotation.as_matrix().reshape(-1, 3, 3))
     translation = np.asarray(motion.poses.translation).reshape(-1, 3)
     loads: list[PressureLoad] = []
@@ -94,7 +92,7 @@ def pressure_evolution(
         ThreadPoolExecutor(o.workers or os.cpu_count() or 1) as pool,
         progress(f"pressure {name}".strip(), len(motion)) as step,
     ):
-        for k, found in enumerate(pool.map(lambda r, t: pressed(layer, moving, r, t), rotation, translation)):
+        for k, found in enumerate(pool.map(lambda r, t: pressed(layer, moving, r, t, skin), rotation, translation)):
             loads.append(found.load)
             for side, part in found.parts.items():
                 parts[side].append(part)
@@ -109,10 +107,10 @@ def pressure_evolution(
             step()
     frames = sorted(maps)
     around = _around(fixed, maps[heaviest] > 0.0, settings.fixed_faces)
-    finer = _layer(record, fixed, around, settings, o, 0.5 * edge)
-    again = pressed(finer, moving, rotation[heaviest], translation[heaviest]).load.pressing
+    finer = layer_given(record, fixed, around, settings, o, 0.5 * edge)
+    again = pressed(finer, moving, rotation[heaviest], translation[heaviest], skin).load.pressing
     pressure = np.array([maps[k] for k in frames])
-    evolution = PressureEvolution(loads, parts, frames, pressure, heaviest, layer, touched, strain, again)
+    evolution = PressureEvolution(loads, parts, frames, pressure, heaviest, layer, skin, touched, strain, again)
     _summarise(record, evolution, name)
     return evolution
 
@@ -123,47 +121,6 @@ def _around(fixed: Surface, faces: Faces, counted: Faces | None) -> Faces:
     touched[fixed.faces[faces]] = True
     near = touched[fixed.faces].any(axis=1)
     return np.asarray(near if counted is None else near & counted)
-
-
-def _layer(
-    record: Record, fixed: Surface, faces: Faces | None, settings: Settings, o: AreaOptions, edge: float
-) -> Layer:
-    poisson = 0.0 if o.poisson is None else o.poisson
-    if not 0.0 <= poisson < 0.5:
-        raise InputError("", "--poisson", f"{poisson:g} is not from 0 to below 0.5", "give for example 0.46")
-    young = quantities.modulus(o.modulus or "", "--modulus")
-    if edge <= 0.0:
-        raise InputError("", "--piece", "is not a positive length", f"write for example {PIECE}")
-    try:
-        pieces = pieces_of(fixed, edge, faces)
-    except ValueError as error:
-        raise InputError("", "--piece", str(error), "give a longer edge") from error
-    thickness = _thickness(record, fixed, pieces, o)
-    parts: dict[str, Bool[np.ndarray, " p"]] = {}
-    if settings.split is not None:
-        medial = settings.split.height(pieces.point) * settings.medial_side > 0.0
-        parts = {"medial": medial, "lateral": ~medial}
-    return Layer(pieces, thickness, layer_modulus(young, poisson), o.foundation or "linear", parts)
-
-
-def _thickness(record: Record, fixed: Surface, pieces: Pieces, o: AreaOptions) -> Float[np.ndarray, " p"]:
-    if o.thickness is not None and o.thickness.strip() != RAYS:
-        given = quantities.length(o.thickness, "--thickness")
-        if given <= 0.0:
-            raise InputError("", "--thickness", f"{o.thickness!r} is not a positive length", "write 8mm, or rays")
-        return np.full(len(pieces.area), given)
-    if not fixed.closed:
-        what = f"{fixed.name} is open ({fixed.topology.why_open}): it has no thickness to measure"
-        raise InputError("", "--thickness", what, "give a length, for example 8mm")
-    found = thickness_below(fixed, pieces.point, pieces.normal)
-    lost = ~(np.isfinite(found) & (found > 0.0))
-    if lost.any():
-        usable = found[~lost]
-        if len(usable) == 0:
-            raise InputError("", "--thickness", f"no ray comes out of {fixed.name} again", "give a length")
-        found = np.where(lost, usable.min(), found)
-        record.warn(f"{int(lost.sum())} of {len(found)} rays do not come out of {fixed.name}: the thinnest is taken")
-    return found
 
 
 def _summarise(record: Record, e: PressureEvolution, name: str) -> None:
@@ -184,6 +141,8 @@ def _summarise(record: Record, e: PressureEvolution, name: str) -> None:
         "largest_pressure_Pa": max(load.peak for load in e.loads),
         "largest_strain": round(strain, 6),
         "thickness_mm": [round(float(v) * 1e3, 4) for v in (layer.thickness.min(), layer.thickness.max())],
+        "facets": "flat" if e.skin.normals is None else "smooth",
+        "layer_modulus_moving_Pa": None if e.skin.thickness is None else e.skin.modulus,
     }
     label = f"{name}: " if name else ""
     peak = max(load.peak for load in e.loads)

@@ -18,8 +18,7 @@ from geocontact.view.pressure_page import Pressures
 FILE = "pressure.npz"
 WORDS = (
     "Force and largest pressure over the motion; right, the mean pressure of each face of the fixed body in the frame "
-    "with the largest force, and the way of the centre of pressure. The moving body is rigid, and each place of the "
-    "layer gives way by itself."
+    "with the largest force, and the way of the centre of pressure. Each place of the layer gives way by itself."
 )
 
 
@@ -52,6 +51,7 @@ def write_pressures(
         law=e.layer.law,
         modulus=e.layer.modulus,
         thickness=e.thickness,
+        other_modulus=e.skin.modulus,
         finer=e.finer,
         picture=Picture("Pressure", WORDS, drawing, wide=True),
     )

@@ -7,15 +7,24 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
-from geocontact.contact.elastic_foundation import linear_pressure, logarithmic_pressure
+from geocontact.contact.elastic_foundation import (
+    linear_pair_pressure,
+    linear_pressure,
+    logarithmic_pair_pressure,
+    logarithmic_pressure,
+)
+from geocontact.geometry.bulge import bulge
 from geocontact.geometry.pieces import Pieces
 from geocontact.geometry.surface import Surface
 from geocontact.loads.pressure_load import PressureLoad, compartment_loads, pressure_load
 
 FOUNDATIONS: Mapping[str, Callable[..., Any]] = {"linear": linear_pressure, "logarithmic": logarithmic_pressure}
 """Laws of one layer, by name: pressure of (depth, thickness, modulus)."""
+
+PAIRS: Mapping[str, Callable[..., Any]] = {"linear": linear_pair_pressure, "logarithmic": logarithmic_pair_pressure}
+"""Laws of two layers, by the same names: pressure of (depth, thickness, modulus, other thickness, other modulus)."""
 
 USUAL = 1e-3
 """m; deeper points are looked for in a second, slower query."""
@@ -37,6 +46,8 @@ class Layer:
         Name in `FOUNDATIONS`.
     parts
         Pieces of each compartment, by its name.
+    height
+        Of the smooth surface above each piece [m], `geometry.bulge`; None where triangles are taken as they are.
     """
 
     pieces: Pieces
@@ -44,6 +55,7 @@ class Layer:
     modulus: float
     law: str = "linear"
     parts: Mapping[str, Bool[np.ndarray, " p"]] = field(default_factory=dict)
+    height: Float[np.ndarray, " p"] | None = None
 
     def __post_init__(self) -> None:
         if self.law not in FOUNDATIONS:
@@ -53,10 +65,30 @@ class Layer:
 
 
 @dataclass(frozen=True, eq=False)
+class Skin:
+    """What `moving` brings besides its triangles.
+
+    Parameters
+    ----------
+    normals
+        `corner_normals` of it, where its triangles stand for a smooth surface.
+    thickness, modulus
+        Elastic layer of its own: thickness under each face [m], > 0, and confined modulus [Pa]; rigid without.
+    """
+
+    normals: Float[np.ndarray, "m 3 3"] | None = None
+    thickness: Float[np.ndarray, " m"] | None = None
+    modulus: float = np.inf
+
+
+RIGID = Skin()
+
+
+@dataclass(frozen=True, eq=False)
 class Pressed:
     """What a pose does to a layer, in the frame of its body: pressure of each piece [Pa] and what it sums up to.
 
-    `strain` is the largest depth over thickness [-].
+    `strain` is the largest shortening of a layer over its thickness [-].
     """
 
     pressure: Float[np.ndarray, " p"]
@@ -66,35 +98,66 @@ class Pressed:
 
 
 def pressed(
-    layer: Layer, moving: Surface, rotation: Float[np.ndarray, "3 3"], translation: Float[np.ndarray, " 3"]
+    layer: Layer,
+    moving: Surface,
+    rotation: Float[np.ndarray, "3 3"],
+    translation: Float[np.ndarray, " 3"],
+    skin: Skin = RIGID,
 ) -> Pressed:
-    """Load on the layer with the rigid, closed body `moving` at x = rotation x_moving + translation [m].
+    """Load on the layer with the closed body `moving` at x = rotation x_moving + translation [m], rigid under its skin.
 
-    The depth of a piece is minus its signed distance to `moving`. Pieces that face the same way as the surface next to
+    The depth of a piece is minus its signed distance to `moving`; with the heights of both smooth surfaces above their
+    triangles, where `layer.height` and `skin.normals` say them. Pieces that face the same way as the surface next to
     them carry nothing: they are the far side of something thin, not what is pressed.
     """
     if not moving.closed:
         raise ValueError(f"{moving.name} is open: without an inside there is no depth")
     pieces = layer.pieces
-    depth = _depth(pieces, moving, rotation, translation)
-    pressure = FOUNDATIONS[layer.law](depth, layer.thickness, layer.modulus)
+    depth, face = _overlap(layer, moving, rotation, translation, skin.normals)
+    pressure, strain = _carried(layer, skin, depth, face)
     numbers = pressure, pieces.area, pieces.normal, pieces.point, "FIXED"
-    strain = float((depth / layer.thickness).max(initial=0.0))
     return Pressed(pressure, pressure_load(*numbers), compartment_loads(*numbers, layer.parts), strain)
 
 
-def _depth(
-    pieces: Pieces, moving: Surface, rotation: Float[np.ndarray, "3 3"], translation: Float[np.ndarray, " 3"]
-) -> Float[np.ndarray, " p"]:
+def _carried(
+    layer: Layer, skin: Skin, depth: Float[np.ndarray, " p"], face: Int[np.ndarray, " p"]
+) -> tuple[Float[np.ndarray, " p"], float]:
+    """Pressure of each piece [Pa] and the largest strain of a layer."""
+    if skin.thickness is None:
+        pressure = FOUNDATIONS[layer.law](depth, layer.thickness, layer.modulus)
+        return pressure, float((depth / layer.thickness).max(initial=0.0))
+    pressure = np.zeros(len(depth))
+    on = np.flatnonzero(depth > 0.0)
+    pressure[on] = PAIRS[layer.law](
+        depth[on], layer.thickness[on], layer.modulus, skin.thickness[face[on]], skin.modulus
+    )
+    most = float(pressure.max(initial=0.0)) / min(layer.modulus, skin.modulus)
+    return pressure, most if layer.law == "linear" else float(-np.expm1(-most))
+
+
+def _overlap(
+    layer: Layer,
+    moving: Surface,
+    rotation: Float[np.ndarray, "3 3"],
+    translation: Float[np.ndarray, " 3"],
+    normals: Float[np.ndarray, "m 3 3"] | None,
+) -> tuple[Float[np.ndarray, " p"], Int[np.ndarray, " p"]]:
+    """Depth of each piece [m], 0 where there is none, and the face of `moving` that is next to it."""
+    pieces = layer.pieces
     there = (pieces.point - translation) @ rotation
     near = moving.proximity(there, USUAL)
-    distance, normal = near.distance.copy(), near.normal.copy()
+    distance, normal, face, closest = near.distance.copy(), near.normal.copy(), near.face.copy(), near.closest.copy()
     deep = np.isneginf(distance)
     if deep.any():
         found = moving.proximity(there[deep])
-        distance[deep], normal[deep] = found.distance, found.normal
-    inside = distance < 0.0
+        distance[deep], normal[deep], face[deep] = found.distance, found.normal, found.face
+        closest[deep] = found.closest
+    if layer.height is not None:
+        distance = distance - layer.height
+    reached = np.flatnonzero(distance < (0.0 if normals is None else USUAL))
+    if normals is not None:
+        distance[reached] -= bulge(moving, normals, face[reached], closest[reached])
+    against = np.einsum("pi,pi->p", normal[reached] @ rotation.T, pieces.normal[reached])
     depth = np.zeros(len(distance))
-    against = np.einsum("pi,pi->p", normal[inside] @ rotation.T, pieces.normal[inside])
-    depth[inside] = np.where(against < 0.0, -distance[inside], 0.0)
-    return depth
+    depth[reached] = np.where(against < 0.0, np.maximum(-distance[reached], 0.0), 0.0)
+    return depth, face

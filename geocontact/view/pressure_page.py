@@ -27,8 +27,9 @@ class Pressures:
         Largest pressure [Pa] and area under pressure [m^2] of the whole.
     maps
         Mean pressure of each face [Pa], by the number of the frame.
-    law, modulus, thickness
-        Law of the layer, its confined modulus [Pa], and the least and greatest thickness where it is pressed [m].
+    law, modulus, thickness, other_modulus
+        Law of the layer, its confined modulus [Pa], the least and greatest thickness where it is pressed [m], and the
+        confined modulus of MOVING's layer [Pa], infinite where MOVING is rigid.
     finer
         Largest force again, with pieces of half the size [N].
     picture
@@ -43,6 +44,7 @@ class Pressures:
     law: str
     modulus: float
     thickness: tuple[float, float]
+    other_modulus: float
     finer: float
     picture: Picture
 
@@ -106,9 +108,10 @@ def pressure_words(p: Pressures) -> Words:
     """What the pressures rest on, and how far to trust them."""
     thin, thick = (length * MM for length in p.thickness)
     largest = float(p.force["total"].max())
+    other = "rigid" if np.isinf(p.other_modulus) else f"another one of {p.other_modulus * MPA:.4g} MPa"
     layer = (
         f"FIXED is an elastic layer on a rigid base ({p.law} law, confined modulus {p.modulus * MPA:.4g} MPa, "
-        f"thickness {thin:.3g} … {thick:.3g} mm where it is pressed) and MOVING is rigid. Each place of "
+        f"thickness {thin:.3g} … {thick:.3g} mm where it is pressed) and MOVING is {other}. Each place of "
         "the layer carries the pressure of its own depth: what a patch does to the surface beside it, friction and "
         "creep are left out."
     )

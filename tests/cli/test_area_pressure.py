@@ -20,6 +20,7 @@ from tests.contract import FILES
 MATERIAL = ("--pressure", "--modulus", "500MPa", "--poisson", "0.46")
 PRESSURE = {"pressure.csv", "pressure.png", "pressure.svg"}
 R, H, M = 20e-3, 12e-3, layer_modulus(5e8, 0.46)
+FLAT = ("--facets", "flat")
 DEPTHS = (0.3, 0.1, -0.5)
 """mm; the last frame is in the air."""
 
@@ -53,7 +54,7 @@ def test_ball_on_a_floor_is_the_closed_form(tmp_path: Path, law: str, closed: Ca
 
 
 def test_what_is_pressed_is_the_area_within_zero(tmp_path: Path) -> None:
-    result = done(pressed(tmp_path, "--threshold", "0,4", at=(3.3, -7.1)))
+    result = done(pressed(tmp_path, "--threshold", "0,4", "--facets", "flat", at=(3.3, -7.1)))
     areas = result.table()
     overlapping = areas[areas["threshold [mm]"] == 0.0]
     table = result.table("pressure.csv")
@@ -99,6 +100,35 @@ def test_large_strain_and_no_contact_are_told(tmp_path: Path) -> None:
     assert any("the bodies never overlap" in line for line in air.warnings)
 
 
+def test_facets_of_a_coarse_ball_stand_for_the_ball(tmp_path: Path) -> None:
+    smooth, flat = (done(pressed(tmp_path, *o, n=16)).table("pressure.csv")["force [N]"] for o in ((), FLAT))
+    expected = np.array([linear_force(R, depth * 1e-3, H, M) for depth in DEPTHS[:2]])
+    np.testing.assert_allclose(smooth[:2], expected, rtol=0.01)
+    assert (flat[:2] < 0.95 * expected).all()
+
+
+@pytest.mark.parametrize("law", ["linear", "logarithmic"])
+def test_two_layers_share_the_depth(tmp_path: Path, law: str) -> None:
+    """Two of one kind, each half as far in: half the depth of one, so half the force where the law is linear."""
+    second = ("--modulus-moving", "500MPa", "--poisson-moving", "0.46", "--thickness-moving", "12mm")
+    found = []
+    for options in (second, ("--thickness", "24mm")):
+        result = done(pressed(tmp_path, "--foundation", law, *options, picture=True))
+        page = result.bytes("report.html").decode()
+        found.append((result.table("pressure.csv")["force [N]"], result.record()["results"]["pressure"], page))
+    (force, told, page), (once, alone, other) = found
+    np.testing.assert_allclose(force, once, rtol=1e-9)
+    assert told["largest_strain"] == pytest.approx(alone["largest_strain"], rel=1e-6)
+    assert told["layer_modulus_moving_Pa"] == pytest.approx(M) and alone["layer_modulus_moving_Pa"] is None
+    assert "another one of 2312 MPa" in page and "MOVING is rigid" in other
+
+
+def test_rays_through_the_ball_find_its_thickness_too(tmp_path: Path) -> None:
+    second = ("--modulus-moving", "500MPa", "--poisson-moving", "0.46")
+    one, two = (done(pressed(tmp_path, *o)).table("pressure.csv")["force [N]"] for o in ((), second))
+    np.testing.assert_allclose(two[:2] / one[:2], 12.0 / (12.0 + 40.0), rtol=0.01)
+
+
 def test_region_limits_what_is_pressed(tmp_path: Path) -> None:
     half = done(pressed(tmp_path, "--region", "x>0")).table("pressure.csv")
     whole = done(pressed(tmp_path)).table("pressure.csv")
@@ -137,6 +167,7 @@ def test_the_number_of_threads_does_not_matter(tmp_path: Path) -> None:
     assert done(pressed(tmp_path, "--workers", "3")).bytes("pressure.csv") == one
 
 
+SECOND = "--modulus-moving"
 LAYER: Given = {"--pressure": "true", "--modulus": "500MPa", "--poisson": "0.46"}
 OPEN = stl_bytes(sphere(20.0, 4)[0], sphere(20.0, 4)[1][1:], "ball")
 LID = stl_bytes(block(80.0, 80.0, 12.0, 8)[0], block(80.0, 80.0, 12.0, 8)[1][4:], "floor")
@@ -146,6 +177,14 @@ LID = stl_bytes(block(80.0, 80.0, 12.0, 8)[0], block(80.0, 80.0, 12.0, 8)[1][4:]
     ("changes", "said"),
     [
         ({"--modulus": "500MPa"}, ("--modulus", "does nothing without --pressure")),
+        ({"--facets": "flat"}, ("--facets", "does nothing without --pressure")),
+        ({SECOND: "500MPa"}, (SECOND, "does nothing without --pressure")),
+        ({**LAYER, "--thickness-moving": "3mm"}, ("--thickness-moving", f"does nothing without {SECOND}")),
+        ({**LAYER, SECOND: "500MPa"}, ("--poisson-moving", f"is missing beside {SECOND}")),
+        (
+            {**LAYER, SECOND: "500MPa", "--poisson-moving": "0.5"},
+            ("--poisson-moving", "0.5 is not from 0 to below 0.5"),
+        ),
         ({"--piece": "1mm"}, ("--piece", "does nothing without --pressure")),
         ({**LAYER, "--modulus": None}, ("--modulus", "is missing beside --pressure")),
         ({**LAYER, "--poisson": None}, ("--poisson", "is missing beside --pressure")),

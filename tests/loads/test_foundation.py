@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from benchmarks.pairs import PAIRS
+from geocontact.geometry.bulge import bulge, corner_normals
 from geocontact.geometry.pieces import pieces_of
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.thickness import thickness_below
 from geocontact.io.meshes import read_mesh
-from geocontact.loads.foundation import Layer, Pressed, pressed
+from geocontact.loads.foundation import Layer, Pressed, Skin, pressed
 from meshes import simple_shapes
 from tests.cli.calls import MESHES
 from tests.contact.sphere_on_layer import linear_force, logarithmic_force
@@ -93,6 +96,34 @@ def test_force_on_the_sample_knee_is_within_one_per_cent_of_refined_pieces() -> 
         assert coarse.parts[name].pressing == pytest.approx(fine.parts[name].pressing, rel=0.01)
     assert min(part.pressing for part in fine.parts.values()) > 500.0
     assert sum(p.pressing for p in coarse.parts.values()) == pytest.approx(coarse.load.pressing, rel=1e-12)
+
+
+def smooth_knee(faces: int) -> tuple[float, float]:
+    """Force on a synthetic knee of about so many faces a body, sunk 0.3 mm, with smooth facets and with flat ones."""
+    pair = PAIRS["knee"](faces, 3)
+    bed = layer(pair.fixed, np.inf)
+    heights = bulge(pair.fixed, corner_normals(pair.fixed), bed.pieces.face, bed.pieces.point)
+    at = pair.rotation[1], pair.translation[1] - [0.0, 0.3 * MM, 0.0]
+    smooth = pressed(replace(bed, height=heights), pair.moving, *at, Skin(corner_normals(pair.moving)))
+    return smooth.load.pressing, pressed(bed, pair.moving, *at).load.pressing
+
+
+def test_smooth_facets_give_the_force_of_a_mesh_refined_eight_times() -> None:
+    smooth, flat = smooth_knee(10_000)
+    fine, _ = smooth_knee(80_000)
+    assert smooth == pytest.approx(fine, rel=0.01)
+    assert flat < 0.95 * fine
+
+
+def test_a_layer_of_its_own_gives_way_with_the_other() -> None:
+    bed, at = layer(slab(), 0.5e-3), (np.eye(3), np.array([0.0, R - D, 0.0]))
+    alone = pressed(bed, ball(40), *at)
+    thickness = np.full(len(ball(40).faces), 10e-3)
+    both = pressed(bed, ball(40), *at, Skin(thickness=thickness, modulus=M))
+    assert both.load.pressing == pytest.approx(alone.load.pressing / 3.0, rel=1e-9)
+    assert both.strain == pytest.approx(alone.strain / 3.0, rel=1e-9)
+    hard = pressed(bed, ball(40), *at, Skin(thickness=thickness, modulus=1e6 * M))
+    assert hard.load.pressing == pytest.approx(alone.load.pressing, rel=1e-5)
 
 
 def test_no_overlap_no_pressure() -> None:
