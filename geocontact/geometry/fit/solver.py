@@ -26,7 +26,8 @@ COARSE = 0.05  # scale of the first search, share of the size
 FINEST = 1e-12  # share of the size below which residuals are not told apart
 FINALISTS = 3
 PASSES = 40  # of scale and parameters in turn
-SETTLED = 1e-3  # relative change of the scale at which they end
+SETTLED, ROUGH = 1e-3, 1e-2  # relative change of the scale at which they end, at last and among the finalists
+TIGHT, LOOSE = 1e-10, 1e-6  # relative change of loss and parameters at which such a search ends
 
 Same = TypeVar("Same")
 
@@ -82,7 +83,7 @@ def solve(points: Float[np.ndarray, "n 3"], starts: Sequence[M], robust: bool) -
         model, converged = _searched(points, best, "linear", 1.0, 1e-10)
         return Solution(model, None, converged)
     found = _best([_searched(few, start, "cauchy", COARSE, 1e-5)[0] for start in starts], few, robust)[:FINALISTS]
-    settled = _best([_settled(some, model, "cauchy", CAUCHY).model for model in found], some, robust)[0]
+    settled = _best([_settled(some, model, "cauchy", CAUCHY, ROUGH).model for model in found], some, robust)[0]
     return _settled(points, settled, "biweight", BIWEIGHT)
 
 
@@ -94,13 +95,15 @@ def _best(models: Sequence[M], points: Float[np.ndarray, "n 3"], robust: bool) -
     return [models[k] for k in np.argsort(loss, kind="stable")]
 
 
-def _settled(points: Float[np.ndarray, "n 3"], model: M, loss: Loss, tuning: float) -> Solution[M]:
-    """Scale and parameters in turn until the scale stays."""
+def _settled(
+    points: Float[np.ndarray, "n 3"], model: M, loss: Loss, tuning: float, settled: float = SETTLED
+) -> Solution[M]:
+    """Scale and parameters in turn until the scale changes by no more than `settled` of itself."""
     scale, converged = tuning * spread(model.residual(model.x, points)), False
     for _ in range(PASSES):
-        model, converged = _searched(points, model, loss, scale, 1e-10)
+        model, converged = _searched(points, model, loss, scale, TIGHT if settled == SETTLED else LOOSE)
         before, scale = scale, tuning * spread(model.residual(model.x, points))
-        if abs(scale - before) <= SETTLED * before or scale <= tuning * FINEST:
+        if abs(scale - before) <= settled * before or scale <= tuning * FINEST:
             break
     return Solution(model, scale, converged)
 
