@@ -13,6 +13,8 @@ from jaxtyping import Float
 
 from geocontact.geometry.kernels.compile import kernel
 
+PIECES = 4  # straight pieces that the cubic between two samples is filtered in
+
 
 @kernel
 def outset(time: Float[np.ndarray, " t"], y: Float[np.ndarray, " t"], first: int) -> float:
@@ -113,7 +115,11 @@ def two_stages(
 def lagged(
     time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t c"], lag: float, order: float
 ) -> Float[np.ndarray, "t c"]:
-    """Each column behind a low-pass of `order` 1 to 2 that makes slow signals late by `lag` seconds."""
+    """Each column behind a low-pass of `order` 1 to 2 that makes slow signals late by `lag` seconds.
+
+    Between samples a column runs along the same cubic as in `delayed`, taken as straight over a quarter of a step: a
+    lag far shorter than a step comes to the same as a delay.
+    """
     out = values.copy()
     if lag == 0.0:
         return out
@@ -129,8 +135,12 @@ def lagged(
                 going = False
                 continue
             if going:
-                h = time[i] - time[i - 1]
-                one, two = two_stages(one, two, y[i - 1], (y[i] - y[i - 1]) / h, h, quick, slow)
+                h = (time[i] - time[i - 1]) / PIECES
+                start = y[i - 1]
+                for piece in range(1, PIECES + 1):
+                    end = between(time, y, i - 1, time[i - 1] + piece * h)
+                    one, two = two_stages(one, two, start, (end - start) / h, h, quick, slow)
+                    start = end
             else:
                 rise = outset(time, y, i)
                 one = min(max(y[i] - slow * rise, low), high)

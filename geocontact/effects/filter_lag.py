@@ -2,7 +2,7 @@
 
 Two first-order stages in a row with time constants tau (1 - r/2) and tau r/2, r = order - 1: the lag tau >= 0 of slow
 signals is the amplitude, the order in 1..2 the shape; order 2 is critically damped. The corner of order 1 is
-1/(2 pi tau) Hz. Exact for outputs linear between samples.
+1/(2 pi tau) Hz. Between samples outputs run along a cubic.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ RANK = 30.0
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude tau, shape order."""
-    most = min(1.0, 0.25 * system.scale.duration)
+    most = min(0.5, 0.25 * system.scale.duration)
     lag = Parameter("filter_lag.lag", "s", min(0.02, 0.2 * most), 0.0, most)
     order = Parameter("filter_lag.order", "-", 1.2, 1.0, 2.0)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy import signal
+from scipy.interpolate import CubicHermiteSpline
 
 from geocontact.chain.history import delayed, lagged
 
@@ -68,14 +69,27 @@ def test_a_filtered_ramp_lags_by_the_lag(order: float) -> None:
 
 
 @pytest.mark.parametrize(("order", "slow", "quick"), [(1.0, 0.2, 0.0), (1.5, 0.15, 0.05), (2.0, 0.1, 0.1)])
-def test_filter_is_exact_for_what_is_linear_between_samples(order: float, slow: float, quick: float) -> None:
+def test_filter_is_exact_for_the_cubic_between_samples_in_four_straight_pieces(
+    order: float, slow: float, quick: float
+) -> None:
     values = np.random.default_rng(4).normal(size=80)
     values[:30] = values[0]  # sets out at rest
     time = np.arange(80) * 0.07
     got = lagged(time, column(values), 0.2, order)[:, 0]
+    fine = np.arange(4 * 79 + 1) * 0.07 / 4
+    cubic = CubicHermiteSpline(time, values, np.gradient(values, 0.07, edge_order=1))(fine)
     system = signal.lti([1.0], np.polymul([slow, 1.0], [quick, 1.0]))
-    _, want, _ = signal.lsim(system, values - values[0], time, interp=True)
-    np.testing.assert_allclose(got, want + values[0], rtol=1e-9, atol=1e-9)
+    _, want, _ = signal.lsim(system, cubic - values[0], fine, interp=True)
+    np.testing.assert_allclose(got, want[::4] + values[0], rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("order", [1.0, 2.0])
+def test_a_lag_far_shorter_than_a_step_is_a_delay(order: float) -> None:
+    time = np.arange(200) * 0.04
+    values = column(np.sin(6.0 * time))
+    filtered, late = lagged(time, values, 0.002, order), delayed(time, values, 0.002)
+    moved = np.abs(late - values)[5:].max()
+    assert np.abs(filtered - late)[5:].max() < 0.05 * moved
 
 
 def test_no_lag_and_no_delay_are_exactly_nothing() -> None:
