@@ -36,6 +36,8 @@ CONTACT_LAW = Slots(
         "damping.reference": 1.0,
         "relaxation.ratio": 0.0,
         "relaxation.tau": 1.0,
+        "damping.power": 1.0,
+        "damping.rate": 1.0,
     }
 )
 """Numbers of the law in the order in which the kernel reads them; k and b come with each sphere."""
@@ -78,5 +80,8 @@ def contact_force(
         return 0.0, branch, now
     if n[10] != 0.0:
         onset = min(depth / n[1], 1.0)
-        force += n[10] * rate * onset * onset * (3.0 - 2.0 * onset) * math.pow(depth / n[12], n[11])
+        drag = n[10] * rate * onset * onset * (3.0 - 2.0 * onset) * math.pow(depth / n[12], n[11])
+        if n[15] != 1.0 and rate != 0.0:
+            drag *= math.pow(abs(rate) / n[16], n[15] - 1.0)
+        force += drag
     return max(force, 0.0), branch, now

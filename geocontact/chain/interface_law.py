@@ -54,6 +54,8 @@ INTERFACE_LAW = Slots(
         "dry_friction.rate.turning": 1.0,
         "asymmetry.excess": 0.0,
         "asymmetry.turning": 1.0,
+        "end_stop.power": 1.0,
+        "end_stop.reference": 1.0,
     }
 )
 """Numbers of the law in the order in which the kernel reads them, each at the value that means nothing."""
@@ -94,9 +96,9 @@ def interface_force(
         speed = 0.0
     force = elastic = spring_force(taut, speed, n)
     if n[8] != 0.0:
-        force += stop_force(attached, n[8], n[9], 1.0)
+        force += stop_force(attached, n[8], n[9], 1.0, n[25], n[26])
     if n[10] != 0.0:
-        force += stop_force(attached, n[10], n[11], -1.0)
+        force += stop_force(attached, n[10], n[11], -1.0, n[25], n[26])
     branch = 0.0
     if n[12] != 0.0:
         branch = branch_force(old[BRANCH], elastic - old[ELASTIC], h, n[12], n[13])

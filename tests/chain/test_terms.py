@@ -114,9 +114,11 @@ def test_inside_the_play_nothing_acts() -> None:
 
 def test_terms_by_hand() -> None:
     assert stiffening_factor(-0.02, 0.5, 2.0, 0.04) == pytest.approx(1.125)
-    assert stop_force(0.05, 1000.0, 0.03, 1.0) == pytest.approx(20.0)
-    assert stop_force(0.02, 1000.0, 0.03, 1.0) == 0.0
-    assert stop_force(0.02, 1000.0, 0.03, -1.0) == pytest.approx(-10.0)
+    assert stop_force(0.05, 1000.0, 0.03, 1.0, 1.0, 1.0) == pytest.approx(20.0)
+    assert stop_force(0.02, 1000.0, 0.03, 1.0, 1.0, 1.0) == 0.0
+    assert stop_force(0.02, 1000.0, 0.03, -1.0, 1.0, 1.0) == pytest.approx(-10.0)
+    assert stop_force(0.05, 1000.0, 0.03, 1.0, 1.5, 0.08) == pytest.approx(1000.0 * 0.08 * 0.25**1.5)
+    assert stop_force(0.02, 1000.0, 0.03, 1.0, 1.5, 0.08) == 0.0
     assert power_damping(-0.3, 20.0, 1.0, 0.1) == pytest.approx(-6.0)
     assert power_damping(-0.4, 20.0, 0.5, 0.1) == pytest.approx(-4.0)  # linear at the reference, half of it at 4 times
     assert [strap_tension(u, 5.0, 100.0) for u in (0.1, 0.0, -0.005, -0.02)] == pytest.approx([5.0, 5.0, 2.5, 0.0])
