@@ -36,6 +36,10 @@ class Candidate:
         For mistakes in the data: `link` for the trials of these names only.
     channel, factor
         The one channel that it is about, "" where it is not one; and what that reads times too much, for a wrong unit.
+    within
+        For mistakes in the data: names of the trials that have it, where not all have.
+    ways
+        How many there would have been to choose the trials that have it.
     """
 
     name: str
@@ -48,6 +52,8 @@ class Candidate:
     somewhere: Callable[[frozenset[str] | None], Callable[[System], System]] | None = None
     channel: str = ""
     factor: float = 1.0
+    within: frozenset[str] = frozenset()
+    ways: int = 1
 
     def __post_init__(self) -> None:
         first = {p.name: p.start for p in self.parameters}
@@ -63,7 +69,7 @@ class Candidate:
         """The same mistake in the trials of these names only; ValueError for anything but a mistake in the data."""
         if self.somewhere is None:
             raise ValueError(f"{self.label} is not a mistake in the data; it is in every trial or in none")
-        return replace(self, link=self.somewhere(trials), starts=())
+        return replace(self, link=self.somewhere(trials), starts=(), within=trials)
 
     def apply(self, system: System) -> System:
         """The system with this effect. Refused when it is in already."""

@@ -6,12 +6,15 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.contest import Contender, base_contender, mates, singles
+from geocontact.gap.contest import Contender, base_contender, mates, settled_in, singles
 from geocontact.gap.evidence import settled
-from geocontact.gap.faults import Fault, fault_of
+from geocontact.gap.faults import Fault, fault_of, recognised
+from geocontact.gap.hidden_faults import hidden_mistakes
 from geocontact.gap.mending import mended
 from geocontact.gap.oddities import Oddity, oddities
 from geocontact.gap.problem import Problem, problem_of
@@ -21,6 +24,7 @@ from geocontact.gap.verdict import Answer, answer, borne_out, with_mistake
 FIRSTS = 3  # singles that a second effect is tried on
 LEADING = 3  # contenders under whose noise everyone is compared
 WORTH_A_PAIR = 8.0  # nats that a single must gain before a second effect is looked for
+WORTH_UNDOING = 12.0  # nats that a mistake may be behind for its noise to be looked at where it is undone
 ODD = 5.0  # nats from which an oddity counts as something unknown
 
 Offer = Callable[[System], Sequence[Candidate]]
@@ -61,13 +65,30 @@ class Attribution:
 
 
 def attribute(case: GapCase, system: System, offer: Offer) -> Attribution:
-    """Which effect a case lacks; `offer` gives the candidates for a system once its scale is known."""
+    """Which effect a case lacks; `offer` gives the candidates for a system once its scale is known.
+
+    A mistake in the data is undone before anything else is judged: a gross one is found beforehand; one that refitted
+    parameters hide wins against the effects, and the contest is held again without it.
+    """
     problem = problem_of(case, system)
     fault = fault_of(problem, offer(problem.system))
-    clean = problem if fault is None else problem_of(mended(case, fault), system)
+    if fault is None:
+        found = _attributed(problem, None, problem, offer, case)
+        mistaken = [one for one in found.answer.chosen.candidates if one.somewhere is not None]
+        if not found.answer.effects or not mistaken:
+            return found
+        fault = recognised(problem, mistaken[0], found.answer.chosen.judged.model)
+    case = mended(case, fault)
+    return _attributed(problem, fault, problem_of(case, system), offer, case)
+
+
+def _attributed(problem: Problem, fault: Fault | None, clean: Problem, offer: Offer, case: GapCase) -> Attribution:
+    """The contest of the effects, a mistake undone; `case` is what `clean` was made of."""
     candidates = offer(clean.system)
     base = base_contender(clean)
-    single = singles(clean, base, candidates)
+    hidden = hidden_mistakes(clean, base.judged, candidates) if fault is None else ()
+    entered = [*(one for one in candidates if one.parameters), *hidden]
+    single = singles(clean, base, entered)
     contenders = [*single]
     remaining = {"none": surrogate(clean, base.judged)}
     best = single[0]
@@ -79,6 +100,13 @@ def attribute(case: GapCase, system: System, offer: Offer) -> Attribution:
         if pair is not None:
             left[pair.label] = surrogate(clean, pair.judged)
     base, *contenders = compared(clean, [base, *contenders])
+    most = max(c.judged.nats for c in contenders)
+    contenders = [
+        undone(clean, case, c)
+        if c.candidates[0] in hidden and len(c.candidates) == 1 and c.judged.nats > most - WORTH_UNDOING
+        else c
+        for c in contenders
+    ]
     top = max([base, *contenders], key=lambda c: c.judged.nats)
     odd = tuple(each for each in oddities(clean, top.judged) if each.nats > ODD)
     share = base.judged.fitted_rows / len(base.judged.model.whitened)
@@ -86,7 +114,7 @@ def attribute(case: GapCase, system: System, offer: Offer) -> Attribution:
     over = {label: borne_out(each.nats, each.calibration, share) + strange for label, each in left.items()}
     rest = remaining["none"]
     unnamed = borne_out(rest.nats, rest.calibration, share)
-    said = answer(base, contenders, share, unnamed, strange, over, Counter(one.name for one in candidates))
+    said = answer(base, contenders, share, unnamed, strange, over, Counter(one.name for one in entered))
     if fault is not None:
         said = with_mistake(said, fault.candidate.name)
     return Attribution(problem, fault, clean, base, tuple(contenders), {**remaining, **left}, odd, said)
@@ -94,9 +122,37 @@ def attribute(case: GapCase, system: System, offer: Offer) -> Attribution:
 
 def compared(problem: Problem, contenders: Sequence[Contender]) -> list[Contender]:
     """Everyone under the noise of everyone who leads, and of the base, which comes first."""
-    leading = sorted(contenders, key=lambda c: -c.judged.nats)[:LEADING]
-    noises = [contenders[0].judged.noise, *(c.judged.noise for c in leading if c is not contenders[0])]
-    return [replace(c, judged=settled(problem, c.judged, noises)) for c in contenders]
+    ranked = sorted(contenders[1:], key=lambda c: -c.judged.nats)
+    leading = {c.label: settled_in(problem, c) for c in ranked[:LEADING]}
+    noises = [contenders[0].judged.noise, *(c.judged.noise for c in leading.values())]
+    everyone = [leading.get(c.label, c) for c in contenders]
+    return [replace(c, judged=settled(problem, c.judged, noises)) for c in everyone]
+
+
+def undone(problem: Problem, case: GapCase, one: Contender) -> Contender:
+    """A mistake judged where it is undone, with the noise that the case tells, if that makes it more probable.
+
+    A wrong unit of an output is a change of variables: the densities differ by the factor, sample by sample.
+    """
+    mistake = one.candidates[0]
+    fault = recognised(problem, mistake, one.judged.model)
+    clean = problem_of(mended(case, fault), problem.system)
+    base = base_contender(clean).judged
+    wide = np.log(abs(mistake.factor)) if mistake.channel in problem.system.outputs else 0.0
+    column = problem.system.outputs.index(mistake.channel) if wide else 0
+    calibration, evaluation = (
+        wide
+        * sum(
+            int(there[:, column].sum()) for t, there in zip(m.trials, m.present, strict=True) if t.name in fault.trials
+        )
+        for m in (problem.calibration, problem.evaluation)
+    )
+    there = replace(base, nats=base.nats - calibration - evaluation, calibration=base.calibration - calibration)
+    return (
+        one
+        if there.nats <= one.judged.nats
+        else replace(one, judged=replace(one.judged, nats=there.nats, calibration=there.calibration))
+    )
 
 
 def _different(contenders: Sequence[Contender]) -> list[Contender]:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
-from geocontact.gap.evidence import Judged, judged
-from geocontact.gap.problem import Noise, Problem
+from geocontact.gap.evidence import Judged, bent_off, judged
+from geocontact.gap.form import forms
+from geocontact.gap.problem import Noise, Problem, evaluated
 from geocontact.gap.refit import Refit, free, refit
 
 FINALISTS = 6
 FORERUNNERS = 3  # leading under quiet noise
 MATE_TRIALS = 4  # second effects that are fitted on top of a first
 MATES = 2  # of these that get noise of their own
-MODEST = 20.0  # factor of a unit up to which a wrong one may hide in parameters
+ROUNDS, ENOUGH = 4, 0.05  # times that noise and parameters of a leader are fitted in turn; nats from which it goes on
 FEW = 5  # free parameters up to which a joint fit also sets out from the case's own start
 
 
@@ -49,7 +50,23 @@ def finished(problem: Problem, candidates: tuple[Candidate, ...], model: Refit, 
     """A model fitted under somebody else's noise, refitted under its own."""
     noise = problem.weighed(model, before)
     again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], rounds=6)
-    return Contender(candidates, judged(problem, again, noise))
+    everywhere = evaluated(problem, noise, again)
+    one = judged(problem, everywhere, noise, forms(problem, candidates, everywhere))
+    return Contender(candidates, one)
+
+
+def settled_in(problem: Problem, one: Contender) -> Contender:
+    """A contender after its parameters and its noise have come to terms.
+
+    Each is fitted in turn, the noise to what the bends of the effects leave, until nothing is gained any more.
+    """
+    for _ in range(ROUNDS):
+        model = replace(one.judged.model, residuals=bent_off(one.judged))
+        other = finished(problem, one.candidates, model, one.judged.noise)
+        if other.judged.nats < one.judged.nats + ENOUGH:
+            return one if other.judged.nats < one.judged.nats else other
+        one = other
+    return one
 
 
 def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) -> list[Contender]:
@@ -58,38 +75,32 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
     Noise fitted to the base model explains away what it misses, so all are fitted under quieter noise first, then under
     the noise that suits the best of them; the leading ones of both rounds get noise of their own.
     """
-    movable = [one for one in candidates if one.parameters or _nearly_a_gain(one)]
     reference = base.judged.model
     noise = problem.quieter(base.judged.noise)
     rounds: list[dict[str, Refit]] = []
     for _ in range(2):
         weighings = problem.fitting(noise, reference)
         found: dict[str, Refit] = {}
-        for one in movable:
+        for one in candidates:
             if rounds:
                 starts: list[Mapping[str, float]] = [rounds[-1][one.label].values]
             else:
                 starts = [{**base.judged.model.values, **start} for start in one.starts]
-                if len(free(problem.system)) < FEW:
+                if len(free(problem.system)) < FEW and one.parameters:
                     starts.append(one.starts[0])
             found[one.label] = refit(one.apply(problem.system), problem.calibration, weighings, starts)
         rounds.append(found)
         reference = min(found.values(), key=lambda model: model.cost)
         noise = problem.weighed(reference, base.judged.noise)
     first, second = rounds
-    leading = [one.label for one in sorted(movable, key=lambda one: second[one.label].cost)[:FINALISTS]]
-    others = [one.label for one in sorted(movable, key=lambda one: first[one.label].cost)[:FORERUNNERS]]
+    leading = [one.label for one in sorted(candidates, key=lambda one: second[one.label].cost)[:FINALISTS]]
+    others = [one.label for one in sorted(candidates, key=lambda one: first[one.label].cost)[:FORERUNNERS]]
     contenders = [
         finished(problem, (one,), (second if one.label in leading else first)[one.label], noise)
-        for one in movable
+        for one in candidates
         if one.label in leading or one.label in others
     ]
     return sorted(contenders, key=lambda c: -c.judged.nats)
-
-
-def _nearly_a_gain(one: Candidate) -> bool:
-    """Whether it is a wrong unit by a factor that refitted base parameters may take for their own."""
-    return one.somewhere is not None and one.factor != 1.0 and 1.0 / MODEST <= one.factor <= MODEST
 
 
 def mates(problem: Problem, first: Contender, candidates: Sequence[Candidate]) -> list[Contender]:

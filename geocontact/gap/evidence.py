@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
-from geocontact.gap.problem import Noise, Problem, evaluated
+from geocontact.gap.problem import Noise, Problem
 from geocontact.gap.refit import Refit, free, magnitude
 
 AT_BOUND = 1e-4  # of a parameter's magnitude
@@ -40,6 +40,8 @@ class Judged:
         The same for the calibration trials alone.
     fitted_rows
         How many of the whitened rows, the first, are of calibration trials.
+    bends
+        What the effects may do otherwise than their candidates, per trial, and the same whitened.
     """
 
     model: Refit
@@ -47,32 +49,35 @@ class Judged:
     nats: float
     calibration: float
     fitted_rows: int
+    bends: list[Float[np.ndarray, "_ c m"]]
+    whitened_bends: Float[np.ndarray, "n m"]
+
+    @property
+    def loose(self) -> Float[np.ndarray, "n k"]:
+        """Everything that is free to move, in units of its prior spread: parameters, then bends."""
+        spread = prior_spread(self.model.system, self.model.values)
+        return np.concatenate([self.model.whitened_jacobian * spread, self.whitened_bends], axis=1)
 
 
-def judged(problem: Problem, model: Refit, noise: Noise) -> Judged:
-    """A model fitted under `noise`, on calibration trials and on all."""
-    return judged_anew(problem, evaluated(problem, noise, model), noise)
-
-
-def judged_anew(problem: Problem, everywhere: Refit, noise: Noise) -> Judged:
-    """A model that was evaluated on all trials, under another noise."""
-    everywhere = everywhere.weighed(problem.weighings(noise, everywhere))
-    model = everywhere
+def judged(problem: Problem, model: Refit, noise: Noise, bends: list[Float[np.ndarray, "_ c m"]]) -> Judged:
+    """A model evaluated on all trials, under a noise."""
+    weighings = problem.weighings(noise, model)
+    model = model.weighed(weighings)
     spread = prior_spread(model.system, model.values)
-    weighings = problem.weighings(noise, everywhere)
     rows = sum(len(w.directions) for w in weighings[: len(problem.calibration.trials)])
     scales = np.array([w.log_scale for w in weighings])
-    design = everywhere.whitened_jacobian
+    bent = np.concatenate([w(b) for w, b in zip(weighings, bends, strict=True)])
+    design = np.concatenate([model.whitened_jacobian, bent], axis=1)
+    spread = np.concatenate([spread, np.ones(bent.shape[1])])
     fitted = scales[: len(problem.calibration.trials)].sum() + noise.surprise
     return Judged(
-        everywhere,
+        model,
         noise,
-        log_evidence(everywhere.whitened, design, spread)
-        + held_back(everywhere)
-        - float(scales.sum())
-        - noise.surprise,
-        log_evidence(everywhere.whitened[:rows], design[:rows], spread) + held_back(everywhere, rows) - float(fitted),
+        log_evidence(model.whitened, design, spread) + held_back(model) - float(scales.sum()) - noise.surprise,
+        log_evidence(model.whitened[:rows], design[:rows], spread) + held_back(model, rows) - float(fitted),
         rows,
+        bends,
+        bent,
     )
 
 
@@ -82,7 +87,7 @@ def settled(problem: Problem, one: Judged, noises: Sequence[Noise]) -> Judged:
     Noise levels are found by a search of its own, on blocks and on calibration trials; models that differ by a few nats
     are compared under each other's as well.
     """
-    others = [judged_anew(problem, one.model, noise) for noise in noises if noise is not one.noise]
+    others = [judged(problem, one.model, noise, one.bends) for noise in noises if noise is not one.noise]
     return max([one, *others], key=lambda each: each.nats)
 
 
@@ -139,3 +144,11 @@ def prior_spread(system: System, values: dict[str, float]) -> Float[np.ndarray, 
         held = min(values[p.name] - p.lower, p.upper - values[p.name]) < AT_BOUND * magnitude(p)
         spread.append(0.0 if held else width / FLAT if np.isfinite(width) else 100.0 * magnitude(p))
     return np.array(spread)
+
+
+def bent_off(one: Judged) -> list[Float[np.ndarray, "_ c"]]:
+    """Residuals without what the effects most probably do otherwise than their candidates."""
+    loose = one.loose
+    weights = np.linalg.solve(np.eye(loose.shape[1]) + loose.T @ loose, loose.T @ one.model.whitened)
+    own = weights[loose.shape[1] - one.whitened_bends.shape[1] :]
+    return [r - b @ own for r, b in zip(one.model.residuals, one.bends, strict=True)]

@@ -14,9 +14,10 @@ from itertools import combinations
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
+from geocontact.chain.movement import REACH
 from geocontact.chain.system import System
 from geocontact.gap.problem import Plain, Problem, base_starts
-from geocontact.gap.refit import Measured, refit
+from geocontact.gap.refit import Measured, Refit, refit
 
 GROSS = 0.3  # residual over measured, root mean squares of a channel in a trial
 FIXED_BY = 0.15  # of the misfit may be left when a mistake is undone
@@ -33,9 +34,14 @@ class Fault:
 
 
 def fault_of(problem: Problem, candidates: Sequence[Candidate]) -> Fault | None:
-    """The mistake that explains a gross misfit, if one does."""
+    """The mistake that explains a gross misfit, if one does.
+
+    Looked for in the trials as they were recorded: what was taken for noise of an input may be the input, in another
+    unit.
+    """
+    problem = _as_recorded(problem)
     mistakes = [one for one in candidates if one.somewhere is not None]
-    in_calibration = gross(problem, problem.calibration)
+    in_calibration = gross(problem, problem.calibration, problem.plain)
     if not mistakes:
         return None
     if not in_calibration:
@@ -54,15 +60,32 @@ def fault_of(problem: Problem, candidates: Sequence[Candidate]) -> Fault | None:
     return _over_all_trials(problem, one, some, float(cost / before))
 
 
-def gross(problem: Problem, measured: Measured) -> bool:
-    """Whether some channel of some trial is missed by a large share of its size."""
-    for residual, outputs in zip(
-        measured.residuals(problem.system, problem.plain.values), measured.outputs, strict=True
-    ):
+def recognised(problem: Problem, one: Candidate, model: Refit) -> Fault:
+    """A mistake that won by evidence against the effects; `model` is the base fitted with it."""
+    names = [t.name for t in (*problem.calibration.trials, *problem.evaluation.trials)]
+    before = _cost(problem, problem.system, problem.calibration, problem.plain.values).sum()
+    after = _cost(problem, model.system, problem.calibration, model.values).sum()
+    return Fault(one, tuple(sorted(one.within or names)), float(after / before))
+
+
+def gross(problem: Problem, measured: Measured, model: Refit) -> bool:
+    """Whether a model misses some channel of some trial by a large share of its size."""
+    for residual, outputs in zip(measured.residuals(model.system, model.values), measured.outputs, strict=True):
         size = np.sqrt(np.nanmean(outputs**2, axis=0))
         if (np.sqrt(np.mean(residual**2, axis=0)) > GROSS * np.maximum(size, 3.0 * problem.floor_of_noise)).any():
             return True
     return False
+
+
+def _as_recorded(problem: Problem) -> Problem:
+    """Inputs with all their noise, rates smoothed as usual."""
+    count, recorded = len(problem.calibration.trials), problem.recorded
+
+    def part(some: slice) -> Measured:
+        return replace(recorded, trials=recorded.trials[some], outputs=recorded.outputs[some])
+
+    system = problem.system.reaching(REACH)
+    return replace(problem, system=system, calibration=part(slice(count)), evaluation=part(slice(count, None)))
 
 
 def _subsets(measured: Measured) -> list[frozenset[str]]:
@@ -128,7 +151,7 @@ def _better_with(problem: Problem, one: Candidate, system: System, values: dict[
 
 
 def _held_out_only(problem: Problem, mistakes: list[Candidate]) -> Fault | None:
-    if not gross(problem, problem.evaluation):
+    if not gross(problem, problem.evaluation, problem.plain):
         return None
     values = problem.plain.values
     before = _cost(problem, problem.system, problem.evaluation, values).sum()

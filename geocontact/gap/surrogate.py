@@ -8,14 +8,15 @@ there is anything systematic to explain, and how much of it a named effect leave
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.movement import recorded
-from geocontact.gap.evidence import Judged, judged_anew, log_evidence, prior_spread
+from geocontact.gap.evidence import Judged, log_evidence, prior_spread
+from geocontact.gap.evidence import judged as judged_as
 from geocontact.gap.problem import Problem
 
 ALONG = (12, 30)  # bumps over one input's position or rate, wide ones and narrow ones
@@ -65,11 +66,12 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
 
     def under(one: Judged) -> Surrogate:
         weighings = problem.weighings(one.noise, one.model)
-        known = one.model.whitened_jacobian * spread
+        unbent = _without(one.whitened_bends)
+        known, residual = unbent(one.model.whitened_jacobian * spread), unbent(one.model.whitened[:, None])[:, 0]
         best = Surrogate("", 0.0, 0.0, tuple(np.zeros_like(each) for each in one.model.residuals))
         for name, features in made:
-            white = np.concatenate([w(part) for w, part in zip(weighings, features, strict=True)])
-            found = chosen(one.model.whitened, white, known, one.fitted_rows, price)
+            white = unbent(np.concatenate([w(part) for w, part in zip(weighings, features, strict=True)]))
+            found = chosen(residual, white, known, one.fitted_rows, price)
             if found.nats > best.nats:
                 shift = spread * found.shift
                 predicted = tuple(
@@ -83,15 +85,24 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
             calibration=best.calibration + one.calibration - judged.calibration,
         )
 
-    quiet = judged_anew(problem, judged.model, problem.quieter(judged.noise))
+    quiet = judged_as(problem, judged.model, problem.quieter(judged.noise), judged.bends)
     found = [under(judged), under(quiet)]
     for _ in range(RENEWED):
         if not found[-1].family:
             break
         left = [a - b for a, b in zip(judged.model.residuals, found[-1].predicted, strict=True)]
         noise = problem.weighed(replace(judged.model, residuals=left), quiet.noise)
-        found.append(under(judged_anew(problem, judged.model, noise)))
+        found.append(under(judged_as(problem, judged.model, noise, judged.bends)))
     return max(found, key=lambda each: each.nats)
+
+
+def _without(bends: Float[np.ndarray, "n m"]) -> Callable[[Float[np.ndarray, "n k"]], Float[np.ndarray, "n k"]]:
+    """v → (I + B Bᵀ)^(-1/2) v: what the bends of an effect may explain weighs less."""
+    if not bends.shape[1]:
+        return lambda values: values
+    left, singular, _ = np.linalg.svd(bends, full_matrices=False)
+    gains = 1.0 - 1.0 / np.sqrt(1.0 + singular**2)
+    return lambda values: values - left @ (gains[:, None] * (left.T @ values))
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from geocontact.gap.contest import Contender
 Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
 
 SURE = 6.0  # nats below which a gain may be luck
-FORM = 0.02  # tolerance of form, as a share of what is explained
+FORM = 0.01  # tolerance of form, as a share of what is explained
 LEFT_OVER = 0.2  # of all there is to explain may be left by the effect that is named
 PAIR = 0.1  # of what is explained that a second effect must add
 ALIVE = 0.03  # least probability of a candidate that is still in question
@@ -84,7 +84,9 @@ def answer(
         How many candidates each effect has: they share what is believed of it beforehand.
     """
     single = [c for c in contenders if len(c.candidates) == 1]
-    chosen_from = {c.label: float(np.log([variants[one.name] for one in c.candidates]).sum()) for c in contenders}
+    chosen_from = {
+        c.label: float(np.log([variants[one.name] * one.ways for one in c.candidates]).sum()) for c in contenders
+    }
     over_base = {c.label: gain_of(c, base, share) - chosen_from[c.label] for c in contenders}
     best_single = max((over_base[c.label] for c in single), default=0.0)
     needed = SURE + PAIR * max(best_single, 0.0)

@@ -132,7 +132,7 @@ class Whitener:
 
     def __call__(self, values: Float[np.ndarray, "t c p"]) -> Float[np.ndarray, "n p"]:
         """Whitened rows of what is given for all samples."""
-        flat = values.reshape(-1, values.shape[-1])
+        flat = values.reshape(values.shape[0] * values.shape[1], values.shape[-1])
         return np.concatenate([f @ flat[rows] for rows, f in zip(self.rows, self.factors, strict=True)])
 
     def coloured(self, independent: Float[np.ndarray, " n"]) -> Float[np.ndarray, " m"]:

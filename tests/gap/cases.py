@@ -15,8 +15,10 @@ from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.contest import base_contender
+from geocontact.gap.contest import base_contender, singles
 from geocontact.gap.diagnose import diagnose
+from geocontact.gap.evidence import judged
+from geocontact.gap.form import forms
 from geocontact.gap.locate import Cell, Window, gap_map, windows
 from geocontact.gap.oddities import oddities
 from geocontact.gap.problem import problem_of
@@ -85,6 +87,48 @@ def diagnosis_of_renamed(names: Mapping[str, str], *arguments: object, **options
     """Diagnosis of a renamed case."""
     case = renamed(elbow_case(*arguments, **options), names)  # type: ignore[arg-type]
     return diagnose(case, system_of(case)).diagnosis
+
+
+def diagnosis_of_reversed(names: tuple[str, ...], **options: object) -> Diagnosis:
+    """Diagnosis of a case whose angle was recorded with the wrong sign in some trials."""
+    case = elbow_case(**options)  # type: ignore[arg-type]
+    for trial in case.calibration + case.evaluation:
+        if trial.name in names:
+            trial.signals.values[:, 0] *= -1.0
+    return diagnose(case, system_of(case)).diagnosis
+
+
+def evidence_of_bends(lean: float) -> tuple[float, float, float]:
+    """What bends are worth to damping that leans by `lean` towards large angles [nats]; their squares over the effect's
+    own; how many a mistake in the data gets."""
+
+    def leaning(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+        speed = np.gradient(force, time)
+        return force + 0.8 * np.tanh(speed / 1.5) * (1.0 + lean * np.sin(2.0 * np.pi * time / time[-1]))
+
+    case = elbow_case(seed=3, change=leaning)
+    problem = problem_of(case, system_of(case))
+    base = base_contender(problem)
+    offered = {one.label: one for one in candidates(problem.system)}
+    one = next(c for c in singles(problem, base, [offered["dry_friction.rate"]]))
+    model, noise = one.judged.model, one.judged.noise
+    straight = [np.zeros((*r.shape, 0)) for r in model.residuals]
+    gain = one.judged.nats - judged(problem, model, noise, straight).nats
+    added = [
+        (a - b) / problem.floor
+        for measured in (problem.calibration, problem.evaluation)
+        for a, b in zip(
+            measured.residuals(problem.system, model.values),
+            measured.residuals(model.system, model.values),
+            strict=True,
+        )
+    ]
+    whole = np.concatenate([each.ravel() for each in added])
+    base_columns = np.concatenate([(j[..., :3] / problem.floor[:, None]).reshape(-1, 3) for j in model.jacobian])
+    net = whole - base_columns @ np.linalg.lstsq(base_columns, whole, rcond=None)[0]
+    squares = sum(float(np.sum((b / problem.floor[:, None]) ** 2)) for b in one.judged.bends)
+    flips = forms(problem, (offered["sign_flip.beta"],), base.judged.model)
+    return float(gain), squares / float(net @ net), sum(b.shape[-1] for b in flips)
 
 
 def odd(change: Change | None, after: Change | None = None) -> dict[str, float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from geocontact.data.diagnosis import Diagnosis
-from tests.gap.cases import Late, Times, Tremor, diagnosis, diagnosis_of_renamed
+from tests.gap.cases import Late, Times, Tremor, diagnosis, diagnosis_of_renamed, diagnosis_of_reversed
 from tests.gap.conftest import Elsewhere
 
 DAMPING = {"damping.b": 15.0, "damping.exponent": 1.0}
@@ -72,6 +72,20 @@ def test_a_wrong_unit_is_found_in_all_trials_or_some(where: tuple[str, ...], els
     assert found.faults[0].factor == pytest.approx(1000.0)
     if "t05" in where:
         assert found.gap["force"].reduction > 0.5
+
+
+@pytest.mark.parametrize("where", [ALL, ("t02", "t05")])
+def test_a_reversed_angle_that_the_offsets_nearly_hide(where: tuple[str, ...], elsewhere: Elsewhere) -> None:
+    found = elsewhere(diagnosis_of_reversed, where, seed=7)
+    check(found)
+    assert found.effects == ("sign_flip",)
+    assert [(f.channel, f.factor, f.trials) for f in found.faults] == [("beta", -1.0, where)]
+
+
+def test_a_wrong_unit_that_the_stiffness_takes_for_its_own(elsewhere: Elsewhere) -> None:
+    found = elsewhere(diagnosis, seed=4, recorded=Times(4.4482216, ALL))
+    check(found)
+    assert found.probabilities.get("unit_error", 0.0) > 0.2
 
 
 def test_a_mistake_beside_an_effect(elsewhere: Elsewhere) -> None:

@@ -25,7 +25,7 @@ def contender(nats: float, *labels: str) -> Contender:
     one = np.ones(1)
     noise = Noise(Levels(one, one, one, one), one, 0.0, ())
     model = Refit(SYSTEM, dict(SYSTEM.start), [], [], np.zeros(10), np.zeros((10, 3)))
-    judged = Judged(model, noise, nats, SHARE * nats, 6)
+    judged = Judged(model, noise, nats, SHARE * nats, 6, [], np.zeros((10, 0)))
     return Contender(tuple(OFFERED[label] for label in labels), judged)
 
 

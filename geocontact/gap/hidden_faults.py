@@ -1,0 +1,91 @@
+"""Mistakes in the data that refitted parameters may hide, so that nothing about them is gross.
+
+Base parameters swallow a force that reads 9.8 times too much, and a model that is nearly even in an input hardly tells
+its sign. Such mistakes compete with the effects, by evidence.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from geocontact.chain.candidate import Candidate
+from geocontact.gap.evidence import Judged
+from geocontact.gap.faults import gross
+from geocontact.gap.problem import Problem, base_starts
+from geocontact.gap.refit import Measured, Refit, Weigh, refit
+
+MODEST = 20.0  # factor of a unit up to which a wrong one may hide in parameters
+ROUNDS = 8
+ASSIGNMENTS = 3  # times that trials are told apart anew
+
+
+def hidden_mistakes(problem: Problem, base: Judged, candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
+    """Wrong units by a modest factor, and reversed inputs in the trials where that fits better.
+
+    Trials differ by themselves, so residuals are weighed by noise and variation of the base model. A reversal is
+    dropped where the model that fits best with it still misses something grossly.
+    """
+    found = [one for one in candidates if one.somewhere is not None and 1.0 / MODEST <= one.factor <= MODEST]
+    found = [one for one in found if one.factor != 1.0]
+    reversals = [one for one in candidates if one.somewhere is not None and one.factor < 0.0]
+    weighings = problem.weighings(problem.quieter(base.noise), base.model)
+    for one in reversals:
+        best = _reversal(problem, one, weighings) if one.channel in problem.system.inputs else None
+        found += [] if best is None else [best]
+    return tuple(found)
+
+
+def _reversal(problem: Problem, one: Candidate, weighings: Sequence[Weigh]) -> Candidate | None:
+    """The reversal in all calibration trials, or in those that differ from the others; what fits best."""
+    calibration = problem.calibration
+    every = frozenset(t.name for t in calibration.trials)
+    alone = replace(calibration, trials=calibration.trials[:1], outputs=calibration.outputs[:1])
+    fitted = weighings[: len(calibration.trials)]
+    start = _fitted(problem, one, frozenset(), alone, fitted[:1]).values
+    turned = _turned(problem, one, calibration, fitted, start)
+    patterns = [every]
+    for some in (turned, every - turned):
+        for _ in range(ASSIGNMENTS):
+            model = _fitted(problem, one, some, calibration, fitted)
+            again = _turned(problem, one, calibration, fitted, model.values)
+            if again == some:
+                break
+            some = again
+        if some and some not in patterns:
+            patterns.append(some)
+    best, least = None, np.inf
+    for some in patterns:
+        model = _fitted(problem, one, some, calibration, fitted)
+        held_out = _turned(problem, one, problem.evaluation, weighings[len(fitted) :], model.values)
+        count = len(every) + len(problem.evaluation.trials)
+        candidate = one if len(some | held_out) == count else one.only(some | held_out)
+        ways = 1 if candidate is one else 2**count - 1
+        price = model.cost + np.log(ways)
+        if price < least and not gross(problem, calibration, model):
+            best, least = replace(candidate, starts=(model.values,), ways=ways), price
+    return best
+
+
+def _fitted(
+    problem: Problem, one: Candidate, some: frozenset[str], measured: Measured, weighings: Sequence[Weigh]
+) -> Refit:
+    """The base model with the channel reversed in some trials."""
+    system = one.only(some).apply(problem.system)
+    return refit(system, measured, weighings, [*base_starts(problem.system)[:2], problem.plain.values], ROUNDS)
+
+
+def _turned(
+    problem: Problem, one: Candidate, measured: Measured, weighings: Sequence[Weigh], values: dict[str, float]
+) -> frozenset[str]:
+    """Trials that a model at these values predicts better with the channel reversed."""
+    every = frozenset(t.name for t in measured.trials)
+    reversed_ = one.only(every).apply(problem.system)
+    pairs = zip(measured.residuals(problem.system, values), measured.residuals(reversed_, values), strict=True)
+    return frozenset(
+        t.name
+        for t, weigh, (a, b) in zip(measured.trials, weighings, pairs, strict=True)
+        if np.sum(weigh(b[..., None]) ** 2) < np.sum(weigh(a[..., None]) ** 2)
+    )
