@@ -1,7 +1,6 @@
 """A measured output, or all force outputs of a device, scaled by a constant.
 
-output → (1 + g) output, -0.5 <= g <= 1: a sensor further off is broken, or its unit is another (`unit_error`). A linear
-sensor has no shape.
+output → (1 + g) output, -0.8 <= g <= 2. A linear sensor has no shape.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ RANK = 20.0
 def scaled(system: System, variant: str, channels: tuple[str, ...]) -> Candidate:
     """One gain for some channels."""
     hit = np.array([name in channels for name in system.outputs])
-    gain = Parameter(f"sensor_gain.{variant}.gain", "-", 0.05, -0.5, 1.0)
+    gain = Parameter(f"sensor_gain.{variant}.gain", "-", 0.05, -0.8, 2.0)
 
     def change(outputs: Channels, _: Movement, values: Values) -> Channels:
         return outputs * (1.0 + values[gain.name] * hit)

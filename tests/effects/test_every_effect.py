@@ -93,6 +93,8 @@ def test_pairs_compose_in_either_order(name: str) -> None:
     system, trials = EXAMPLES[name]
     offered = [one for n, one in FITTED if n == name] + [one for n, one in DISCRETE if n == name][::7]
     for a, b in itertools.combinations(offered, 2):
+        if a.name == b.name:
+            continue  # two forms of one effect, of which the contest takes one
         values = {**system.start}
         for one in (a, b):
             values |= truth(one) if one.parameters else {}

@@ -10,7 +10,7 @@ from geocontact.gap.contest import Contender
 from geocontact.gap.evidence import Judged
 from geocontact.gap.problem import Noise
 from geocontact.gap.refit import Refit
-from geocontact.gap.verdict import SURE, answer
+from geocontact.gap.verdict import FORM, SURE, answer
 from geocontact.identify.covariance import Levels
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
@@ -44,7 +44,7 @@ def test_variants_share_what_is_believed_of_their_effect() -> None:
     even = said(*rivals).probabilities
     assert even["damping"] == pytest.approx(even["dry_friction"])
     odds = said(*rivals, variants={"dry_friction": 2}).probabilities
-    assert odds["damping"] / odds["dry_friction"] == pytest.approx(2.0 ** (1.0 / 1.6), rel=0.01)
+    assert odds["damping"] / odds["dry_friction"] == pytest.approx(2.0 ** (1.0 / (1.0 + 30.0 * FORM)), rel=0.01)
 
 
 def test_a_second_effect_must_add_its_share() -> None:

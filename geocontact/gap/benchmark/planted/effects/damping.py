@@ -1,7 +1,8 @@
 """A damper that thins with rate and grips harder as it is pressed.
 
 planted:   b v / (1 + |v|/v1) (1 + s u/D); foot: per sphere b d' (1 - exp(-(d/d1)^2)) / (1 + |d'|/v1)
-candidate: b v |v/V|^(q - 1); foot: b d' s(d/d_full) (d/D)^q
+           (1 + e d'/hypot(d', V)), e = 0.18..0.28: held harder while pressed
+candidate: b v |v/V|^(q - 1); foot: b d' s(d/d_full) (d/D)^q, or b d' |d'/V|^(p - 1) s(d/d_full) (d/D)^n
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     thinning = (rng.uniform(4.0, 8.0) if scale.system == "elbow" else rng.uniform(1.2, 2.5)) * scale.rate
     lean = rng.uniform(0.45, 0.65)
     reach = rng.uniform(0.25, 0.5) * scale.stroke
+    harder = rng.uniform(0.18, 0.28) if scale.system == "foot" else 0.0
 
     def hooks(b: float) -> Hooks:
         def elbow(p: Pull) -> Values:
@@ -26,7 +28,9 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
         def foot(p: Pull) -> Values:
             inside = np.maximum(p.deflection, 0.0) / reach
-            return np.asarray(b * p.rate * -np.expm1(-inside * inside) / (1.0 + np.abs(p.rate) / thinning))
+            way = p.rate / np.hypot(p.rate, scale.rate)
+            drag = b * p.rate * -np.expm1(-inside * inside) / (1.0 + np.abs(p.rate) / thinning)
+            return np.asarray(drag * (1.0 + harder * way))
 
         return Hooks(beside=(foot if scale.system == "foot" else elbow,))
 
@@ -34,4 +38,6 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4 * most, most, hooks, lambda b: f"viscous damping of {b:.3g} N s/m that thins with rate")
 
 
-DAMPING = Plan("damping", ("elbow", "foot"), "rate-thinning, deflection-dependent", "power of rate", draw)
+DAMPING = Plan(
+    "damping", ("elbow", "foot"), "rate-thinning, deflection-dependent, uneven", "power of rate or depth", draw
+)

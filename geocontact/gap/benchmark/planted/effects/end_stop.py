@@ -1,7 +1,8 @@
 """A stop with a rubber buffer.
 
-planted:   P (0.6 v + 0.4 v^2)/(that at D), v = b log(1 + exp((u - u1)/(b (D - u1)))), b = 0.12..0.2
-candidate: K max(u - u1, 0)
+planted:   P (0.6 v + 0.4 v^2)/(that at D) (1 + e u'/hypot(u', V)), v = b log(1 + exp((u - u1)/(b (D - u1)))),
+           b = 0.12..0.2; rubber gives back less than it took, e = 0.12..0.2
+candidate: K max(u - u1, 0), or K D (max(u - u1, 0)/D)^1.5
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     side = 1.0 if rng.random() < 0.7 else -1.0
     beyond = rng.uniform(0.1, 0.28) * (scale.high - scale.low)
     limit = scale.high - beyond if side > 0.0 else scale.low + beyond
-    buffer = rng.uniform(0.12, 0.2)
+    buffer, loss = rng.uniform(0.12, 0.2), rng.uniform(0.12, 0.2)
 
     def swell(depth: Values) -> Values:
         v = buffer * np.logaddexp(0.0, depth / beyond / buffer)
@@ -27,7 +28,8 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
     def hooks(most: float) -> Hooks:
         def stop(p: Pull) -> Values:
-            return np.asarray(side * most * swell(side * (p.deflection - limit)) / whole)
+            way = side * p.rate / np.hypot(p.rate, scale.rate)
+            return np.asarray(side * most * swell(side * (p.deflection - limit)) / whole * (1.0 + loss * way))
 
         return Hooks(beside=(stop,))
 
@@ -37,4 +39,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-3 * scale.force, 1.2 * scale.force, hooks, words, "upper" if side > 0.0 else "lower")
 
 
-END_STOP = Plan("end_stop", ("elbow",), "soft corner, hardening", "linear beyond a corner", draw)
+END_STOP = Plan("end_stop", ("elbow",), "soft corner, hardening, lossy", "linear or a power beyond a corner", draw)
