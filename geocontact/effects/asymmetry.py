@@ -3,7 +3,8 @@
 k → k (1 + a tanh(δ'/v)): stiffer by a while loaded, softer by a while let go, with |u|' for δ' where the law pulls as
 well as pushes; a >= 0, because the opposite would make energy. The shape v is the rate over which the one becomes the
 other, so that the force does not jump at the turn.
-Knee: medial 1 + d times as stiff as the mean, lateral 1 - d times, d of either sign, the same throughout: no shape.
+Knee: medial 1 + d times as stiff as the mean, lateral 1 - d times, d of either sign and at most 0.5 (one side
+three times as stiff as the other), the same throughout: no shape.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
 
 def between_sides() -> Candidate:
     """Amplitude d."""
-    d = Parameter("asymmetry.difference", "-", 0.05, -0.9, 0.9)
+    d = Parameter("asymmetry.difference", "-", 0.05, -0.5, 0.5)
     return Candidate(
         "asymmetry", "", "constitutive", (d,), with_geometry({SIDES: d.name}), {d.name: 0.0}, ({d.name: -0.05},)
     )
