@@ -13,6 +13,7 @@ from geocontact.gap.form import forms
 from geocontact.gap.problem import Noise, Problem, evaluated
 from geocontact.gap.refit import Refit, free, refit
 
+SECOND = 18  # candidates that are fitted again under the noise that suits the best
 FINALISTS = 6
 FORERUNNERS = 3  # leading under quiet noise
 MATE_TRIALS = 4  # second effects that are fitted on top of a first
@@ -78,10 +79,11 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
     reference = base.judged.model
     noise = problem.quieter(base.judged.noise)
     rounds: list[dict[str, Refit]] = []
+    entered = candidates
     for _ in range(2):
         weighings = problem.fitting(noise, reference)
         found: dict[str, Refit] = {}
-        for one in candidates:
+        for one in entered:
             if rounds:
                 starts: list[Mapping[str, float]] = [rounds[-1][one.label].values]
             else:
@@ -90,10 +92,11 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
                     starts.append(one.starts[0])
             found[one.label] = refit(one.apply(problem.system), problem.calibration, weighings, starts)
         rounds.append(found)
+        entered = sorted(entered, key=lambda one: found[one.label].cost)[:SECOND]
         reference = min(found.values(), key=lambda model: model.cost)
         noise = problem.weighed(reference, base.judged.noise)
     first, second = rounds
-    leading = [one.label for one in sorted(candidates, key=lambda one: second[one.label].cost)[:FINALISTS]]
+    leading = [one.label for one in sorted(entered, key=lambda one: second[one.label].cost)[:FINALISTS]]
     others = [one.label for one in sorted(candidates, key=lambda one: first[one.label].cost)[:FORERUNNERS]]
     contenders = [
         finished(problem, (one,), (second if one.label in leading else first)[one.label], noise)

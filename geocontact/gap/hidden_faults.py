@@ -44,6 +44,8 @@ def _reversal(problem: Problem, one: Candidate, weighings: Sequence[Weigh]) -> C
     every = frozenset(t.name for t in calibration.trials)
     alone = replace(calibration, trials=calibration.trials[:1], outputs=calibration.outputs[:1])
     fitted = weighings[: len(calibration.trials)]
+    if gross(problem, alone, _fitted(problem, one, every, alone, fitted[:1])):
+        return None
     start = _fitted(problem, one, frozenset(), alone, fitted[:1]).values
     turned = _turned(problem, one, calibration, fitted, start)
     patterns = [every]
