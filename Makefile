@@ -17,7 +17,7 @@ demo: $(VENV)/core.stamp
 	@$(BIN)/geocontact demo
 
 test: $(VENV)/full.stamp
-	@$(BIN)/python -m pytest -rs -m "not oracle" -n auto --maxprocesses 4 --dist loadscope
+	@$(BIN)/python -m pytest -rs -m "not oracle" --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope
 
 check:
 	@.ci/run

@@ -100,13 +100,13 @@ def profile(data: Path, work: Path) -> dict[str, dict[str, float]]:
     }
 
 
-def areas(data: Path, work: Path, which: str) -> dict[str, list[float]]:
+def areas(data: Path, work: Path, which: str, thresholds: Sequence[float] = THRESHOLDS) -> dict[str, list[float]]:
     """Least and greatest area over trial og1 by threshold [mm^2], medial at +z; poses of the workshop."""
     workshop = data / "gc4_jw_predsim_workshop"
     original = data / "gc4_jw_knee" / "stl"
     pair = [workshop / name for name in COARSE] if which == "coarse" else [original / FEMUR, original / INSERT]
     joint = ("--osim", workshop / "KneeProsthesis.osim", "--joint", "knee_joint", "--angles", "deg")
-    levels = ",".join(f"{t:g}" for t in THRESHOLDS)
+    levels = ",".join(f"{t:g}" for t in thresholds)
     options = ("--moving", "parent", "--split", "z", "--medial", "+", "--threshold", levels, "--region", "ny>0.25")
     motion = ("--motion", workshop / "KneeProsthesis.mot")
     geocontact("area", *pair, "--unit", "m", *motion, *joint, *options, "--out", work / which)
