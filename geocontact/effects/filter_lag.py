@@ -20,7 +20,7 @@ RANK = 30.0
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude tau, shape order."""
-    most = min(0.5, 0.25 * system.scale.duration)
+    most = min(1.0, 0.25 * system.scale.duration)
     lag = Parameter("filter_lag.lag", "s", min(0.02, 0.2 * most), 0.0, most)
     order = Parameter("filter_lag.order", "-", 1.2, 1.0, 2.0)
 
