@@ -1,9 +1,9 @@
 """The knee's full chain in the gap diagnosis: what is withheld, what is found: `python -m benchmarks.knee_chain OUT`.
 
-Cases are made by finer code that shares nothing with the chain (`benchmarks.knee_truth`) and written as folders; each
-withholds one thing: 1 mm of the pose along one axis, a radius that depends on flexion, a coupling of two load cells, or
-nothing. Surfaces are the sample knee's (synthetic); with `--meshes dm` those of subject DM of the 6th Grand Challenge,
-with the mean motion measured by fluoroscopy. Loads are synthetic in both.
+Cases are made by finer code of its own around the same surfaces, law and weights (`benchmarks.knee_truth`), and written
+as folders; each withholds one thing: 1 mm of the pose along one axis, a radius that depends on flexion, a coupling of
+two load cells, or nothing. Surfaces are the sample knee's (synthetic); with `--meshes dm` those of DM of the 6th
+Grand Challenge, with the mean motion measured by fluoroscopy. Loads are synthetic in both.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Synthetic trials of a knee implant with load cells, by code that shares nothing with the chain that is diagnosed.
+"""Synthetic trials of a knee implant with load cells, by code of its own around the same surfaces, law and weights.
 
 Contact areas: distances by libigl, summed over the centroids of a finer surface (the chain: its own tree, triangles cut
 at the iso-line). Cells: lever rule and regression solved by Cramer's rule. Forces are made at a finer step, filtered

@@ -25,7 +25,7 @@ class CircleFit:
 
 
 def fit_circle(points: Float[np.ndarray, "n 2"], robust: bool = True) -> CircleFit:
-    """Geometric least squares with a Cauchy loss (plain squares if not `robust`) from the algebraic circle."""
+    """Geometric least squares with a Cauchy loss, then the biweight (or plain squares) from the algebraic circle."""
     if len(points) < LEAST:
         raise ValueError(f"a circle needs at least {LEAST} points, not {len(points)}")
     here, middle, size = local(np.column_stack([points, np.zeros(len(points))]))

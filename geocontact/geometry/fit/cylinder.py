@@ -17,7 +17,7 @@ LEAST = 6  # points
 
 
 def fit_cylinder(points: Float[np.ndarray, "n 3"], robust: bool = True) -> ShapeFit:
-    """Geometric least squares with a Cauchy loss (plain squares if not `robust`), from directions over the half-sphere.
+    """Geometric least squares, Cauchy loss, then biweight (or plain squares), from directions over the half-sphere.
 
     Partial arcs down to about 60 degrees are determined, flatter ones hardly: `ShapeFit.arc` tells. A surface that is
     no cylinder gets the one that is closest to most of it; which faces count is the caller's choice, and decides.

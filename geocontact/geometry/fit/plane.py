@@ -17,7 +17,7 @@ LEAST = 4  # points
 
 
 def fit_plane(points: Float[np.ndarray, "n 3"], robust: bool = True) -> ShapeFit:
-    """Orthogonal least squares with a Cauchy loss (plain squares if not `robust`)."""
+    """Orthogonal least squares with a Cauchy loss, then the biweight (or plain squares)."""
     if len(points) < LEAST:
         raise ValueError(f"a plane needs at least {LEAST} points, not {len(points)}")
     here, middle, size = local(points)

@@ -17,7 +17,7 @@ LEAST = 5
 
 
 def fit_sphere(points: Float[np.ndarray, "n 3"], robust: bool = True) -> ShapeFit:
-    """Geometric least squares with a Cauchy loss (plain squares if not `robust`).
+    """Geometric least squares with a Cauchy loss, then the biweight (or plain squares).
 
     Starts are the algebraic sphere through all points and those through a few drawn ones, some of which are free of
     outliers (two of three without any where a twentieth of the points are outliers, one of six where a fifth are).
