@@ -11,9 +11,13 @@ import hypothesis
 import pytest
 from jaxtyping import install_import_hook
 
+from tests.one_core import one_core
+
 ROOT = Path(__file__).resolve().parents[1]
 REAL = ROOT / "tests" / "real"
 COMPILED = "geocontact.geometry.kernels"  # numba reads these functions' own source; nothing may be wrapped around them
+
+one_core()
 
 hypothesis.settings.register_profile("local", deadline=None)
 hypothesis.settings.register_profile("ci", deadline=None, derandomize=True)

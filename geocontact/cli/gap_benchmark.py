@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
-
-from geocontact.cli.gap_diagnose import THREADS
 
 Flag = Parameter(negative="")
 
@@ -56,8 +53,6 @@ def benchmark(*, options: BenchmarkOptions) -> int:
     exact intervals, beside two residual regressions, a constant answer and an oracle), cases.csv, reliability.png,
     reliability.svg and run.json into OUT, and prints the table. The default takes about half an hour on two cores.
     """
-    for name in THREADS:
-        os.environ[name] = "1"  # before numpy is imported, here and in the processes: seconds are those of one core
     from geocontact.cli.gap_benchmark_run import run_benchmark  # numpy and friends: not for --help
 
     return run_benchmark(options)

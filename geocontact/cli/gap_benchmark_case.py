@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from threadpoolctl import threadpool_limits
+
 from geocontact import __version__
 from geocontact.cli.gap_results import plain
 from geocontact.data.gap_case import GapCase
@@ -73,7 +75,12 @@ class Worked:
 
 
 def worked(task: Task) -> Worked:
-    """Draw, write, read, diagnose; whatever breaks down is told and scored as wrong."""
+    """Draw, write, read, diagnose on one core; whatever breaks down is told and scored as wrong."""
+    with threadpool_limits(limits=1):
+        return _worked(task)
+
+
+def _worked(task: Task) -> Worked:
     where = _where(task)
     try:
         planted = drawn(task.lot)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -10,8 +9,6 @@ from typing import Annotated
 from cyclopts import Parameter
 
 Flag = Parameter(negative="")
-THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
-"""Matrices here are small: threads of a linear algebra library would only wait for each other."""
 
 
 @Parameter(name="*")
@@ -49,8 +46,6 @@ def diagnose(case: Path, /, *, options: DiagnoseOptions) -> int:
     case
         Folder with case.toml and trials, see docs/reference/gap_case.md.
     """
-    for name in THREADS:
-        os.environ.setdefault(name, "1")  # before numpy is imported, here and in the processes that are started
     if options.many:
         from geocontact.cli.gap_many import diagnose_many
 

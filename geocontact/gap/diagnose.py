@@ -6,6 +6,7 @@ import time
 from dataclasses import dataclass
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
@@ -40,7 +41,7 @@ class Findings:
 
 
 def diagnose(case: GapCase, system: System, version: str = "") -> Findings:
-    """Where the base model of a case misses the measurement, why, and how far the gap shrinks.
+    """Where the base model of a case misses the measurement, why, and how far the gap shrinks, on one core.
 
     Parameters
     ----------
@@ -51,6 +52,11 @@ def diagnose(case: GapCase, system: System, version: str = "") -> Findings:
     version
         Of the package, for the record.
     """
+    with threadpool_limits(limits=1):  # matrices are small: threads would only wait for each other
+        return _diagnosed(case, system, version)
+
+
+def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
     began = time.perf_counter()
     case = admitted(case, system)
     found = attribute(case, system, candidates)

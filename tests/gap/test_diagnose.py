@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from geocontact.data.diagnosis import Diagnosis
-from tests.gap.cases import Late, Times, Tremor, diagnosis, diagnosis_of_renamed, diagnosis_of_reversed
+from geocontact.gap.diagnose import diagnose
+from geocontact.systems.catalogue import system_of
+from tests.gap.cases import Late, Times, Tremor, diagnosis, diagnosis_of_renamed, diagnosis_of_reversed, elbow_case
 from tests.gap.conftest import Elsewhere
 
 DAMPING = {"damping.b": 15.0, "damping.exponent": 1.0}
@@ -100,3 +103,22 @@ def test_a_tremor_is_not_explained_by_anything_known(elsewhere: Elsewhere) -> No
     assert found.verdict == "unknown"
     assert found.remarks
     assert found.gap["force"].reduction == 0.0
+
+
+def test_linear_algebra_keeps_to_one_core_meanwhile(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[set[int]] = []
+
+    def threads() -> set[int]:
+        return {one["num_threads"] for one in threadpool_info() if one["user_api"] == "blas"}
+
+    def stop(*_: object) -> None:
+        seen.append(threads())
+        raise InterruptedError
+
+    monkeypatch.setattr("geocontact.gap.diagnose.admitted", stop)
+    case = elbow_case()
+    with threadpool_limits(limits=2):
+        with pytest.raises(InterruptedError):
+            diagnose(case, system_of(case))
+        assert threads() == {2}
+    assert seen == [{1}]
