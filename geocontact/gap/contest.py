@@ -51,7 +51,7 @@ def finished(problem: Problem, candidates: tuple[Candidate, ...], model: Refit, 
     """A model fitted under somebody else's noise, refitted under its own."""
     noise = problem.weighed(model, before)
     again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], rounds=6)
-    everywhere = evaluated(problem, noise, again)
+    everywhere = evaluated(problem, again)
     one = judged(problem, everywhere, noise, forms(problem, candidates, everywhere))
     return Contender(candidates, one)
 

@@ -286,12 +286,9 @@ def noise_variance(layout: Layout, levels: Levels) -> Float[np.ndarray, "t c"]:
     return total.reshape(layout.shape)
 
 
-def evaluated(problem: Problem, noise: Noise, model: Refit) -> Refit:
-    """A fitted model at its values on all trials, nothing fitted to the held-out ones."""
+def evaluated(problem: Problem, model: Refit) -> Refit:
+    """A fitted model at its values on all trials, nothing fitted to the held-out ones, nothing whitened."""
     held_out = at(model.system, problem.evaluation, None, model.values)
-    both = replace(
-        model,
-        residuals=model.residuals + held_out.residuals,
-        jacobian=model.jacobian + held_out.jacobian,
+    return Refit.bare(
+        model.system, model.values, model.residuals + held_out.residuals, model.jacobian + held_out.jacobian
     )
-    return both.weighed(problem.weighings(noise, both))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
@@ -12,6 +13,9 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
 
 STEP = 1e-5  # of a parameter's magnitude, for differences
 NO_VALUE = 3.0  # residual, in rough noise levels, where something was measured and the model has no value
@@ -76,6 +80,17 @@ class Refit:
     whitened: Float[np.ndarray, " n"]
     whitened_jacobian: Float[np.ndarray, "n p"]
 
+    @classmethod
+    def bare(
+        cls,
+        system: System,
+        values: Mapping[str, float],
+        residuals: list[Float[np.ndarray, "_ c"]],
+        jacobian: list[Float[np.ndarray, "_ c p"]],
+    ) -> Refit:
+        """Nothing whitened yet."""
+        return cls(system, dict(values), residuals, jacobian, np.zeros(0), np.zeros((0, jacobian[0].shape[-1])))
+
     def weighed(self, weighings: Sequence[Weigh]) -> Refit:
         """The same model and values, whitened otherwise."""
         both = [np.concatenate([r[..., None], j], axis=-1) for r, j in zip(self.residuals, self.jacobian, strict=True)]
@@ -123,47 +138,68 @@ def refit(
     rounds: int = 12,
 ) -> Refit:
     """Bounded least squares of the weighed residuals, the best of several starts."""
-    from scipy.optimize import least_squares
-
-    parameters = free(system)
-    names = [p.name for p in parameters]
-    scale = np.array([magnitude(p) for p in parameters])
-    lower = np.array([p.lower for p in parameters]) / scale
-    upper = np.array([p.upper for p in parameters]) / scale
-
-    def values_at(z: Float[np.ndarray, " p"]) -> dict[str, float]:
-        return dict(zip(names, map(float, z * scale), strict=True))
-
-    def weighed(parts: Sequence[np.ndarray]) -> np.ndarray:
-        return np.concatenate([w(part) for w, part in zip(weighings, parts, strict=True)])
-
-    def residual(z: Float[np.ndarray, " p"]) -> np.ndarray:
-        return weighed([r[..., None] for r in measured.residuals(system, values_at(z))])[:, 0]
-
-    def slope(z: Float[np.ndarray, " p"]) -> np.ndarray:
-        return np.asarray(-weighed(derivatives(system, measured, values_at(z))) * scale)
-
+    if not free(system):
+        return at(system, measured, weighings, {})
+    search = Search(system, measured, weighings)
     best, least = None, np.inf
     for start in starts:
-        z = np.array([start.get(p.name, p.start) for p in parameters]) / scale
-        inside = np.clip(z, lower + 1e-6, upper - 1e-6)
-        if not parameters:
-            best = inside
-            break
-        found = least_squares(
-            residual, inside, slope, bounds=(lower, upper), max_nfev=rounds, ftol=1e-5, xtol=1e-6, gtol=1e-6
-        )
+        found = search.from_start(start, rounds)
         if found.cost < least:
-            best, least = found.x, found.cost
+            best, least = search.reached(found.x), found.cost
     if best is None:
         raise ValueError("a search without a start")
-    return at(system, measured, weighings, values_at(best))
+    return best.weighed(weighings)
+
+
+class Search:
+    """Least squares over the free parameters, each in its magnitude; nothing is simulated twice at one place."""
+
+    def __init__(self, system: System, measured: Measured, weighings: Sequence[Weigh]) -> None:
+        self.parameters = free(system)
+        self.scale = np.array([magnitude(p) for p in self.parameters])
+        self.lower = np.array([p.lower for p in self.parameters]) / self.scale
+        self.upper = np.array([p.upper for p in self.parameters]) / self.scale
+        self.system, self.weighings = system, weighings
+
+        @lru_cache(maxsize=2)  # where the search stands, and where it tries to go
+        def residuals(point: bytes) -> list[Float[np.ndarray, "_ c"]]:
+            return measured.residuals(system, self.values(np.frombuffer(point)))
+
+        @lru_cache(maxsize=1)
+        def slopes(point: bytes) -> list[Float[np.ndarray, "_ c p"]]:
+            return derivatives(system, measured, self.values(np.frombuffer(point)), residuals(point))
+
+        self.residuals, self.slopes = residuals, slopes
+
+    def values(self, z: Float[np.ndarray, " p"]) -> dict[str, float]:
+        """Parameters by name."""
+        return {p.name: float(v) for p, v in zip(self.parameters, z * self.scale, strict=True)}
+
+    def from_start(self, start: Mapping[str, float], rounds: int) -> OptimizeResult:
+        """The least cost near a start, from the parameters' own where it says nothing."""
+        from scipy.optimize import least_squares
+
+        def residual(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
+            return self._weighed([r[..., None] for r in self.residuals(z.tobytes())])[:, 0]
+
+        def slope(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
+            return np.asarray(-self._weighed(self.slopes(z.tobytes())) * self.scale)
+
+        z = np.array([start.get(p.name, p.start) for p in self.parameters]) / self.scale
+        inside, bounds = np.clip(z, self.lower + 1e-6, self.upper - 1e-6), (self.lower, self.upper)
+        return least_squares(residual, inside, slope, bounds, max_nfev=rounds, ftol=1e-5, xtol=1e-6, gtol=1e-6)
+
+    def reached(self, z: Float[np.ndarray, " p"]) -> Refit:
+        """The model where a search ended."""
+        point = z.tobytes()
+        return Refit.bare(self.system, self.values(z), self.residuals(point), self.slopes(point))
+
+    def _weighed(self, parts: Sequence[Float[np.ndarray, "_ c p"]]) -> Float[np.ndarray, "n p"]:
+        return np.concatenate([w(part) for w, part in zip(self.weighings, parts, strict=True)])
 
 
 def at(system: System, measured: Measured, weighings: Sequence[Weigh] | None, values: Mapping[str, float]) -> Refit:
     """A model at given values, nothing fitted; without weighings nothing is whitened either."""
     residuals = measured.residuals(system, values)
-    jacobian = derivatives(system, measured, values, residuals)
-    empty = np.zeros((0, jacobian[0].shape[-1]))
-    model = Refit(system, dict(values), residuals, jacobian, np.zeros(0), empty)
+    model = Refit.bare(system, values, residuals, derivatives(system, measured, values, residuals))
     return model if weighings is None else model.weighed(weighings)
