@@ -17,10 +17,10 @@ from geocontact.gap.contest import Contender
 
 Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
 
-SURE = 6.0  # nats below which a gain may be luck
-FORM = 0.01  # tolerance of form, as a share of what is explained
+SURE = 5.0  # nats below which a gain may be luck
+FORM = 0.02  # tolerance of form, as a share of what is explained
 LEFT_OVER = 0.2  # of all there is to explain may be left by the effect that is named
-PAIR = 0.1  # of what is explained that a second effect must add
+PAIR = 0.07  # of what is explained that a second effect must add
 ALIVE = 0.03  # least probability of a candidate that is still in question
 BEYOND = 0.3  # part of what a gain exceeds that by that counts
 STRANGER = 3.0  # nats more that something without a name must gain: a stand-in also finds what models smooth away

@@ -48,7 +48,7 @@ def test_variants_share_what_is_believed_of_their_effect() -> None:
 
 
 def test_a_second_effect_must_add_its_share() -> None:
-    single, little = contender(200.0, "damping"), contender(222.0, "damping", "sensor_drift.force")
+    single, little = contender(200.0, "damping"), contender(216.0, "damping", "sensor_drift.force")
     assert said(single, little).effects == ("damping",)
     much = contender(300.0, "damping", "sensor_drift.force")
     assert set(said(single, much).effects) == {"damping", "sensor_drift"}
