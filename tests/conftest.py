@@ -11,6 +11,7 @@ import hypothesis
 import pytest
 from jaxtyping import install_import_hook
 
+from tests.elsewhere import Elsewhere, another_process
 from tests.one_core import one_core
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -62,3 +63,10 @@ def reason(report: pytest.TestReport) -> str:
     """Why a test was skipped."""
     place = report.longrepr
     return str(place[2]).removeprefix("Skipped: ") if isinstance(place, tuple) else "no reason given"
+
+
+@pytest.fixture(scope="session")
+def elsewhere() -> Iterator[Elsewhere]:
+    """Calls a function of a module in another process and gives its result; for whole diagnoses and identifications."""
+    with another_process() as call:
+        yield call

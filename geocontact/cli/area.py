@@ -51,6 +51,8 @@ class AreaOptions:
         Where the mesh sits in its body: a file with a 4x4 matrix, or model.osim:body.
     place_fixed
         The same for FIXED.
+    adduction
+        Turn MOVING in every frame about this axis of FIXED, through MOVING's origin: x=2 or x=-2 (degrees).
     assume_closed
         Treat a surface as closed although its edges do not show it.
     split
@@ -117,6 +119,7 @@ class AreaOptions:
     axis: Annotated[str | None, Dashed] = None
     place_moving: str | None = None
     place_fixed: str | None = None
+    adduction: str | None = None
     assume_closed: Literal["moving", "fixed", "both"] | None = None
     split: str | None = None
     medial: Annotated[Literal["-", "+"] | None, Dashed] = None

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from geocontact.cli import quantities
 from geocontact.cli.area import AreaOptions
 from geocontact.cli.left_over import PARAVIEW
 from geocontact.cli.maps import FILE, write_maps
@@ -59,7 +60,7 @@ def write_results(
     shown = None
     if pressure is not None:
         shown = write_pressures(pressure, a.fixed, a.motion, folder, a.options.parquet, a.options.save_map)
-    write_table(_with_coordinate(evolution, a.motion), folder, a.options.parquet)
+    write_table(_with_coordinate(evolution, a.motion, a.options.adduction), folder, a.options.parquet)
     if comparison is not None:
         comparison.to_csv(folder / "comparison.csv", index=False)
     if a.options.save_map:
@@ -94,12 +95,14 @@ def write_results(
     )
 
 
-def _with_coordinate(evolution: AreaEvolution, motion: Motion) -> pd.DataFrame:
-    """The table, with the angle that a sweep prescribes."""
+def _with_coordinate(evolution: AreaEvolution, motion: Motion, adduction: str | None) -> pd.DataFrame:
+    """The table, with the angle that a sweep prescribes and the offset of adduction that was asked for."""
     table = evolution.table()
     if motion.coordinate is not None:
         name, angle = motion.coordinate
         table[f"{name} [deg]"] = np.repeat(np.degrees(angle), len(evolution.thresholds))
+    if adduction is not None:
+        table["adduction offset [deg]"] = np.round(np.degrees(quantities.turn(adduction, "--adduction")[1]), 9)
     return table
 
 

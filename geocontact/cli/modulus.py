@@ -20,7 +20,7 @@ class ModulusOptions:
     Parameters
     ----------
     area
-        area.csv of `geocontact area`, at one or several thresholds; several files are one table.
+        area.csv of `geocontact area`, at one or several thresholds and adduction offsets; several files are one table.
     force
         Measured forces over time (.csv .mot .sto): medial, lateral, total, as far as they are there.
     out
@@ -36,11 +36,12 @@ class ModulusOptions:
     lag
         Seconds that the force's clock is behind the area's: force(t + lag) belongs to area(t). 0 unless given.
     free
-        Unknown besides E*: threshold, lag, or both with bounds, threshold=1:6,lag=-0.05:0.05 (mm, s).
+        Unknown besides E*, with bounds or without: threshold=1:6,lag=-0.05:0.05,adduction=-2:2,slope=-0.3:0.3
+        (mm, s, degrees, per rad of flexion).
     profile
         profile.csv of `geocontact fit` instead of --radius-mm: R follows flexion.
     flexion
-        Motion (.csv .mot .sto) whose column flexion says where on the profile the contact is.
+        Motion (.csv .mot .sto) whose column flexion says where on the profile the contact is, or what R may follow.
     angles
         Unit of the flexion where its file does not say.
     reading

@@ -15,15 +15,15 @@ from geocontact.cli.modulus_inputs import (
     poisson_ratios,
     refuse_idle,
     threshold_given,
-    unknowns,
 )
 from geocontact.cli.modulus_prediction import Prediction, predictions
 from geocontact.cli.modulus_results import describe, write_results
+from geocontact.cli.modulus_unknowns import unknowns
 from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.contact.area_hertz import READINGS
 from geocontact.data.errors import InputError
-from geocontact.identify.area_force import MODULUS, AreaForce
+from geocontact.identify.area_force import MODULUS, THRESHOLD, AreaForce
 from geocontact.identify.elastic import STRONGEST, WEAKEST, Identification, agreement, identify
 from geocontact.identify.threshold_calibration import Calibration, calibrated
 from geocontact.io.area_table import read_area_over_force
@@ -76,9 +76,9 @@ def _identified(record: Record, o: ModulusOptions) -> Identified:
     inputs = inputs_given(record, o)
     calibration = None if o.calibrate is None else _calibrated(record, inputs, o.calibrate)
     threshold = threshold_given(o, inputs.table) if calibration is None else calibration.threshold
-    others = unknowns(o, inputs.table, threshold, inputs.lag)
+    others = unknowns(o, inputs, threshold)
     sides = {}
-    for side in inputs.evolutions:
+    for side in inputs.sides:
         model, measured = model_of(inputs, side, threshold, others)
         if not model.per_modulus({}).any():
             what = f"{side}: reading '{o.reading}' sees no contact at {threshold * 1e3:g} mm in any frame"
@@ -111,7 +111,7 @@ def _calibrated(record: Record, inputs: Inputs, path: Path) -> Calibration:
 
 def _sensitivity(side: str, each: Identification) -> list[SensitivityRow]:
     """Every reading at every threshold that was evaluated, and at the one used."""
-    used = each.fit.values.get("threshold", each.model.threshold)
+    used = each.fit.values.get(THRESHOLD, each.model.threshold)
     levels = sorted({*map(float, each.model.evolution.thresholds), used})
     rows = []
     for reading in READINGS:
@@ -124,7 +124,7 @@ def _sensitivity(side: str, each: Identification) -> list[SensitivityRow]:
 
 
 def _row(side: str, model: AreaForce, each: Identification, level: float) -> SensitivityRow:
-    held = {name: value for name, value in each.fit.values.items() if name == "lag"}
+    held = {name: value for name, value in each.fit.values.items() if name not in (MODULUS, THRESHOLD)}
     if not model.per_modulus(held).any():
         return SensitivityRow(side, model.reading.name, level, np.inf, np.nan, np.nan)
     modulus = float(model.refit(each.measured[None, :], held, (WEAKEST, STRONGEST))[0, 0])

@@ -12,11 +12,13 @@ from jaxtyping import Float
 from geocontact.cli import quantities
 from geocontact.cli.idle import refuse
 from geocontact.cli.modulus import ModulusOptions
+from geocontact.cli.modulus_freed import freed
 from geocontact.cli.record import Record
 from geocontact.contact.area_hertz import READINGS, Reading
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
-from geocontact.identify.area_force import LAG, THRESHOLD, AreaEvolution, AreaForce
+from geocontact.identify.area_force import ADDUCTION, LAG, SLOPE, AreaEvolution, AreaForce
+from geocontact.identify.end_to_end import end_to_end
 from geocontact.io.area_table import FEWEST, AreaTable, read_area_table
 from geocontact.io.columns import angles_of, parse_map
 from geocontact.io.force_curves import SIDES, ForceCurves, read_force_curves
@@ -24,39 +26,48 @@ from geocontact.io.radius_profile import RadiusProfile, read_radius_profile
 from geocontact.io.tables import read_table
 
 USUAL = 4.0e-3  # m, the threshold of the knee-implant paper
-LAGS = 0.1  # s, how far a lag is searched unless told
 FLEXION = "flexion"
 ORDER = ("total", "medial", "lateral")
+BOTH, HALVES = "both", ("medial", "lateral")
+"""Side that stands for the two halves met at once, as a free adduction asks for."""
 
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """Everything read; `evolutions` by side, as far as areas and forces have it; `lag` as given [s]."""
+    """Everything read; `evolutions` by side, as far as areas and forces have it; `lag` as given [s].
+
+    `sides` are those to be identified: every evolution, or both halves at once.
+    """
 
     table: AreaTable
     forces: ForceCurves
     evolutions: Mapping[str, AreaEvolution]
     reading: Reading
     lag: float
+    sides: tuple[str, ...]
 
 
 def refuse_idle(o: ModulusOptions) -> None:
     """Options that would do nothing, and numbers that cannot be."""
     poisson_ratios(o)
+    free = freed(o)
     refuse(
         ((o.radius_mm is None) == (o.profile is None), "--radius-mm",
          "or --profile: exactly one says the radius of the contact", "give for example --radius-mm 37"),
         (o.radius_mm is not None and not 0.1 <= o.radius_mm <= 1e4, "--radius-mm",
          f"{o.radius_mm} is no radius of a contact in mm", "give for example 37"),
-        ((o.profile is None) != (o.flexion is None), "--flexion", "and --profile need each other", "give both"),
+        (o.profile is not None and o.flexion is None, "--profile", "needs --flexion", "give both"),
+        (SLOPE in free and o.flexion is None, "--free", "slope needs --flexion", "give the motion of the areas"),
+        (o.flexion is not None and o.profile is None and SLOPE not in free, "--flexion",
+         "does nothing without --profile or --free slope", "give one of them"),
         (o.angles is not None and o.flexion is None, "--angles", "does nothing without --flexion", "leave it out"),
         (o.reading == "strip" and o.length_mm is None, "--length-mm", "is missing for a strip", "give it"),
         (o.length_mm is not None and not 0.1 <= o.length_mm <= 1e4, "--length-mm", f"{o.length_mm} is no length in mm",
          "give for example 60"),
         (o.predict_force is not None and not o.predict_area, "--predict-force", "does nothing without --predict-area",
          "give it too"),
-        (o.predict_area is not None and o.profile is not None, "--predict-area",
-         "and --profile do not go together: its flexion is not known", "give --radius-mm"),
+        (o.predict_area is not None and (o.profile is not None or SLOPE in free), "--predict-area",
+         "and a radius of flexion do not go together: its flexion is not known", "give --radius-mm"),
         (o.bootstrap != 0 and not 100 <= o.bootstrap <= 100_000, "--bootstrap", f"{o.bootstrap} is not 100 to 100000",
          "give 1000, or 0 for none"),
         (o.lag is not None and not np.isfinite(o.lag), "--lag", f"{o.lag} is not a time", "give seconds"),
@@ -87,12 +98,17 @@ def inputs_given(record: Record, o: ModulusOptions) -> Inputs:
     if not sides:
         what = f"areas of {', '.join(table.areas)}, forces of {', '.join(forces.forces)}"
         raise InputError(o.force, "", what, "they need a side in common; split the area with --split")
-    radii = _radii(record, o, table, mapping, sides)
+    flexion = _flexion(record, o, table, mapping.get(FLEXION, (1.0, FLEXION)))
+    radii = _radii(record, o, table, flexion, sides)
     length = float("nan") if o.length_mm is None else o.length_mm * 1e-3
-    evolutions = {s: AreaEvolution(table.time, table.thresholds, table.areas[s], radii[s], length) for s in sides}
+    evolutions = {
+        s: AreaEvolution(table.time, table.thresholds, table.areas[s], radii[s], length, table.tilted.get(s), flexion)
+        for s in sides
+    }
     reading = next(each for each in READINGS if each.name == o.reading)
-    lag = 0.0 if o.lag is None else o.lag
-    return Inputs(table, forces, evolutions, reading, lag)
+    at_once = ADDUCTION in freed(o) and all(half in evolutions for half in HALVES)
+    told = (BOTH,) if at_once else tuple(evolutions)
+    return Inputs(table, forces, evolutions, reading, 0.0 if o.lag is None else o.lag, told)
 
 
 def threshold_given(o: ModulusOptions, table: AreaTable) -> float:
@@ -110,51 +126,13 @@ def threshold_given(o: ModulusOptions, table: AreaTable) -> float:
     return float(table.thresholds[int(np.argmax(near))])
 
 
-def unknowns(o: ModulusOptions, table: AreaTable, threshold: float, lag: float) -> tuple[Parameter, ...]:
-    """Free parameters besides E*, with their bounds."""
-    found: dict[str, Parameter] = {}
-    for part in [] if o.free is None else o.free.split(","):
-        name, _, bounds = (piece.strip() for piece in part.partition("="))
-        if name not in (THRESHOLD, LAG) or name in found:
-            what = f"{part.strip()!r} is neither threshold nor lag, or is named twice"
-            raise InputError("", "--free", what, "write threshold,lag=-0.05:0.05")
-        found[name] = _threshold(bounds, table, threshold) if name == THRESHOLD else _lag(bounds, lag)
-    if THRESHOLD in found and o.calibrate is not None:
-        raise InputError("", "--free", "threshold beside --calibrate says it twice", "give one")
-    return tuple(found.values())
-
-
-def _threshold(bounds: str, table: AreaTable, start: float) -> Parameter:
-    levels = table.thresholds
-    if len(levels) < 3:
-        what = f"threshold needs areas at 3 thresholds or more; {table.file} has {len(levels)}"
-        raise InputError("", "--free", what, "compute them: geocontact area --threshold 1,2,3,4,5")
-    low, high = (float(levels[0]), float(levels[-1])) if not bounds else (v * 1e-3 for v in _pair(bounds))
-    if low < levels[0] - 1e-12 or high > levels[-1] + 1e-12:
-        what = f"threshold={bounds} reaches beyond the areas, {levels[0] * 1e3:g} to {levels[-1] * 1e3:g} mm"
-        raise InputError("", "--free", what, "compute areas at more thresholds")
-    return Parameter(THRESHOLD, "m", float(np.clip(start, low, high)), low, high)
-
-
-def _lag(bounds: str, start: float) -> Parameter:
-    low, high = (start - LAGS, start + LAGS) if not bounds else _pair(bounds)
-    return Parameter(LAG, "s", float(np.clip(start, low, high)), low, high)
-
-
-def _pair(text: str) -> tuple[float, float]:
-    low, colon, high = text.partition(":")
-    if not colon:
-        raise InputError("", "--free", f"{text!r} is not lower:upper", "write threshold=1:6")
-    values = (quantities.number(low, "--free", "lag=-0.05:0.05"), quantities.number(high, "--free", "lag=-0.05:0.05"))
-    if not values[0] < values[1]:
-        raise InputError("", "--free", f"{text!r} has no room between its bounds", "write lower:upper")
-    return values
-
-
 def model_of(
     i: Inputs, side: str, threshold: float, others: tuple[Parameter, ...]
 ) -> tuple[AreaForce, Float[np.ndarray, " n"]]:
     """The law of one side on the frames that area and force share at every lag that is allowed, and the force there."""
+    if side == BOTH:
+        halves = [model_of(i, half, threshold, others) for half in HALVES]
+        return end_to_end([model for model, _ in halves], [force for _, force in halves])
     time, clock, evolution = i.table.time, i.forces.time, i.evolutions[side]
     free = next((p for p in others if p.name == LAG), None)
     low, high = (i.lag, i.lag) if free is None else (free.lower, free.upper)
@@ -171,29 +149,30 @@ def model_of(
 
 
 def _radii(
-    record: Record, o: ModulusOptions, table: AreaTable, mapping: Mapping[str, tuple[float, str]], sides: list[str]
+    record: Record, o: ModulusOptions, table: AreaTable, flexion: Float[np.ndarray, " t"] | None, sides: list[str]
 ) -> dict[str, Float[np.ndarray, " t"]]:
     if o.radius_mm is not None:
         return {side: np.full(len(table.time), o.radius_mm * 1e-3) for side in sides}
-    profile_file, motion_file = o.profile, o.flexion
-    if profile_file is None or motion_file is None:
+    if o.profile is None or flexion is None:
         raise InputError("", "--profile", "needs --flexion", "give both")
-    profiles = read_radius_profile(profile_file)
-    record.add_input("--profile", profile_file)
-    record.add_input("--flexion", motion_file)
-    flexion = _flexion(motion_file, table.time, mapping.get(FLEXION, (1.0, FLEXION)), o.angles)
-    return {side: _followed(profiles, side, flexion, profile_file) for side in sides}
+    profiles = read_radius_profile(o.profile)
+    record.add_input("--profile", o.profile)
+    return {side: _followed(profiles, side, flexion, o.profile) for side in sides}
 
 
 def _flexion(
-    path: Path, time: Float[np.ndarray, " t"], source: tuple[float, str], angles: str | None
-) -> Float[np.ndarray, " t"]:
+    record: Record, o: ModulusOptions, table: AreaTable, source: tuple[float, str]
+) -> Float[np.ndarray, " t"] | None:
+    """Flexion at the frames of the areas [rad]."""
+    if o.flexion is None:
+        return None
     sign, name = source
-    motion = read_table(path)
-    values = sign * angles_of(motion, [name], angles)[:, 0]
+    motion, time = read_table(o.flexion), table.time
+    values = sign * angles_of(motion, [name], o.angles)[:, 0]
     if time[0] < motion.time[0] - 1e-6 or time[-1] > motion.time[-1] + 1e-6:
         what = f"ends before the areas do ({motion.time[0]:g} to {motion.time[-1]:g} s)"
-        raise InputError(path, "", what, "give the motion that the areas were computed on")
+        raise InputError(o.flexion, "", what, "give the motion that the areas were computed on")
+    record.add_input("--flexion", o.flexion)
     return np.asarray(np.interp(time, motion.time, values))
 
 

@@ -9,10 +9,10 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.cli.modulus import ModulusOptions
-from geocontact.cli.modulus_inputs import FLEXION, Inputs
+from geocontact.cli.modulus_inputs import BOTH, FLEXION, HALVES, Inputs
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.identify.area_force import LAG, THRESHOLD, AreaEvolution
+from geocontact.identify.area_force import ADDUCTION, LAG, THRESHOLD, AreaEvolution
 from geocontact.identify.elastic import Identification, agreement
 from geocontact.io.area_table import FEWEST, AreaTable, read_area_table
 from geocontact.io.columns import parse_map
@@ -57,8 +57,8 @@ def predictions(
     forces = _forces(record, o)
     found = []
     for side, each in sides.items():
-        if side in table.areas:
-            found.append(_predicted(table, forces, inputs, side, each))
+        parts = [part for part in (HALVES if side == BOTH else (side,)) if part in table.areas]
+        found += [_predicted(table, forces, inputs, part, each) for part in parts]
     if not found:
         raise InputError(table.file, "", f"areas of {', '.join(table.areas)}, identified: {', '.join(sides)}", "")
     return found
@@ -84,7 +84,13 @@ def _predicted(
         raise InputError(table.file, "", what, "compute them with the --threshold used here")
     near = np.flatnonzero(np.isclose(known, threshold, rtol=1e-9))
     radius = np.full(len(table.time), float(each.model.evolution.radius[0]))
-    evolution = AreaEvolution(table.time, known, table.areas[side], radius, each.model.evolution.length)
+    tilts = table.tilted.get(side)
+    turned = {name: value for name, value in values.items() if name == ADDUCTION}
+    if turned and (tilts is None or not tilts.offsets[0] <= values[ADDUCTION] <= tilts.offsets[-1]):
+        what = f"has no areas around the adduction offset of {np.degrees(values[ADDUCTION]):.2f} degrees"
+        raise InputError(table.file, "", what, "compute them with --adduction as for the trial used")
+    evolution = AreaEvolution(table.time, known, table.areas[side], radius, each.model.evolution.length, tilts)
+    evolution = evolution.with_offsets(turned)
     level = float(known[near[0]]) if len(near) else threshold
     predicted = each.modulus * evolution.per_modulus(each.model.reading, level)
     if forces is None or side not in forces.forces:

@@ -12,9 +12,10 @@ import pandas as pd
 
 from geocontact.cli.figures import save_both
 from geocontact.cli.modulus import ModulusOptions
+from geocontact.cli.modulus_inputs import BOTH, HALVES
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
-from geocontact.identify.area_force import LAG, MODULUS, THRESHOLD
+from geocontact.identify.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD
 from geocontact.identify.elastic import Identification, agreement
 from geocontact.identify.identifiability import Identifiability
 from geocontact.io.results import write_table
@@ -28,8 +29,9 @@ if TYPE_CHECKING:
 
 ONE_NUMBER = "E and nu are one number here: area and force tell E* = E/(1 - nu^2) only, and E for a stated nu"
 RADIUS = "E* and a constant R are one number as well, E*/R: the radius is an input, not a result"
-PER_SI = {MODULUS: 1.0, THRESHOLD: 1e3, LAG: 1.0}
-UNITS = {MODULUS: "Pa", THRESHOLD: "mm", LAG: "s"}
+RADII = "of R the forces tell only how it changes with flexion (slope): its size at 0 degrees is one number with E*"
+PER_SI = {MODULUS: 1.0, THRESHOLD: 1e3, LAG: 1.0, ADDUCTION: math.degrees(1.0), SLOPE: 1.0}
+UNITS = {MODULUS: "Pa", THRESHOLD: "mm", LAG: "s", ADDUCTION: "deg", SLOPE: "1/rad"}
 
 
 def write_results(record: Record, found: Identified, o: ModulusOptions, folder: Path) -> None:
@@ -41,7 +43,7 @@ def write_results(record: Record, found: Identified, o: ModulusOptions, folder: 
     write_table(sensitivity, folder, o.parquet, "sensitivity")
     if found.predictions:
         write_table(prediction_table(found), folder, o.parquet, "prediction")
-    pairs = {side: ForcePair(i.model.frames, i.measured, i.predicted) for side, i in found.sides.items()}
+    pairs = curves(found)
     profiles = {side: i.profiles[MODULUS] for side, i in found.sides.items()}
     drawing = save_both(modulus_figure(pairs, profiles), folder, "modulus")
     tables = [
@@ -57,13 +59,13 @@ def write_results(record: Record, found: Identified, o: ModulusOptions, folder: 
 def describe(found: Identified) -> dict[str, Any]:
     """`modulus.json`: the first side's numbers at the top, every side's under `compartments`."""
     sides = {side: _numbers(each, found) for side, each in found.sides.items()}
-    first = next(iter(sides))
+    first, head = next(iter(found.sides.items()))
     content: dict[str, Any] = {
         "side": first,
         **sides[first],
-        "identifiable": ["E*"] + [name for name in found.sides[first].fit.names if name != MODULUS],
+        "identifiable": ["E*", *(n for n in head.fit.names if n not in {MODULUS, *_swallowed(head)})],
         "not_identifiable": [ONE_NUMBER, *_lost(found)],
-        "compartments": {side: numbers for side, numbers in sides.items() if side != "total"},
+        "compartments": {side: numbers for side, numbers in sides.items() if side not in ("total", BOTH)},
         "threshold_sensitivity": [
             {key: _finite(value) for key, value in row.items()}
             for row in sensitivity_table(found).to_dict(orient="records")
@@ -80,9 +82,18 @@ def describe(found: Identified) -> dict[str, Any]:
 
 
 def _lost(found: Identified) -> list[str]:
-    """Whether E* and R are one number depends on the reading."""
+    """Whether E* and R are one number depends on the reading, whether E* and a free number are, on the data."""
     each = next(iter(found.sides.values()))
-    return [RADIUS] if each.told_apart["E*, R"].verdict == "one number" else []
+    lines = [f"E* and {name} are one number here: {name} is not identifiable" for name in _swallowed(each)]
+    if each.told_apart["E*, R"].verdict != "one number":
+        return lines
+    return [RADIUS, *([RADII] if SLOPE in each.fit.names else []), *lines]
+
+
+def _swallowed(each: Identification) -> list[str]:
+    """Free numbers that change nothing, or nothing that E* does not change alike."""
+    groups = {name: each.told_apart.get(f"E*, {name}") for name in each.fit.names if name != MODULUS}
+    return [name for name, group in groups.items() if group is None or group.verdict == "one number"]
 
 
 def _numbers(each: Identification, found: Identified) -> dict[str, Any]:
@@ -101,10 +112,12 @@ def _numbers(each: Identification, found: Identified) -> dict[str, Any]:
         "threshold_mm": values.get(THRESHOLD, model.threshold) * 1e3,
         "radius_mm": [float(radius.min()) * 1e3, float(radius.max()) * 1e3],
         "lag_s": values.get(LAG, model.taken),
+        **({"adduction_deg": math.degrees(values[ADDUCTION])} if ADDUCTION in values else {}),
+        **({"slope_per_rad": values[SLOPE]} if SLOPE in values else {}),
         "rmse_N": rmse,
         "r2": _finite(r2),
-        "frames": len(model.frames),
-        "window_s": [float(model.frames[0]), float(model.frames[-1])],
+        "frames": _once(found, each),
+        "window_s": [float(model.frames[0]), float(model.frames[_once(found, each) - 1])],
         "intervals": {
             name: {
                 "unit": UNITS[name],
@@ -136,12 +149,31 @@ def _apartness(group: Identifiability) -> dict[str, Any]:
     }
 
 
+def _once(found: Identified, each: Identification) -> int:
+    """Frames of the motion that were used; both halves have the same."""
+    return len(each.model.frames) // (len(HALVES) if each is found.sides.get(BOTH) else 1)
+
+
+def curves(found: Identified) -> dict[str, ForcePair]:
+    """Measured and predicted force by side; both halves, where they were met at once, each for itself."""
+    shown = {}
+    for side, each in found.sides.items():
+        count = _once(found, each)
+        time = each.model.frames[:count]
+        for k, name in enumerate(HALVES if side == BOTH else (side,)):
+            part = slice(k * count, (k + 1) * count)
+            shown[name] = ForcePair(time, each.measured[part], each.predicted[part])
+    return shown
+
+
 def curve_table(found: Identified) -> pd.DataFrame:
     """Measured and predicted force at each frame that was used, sides one after another."""
-    parts = []
-    for side, each in found.sides.items():
-        columns = {"side": side, "measured [N]": each.measured, "predicted [N]": each.predicted}
-        parts.append(pd.DataFrame({"time [s]": each.model.frames, **columns}))
+    parts = [
+        pd.DataFrame({
+            "time [s]": pair.time, "side": side, "measured [N]": pair.measured, "predicted [N]": pair.predicted,
+        })
+        for side, pair in curves(found).items()
+    ]  # fmt: skip
     return pd.concat(parts, ignore_index=True)
 
 

@@ -19,7 +19,15 @@ from geocontact.io.motion import read_motion
 
 
 def motions_given(record: Record, o: AreaOptions, files: Sequence[str], moving: Surface) -> list[tuple[str, Motion]]:
-    """Name of the sub-folder (empty when there is one motion) and motion."""
+    """Name of the sub-folder (empty when there is one motion) and motion, with the offset of adduction asked for."""
+    motions = _motions(record, o, files, moving)
+    if o.adduction is None:
+        return motions
+    axis, angle = quantities.turn(o.adduction, "--adduction")
+    return [(folder, motion.turned(axis, angle)) for folder, motion in motions]
+
+
+def _motions(record: Record, o: AreaOptions, files: Sequence[str], moving: Surface) -> list[tuple[str, Motion]]:
     if o.sweep is not None:
         return [("", _swept(o.sweep, o.axis, o.unit, moving, record))]
     motions = {}

@@ -95,6 +95,18 @@ def sweep_range(text: str) -> tuple[str, float, float, float]:
     return (name.strip(), *angle_range(rest, "--sweep", "flexion=0:90:1"))
 
 
+def turn(text: str, option: str) -> tuple[Vector, float]:
+    """ "x=2" to a unit vector and an angle [rad]; degrees are typed."""
+    axis, _, angle = text.partition("=")
+    if axis.strip() not in ("x", "y", "z") or not angle.strip():
+        raise InputError("", option, f"{text!r} is not an axis and an angle", f"write {option} x=2 (degrees)")
+    value = number(angle, option, "x=2")
+    if abs(value) > 45.0:
+        raise InputError("", option, f"{text!r} is no small offset", "write at most 45 degrees")
+    x, y, z = (float(axis.strip() == name) for name in "xyz")
+    return (x, y, z), value * ANGLE["deg"]
+
+
 def angle_range(text: str, option: str, example: str) -> tuple[float, float, float]:
     """ "0:90:1" to start, stop, step [rad]; degrees are typed, and the step is 1 unless given."""
     parts = text.split(":")

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
-from scipy.spatial.transform import RigidTransform
+from scipy.spatial.transform import RigidTransform, Rotation
 
 
 @dataclass(frozen=True)
@@ -76,6 +76,12 @@ class Motion:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def turned(self, axis: tuple[float, float, float], angle: float) -> Motion:
+        """The motion with MOVING turned in every frame about a direction of FIXED through MOVING's origin [rad]."""
+        turn = Rotation.from_rotvec(angle * np.asarray(axis))
+        poses = RigidTransform.from_components(self.poses.translation, turn * self.poses.rotation)
+        return replace(self, poses=poses)
 
     @property
     def course(self) -> Course:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,9 +11,11 @@ from jaxtyping import Float
 from scipy.interpolate import PchipInterpolator
 
 from geocontact.contact.area_hertz import Patch, Reading
+from geocontact.data.tilted_areas import TiltedAreas
 
-MODULUS, THRESHOLD, LAG = "modulus", "threshold", "lag"
-"""Names of the parameters: E* [Pa], threshold of the area [m], lag of the force's clock behind the area's [s]."""
+MODULUS, THRESHOLD, LAG, ADDUCTION, SLOPE = "modulus", "threshold", "lag", "adduction", "slope"
+"""Names of the parameters: E* [Pa], threshold of the area [m], lag of the force's clock behind the area's [s], offset
+of adduction that is added to the recorded pose [rad], and the share by which R grows per flexion [1/rad]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +34,10 @@ class AreaEvolution:
         R at each frame [m]: one number repeated, or following flexion.
     length
         Of the strip in the reading "strip" [m].
+    tilts
+        The same areas at some offsets of adduction, where these were evaluated; `area` is that at no offset.
+    flexion
+        Angle at each frame [rad] that R may be made to follow; None where it is not known.
     """
 
     time: Float[np.ndarray, " t"]
@@ -39,6 +45,21 @@ class AreaEvolution:
     area: Float[np.ndarray, "t k"]
     radius: Float[np.ndarray, " t"]
     length: float
+    tilts: TiltedAreas | None = None
+    flexion: Float[np.ndarray, " t"] | None = None
+
+    def with_offsets(self, values: Mapping[str, float]) -> AreaEvolution:
+        """The evolution at an adduction offset, and R (1 + slope flexion) for R, as far as `values` name them."""
+        given = self
+        if ADDUCTION in values:
+            if self.tilts is None:
+                raise ValueError("areas are known at one adduction only")
+            given = replace(given, area=self.tilts.at(values[ADDUCTION]))
+        if SLOPE in values:
+            if self.flexion is None:
+                raise ValueError("the flexion of the frames is not known")
+            given = replace(given, radius=self.radius * (1.0 + values[SLOPE] * self.flexion))
+        return given
 
     @cached_property
     def _over_threshold(self) -> PchipInterpolator:
@@ -87,7 +108,8 @@ class AreaForce:
         Where the lag is not the one taken, the curve is shifted (monotone cubic in time), not the measured force: its
         noise must not be interpolated anew at each trial value.
         """
-        curve = self.evolution.per_modulus(self.reading, values.get(THRESHOLD, self.threshold))
+        evolution = self.evolution.with_offsets(values)
+        curve = evolution.per_modulus(self.reading, values.get(THRESHOLD, self.threshold))
         shift = self.taken - values.get(LAG, self.taken)
         if shift == 0.0:
             return np.asarray(np.interp(self.frames, self.evolution.time, curve))

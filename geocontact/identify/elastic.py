@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.contact.elasticity import plane_modulus
 from geocontact.data.parameter import Parameter
-from geocontact.identify.area_force import LAG, MODULUS, THRESHOLD, AreaForce, derivative
+from geocontact.identify.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD, AreaForce, derivative
 from geocontact.identify.block_bootstrap import Replicates, block_bootstrap
 from geocontact.identify.identifiability import Identifiability, identifiability
 from geocontact.identify.least_squares import Fit
@@ -23,6 +23,7 @@ WEAKEST, STRONGEST = 1e3, 1e13  # bounds of E* [Pa]: softer than any gel, stiffe
 STARTS = 8
 REPLICATES = 1000
 REFITS = 200  # replicates at most where more than E* is free and each is a search
+SMALL = 1e-6  # of a threshold, a lag or an offset, for differences [m, s, rad, 1/rad]
 POISSON = 0.25  # where the sensitivity to it is taken; which value does not matter
 YOUNG, RATIO, RADIUS = "E", "nu", "R"
 
@@ -100,7 +101,7 @@ def identify(
     Parameters
     ----------
     others
-        Free parameters besides E*: "threshold" [m], "lag" [s].
+        Free parameters besides E*: "threshold" [m], "lag" [s], "adduction" [rad], "slope" [1/rad].
     replicates
         Of the bootstrap; 0 for none.
     starts
@@ -152,15 +153,22 @@ def _told_apart(model: AreaForce, fit: Fit, jacobian: Float[np.ndarray, "n p"]) 
     scaled = {MODULUS: star, RADIUS: 1.0}
     radius = np.column_stack([derivative(by_radius, scaled, name, 1e-5 * scaled[name]) for name in scaled])
     groups = {"E, nu": identifiability(("E", "nu"), pair), "E*, R": identifiability(("E*", "R"), radius)}
-    for name, step in ((THRESHOLD, 1e-6), (LAG, 1e-6)):
-        full = {THRESHOLD: model.threshold, LAG: model.taken, **values}
+    full = {THRESHOLD: model.threshold, LAG: model.taken, **_offsets(model), **values}
+    for name in [name for name in (THRESHOLD, LAG, ADDUCTION, SLOPE) if name in full]:
         if name == THRESHOLD and len(model.evolution.thresholds) == 1:
             continue
         columns = np.column_stack(
-            [derivative(model.force, full, each, h) for each, h in ((MODULUS, 1e-5 * star), (name, step))]
+            [derivative(model.force, full, each, h) for each, h in ((MODULUS, 1e-5 * star), (name, SMALL))]
         )
         if float(np.linalg.norm(columns[:, 1])) > 0.0:
             groups[f"E*, {name}"] = identifiability(("E*", name), columns)
     if len(fit.names) > 1:
         groups["free"] = identifiability(["E*" if name == MODULUS else name for name in fit.names], jacobian)
     return groups
+
+
+def _offsets(model: AreaForce) -> dict[str, float]:
+    """What else could be free, at nothing."""
+    evolution = model.evolution
+    known = ((ADDUCTION, evolution.tilts is not None), (SLOPE, evolution.flexion is not None))
+    return {name: 0.0 for name, there in known if there}

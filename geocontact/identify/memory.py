@@ -69,7 +69,8 @@ def memory_of(
 ) -> Memory:
     """Weights of the correlation times by the restricted likelihood of what the fit left over."""
     n, p = jacobian.shape
-    tau = np.geomspace(SHORTEST * float(np.median(np.diff(time))), LONGEST * float(time[-1] - time[0]), GRID)
+    step = float(np.median(np.diff(time)))
+    tau = np.geomspace(SHORTEST * step, LONGEST * step * (n - 1), GRID)  # pauses do not count as duration
     logs, variance = np.empty(GRID), np.empty(GRID)
     both = np.column_stack([residual, jacobian / np.linalg.norm(jacobian, axis=0)])[:, None, :]
     for k, each in enumerate(tau):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import fspath
 from pathlib import Path
 
@@ -12,8 +12,9 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
+from geocontact.data.tilted_areas import TiltedAreas
 
-TIME, THRESHOLD = "time [s]", "threshold [mm]"
+TIME, THRESHOLD, OFFSET = "time [s]", "threshold [mm]", "adduction offset [deg]"
 COLUMNS = {
     "total": "area_fixed [mm^2]",
     "medial": "area_fixed_medial [mm^2]",
@@ -39,17 +40,20 @@ class AreaTable:
     thresholds
         (k,) [m], increasing.
     areas
-        (t, k) [m^2] by side: "total", and "medial" and "lateral" where the areas were split.
+        (t, k) [m^2] by side: "total", and "medial" and "lateral" where the areas were split; at no offset.
+    tilted
+        By side, where areas at several offsets of adduction were given.
     """
 
     file: str
     time: Float[np.ndarray, " t"]
     thresholds: Float[np.ndarray, " k"]
     areas: dict[str, Float[np.ndarray, "t k"]]
+    tilted: dict[str, TiltedAreas] = field(default_factory=dict)
 
 
 def read_area_table(paths: Sequence[Path]) -> AreaTable:
-    """One table, or several of the same frames at other thresholds."""
+    """One table, or several of the same frames at other thresholds or offsets of adduction."""
     tables = [_read(path) for path in paths]
     file = ", ".join(fspath(path) for path in paths)
     table = pd.concat(tables, ignore_index=True)
@@ -60,13 +64,22 @@ def read_area_table(paths: Sequence[Path]) -> AreaTable:
         raise InputError(
             file, "", f"{len(time)} frames are too few", f"{FEWEST} at least; compute the area over a motion"
         )
-    if len(table) != len(time) * len(thresholds) or table.duplicated([TIME, THRESHOLD]).any():
+    offsets = np.unique(table[OFFSET].to_numpy(float))
+    at_none = np.flatnonzero(offsets == 0.0)
+    if not len(at_none):
+        what = f"areas at adduction offsets of {', '.join(f'{each:g}' for each in offsets)} degrees only"
+        raise InputError(file, "", what, "give those without an offset as well")
+    shape = (len(time), len(thresholds), len(offsets))
+    if len(table) != np.prod(shape) or table.duplicated([TIME, THRESHOLD, OFFSET]).any():
         what = f"{len(table)} rows are not {len(time)} times at {len(thresholds)} thresholds, each once"
-        raise InputError(file, "", what, "give areas of the same frames at each threshold")
-    ordered = table.sort_values([TIME, THRESHOLD])
-    shape = (len(time), len(thresholds))
-    areas = {side: ordered[COLUMNS[side]].to_numpy(float).reshape(shape) * MM2 for side in sides}
-    return AreaTable(file, time, thresholds * MM, areas)
+        if len(offsets) > 1:
+            what = f"{what} for each of {len(offsets)} adduction offsets"
+        raise InputError(file, "", what, "give areas of the same frames at each threshold and offset")
+    ordered = table.sort_values([TIME, THRESHOLD, OFFSET])
+    all_areas = {side: ordered[COLUMNS[side]].to_numpy(float).reshape(shape) * MM2 for side in sides}
+    areas = {side: np.ascontiguousarray(each[:, :, at_none[0]]) for side, each in all_areas.items()}
+    tilted = {side: TiltedAreas(np.radians(offsets), each) for side, each in all_areas.items()}
+    return AreaTable(file, time, thresholds * MM, areas, tilted if len(offsets) > 1 else {})
 
 
 def _read(path: Path) -> pd.DataFrame:
@@ -75,14 +88,16 @@ def _read(path: Path) -> pd.DataFrame:
     except (OSError, ValueError, pd.errors.ParserError) as error:
         raise InputError(path, "", f"cannot be read as a table ({error})", "give an area.csv") from error
     table.columns = [str(name).strip() for name in table.columns]
-    names = [TIME, THRESHOLD, COLUMNS["total"]]
+    if OFFSET not in table:
+        table[OFFSET] = 0.0
+    names = [TIME, THRESHOLD, OFFSET, COLUMNS["total"]]
     if missing := [name for name in names if name not in table]:
         percent = " (time is in per cent of a cycle)" if "time [%]" in table else ""
         what = f"no column {', '.join(missing)}{percent}; columns are: {', '.join(map(str, table.columns))[:300]}"
         raise InputError(path, "line 1", what, "give the area.csv of geocontact area over a motion in seconds")
     for name in [*names, *(each for each in COLUMNS.values() if each in table)]:
         numbers = pd.to_numeric(table[name], errors="coerce").to_numpy(float)
-        bad = np.flatnonzero(~np.isfinite(numbers) | ((numbers < 0.0) & (name != TIME)))
+        bad = np.flatnonzero(~np.isfinite(numbers) | ((numbers < 0.0) & (name not in (TIME, OFFSET))))
         if len(bad):
             what = f"'{name}' is {table[name].iloc[int(bad[0])]}, not a number of 0 or more"
             raise InputError(path, f"row {int(bad[0]) + 2}", what, "is it an area.csv?")

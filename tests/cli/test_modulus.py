@@ -64,6 +64,7 @@ def modulus(
     force: Path | None = None,
     radius: bool = True,
     picture: bool = False,
+    bootstrap: int = 100,
 ) -> Call:
     """The command; most of its time are figure and page, which only some tests look at."""
     given = ["--area", area or areas(folder), "--force", force or forces(folder, sides=False)]
@@ -71,7 +72,7 @@ def modulus(
     with ExitStack() as stack:
         if not picture:
             stack.enter_context(unpictured())
-        arguments = ["modulus", *given, *more, "--out", folder / "out", "--bootstrap", 100, *options]
+        arguments = ["modulus", *given, *more, "--out", folder / "out", "--bootstrap", bootstrap, *options]
         return call(*arguments, folder=folder / "out")
 
 
@@ -194,7 +195,7 @@ REFUSED = {
     "no radius": (("--poisson", "0.3"), "or --profile: exactly one", False),
     "threshold not there": (("--threshold", "2.5"), "2.5 mm was not evaluated", True),
     "unknown beyond the areas": (("--free", "threshold=1:9"), "reaches beyond the areas", True),
-    "no such unknown": (("--free", "nu"), "neither threshold nor lag", True),
+    "no such unknown": (("--free", "nu"), "is none of threshold, lag, adduction, slope", True),
     "impossible ratio": (("--poisson", "0.6"), "is not above -1 and at most 0.5", True),
     "strip without length": (("--reading", "strip"), "--length-mm: is missing", True),
     "clocks apart": (("--lag", "50"), "0 frames of the area", True),

@@ -8,8 +8,8 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.gap.diagnose import diagnose
 from geocontact.systems.catalogue import system_of
+from tests.elsewhere import Elsewhere
 from tests.gap.cases import Late, Times, Tremor, diagnosis, diagnosis_of_renamed, diagnosis_of_reversed, elbow_case
-from tests.gap.conftest import Elsewhere
 
 DAMPING = {"damping.b": 15.0, "damping.exponent": 1.0}
 FRICTION = {"dry_friction.rate.limit": 1.5, "dry_friction.rate.turning": 0.003}

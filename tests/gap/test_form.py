@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from geocontact.gap.form import BENT
+from tests.elsewhere import Elsewhere
 from tests.gap.cases import evidence_of_bends
-from tests.gap.conftest import Elsewhere
 
 
 def test_bends_are_worth_a_set_share_of_the_effect_and_a_mistake_has_none(elsewhere: Elsewhere) -> None:

@@ -7,8 +7,8 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from geocontact.gap.leave_one_out import left_out
+from tests.elsewhere import Elsewhere
 from tests.gap.cases import Late, gains
-from tests.gap.conftest import Elsewhere
 
 
 def test_it_is_the_density_given_a_fit_to_the_other_trials() -> None:

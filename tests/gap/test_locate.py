@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from geocontact.gap.locate import Cell, Window, shortest
+from tests.elsewhere import Elsewhere
 from tests.gap.cases import Bump, located
-from tests.gap.conftest import Elsewhere
 
 Found = tuple[tuple[Cell, ...], tuple[Window, ...]]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from tests.elsewhere import Elsewhere
 from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung
-from tests.gap.conftest import Elsewhere
 
 
 def test_noise_is_not_odd(elsewhere: Elsewhere) -> None:

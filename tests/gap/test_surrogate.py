@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from geocontact.gap.surrogate import chosen
+from tests.elsewhere import Elsewhere
 from tests.gap.cases import Bump, stairs, stood_in
-from tests.gap.conftest import Elsewhere
 
 
 def test_a_bump_is_found_among_many_columns() -> None:
