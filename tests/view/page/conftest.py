@@ -66,6 +66,12 @@ def set_range(opened: Opened, selector: str, value: float) -> None:
     opened.tab.locator(selector).evaluate("(e, v) => { e.value = v; e.dispatchEvent(new Event('input')); }", value)
 
 
+def rows(opened: Opened) -> dict[str, str]:
+    """Numbers under the cursor by their labels."""
+    script = "[...document.querySelectorAll('.readout tr')].map(r => [...r.children].map(c => c.textContent.trim()))"
+    return {cells[0]: cells[1] for cells in opened.tab.evaluate(script) if len(cells) > 1}
+
+
 def absent(reason: str) -> NoReturn:
     """Skip on a desk; fail where the tests are relied upon."""
     if os.environ.get("CI"):

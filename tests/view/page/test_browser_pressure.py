@@ -11,10 +11,9 @@ import pytest
 from geocontact.view.page.content import FaceMap, Scene
 from tests.cli.calls import Call, done
 from tests.cli.test_area_pressure import M, pressed
-from tests.view.page.conftest import DESKTOP, PHONE, Open, Opened, set_range
+from tests.view.page.conftest import DESKTOP, PHONE, Open, Opened, rows, set_range
 from tests.view.page.examples import small_page
 from tests.view.page.pictures import pixels
-from tests.view.page.test_browser_report import rows
 
 SHOWN = {
     "force, medial": ("force_medial [N]", 1),

@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 from tests.cli.calls import FEMUR, INSERT, PLATE, SPHERE, Call, area, done, gait, poses
-from tests.view.page.conftest import DESKTOP, PHONE, Open
+from tests.view.page.conftest import DESKTOP, PHONE, Open, rows
 from tests.view.page.hostile import HOSTILE
 
 SHOWN = {
@@ -38,12 +38,6 @@ def result(tmp_path_factory: pytest.TempPathFactory) -> Call:
     options = ("--split", "z", "--threshold", "1,4")
     motion = gait(folder, (0, 20, 40, 60, 80))
     return done(area(folder / "out", *options, moving=FEMUR, fixed=INSERT, motion=motion, picture=True))
-
-
-def rows(opened: Any) -> dict[str, str]:
-    """Numbers under the cursor by their labels."""
-    script = "[...document.querySelectorAll('.readout tr')].map(r => [...r.children].map(c => c.textContent.trim()))"
-    return {cells[0]: cells[1] for cells in opened.tab.evaluate(script) if len(cells) > 1}
 
 
 @pytest.mark.parametrize("device", [DESKTOP, PHONE], ids=["1280x800", "390x844"])
