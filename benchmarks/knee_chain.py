@@ -3,7 +3,8 @@
 Cases are made by finer code of its own around the same surfaces, law and weights (`benchmarks.knee_truth`), and written
 as folders; each withholds one thing: 1 mm of the pose along one axis, a radius that depends on flexion, a coupling of
 two load cells, or nothing. Surfaces are the sample knee's (synthetic); with `--meshes dm` those of DM of the 6th
-Grand Challenge, with the mean motion measured by fluoroscopy. Loads are synthetic in both.
+Grand Challenge, with the mean motion measured by fluoroscopy. Loads are synthetic in both. Answers go to
+benchmarks/results/knee_chain.json, by surfaces, truth and seed; those of other runs stay in it.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from scipy.spatial.transform import Rotation
 
 from benchmarks import knee_truth as truth
 from benchmarks.knee_truth import Bodies, Course, Withheld
+from benchmarks.machine import machine, versions
 from geocontact.gap.diagnose import diagnose
 from geocontact.io.gap_case import read_gap_case
 from geocontact.io.meshes import read_mesh
@@ -207,13 +209,37 @@ def main() -> None:
     parser.add_argument("--only", nargs="*", choices=list(WITHHELD), default=list(WITHHELD))
     parser.add_argument("--seed", type=int, default=1)
     default = Path(os.environ.get("GEOCONTACT_DATA") or ROOT.parent / "shared" / "data")
+    parser.add_argument(
+        "--trials", type=int, nargs=3, metavar=("CALIBRATION", "EVALUATION", "FRESH"),
+        help=f"how many ({CALIBRATION} {EVALUATION} {FRESH}; of DM 3 1 0, as its surfaces take long)",
+    )  # fmt: skip
+    parser.add_argument("--results", type=Path, default=ROOT / "benchmarks" / "results")
     parser.add_argument("--data", type=Path, default=default, help="folder of the real data (%(default)s)")
     given = parser.parse_args()
     if given.out.exists():
         parser.error(f"{given.out} is there already; name another folder")
     knee = sample_knee(given.truth) if given.meshes == "sample" else dm_knee(given.data)
-    found = run(knee, given.out, tuple(given.only), given.seed)
+    usual = (CALIBRATION, EVALUATION, FRESH) if given.meshes == "sample" else (3, 1, 0)
+    trials = tuple(given.trials or usual)
+    found = run(knee, given.out, tuple(given.only), given.seed, trials)
     (given.out / "answers.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    surfaces = f"{given.meshes}, truth {given.truth}" if given.meshes == "sample" else given.meshes
+    kept(given.results / "knee_chain.json", f"{surfaces}, seed {given.seed}", given.seed, trials, found)
+
+
+def kept(file: Path, name: str, seed: int, trials: tuple[int, ...], found: dict[str, dict[str, object]]) -> None:
+    """The file with this run's answers put into it; cases that were not run again keep theirs."""
+    report = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {"runs": {}}
+    before = report["runs"].get(name, {}).get("cases", {})
+    report["runs"][name] = {
+        "machine": machine(),
+        "versions": versions({"scipy", "libigl"}),
+        "seed": seed,
+        "trials": dict(zip(("calibration", "evaluation", "fresh"), trials, strict=True)) | {"samples": SAMPLES},
+        "noise_N": truth.NOISE,
+        "cases": before | found,
+    }
+    file.write_text(json.dumps(report, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

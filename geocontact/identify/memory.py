@@ -2,9 +2,11 @@
 
 The residual is taken for an Ornstein-Uhlenbeck process (`noise.Noise`): correlation exp(-h/tau) at a distance h.
 Over one gait cycle tau is poorly known, and intervals that take its best value for the truth are too short. So each
-tau of a grid keeps a weight, its restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545; flat in
-log tau), and intervals are taken over all of them. Plain least squares gives the estimates; their variance under such
-noise is the sandwich s^2 (J'J)^-1 J'KJ (J'J)^-1.
+tau of a grid keeps a weight, its restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545) times a
+reference prior, and intervals are taken over all of them. The prior is the root of Fisher's information on log tau, as
+of Berger, De Oliveira and Sanso (2001), JASA 96, 1361, without the regressors. One that is flat in log tau favours
+times so long that no recording tells them, and intervals come out too wide (`benchmarks.modulus`). Plain least squares
+gives the estimates; their variance under such noise is the sandwich s^2 (J'J)^-1 J'KJ (J'J)^-1.
 """
 
 from __future__ import annotations
@@ -82,7 +84,8 @@ def memory_of(
         variance[k] = square / (n - p)
         sizes = np.linalg.svd(design, compute_uv=False)
         information = 2.0 * float(np.log(np.maximum(sizes, LEAST * sizes[0])).sum())
-        logs[k] = -0.5 * (n - p) * np.log(square) - noise.log_scale(time, residual[:, None]) - 0.5 * information
+        likelihood = -0.5 * (n - p) * np.log(square) - noise.log_scale(time, residual[:, None])
+        logs[k] = likelihood - 0.5 * information + _log_prior(time, each)
     weight = np.exp(logs - logs.max())
     return Memory(tau, weight / weight.sum(), variance, n - p)
 
@@ -108,3 +111,9 @@ def spread(jacobian: Float[np.ndarray, "n p"]) -> Float[np.ndarray, "p p"]:
     size = np.linalg.norm(jacobian, axis=0)
     columns = jacobian / size
     return np.asarray(np.linalg.pinv(columns.T @ columns, rcond=LEAST, hermitian=True) / np.outer(size, size))
+
+
+def _log_prior(time: Float[np.ndarray, " n"], tau: float) -> float:
+    """Logarithm of the reference prior per log tau: half that of sum (rho h/tau)^2 / (1 - rho^2), rho = exp(-h/tau)."""
+    h = np.diff(time) / tau
+    return 0.5 * float(np.logaddexp.reduce(2.0 * (np.log(h) - h) - np.log(-np.expm1(-2.0 * h))))

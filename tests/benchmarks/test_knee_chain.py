@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -77,21 +78,39 @@ import json, sys
 from pathlib import Path
 from benchmarks import knee_chain
 knee, samples = knee_chain.sample_knee(), int(sys.argv[2])
-found = knee_chain.run(knee, Path(sys.argv[1]), ("ty_1mm",), trials=(2, 1, 0), samples=samples)
-print(json.dumps(found["ty_1mm"]))
+found = knee_chain.run(knee, Path(sys.argv[1]), (sys.argv[3],), trials=(2, 1, 0), samples=samples)
+print(json.dumps(found[sys.argv[3]]))
 """
+
+
+def answer(folder: Path, name: str) -> dict[str, Any]:
+    return json.loads(alone("-W", "ignore", "-c", PROGRAM, folder / "cases", SAMPLES, name).splitlines()[-1])
 
 
 @pytest.mark.slow
 def test_one_millimetre_is_found(tmp_path: Path) -> None:
     """Two calibration trials and one held out, 1 mm of height: found, measured, and the cells' errors fall."""
-    found = json.loads(alone("-W", "ignore", "-c", PROGRAM, tmp_path / "cases", SAMPLES).splitlines()[-1])
+    found = answer(tmp_path, "ty_1mm")
     assert found["verdict"] == "explained", found
     assert found["effects"] == ["motion_offset"], found
     value, low, high = found["parameters"]["motion_offset.ty.offset"]
     assert low < -1e-3 < high, "what is added to the measured pose undoes the error"
     assert value == pytest.approx(-1e-3, abs=2e-4)
     assert min(row[0] for row in found["reduction"].values()) > 0.2, found
+
+
+@pytest.mark.slow
+def test_a_coupling_of_two_cells_is_found_where_it_is(tmp_path: Path) -> None:
+    """6 % of PM in AM, of the same trials: the effect, its amount, its cell, and that cell's error falls most."""
+    found = answer(tmp_path, "crosstalk")
+    assert (found["verdict"], found["effects"]) == ("explained", ["crosstalk"]), found
+    label = next(name for name in found["gains_nats"] if name.startswith("crosstalk"))
+    assert "PM" in label and "AM" in label, "the pair of cells"
+    value, low, high = next(entry for name, entry in found["parameters"].items() if name.startswith("crosstalk"))
+    assert low < 0.06 < high and value == pytest.approx(0.06, abs=0.01)
+    channel, _, share = max(found["where"], key=lambda row: row[2])
+    assert channel == "AM" and share > 0.6, found["where"]
+    assert max(found["reduction"], key=lambda name: found["reduction"][name][0]) == "AM"
 
 
 @pytest.mark.slow

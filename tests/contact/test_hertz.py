@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
-from scipy.optimize import brentq
-from scipy.special import ellipe, ellipk, ellipkm1
+from scipy.special import ellipkm1
 
 from geocontact.contact.elasticity import contact_modulus, layer_modulus, plane_modulus
 from geocontact.contact.hertz_ellipse import (
@@ -20,36 +19,10 @@ from geocontact.contact.hertz_ellipse import (
 )
 from geocontact.contact.hertz_line import line_half_width, line_load, line_peak_pressure
 from geocontact.contact.hertz_point import point_force, point_peak_pressure, point_pressure, point_radius
+from tests.contact.half_space import by_root, displacement
 
 R, E, D = 37e-3, 1e9, 2e-4
 ratios = st.floats(0.0, 8.0).map(lambda power: 10.0**power)
-
-
-def displacement(x: float, y: float, a: float, b: float, peak: float, modulus: float) -> float:
-    """What a half-space gives way at (x, y) in the ellipse a, b under peak sqrt(1 - x^2/a^2 - y^2/b^2).
-
-    Boussinesq: integral of p / (pi E* r). In polar coordinates about the point the pressure along a chord is the root
-    of a quadratic, whose integral is known; what is left is periodic in the angle, and the mean converges at once.
-    """
-    t = np.pi * (np.arange(4000) + 0.5) / 4000
-    square = np.cos(t) ** 2 / a**2 + np.sin(t) ** 2 / b**2
-    mixed = x * np.cos(t) / a**2 + y * np.sin(t) / b**2
-    chord = 0.5 * np.pi * (1.0 - x**2 / a**2 - y**2 / b**2 + mixed**2 / square) / np.sqrt(square)
-    return float(peak * chord.mean() / modulus)
-
-
-def by_root(ratio: float) -> tuple[float, float, float]:
-    """Axis ratio, K and S from SciPy's elliptic integrals and a bracketed root of Johnson's eq. 4.26."""
-
-    def parameter(q: float) -> float:
-        return 1.0 - q * q
-
-    def off(q: float) -> float:
-        m = parameter(q)
-        return float((ellipe(m) / q**2 - ellipk(m)) / (ellipk(m) - ellipe(m)) - ratio)
-
-    q = brentq(off, 1e-4, 0.999, xtol=1e-15, rtol=1e-14)
-    return q, float(ellipk(parameter(q))), float((1.0 - ellipe(parameter(q)) / ellipk(parameter(q))) / parameter(q))
 
 
 def test_moduli_of_bone_cement_and_steel() -> None:

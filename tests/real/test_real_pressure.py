@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks import pressure
+from benchmarks.pairs import PAIRS
 from tests.cli.calls import Call, area, done
 
 MAP = "rx=knee_flex_r,ry=knee_add_r,rz=knee_rot_r,tx=knee_ant_r,ty=knee_sup_r,tz=knee_lat_r"
@@ -47,3 +49,21 @@ def test_sides_add_up_and_their_centres_are_apart(dm: Call) -> None:
     both = (table["force_medial [N]"] > 0.0) & (table["force_lateral [N]"] > 0.0)
     gap = (table["cop_lateral_z [mm]"] - table["cop_medial_z [mm]"])[both]
     assert both.sum() > 40 and gap.between(25.0, 70.0).all()
+
+
+def test_smooth_facets_give_the_force_of_a_refined_mesh(data_dir: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every face of both real bodies cut into four, new corners on the smooth surface, then taken flat."""
+    monkeypatch.setenv("GEOCONTACT_DATA", str(data_dir))
+    pair = PAIRS["dm"](0, 5)
+    bodies = (pair.moving, pair.fixed)
+    finer = [pressure.refined(body, 1) for body in bodies]
+    assert all(body.closed and len(body.faces) == 4 * len(was.faces) for body, was in zip(finer, bodies, strict=True))
+    pose = slice(1, 2)
+    forces = {
+        name: pressure.forces_of(*given, pair.rotation[pose], pair.translation[pose], smooth, (0.0,)).force[0, 0]
+        for name, given, smooth in (("finer", finer, False), ("smooth", bodies, True), ("flat", bodies, False))
+    }
+    assert forces["finer"] > 1e3
+    limit = forces["finer"] + (forces["finer"] - forces["flat"]) / 3.0  # flat triangles err with the square of the edge
+    assert abs(forces["flat"] / limit - 1.0) > 0.005
+    assert forces["smooth"] == pytest.approx(limit, rel=1e-3)

@@ -44,3 +44,19 @@ def misfit(fit, turn=TURN, shift=SHIFT):
     assert np.linalg.norm(fit.axis) == 1.0 or abs(np.linalg.norm(fit.axis) - 1.0) < 1e-12
     angle = np.linalg.norm(np.cross(fit.axis, turn.apply([0.0, 0.0, 1.0])))
     return angle, np.linalg.norm(np.cross(shift - fit.point, fit.axis))
+
+
+def rough(arc, seed, length=5e-3, size=1e-4, waves=40):
+    """A wall with a smooth random roughness of that correlation length [m] and standard deviation [m]."""
+    rng = np.random.default_rng(seed)
+    angle, height = wall(arc, 1500, seed=seed)
+    number, phase = rng.normal(size=(waves, 2)) / length, rng.uniform(0.0, 2.0 * np.pi, waves)
+    along = np.outer(angle * RADIUS, number[:, 0]) + np.outer(height, number[:, 1]) + phase
+    return points(angle, height, RADIUS + size * np.sqrt(2.0 / waves) * np.cos(along).sum(axis=1))
+
+
+CLOUDS = {
+    "independent noise and outliers": lambda seed: spoilt(120, 1200, seed, "anywhere"),
+    "few points": lambda seed: spoilt(120, 200, seed, "anywhere"),
+    "errors that neighbours share": lambda seed: rough(120, seed),
+}

@@ -8,25 +8,9 @@ import pytest
 
 from geocontact.geometry.fit.cylinder import fit_cylinder
 from geocontact.geometry.fit.uncertainty import cells, covariance, half_width
-from tests.geometry.fit.clouds import RADIUS, points, spoilt, wall
+from tests.geometry.fit.clouds import CLOUDS, RADIUS, wall
 
 RUNS = 60
-
-
-def rough(arc, seed, length=5e-3, size=1e-4, waves=40):
-    """A wall with a smooth random roughness of that correlation length [m] and standard deviation [m]."""
-    rng = np.random.default_rng(seed)
-    angle, height = wall(arc, 1500, seed=seed)
-    number, phase = rng.normal(size=(waves, 2)) / length, rng.uniform(0.0, 2.0 * np.pi, waves)
-    along = np.outer(angle * RADIUS, number[:, 0]) + np.outer(height, number[:, 1]) + phase
-    return points(angle, height, RADIUS + size * np.sqrt(2.0 / waves) * np.cos(along).sum(axis=1))
-
-
-CLOUDS = {
-    "independent noise and outliers": lambda seed: spoilt(120, 1200, seed, "anywhere"),
-    "few points": lambda seed: spoilt(120, 200, seed, "anywhere"),
-    "errors that neighbours share": lambda seed: rough(120, seed),
-}
 
 
 def fitted(kind):
