@@ -33,6 +33,7 @@ FITS = {
 }
 """Mesh, shape and options; lengths in m."""
 THRESHOLDS = (0.1, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
+STUDIED = (1.699, 2.811)  # s, the study's cycle of og1
 COARSE = ("Femoral_Component_simpler.stl", "Tibial_Insert_simpler_superior.stl")
 IDENTIFIED = {
     "R = 37 mm": ("--radius-mm", "37"),
@@ -63,7 +64,8 @@ def figures(data: Path, work: Path) -> dict[str, object]:
         "area, workshop's meshes": areas(data, work, "coarse"),
         "area, original meshes": areas(data, work, "fine"),
         "modulus": {name: modulus(data, work, name) for name in IDENTIFIED},
-        "load cells": load_cells(data, work),
+        "prediction": predictions(data, work),
+        "load cells": load_cells(data, work) | {"peaks of og1, medial and lateral [N]": og1_peaks(data)},
     }
 
 
@@ -136,6 +138,7 @@ def modulus(data: Path, work: Path, name: str) -> dict[str, object]:
         "RMSE [N]": {side: round(each["rmse_N"], 1) for side, each in sides.items()},
         "R2": {side: round(each["r2"], 3) for side, each in sides.items()},
         "E [MPa]": {ratio: rounded(value * 1e-6) for ratio, value in told["E_Pa"].items()},
+        "singular values of E, nu": [round(v, 6) for v in told["identifiability"]["E, nu"]["singular_values"]],
         "intervals": {side: intervals_of(each["intervals"]) for side, each in sides.items()},
         "threshold sensitivity [MPa, R2]": {
             reading: {
@@ -145,6 +148,50 @@ def modulus(data: Path, work: Path, name: str) -> dict[str, object]:
             for reading, rows in table.groupby("reading", sort=False)
         },
     }
+
+
+def predictions(data: Path, work: Path) -> dict[str, dict[str, dict[str, float]]]:
+    """Force that was not used, by E* identified on another part of og1: R = 37 mm, 4 mm, workshop's meshes.
+
+    There is no second trial with poses and forces. What there is: the two halves of the cycle, and the stretch before
+    it, for which the force is measured but the pose is a hinge: flexion from markers, everything else held by the model.
+    """
+    workshop = data / "gc4_jw_predsim_workshop"
+    table = read(work / "coarse" / "area.csv")
+    middle = 0.5 * (table["time [s]"].min() + table["time [s]"].max())
+    joint = ("--osim", workshop / "KneeProsthesis.osim", "--joint", "knee_joint", "--angles", "deg")
+    options = ("--moving", "parent", "--split", "z", "--medial", "+", "--region", "ny>0.25")
+    motion, pair = ("--motion", workshop / "jw_ngait_og1_new_v4_converted.mot"), [workshop / name for name in COARSE]
+    geocontact("area", *pair, "--unit", "m", *motion, *joint, *options, "--out", work / "hinge")
+    hinge = read(work / "hinge" / "area.csv")
+    parts = {
+        "cycle": table,
+        "first half": table[table["time [s]"] <= middle],
+        "second half": table[table["time [s]"] > middle],
+        "before, hinge": hinge[hinge["time [s]"] < table["time [s]"].min()],
+    }
+    for name, rows in parts.items():
+        rows[rows["threshold [mm]"] == 4.0].to_csv(work / f"{name}.csv", index=False)
+    pairs = (("first half", "second half"), ("second half", "first half"), ("cycle", "before, hinge"))
+    return {f"{used} → {told}": predicted(data, work, used, told) for used, told in pairs}
+
+
+def predicted(data: Path, work: Path, used: str, unseen: str) -> dict[str, dict[str, float]]:
+    """RMSE [N] and R2 of each side."""
+    force, out = data / "gc4_jw_predsim_workshop" / "KCF_ref.mot", work / f"{used} {unseen}"
+    words = ("--area", work / f"{used}.csv", "--force", force, "--unit", "lbf", "--radius-mm", "37", "--bootstrap", "0")
+    geocontact("modulus", *words, "--predict-area", work / f"{unseen}.csv", "--predict-force", force, "--out", out)
+    told = json.loads((out / "modulus.json").read_text(encoding="utf-8"))["prediction"]
+    return {side: {"RMSE [N]": round(p["rmse_N"], 1), "R2": round(p["r2"], 3)} for side, p in told.items()}
+
+
+def og1_peaks(data: Path) -> list[float]:
+    """Of og1 between the times that the study gives for its normal gait."""
+    from geocontact.io.force_curves import read_force_curves
+
+    found = read_force_curves(data / "gc4_jw_predsim_workshop" / "KCF_ref.mot", "lbf", {})
+    inside = (found.time >= STUDIED[0]) & (found.time <= STUDIED[1])
+    return [round(float(found.forces[side][inside].max()), 1) for side in ("medial", "lateral")]
 
 
 def intervals_of(told: dict[str, dict]) -> dict[str, dict[str, object]]:
