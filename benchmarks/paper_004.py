@@ -154,7 +154,7 @@ def predictions(data: Path, work: Path) -> dict[str, dict[str, dict[str, float]]
     """Force that was not used, by E* identified on another part of og1: R = 37 mm, 4 mm, workshop's meshes.
 
     There is no second trial with poses and forces. What there is: the two halves of the cycle, and the stretch before
-    it, for which the force is measured but the pose is a hinge: flexion from markers, everything else held by the model.
+    it, for which the force is measured but the pose is a hinge: flexion from markers, all else held by the model.
     """
     workshop = data / "gc4_jw_predsim_workshop"
     table = read(work / "coarse" / "area.csv")

@@ -102,7 +102,7 @@ def test_one_millimetre_is_found(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_a_coupling_of_two_cells_is_found_where_it_is(tmp_path: Path) -> None:
     """6 % of PM in AM, of the same trials: the effect, its amount, its cell, and that cell's error falls most."""
-    found = answer(tmp_path, "crosstalk", 17)
+    found = answer(tmp_path, "crosstalk", 21)
     assert (found["verdict"], found["effects"]) == ("explained", ["crosstalk"]), found
     label = next(name for name in found["gains_nats"] if name.startswith("crosstalk"))
     assert "PM" in label and "AM" in label, "the pair of cells"
