@@ -65,7 +65,8 @@ def figures(data: Path, work: Path) -> dict[str, object]:
         "area, original meshes": areas(data, work, "fine"),
         "modulus": {name: modulus(data, work, name) for name in IDENTIFIED},
         "prediction": predictions(data, work),
-        "load cells": load_cells(data, work) | {"peaks of og1, medial and lateral [N]": og1_peaks(data)},
+        "load cells": load_cells(data, work),
+        "peaks of og1, medial and lateral [N]": og1_peaks(data),
     }
 
 
