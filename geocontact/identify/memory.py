@@ -23,6 +23,7 @@ from geocontact.identify.noise import Noise
 GRID = 30  # correlation times
 SHORTEST = 0.2  # of a step: no memory at all
 LONGEST = 1.0 / 3.0  # of the duration: more cannot be told from a wrong model
+PAUSE = 20.0  # usual steps: a longer one is a pause and does not count as duration
 LEAST = 1e-8  # of the largest singular value: below, parameters act as one
 
 
@@ -71,8 +72,10 @@ def memory_of(
 ) -> Memory:
     """Weights of the correlation times by the restricted likelihood of what the fit left over."""
     n, p = jacobian.shape
-    step = float(np.median(np.diff(time)))
-    tau = np.geomspace(SHORTEST * step, LONGEST * step * (n - 1), GRID)  # pauses do not count as duration
+    steps = np.diff(time)
+    usual = float(np.median(steps))
+    duration = float(steps[steps < PAUSE * usual].sum())
+    tau = np.geomspace(SHORTEST * usual, LONGEST * duration, GRID)
     logs, variance = np.empty(GRID), np.empty(GRID)
     both = np.column_stack([residual, jacobian / np.linalg.norm(jacobian, axis=0)])[:, None, :]
     for k, each in enumerate(tau):
