@@ -17,7 +17,7 @@ from geocontact.gap.contest import Contender
 
 Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
 
-SURE = 5.0  # nats below which a gain may be luck
+SURE = 6.0  # nats below which a gain may be luck
 FORM = 0.02  # tolerance of form, as a share of what is explained
 LEFT_OVER = 0.2  # of all there is to explain may be left by the effect that is named
 PAIR = 0.07  # of what is explained that a second effect must add
