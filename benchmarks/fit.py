@@ -1,7 +1,7 @@
 """Cylinder fit at 1e5 points beside other fitters: `python -m benchmarks.fit`.
 
 Synthetic wall of radius 37 mm, length 60 mm, noise 0.1 mm, a fifth of the points outliers; seconds of the processor on
-one core, error of the radius, median over seeds. scikit-spatial is measured where it is installed. Then the coverage of
+one core, largest error of the radius over seeds. scikit-spatial is measured where it is installed. Then the coverage of
 the 95 % interval of the radius on smaller clouds: independent noise, few points, and errors that neighbours share.
 """
 
@@ -35,7 +35,7 @@ def ours(cloud: np.ndarray) -> float:
 
 
 def plain_from_one_start(cloud: np.ndarray) -> float:
-    """Radius by least squares without loss, from the direction of least extent of the normal matrix, differences."""
+    """Radius by least squares without loss, from the direction of largest extent of the points, differences."""
     middle = cloud.mean(axis=0)
     axis = np.linalg.svd(cloud - middle, full_matrices=False)[2][0]
     spare = np.linalg.svd(axis[None])[2][1:]

@@ -1,6 +1,6 @@
 """E* on synthetic trials: exact without noise, coverage of its intervals: `python -m benchmarks.modulus [--runs 2000]`.
 
-One step of 1.1 s at 101 frames (and at 41, and two others), force by the reading "disc" of a smooth synthetic area,
+One step of 1.1 s at 101 and at 41 frames, force by the reading "disc" of a smooth synthetic area,
 E* 6.8 MPa, Ornstein-Uhlenbeck noise of 100 N and the correlation times of the table. An interval of 95 % is right
 when it holds the true value in 93 to 97 % of the runs. Fewer runs where a lag or a threshold is free besides, without
 the bootstrap, because each is a search.
@@ -20,7 +20,8 @@ CASES = ((101, 0.02), (101, 0.05), (41, 0.05), (41, 0.1))
 """Frames and correlation time [s]."""
 
 FREED = (("lag", 41, 0.02), ("lag", 41, 0.05), ("threshold", 41, 0.02), ("threshold", 41, 0.05))
-"""What is free besides E*, frames and correlation time [s]."""
+"""What is free besides E*, frames (those that a lag moves out of the recording are not compared: 35 are), correlation
+time [s]."""
 
 NOISE = 100.0  # N
 DECADES = (1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11)

@@ -14,6 +14,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from benchmarks.machine import machine, versions
+
 HERE = Path(__file__).resolve().parent
 FEMUR, INSERT = "Femoral Component.stl", "Tibial Insert.stl"
 Z, SIDE_VIEW = ("--axis", "0,0,0,0,0,1"), "--sagittal=-y,x"  # the condyles lie at +x, the flange at -x
@@ -50,7 +52,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=HERE / "results")
     options = parser.parse_args()
     with TemporaryDirectory() as folder:
-        report = figures(options.data, Path(folder))
+        report = {"machine": machine(), "versions": versions({"scipy"}), **figures(options.data, Path(folder))}
     text = json.dumps(report, indent=1, ensure_ascii=False)
     print(text)
     (options.out / "paper_004.json").write_text(text + "\n", encoding="utf-8")

@@ -122,9 +122,10 @@ def _bootstrap(
     model: AreaForce, fit: Fit, memory: Memory, parameters: Sequence[Parameter], count: int, level: float
 ) -> Replicates:
     best = np.array([fit.values[name] for name in fit.names])
+    alone = fit.names == (MODULUS,)
 
     def refit(rows: Float[np.ndarray, "b n"]) -> Float[np.ndarray, "b p"]:
-        if fit.names == (MODULUS,):
+        if alone:
             return model.refit(rows, fit.values, (WEAKEST, STRONGEST))
         found = np.empty((len(rows), len(best)))
         for k, row in enumerate(rows):
@@ -133,6 +134,7 @@ def _bootstrap(
             found[k] = [values[name] for name in fit.names]
         return found
 
+    count = count if alone else min(count, REFITS)
     return block_bootstrap(model.frames, model.force(fit.values), fit.residuals[0][:, 0], memory, refit, count, level)
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.stats import t as student
 
 from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, SPHERE, Call, area, call, done, inventory, shifted, written
 
@@ -102,6 +103,8 @@ def test_radius_by_side_and_by_flexion(tmp_path: Path) -> None:
     counted = sum(side["points"] for side in told["sides"].values())
     assert told["points"] <= counted <= told["points"] + 200, "points on the plane are on both sides"
     low, high = told["radius_ci95_mm"]
+    variance = told["covariance"][told["parameters"].index("radius")][told["parameters"].index("radius")]
+    assert 0.5e-3 * (high - low) == pytest.approx(student.ppf(0.975, 15) * np.sqrt(variance), rel=1e-3)
     assert low < told["radius_mm"] < high and 22 < told["radius_mm"] < 34
     assert list(table["flexion [deg]"]) == pytest.approx([*range(-20, 101, 20)] * 2)
     medial = table[table["side"] == "medial"].set_index(table["flexion [deg]"].round()[table["side"] == "medial"])

@@ -72,6 +72,15 @@ def test_intervals_cover_in_short_steps() -> None:
     assert held["block bootstrap"] >= 0.85
 
 
+def test_replicates_are_few_where_each_is_a_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("geocontact.identify.elastic.REFITS", 3)
+    model = synthetic_model("disc", inner=INNER)
+    force = model.force({MODULUS: TRUE}) + np.random.default_rng(1).normal(0.0, 50.0, len(model.frames))
+    for others, count in ((BOTH[1:], 3), ((), 40)):
+        drawn = identify(model, force, others, replicates=40).replicates
+        assert drawn is not None and len(drawn.estimates) == count
+
+
 def test_interval_of_white_noise_is_the_textbook_one() -> None:
     """Dense white noise: Student's interval of a slope through the origin, to the cost of not knowing it white."""
     model = synthetic_model("disc", frames=401)

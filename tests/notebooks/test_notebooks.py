@@ -69,6 +69,10 @@ def test_knee_goes_from_meshes_to_a_modulus_that_was_planted(run, tmp_path):
     said = run(ROOT / "notebooks" / "knee.ipynb", GEOCONTACT_DATA=str(tmp_path / "none"))
     assert "no real data here; everything above is synthetic" in said
     assert "sagittal radius 33.9 mm at 0°, 22.0 mm at 80° of flexion" in said
+    peak, strain = map(float, re.findall(r"largest pressure ([\d.]+) MPa, strain up to ([\d.]+)%", said)[0])
+    assert 1.0 < peak < 100.0 and 0.1 < strain < 30.0
+    by_layer, by_cells = map(int, re.findall(r"load: (\d+)% by the layer, (\d+)% by the cells", said)[0])
+    assert 0 < by_layer < 100 and abs(by_layer - by_cells) < 25
     modulus = [float(value) for value in re.findall(r"E\* ([\d.]+) MPa, 95 %", said)]
     assert modulus == pytest.approx([6.8, 6.8], rel=0.02)
     explained = [float(value) for value in re.findall(r"trial not used: .* R² ([\d.]+)", said)]

@@ -1,0 +1,79 @@
+"""Figures on the pages are those of the results in the repository."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+MINUS = "\N{MINUS SIGN}"
+
+
+def results(name: str) -> Any:
+    """JSON of a benchmark."""
+    return json.loads((ROOT / "benchmarks" / "results" / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def rows(page: str) -> list[list[str]]:
+    """Cells of every row of every table of a page, indented ones too."""
+    lines = (ROOT / "docs" / page).read_text(encoding="utf-8").splitlines()
+    return [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in lines if "|" in line]
+
+
+def row(page: str, *begin: str) -> list[str]:
+    """What follows in the one row that begins so."""
+    (found,) = [cells[len(begin) :] for cells in rows(page) if tuple(cells[: len(begin)]) == begin]
+    return found
+
+
+def near(text: str, value: float, scale: float = 1.0) -> bool:
+    """Whether a printed number is this one, to its last digit."""
+    plain = text.replace(MINUS, "-").replace("%", "").replace("+", "").strip()
+    last = 10.0 ** -len(plain.partition(".")[2])
+    return abs(float(plain) - scale * value) <= 0.51 * last
+
+
+def test_coverage_of_the_modulus() -> None:
+    page, told = "theory/elastic_identification.md", results("modulus")
+    for one in told["coverage"]:
+        cells = row(page, str(one["frames"]), f"{one['tau_s']:.2f}")
+        assert one["runs"] == 2000
+        assert near(cells[0], one["profile likelihood"]) and near(cells[1], one["block bootstrap"]), cells
+        assert 0.93 <= one["profile likelihood"] <= 0.97 and 0.93 <= one["block bootstrap"] <= 0.97
+    for one in told["coverage_with_more_free"]:
+        cells = row(page, one["free"], f"{one['tau_s']:.2f}")
+        assert near(cells[0], one["E*"]) and near(cells[1], one[one["free"]]), cells
+    assert told["noise_free_largest_relative_error"] < 1e-3
+
+
+def test_force_beside_a_refined_mesh() -> None:
+    for one in results("pressure")["refinement"]["rows"]:
+        cells = row("how-to/pressure.md", f"1e{len(str(one['faces_asked'])) - 1}", one["facets"])
+        assert all(near(cell, off, 100.0) for cell, off in zip(cells, one["off_worst_frame"].values(), strict=True))
+        if one["facets"] == "smooth":
+            assert max(map(abs, one["off_worst_frame"].values())) < 0.01
+
+
+def test_time_and_error_of_cylinder_fits() -> None:
+    ours = [one for one in results("fit")["rows"] if one["fitter"] == "geocontact"]
+    assert len(ours) == 9
+    for one in ours:
+        kind = {"inside": "inside the wall", "another face": "on another face"}.get(one["outliers"], one["outliers"])
+        cells = row("theory/fitting.md", f"{one['arc_deg']:.0f}°", kind)
+        assert near(cells[0], one["largest_error_m"], 1e3) and near(cells[1], one["seconds"]), (cells, one)
+        if one["arc_deg"] == 120.0:
+            assert one["largest_error_m"] < 2e-5 and one["seconds"] < 0.7
+
+
+def test_what_was_withheld_from_the_knee() -> None:
+    names = {"tx_1mm": "1 mm in tx", "ty_1mm": "1 mm in ty", "tz_1mm": "1 mm in tz", "crosstalk": "6 % of PM in AM"}
+    cases = results("knee_chain")["runs"]["sample, truth coarse, seed 1"]["cases"]
+    for name, words in names.items():
+        one = cases[name]
+        cells = next(each[1:] for each in rows("how-to/knee_chain.md") if each[0] == words)
+        assert cells[0].startswith(one["effects"][0])
+        for printed, told in zip(cells[4].split(), one["reduction"].values(), strict=True):
+            assert near(printed, told[0]), (cells, told)
+        for printed, true in zip(cells[5].split(), one["true_reduction"].values(), strict=True):
+            assert near(printed, true), (cells, true)
