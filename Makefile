@@ -10,14 +10,20 @@ EDITABLE := $(PIP) install --quiet --no-deps --no-build-isolation -e .
 COMPILE := $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url \
 	--no-annotate --no-header --group build --extra all --extra test
 
+TOGETHER := -rs --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope
+
 .DELETE_ON_ERROR:
-.PHONY: demo test check lint types imports oracle lock page clean
+.PHONY: demo test real check lint types imports oracle lock page clean
 
 demo: $(VENV)/core.stamp
 	@$(BIN)/geocontact demo
 
 test: $(VENV)/full.stamp
-	@$(BIN)/python -m pytest -rs -m "not oracle" --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope
+	@$(BIN)/python -m pytest -m "not oracle and not real" $(TOGETHER)
+
+# Needs the real data: $GEOCONTACT_DATA, else ../shared/data
+real: $(VENV)/full.stamp
+	@$(BIN)/python -m pytest -m "real and not oracle" $(TOGETHER) tests/real
 
 check:
 	@.ci/run

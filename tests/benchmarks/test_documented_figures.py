@@ -44,7 +44,7 @@ def test_coverage_of_the_modulus() -> None:
     for one in told["coverage_with_more_free"]:
         cells = row(page, one["free"], f"{one['tau_s']:.2f}")
         assert near(cells[0], one["E*"]) and near(cells[1], one[one["free"]]), cells
-    assert told["noise_free_largest_relative_error"] < 1e-3
+    assert max(told["noise_free_largest_relative_error"].values()) < 1e-3
 
 
 def test_force_beside_a_refined_mesh() -> None:

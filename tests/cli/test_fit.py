@@ -103,7 +103,8 @@ def test_radius_by_side_and_by_flexion(tmp_path: Path) -> None:
     counted = sum(side["points"] for side in told["sides"].values())
     assert told["points"] <= counted <= told["points"] + 200, "points on the plane are on both sides"
     low, high = told["radius_ci95_mm"]
-    variance = told["covariance"][told["parameters"].index("radius")][told["parameters"].index("radius")]
+    radius = told["parameters"].index("radius [m]")
+    variance = told["covariance"][radius][radius]
     assert 0.5e-3 * (high - low) == pytest.approx(student.ppf(0.975, 15) * np.sqrt(variance), rel=1e-3)
     assert low < told["radius_mm"] < high and 22 < told["radius_mm"] < 34
     assert list(table["flexion [deg]"]) == pytest.approx([*range(-20, 101, 20)] * 2)
