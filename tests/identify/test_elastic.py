@@ -70,6 +70,7 @@ def test_intervals_cover_in_short_steps() -> None:
     held = coverage(60, 41, 100.0, 0.05, 100, seed=11)
     assert held["profile likelihood"] >= 0.85
     assert held["block bootstrap"] >= 0.85
+    assert 1.96 < held["half_width_over_sd"] < 4.0, "intervals that are too wide hold everything"
 
 
 def test_replicates_are_few_where_each_is_a_search(monkeypatch: pytest.MonkeyPatch) -> None:

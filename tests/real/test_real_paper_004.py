@@ -1,4 +1,7 @@
-"""Every figure of docs/reference/paper_004.md comes out again, and the page says what the benchmark found."""
+"""Figures of docs/reference/paper_004.md come out again: fits, areas, E* at R = 37 mm, load cells.
+
+The page says what the benchmark found. Its predictions and the fits with more free are told by the benchmark alone.
+"""
 
 from __future__ import annotations
 
