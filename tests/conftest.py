@@ -37,12 +37,17 @@ install_import_hook(list(checked_modules()), "beartype.beartype")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what lies below tests/real, and what asks for the comparison library opensim."""
+    """Mark what lies below tests/real, and what asks for the library opensim; files that are slow come first.
+
+    Several processes take file by file; one that is slow and comes last would keep a single process busy at the end.
+    """
     for item in items:
         if REAL in item.path.parents:
             item.add_marker(pytest.mark.real)
         if "opensim" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.oracle)
+    slow = {item.path for item in items if item.get_closest_marker("slow")}
+    items.sort(key=lambda item: item.path not in slow)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -21,6 +21,7 @@ def levels(case: Case, rule: str, cells: Sequence[int]) -> tuple[np.ndarray, np.
     return faces, np.array([root_mean_square(error) for _, error in found]).T
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", [REFINED, CLIP])
 @pytest.mark.parametrize("name", SPHERES)
 def test_areas_of_sphere_pairs_converge_at_second_order(name: str, rule: str) -> None:

@@ -51,6 +51,7 @@ def rows(ran: Call) -> list[dict[str, str]]:
         return list(csv.DictReader(text))
 
 
+@pytest.mark.slow
 def test_files_and_table(ran: Call) -> None:
     assert {p.name for p in ran.folder.iterdir()} == FILES | {f"cases-{SEED}"}
     printed = (ran.folder / "benchmark.md").read_text("utf-8")

@@ -171,6 +171,7 @@ def many(good: Path, tmp_path_factory: pytest.TempPathFactory) -> Many:
     return Many(found.returncode, found.stdout, found.stderr, out)
 
 
+@pytest.mark.slow
 def test_a_wrong_case_costs_the_others_nothing(many: Many) -> None:
     assert many.code == 2, many.err
     (line,) = many.err.splitlines()

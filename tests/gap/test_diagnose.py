@@ -60,6 +60,7 @@ def test_name_and_order_of_trials_do_not_matter(damped: Diagnosis, elsewhere: El
         assert again.probabilities[name] == pytest.approx(value, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_two_effects_are_both_named(elsewhere: Elsewhere) -> None:
     found = elsewhere(diagnosis, "dry_friction.rate", FRICTION, seed=2, change=Late(0.15))
     check(found)

@@ -62,6 +62,7 @@ def test_a_late_force_has_a_positive_lag() -> None:
     assert found.values[LAG] == pytest.approx(0.03, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_intervals_cover_in_short_steps() -> None:
     """Small version of `benchmarks.modulus`: 60 runs at 41 frames, noise of 100 N that remembers 50 ms.
 

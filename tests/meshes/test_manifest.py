@@ -135,6 +135,7 @@ def test_poses_come_from_the_motion(pair):
         assert -0.05 < lower <= upper < 0
 
 
+@pytest.mark.slow
 def test_generator_reproduces_every_byte():
     done = subprocess.run([sys.executable, FOLDER / "make.py", "--check"], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -48,6 +48,7 @@ def gait(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Call:
     return done(dm(data_dir, tmp_path_factory.mktemp("dm") / "out", "decimated", "--region", "ny>0.25"))
 
 
+@pytest.mark.slow
 def test_example_of_the_contract(gait: Call) -> None:
     """101 frames; at 4 mm 2167 to 2775 mm^2 and a distance of -1.3 to +0.1 mm (issue 2)."""
     table = gait.table()

@@ -96,6 +96,7 @@ def test_laboratory_forces_push_the_foot_up(data_dir: Path) -> None:
         assert plate.time[-1] == pytest.approx(4.869)
 
 
+@pytest.mark.slow
 def test_a_torn_or_spoilt_c3d_is_refused(data_dir: Path, tmp_path: Path) -> None:
     """The library itself fills torn files up, and ends or stalls on spoilt ones."""
     pytest.importorskip("ezc3d", reason="the extra `mocap` is not installed")

@@ -39,7 +39,7 @@ def test_head_of_the_hip_is_a_sphere_of_16_mm_with_its_stem_among_the_points(dat
     assert head["radius_mm"] == pytest.approx(16.0, abs=1e-5) and head["noise_mm"] < 1e-4
     assert 0.8 < head["inliers"] / head["points"] < 0.95
     centroids = told(fitted(tmp_path / "f", mesh, "sphere", "--points", "faces"))
-    assert centroids["radius_mm"] == pytest.approx(15.996, abs=0.004)
+    assert centroids["radius_mm"] == pytest.approx(15.9934, abs=2e-4), "others name 15.996; docs/how-to/fit.md says why"
     plain = told(fitted(tmp_path / "p", mesh, "sphere", "--no-robust"))
     assert abs(plain["radius_mm"] - 16.0) > 0.3, "the bore counts there"
 

@@ -46,6 +46,7 @@ def practice(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[str, An
     return diagnosed(chosen, tmp_path_factory.mktemp("answers") / "out")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", list(EXPLAINED))
 def test_the_effect_of_a_practice_case_is_named(name: str, practice: dict[str, dict[str, Any]]) -> None:
     said = practice[name]

@@ -24,6 +24,7 @@ def folder(knee: knee_chain.Knee, tmp_path_factory: pytest.TempPathFactory) -> P
     return knee_chain.write_case(tmp_path_factory.mktemp("dm") / "case", knee, courses, knee_truth.NOTHING, 1)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::geocontact.data.errors.InputWarning")
 def test_areas_agree_with_other_code_and_with_their_interpolation(knee: knee_chain.Knee, folder: Path) -> None:
     """Measured: 0.04 % between the codes, 0.6 % of the largest area by interpolating around the recorded poses."""

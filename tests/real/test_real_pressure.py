@@ -26,6 +26,7 @@ def dm(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Call:
     return done(area(out, *options, *layer, moving=femur, fixed=insert, motion=motion, unit="m"))
 
 
+@pytest.mark.slow
 def test_what_is_pressed_is_what_overlaps(dm: Call) -> None:
     pressure, areas = dm.table("pressure.csv"), dm.table()
     for ours, theirs in (("", ""), ("_medial", "_medial"), ("_lateral", "_lateral")):

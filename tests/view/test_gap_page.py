@@ -44,6 +44,7 @@ def table(page: Page, title: str) -> dict[str, tuple[str, ...]]:
     return {row[0]: tuple(row[1:]) for row in found.rows}
 
 
+@pytest.mark.slow
 def test_the_answer_stands_at_the_top(told: Told, page: Page) -> None:
     d = told[1].diagnosis
     said = dict(page.headline)

@@ -68,6 +68,7 @@ def found() -> dict:
     return json.loads(child.stdout)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("aware", [False, True])
 def test_a_strong_effect_is_found(found: dict, aware: bool) -> None:
     answer = found["damped"][aware]
