@@ -6,15 +6,13 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.contest import Contender, base_contender, mates, settled_in, singles
 from geocontact.gap.evidence import settled
 from geocontact.gap.faults import Fault, fault_of, recognised
-from geocontact.gap.hidden_faults import hidden_mistakes
+from geocontact.gap.hidden_faults import hidden_mistakes, undone
 from geocontact.gap.mending import mended
 from geocontact.gap.oddities import Oddity, oddities
 from geocontact.gap.problem import Problem, problem_of
@@ -127,32 +125,6 @@ def compared(problem: Problem, contenders: Sequence[Contender]) -> list[Contende
     noises = [contenders[0].judged.noise, *(c.judged.noise for c in leading.values())]
     everyone = [leading.get(c.label, c) for c in contenders]
     return [replace(c, judged=settled(problem, c.judged, noises)) for c in everyone]
-
-
-def undone(problem: Problem, case: GapCase, one: Contender) -> Contender:
-    """A mistake judged where it is undone, with the noise that the case tells, if that makes it more probable.
-
-    A wrong unit of an output is a change of variables: the densities differ by the factor, sample by sample.
-    """
-    mistake = one.candidates[0]
-    fault = recognised(problem, mistake, one.judged.model)
-    clean = problem_of(mended(case, fault), problem.system)
-    base = base_contender(clean).judged
-    wide = np.log(abs(mistake.factor)) if mistake.channel in problem.system.outputs else 0.0
-    column = problem.system.outputs.index(mistake.channel) if wide else 0
-    calibration, evaluation = (
-        wide
-        * sum(
-            int(there[:, column].sum()) for t, there in zip(m.trials, m.present, strict=True) if t.name in fault.trials
-        )
-        for m in (problem.calibration, problem.evaluation)
-    )
-    there = replace(base, nats=base.nats - calibration - evaluation, calibration=base.calibration - calibration)
-    return (
-        one
-        if there.nats <= one.judged.nats
-        else replace(one, judged=replace(one.judged, nats=there.nats, calibration=there.calibration))
-    )
 
 
 def _different(contenders: Sequence[Contender]) -> list[Contender]:

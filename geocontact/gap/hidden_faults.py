@@ -1,7 +1,7 @@
 """Mistakes in the data that refitted parameters may hide, so that nothing about them is gross.
 
 Base parameters swallow a force that reads 9.8 times too much, and a model that is nearly even in an input hardly tells
-its sign. Such mistakes compete with the effects, by evidence.
+its sign. Such mistakes compete with the effects, by evidence, and one that comes near is judged where it is undone.
 """
 
 from __future__ import annotations
@@ -12,9 +12,12 @@ from dataclasses import replace
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
+from geocontact.data.gap_case import GapCase
+from geocontact.gap.contest import Contender, base_contender
 from geocontact.gap.evidence import Judged
-from geocontact.gap.faults import gross
-from geocontact.gap.problem import Problem, base_starts
+from geocontact.gap.faults import gross, recognised
+from geocontact.gap.mending import mended
+from geocontact.gap.problem import Problem, base_starts, problem_of
 from geocontact.gap.refit import Measured, Refit, Weigh, refit
 
 MODEST = 20.0  # factor of a unit up to which a wrong one may hide in parameters
@@ -36,6 +39,32 @@ def hidden_mistakes(problem: Problem, base: Judged, candidates: Sequence[Candida
         best = _reversal(problem, one, weighings) if one.channel in problem.system.inputs else None
         found += [] if best is None else [best]
     return tuple(found)
+
+
+def undone(problem: Problem, case: GapCase, one: Contender) -> Contender:
+    """A mistake judged where it is undone, with the noise that the case tells, if that makes it more probable.
+
+    A wrong unit of an output is a change of variables: the densities differ by the factor, sample by sample.
+    """
+    mistake = one.candidates[0]
+    fault = recognised(problem, mistake, one.judged.model)
+    clean = problem_of(mended(case, fault), problem.system)
+    base = base_contender(clean).judged
+    wide = np.log(abs(mistake.factor)) if mistake.channel in problem.system.outputs else 0.0
+    column = problem.system.outputs.index(mistake.channel) if wide else 0
+    calibration, evaluation = (
+        wide
+        * sum(
+            int(there[:, column].sum()) for t, there in zip(m.trials, m.present, strict=True) if t.name in fault.trials
+        )
+        for m in (problem.calibration, problem.evaluation)
+    )
+    there = replace(base, nats=base.nats - calibration - evaluation, calibration=base.calibration - calibration)
+    return (
+        one
+        if there.nats <= one.judged.nats
+        else replace(one, judged=replace(one.judged, nats=there.nats, calibration=there.calibration))
+    )
 
 
 def _reversal(problem: Problem, one: Candidate, weighings: Sequence[Weigh]) -> Candidate | None:
