@@ -88,14 +88,14 @@ def _read(path: Path) -> pd.DataFrame:
     except (OSError, ValueError, pd.errors.ParserError) as error:
         raise InputError(path, "", f"cannot be read as a table ({error})", "give an area.csv") from error
     table.columns = [str(name).strip() for name in table.columns]
-    if OFFSET not in table:
-        table[OFFSET] = 0.0
-    names = [TIME, THRESHOLD, OFFSET, COLUMNS["total"]]
-    if missing := [name for name in names if name not in table]:
+    needed = [TIME, THRESHOLD, COLUMNS["total"]]
+    if missing := [name for name in needed if name not in table]:
         percent = " (time is in per cent of a cycle)" if "time [%]" in table else ""
         what = f"no column {', '.join(missing)}{percent}; columns are: {', '.join(map(str, table.columns))[:300]}"
         raise InputError(path, "line 1", what, "give the area.csv of geocontact area over a motion in seconds")
-    for name in [*names, *(each for each in COLUMNS.values() if each in table)]:
+    if OFFSET not in table:
+        table[OFFSET] = 0.0
+    for name in [*needed, OFFSET, *(each for each in COLUMNS.values() if each in table)]:
         numbers = pd.to_numeric(table[name], errors="coerce").to_numpy(float)
         bad = np.flatnonzero(~np.isfinite(numbers) | ((numbers < 0.0) & (name not in (TIME, OFFSET))))
         if len(bad):
