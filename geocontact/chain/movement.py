@@ -167,6 +167,19 @@ def by_differences(
     return Movement(time, inputs, filled, rate, np.gradient(rate, time, axis=1))
 
 
+def rate_of_waves(frequency: Float[np.ndarray, " f"], step: float, reach: float = REACH) -> Float[np.ndarray, " f"]:
+    """Amplitude of the rate that a unit sine of each frequency [Hz] is given far from the ends [1/s].
+
+    2 π f where the smoothing leaves it alone, less above; |sin(2 π f Δ)|/Δ for central differences.
+    """
+    if not reach:
+        return np.asarray(np.abs(np.sin(2.0 * np.pi * frequency * step)) / step)
+    half = max(int(np.ceil(2.0 * reach / step)), NEIGHBOURS)
+    time = step * np.arange(-half, half + 1)
+    weights = local_fit(time, np.eye(len(time)), np.zeros(1), reach, NEIGHBOURS, DEGREE)[1, :, 0]
+    return np.asarray(np.abs(np.sin(2.0 * np.pi * frequency[:, None] * time) @ weights))
+
+
 _SEEN: dict[tuple[int, tuple[str, ...], float], tuple[weakref.ref[Signals], Movement]] = {}
 
 

@@ -109,13 +109,17 @@ def _attributed(problem: Problem, fault: Fault | None, clean: Problem, offer: Of
     odd = tuple(each for each in oddities(clean, top.judged) if each.nats > ODD)
     share = base.judged.fitted_rows / len(base.judged.model.whitened)
     strange = float(sum(each.nats for each in odd))
-    over = {label: borne_out(each.nats, each.calibration, share) + strange for label, each in left.items()}
-    rest = remaining["none"]
-    unnamed = borne_out(rest.nats, rest.calibration, share)
+    over = {label: _believed(each, share) + strange for label, each in left.items()}
+    unnamed = _believed(remaining["none"], share)
     said = answer(base, contenders, share, unnamed, strange, over, Counter(one.name for one in entered))
     if fault is not None:
         said = with_mistake(said, fault.candidate.name)
     return Attribution(problem, fault, clean, base, tuple(contenders), {**remaining, **left}, odd, said)
+
+
+def _believed(found: Surrogate, share: float) -> float:
+    """What a stand-in gains, as far as the calibration trials bear it out, its choice paid for [nats]."""
+    return borne_out(found.gain, found.calibration, share) - found.price
 
 
 def compared(problem: Problem, contenders: Sequence[Contender]) -> list[Contender]:

@@ -17,15 +17,18 @@ import numpy as np
 from jaxtyping import Complex, Float
 
 from geocontact.data.trial import Trial
-from geocontact.identify.covariance import low_pass_power
+from geocontact.gap.grids import even_grid
+from geocontact.identify.low_pass import LowPass
 
-PLATEAU = (1.5, 2.5, 3.5, 4.5, 5.5)  # Hz
+PLATEAU = (0.25, 0.42, 0.58, 0.75, 0.92)  # of the corner
 FLAT = 2.5  # largest over smallest power of a plateau
 SMOOTH = 7  # bins that the spectrum of the recording is averaged over; it was made three times as long
 
 
-def denoised(trial: Trial, noise: Mapping[str, float]) -> Trial:
+def denoised(trial: Trial, noise: Mapping[str, float], passed: LowPass) -> Trial:
     """A trial with the noise of some inputs, standard deviations in their units, taken off by a Wiener filter.
+
+    `passed` is the filter that the inputs came through.
 
     Samples are put on an even grid for it and back by linear interpolation of what was taken off; where an input was
     not measured nothing is taken off.
@@ -38,18 +41,12 @@ def denoised(trial: Trial, noise: Mapping[str, float]) -> Trial:
         if there.sum() < 2 * SMOOTH:
             continue
         even = np.interp(grid, time[there], values[there, column])
-        off = noise_in(even, grid[1] - grid[0], sd)
+        off = noise_in(even, grid[1] - grid[0], sd, passed)
         values[there, column] -= np.interp(time[there], grid, off)
     return replace(trial, signals=replace(trial.signals, values=values))
 
 
-def even_grid(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " n"]:
-    """Evenly spaced times over a trial, about as many as there would be without missing rows."""
-    steps = max(round((time[-1] - time[0]) / float(np.median(np.diff(time)))), 1)
-    return np.linspace(time[0], time[-1], steps + 1)
-
-
-def seen_noise(trials: Sequence[Trial], name: str) -> float | None:
+def seen_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float | None:
     """Noise of an input as its spectrum over all trials shows it, None where the movement hides it."""
     recordings = []
     for trial in trials:
@@ -57,24 +54,24 @@ def seen_noise(trials: Sequence[Trial], name: str) -> float | None:
         there = np.isfinite(column)
         if there.sum() > 2 * SMOOTH:
             recordings.append((np.interp(grid, trial.time[there], column[there]), float(grid[1] - grid[0])))
-    return plateau(recordings) if recordings else None
+    return plateau(recordings, passed) if recordings else None
 
 
-def plateau(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]]) -> float | None:
+def plateau(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed: LowPass) -> float | None:
     """Standard deviation of an input's noise where its spectrum shows it, else None.
 
     A movement slower than the low-pass filter leaves a plateau of noise between its own frequencies and the corner:
-    over the bands from 1.5 Hz to 5 Hz power per power let through is the same. `recordings` are evenly spaced values
-    and their step [s].
+    over the bands from a quarter of it up to it power per power let through is the same. `recordings` are evenly
+    spaced values and their step [s].
     """
     levels = []
-    for low, high in pairwise(PLATEAU):
+    for low, high in pairwise(passed.corner * share for share in PLATEAU):
         power = []
         for values, step in recordings:
-            spectrum, frequency, scale = _spectrum(values, step)
+            spectrum, frequency, scale = _spectrum(values, step, passed)
             inside = (frequency >= low) & (frequency < high)
             if inside.any():
-                power.append(float(np.mean(np.abs(spectrum[inside]) ** 2 / low_pass_power(frequency[inside])) / scale))
+                power.append(float(np.mean(np.abs(spectrum[inside]) ** 2 / passed.power(frequency[inside])) / scale))
         if not power:
             return None
         levels.append(float(np.mean(power)))
@@ -82,17 +79,17 @@ def plateau(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]]) -> floa
 
 
 def _spectrum(
-    values: Float[np.ndarray, " n"], step: float
+    values: Float[np.ndarray, " n"], step: float, passed: LowPass
 ) -> tuple[Complex[np.ndarray, " f"], Float[np.ndarray, " f"], float]:
     """Windowed spectrum, its frequencies, and what its power is for unit variance where the filter lets all through."""
     count = len(values)
     window = np.blackman(count)
     spectrum = np.fft.rfft((values - np.linspace(values[0], values[-1], count)) * window)
     frequency = np.fft.rfftfreq(count, step)
-    return spectrum, frequency, float((window**2).sum() * count / (2.0 * low_pass_power(frequency).sum()))
+    return spectrum, frequency, float((window**2).sum() * count / (2.0 * passed.power(frequency).sum()))
 
 
-def noise_in(values: Float[np.ndarray, " n"], step: float, sd: float) -> Float[np.ndarray, " n"]:
+def noise_in(values: Float[np.ndarray, " n"], step: float, sd: float, passed: LowPass) -> Float[np.ndarray, " n"]:
     """What a Wiener filter takes off evenly spaced values whose low-passed noise has this standard deviation."""
     from scipy.ndimage import uniform_filter1d
 
@@ -102,7 +99,7 @@ def noise_in(values: Float[np.ndarray, " n"], step: float, sd: float) -> Float[n
     longer = np.concatenate([-bent[::-1][:-1], bent, -bent[::-1][1:]])
     spectrum = np.fft.rfft(longer)
     power = uniform_filter1d(np.abs(spectrum) ** 2, SMOOTH, mode="nearest")
-    shape = low_pass_power(np.fft.rfftfreq(len(longer), step))
+    shape = passed.power(np.fft.rfftfreq(len(longer), step))
     both_sides = 2.0 * shape.sum() - shape[0]
     noise = sd**2 * len(longer) ** 2 * shape / both_sides
     share = np.minimum(noise / np.maximum(power, 1e-300), 1.0)

@@ -10,10 +10,12 @@ from jaxtyping import Float
 
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
+from geocontact.gap.corner import filter_of
 from geocontact.gap.inputs import denoised, seen_noise
 from geocontact.gap.refit import Measured, Refit, at, free, refit
 from geocontact.gap.weighing import Weighing, layouts_of, sensitivity, usual_levels, varies_by
 from geocontact.identify.covariance import Layout, Levels, Whitener, most_likely
+from geocontact.identify.low_pass import LowPass
 from geocontact.identify.trial_variation import Products, variation
 
 REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
@@ -175,29 +177,32 @@ def problem_of(case: GapCase, system: System) -> Problem:
         outputs=calibration.outputs + evaluation.outputs,
     )
     recorded = everything
-    system = _rates(system, case, calibration, rough)
+    passed = filter_of(recorded.trials, system.inputs)
+    system = _rates(system, case, calibration, rough, passed)
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
     floor = rough
     for last in (False, True):
         system = system.scaled(calibration.trials, plain.values)
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
         prior, factor = usual_levels(system, case.noise, rough)
-        layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present))
+        layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present, passed))
         problem = Problem(system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor)
         noise = problem.weighed(plain)
         if not last:
             sd = {
-                name: seen_noise(calibration.trials, name) or float(level)
+                name: seen_noise(calibration.trials, name, passed) or float(level)
                 for name, level in zip(system.inputs, noise.levels.inputs, strict=True)
             }
-            calibration, evaluation = (_denoised(each, sd) for each in (calibration, evaluation))
+            calibration, evaluation = (_denoised(each, sd, passed) for each in (calibration, evaluation))
             everything = replace(everything, trials=calibration.trials + evaluation.trials)
         floor = floor_of(problem, noise, plain)
         plain = _plain_fit(system, calibration, floor, [plain.values], rounds=20)
     return replace(problem, plain=plain, floor=floor)
 
 
-def _rates(system: System, case: GapCase, measured: Measured, rough: Float[np.ndarray, " c"]) -> System:
+def _rates(
+    system: System, case: GapCase, measured: Measured, rough: Float[np.ndarray, " c"], passed: LowPass
+) -> System:
     """The system with the smoothing of rates that makes the base model's residuals most likely.
 
     How far rates have to be smoothed depends on the noise of the inputs, which is not known. Where the base does not
@@ -213,15 +218,15 @@ def _rates(system: System, case: GapCase, measured: Measured, rough: Float[np.nd
     for reach in REACHES:
         other = system.reaching(reach)
         model = _plain_fit(other, measured, rough, [plain.values], rounds=6)
-        layouts = layouts_of(other, measured.trials, model.values, measured.present)
+        layouts = layouts_of(other, measured.trials, model.values, measured.present, passed)
         varied = [j[..., : len(usual)] * usual for j in model.jacobian]
         _, __, nats = most_likely(layouts, model.residuals, varied, prior, factor, prior, rounds=15)
         likely.append((nats, reach))
     return system.reaching(max(likely)[1])
 
 
-def _denoised(measured: Measured, noise: Mapping[str, float]) -> Measured:
-    return replace(measured, trials=tuple(denoised(trial, noise) for trial in measured.trials))
+def _denoised(measured: Measured, noise: Mapping[str, float], passed: LowPass) -> Measured:
+    return replace(measured, trials=tuple(denoised(trial, noise, passed) for trial in measured.trials))
 
 
 def _plain_fit(

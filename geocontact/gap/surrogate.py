@@ -23,6 +23,7 @@ ALONG = (12, 30)  # bumps over one input's position or rate, wide ones and narro
 ACROSS = (6,)  # bumps per side over position and rate together
 THROUGH = (6, 16, 40)  # bumps over a trial
 ALONE = (5, 12)  # bumps over a trial that are a trial's own
+CLOSER = 2  # times as close as bumps are wide they stand, so that none falls in between
 STRETCHES = 8  # of a trial, that parameters may differ between
 NARROWEST = 1.5  # steps, in noise levels of the channel, that are looked for
 FEWEST_STAIRS, MOST_STAIRS = 8, 200  # half waves over the range of a channel
@@ -40,18 +41,26 @@ class Surrogate:
     ----------
     family
         "position of beta".
-    nats
-        Gain of evidence over all trials, the choice of family and size paid for.
+    gain
+        Of evidence over all trials [nats].
     calibration
         The same on the calibration trials alone.
+    price
+        Of choosing family, bumps and sizes [nats].
     predicted
         What it predicts of the residual of every trial, in the channels' units.
     """
 
     family: str
-    nats: float
+    gain: float
     calibration: float
+    price: float
     predicted: tuple[Float[np.ndarray, "_ c"], ...]
+
+    @property
+    def nats(self) -> float:
+        """Gain once the choice is paid for."""
+        return self.gain - self.price
 
 
 def surrogate(problem: Problem, judged: Judged) -> Surrogate:
@@ -68,20 +77,20 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
         weighings = problem.weighings(one.noise, one.model)
         unbent = _without(one.whitened_bends)
         known, residual = unbent(one.model.whitened_jacobian * spread), unbent(one.model.whitened[:, None])[:, 0]
-        best = Surrogate("", 0.0, 0.0, tuple(np.zeros_like(each) for each in one.model.residuals))
+        best = Surrogate("", 0.0, 0.0, 0.0, tuple(np.zeros_like(each) for each in one.model.residuals))
         for name, features in made:
             white = unbent(np.concatenate([w(part) for w, part in zip(weighings, features, strict=True)]))
             found = chosen(residual, white, known, one.fitted_rows, price)
-            if found.nats > best.nats:
+            if found.gain - found.price > best.nats:
                 shift = spread * found.shift
                 predicted = tuple(
                     part[..., found.columns] @ found.weights + jacobian @ shift
                     for part, jacobian in zip(features, one.model.jacobian, strict=True)
                 )
-                best = Surrogate(name, found.nats, found.calibration, predicted)
+                best = Surrogate(name, found.gain, found.calibration, found.price, predicted)
         return replace(
             best,
-            nats=best.nats + one.nats - judged.nats,
+            gain=best.gain + one.nats - judged.nats,
             calibration=best.calibration + one.calibration - judged.calibration,
         )
 
@@ -115,8 +124,9 @@ class Choice:
     columns: list[int]
     weights: Float[np.ndarray, " k"]
     shift: Float[np.ndarray, " p"]
-    nats: float
+    gain: float
     calibration: float
+    price: float
 
 
 def chosen(
@@ -136,7 +146,7 @@ def chosen(
     left, free = residual - basis @ (basis.T @ residual), columns - basis @ (basis.T @ columns)
     each = float(np.log(columns.shape[1] * len(SIZES)))
     taken: list[int] = []
-    total, design, spread = -price, np.zeros((len(left), 0)), np.zeros(0)
+    gain, design, spread = 0.0, np.zeros((len(left), 0)), np.zeros(0)
     before = -0.5 * float(left @ left)
     sizes = np.array(SIZES)
     rest = left
@@ -149,18 +159,18 @@ def chosen(
         taken.append(int(column))
         design = np.column_stack([design, columns[:, column] - basis @ (basis.T @ columns[:, column])])
         spread = np.append(spread, sizes[size])
-        total = log_evidence(left, design, spread) - before - each * len(taken) - price
+        gain = log_evidence(left, design, spread) - before
         direction = free[:, column] / np.sqrt(power[column])
         rest = rest - direction * (direction @ rest)
         free = free - np.outer(direction, direction @ free)
     if not taken:
-        return Choice([], np.zeros(0), np.zeros(known.shape[1]), 0.0, 0.0)
+        return Choice([], np.zeros(0), np.zeros(known.shape[1]), 0.0, 0.0, price)
     part = log_evidence(left[:rows], design[:rows], spread) + 0.5 * float(left[:rows] @ left[:rows])
     weights = _posterior(left, design, spread)
     ridge = RIDGE * np.eye(known.shape[1])
     apart = np.concatenate([residual - columns[:, taken] @ weights, np.zeros(known.shape[1])])
     shift = np.linalg.lstsq(np.concatenate([known, ridge]), apart, rcond=None)[0]
-    return Choice(taken, weights, shift, total, part - each * len(taken) - price)
+    return Choice(taken, weights, shift, gain, part, price + each * len(taken))
 
 
 def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
@@ -173,7 +183,7 @@ def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ 
         rate = [m.rate[row] for m in movements]
         yield f"position of {name}", [_per_channel(bumps, scale) for bumps in _line(position, ALONG)]
         yield f"rate of {name}", [_per_channel(bumps, scale) for bumps in _line(rate, ALONG)]
-        both = zip(_line(position, ACROSS), _line(rate, ACROSS), strict=True)
+        both = zip(_line(position, ACROSS, 1), _line(rate, ACROSS, 1), strict=True)
         crossed = [(a[:, :, None] * b[:, None, :]).reshape(len(a), -1) for a, b in both]
         yield f"position and rate of {name}", [_per_channel(bumps, scale) for bumps in crossed]
     phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
@@ -234,13 +244,18 @@ def _apart(features: list[Float[np.ndarray, "_ c m"]]) -> list[Float[np.ndarray,
     return out
 
 
-def _line(values: list[Float[np.ndarray, " _"]], counts: Sequence[int]) -> list[Float[np.ndarray, "_ m"]]:
-    """Gaussian bumps, evenly spaced over the range that 98 % of the samples are in, as wide as their distance."""
+def _line(
+    values: list[Float[np.ndarray, " _"]], counts: Sequence[int], closer: int = CLOSER
+) -> list[Float[np.ndarray, "_ m"]]:
+    """Gaussian bumps, evenly spaced over the range that 98 % of the samples are in.
+
+    As wide as their distance if there were `counts` of them; they stand `closer` times as close.
+    """
     low, high = np.percentile(np.concatenate(values), [1.0, 99.0])
     clipped = [np.clip(v, low, high)[:, None] for v in values]
     made = []
     for count in counts:
-        centres = np.linspace(low, high, count)
+        centres = np.linspace(low, high, closer * (count - 1) + 1)
         width = max((high - low) / (count - 1), 1e-300)
         made.append([np.exp(-0.5 * ((v - centres) / width) ** 2) for v in clipped])
     return [np.concatenate(scales, axis=1) for scales in zip(*made, strict=True)]

@@ -9,11 +9,13 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.links import Modifier
-from geocontact.chain.movement import Movement
+from geocontact.chain.movement import Movement, rate_of_waves
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.identify.covariance import Layout, Levels, Sensitivity, Whitener
+from geocontact.identify.low_pass import LowPass
+from geocontact.identify.noise_spectrum import NoiseSpectrum
 
 POSITION_VARIES = 1e-3  # m
 ANGLE_VARIES = 0.01  # rad
@@ -111,7 +113,16 @@ def usual_levels(
 
 
 def layouts_of(
-    system: System, trials: Sequence[Trial], values: Mapping[str, float], present: Sequence[np.ndarray]
+    system: System,
+    trials: Sequence[Trial],
+    values: Mapping[str, float],
+    present: Sequence[np.ndarray],
+    passed: LowPass,
 ) -> list[Layout]:
-    """One per trial, inputs' noise seen through the model at `values`."""
-    return [Layout.of(t.time, there, sensitivity(system, t, values)) for t, there in zip(trials, present, strict=True)]
+    """One per trial, inputs' noise, after the filter `passed`, seen through the model at `values`."""
+    step = passed.step
+    spectrum = NoiseSpectrum.after(passed, lambda frequency: rate_of_waves(frequency, step, system.motion.reach))
+    return [
+        Layout.of(t.time, there, sensitivity(system, t, values), spectrum)
+        for t, there in zip(trials, present, strict=True)
+    ]

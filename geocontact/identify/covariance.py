@@ -5,7 +5,7 @@ Over a trial the residual r = measured - predicted is, to first order,
     r = w + c + sum_j (a_j n_j + b_j n_j') + B d
 
 with w white sensor noise, c an Ornstein-Uhlenbeck process per channel (muscle tone, sway, a filter in the measuring
-chain), n_j the noise of input j after the low-pass filter that motion data usually have been through, a_j and b_j the
+chain), n_j the noise of input j, whose spectrum is known, a_j and b_j the
 model's sensitivities to that input and to its rate, and d the trial's own deviation of some parameters (donning,
 placement; `trial_variation`). The time axis is cut into blocks that are taken as independent of each other, apart from
 d, because all noise has a short memory; that keeps matrices small.
@@ -15,15 +15,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float, Int
 from scipy.linalg import lapack
 
+from geocontact.identify.noise_spectrum import NoiseSpectrum
+
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
-LOW_PASS = 6.0  # Hz, what recorded motion is usually filtered with (Winter, Biomechanics and Motor Control, 2009)
 RAISED = 1e-7  # of the diagonal, first try where a covariance has no factor
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
 JITTER = 1e-9  # of the diagonal, so that a factor always exists
@@ -104,11 +105,17 @@ class Layout:
     blocks: tuple[Block, ...]
 
     @classmethod
-    def of(cls, time: Float[np.ndarray, " t"], present: np.ndarray, sensitivity: Sensitivity) -> Layout:
-        """Blocks of a trial; `present` (t, c) says which samples were measured."""
+    def of(
+        cls,
+        time: Float[np.ndarray, " t"],
+        present: np.ndarray,
+        sensitivity: Sensitivity,
+        spectrum: NoiseSpectrum,
+    ) -> Layout:
+        """Blocks of a trial; `present` (t, c): which samples were measured; `spectrum`: of the inputs' noise."""
         count = max(1, round(present.sum() / BLOCK_ROWS))
         edges = [round(each) for each in np.linspace(0, len(time), count + 1)]
-        blocks = [_block(time, present, sensitivity, a, b) for a, b in pairwise(edges)]
+        blocks = [_block(time, present, sensitivity, spectrum, a, b) for a, b in pairwise(edges)]
         return cls(present.shape, tuple(block for block in blocks if len(block.rows)))
 
     def whitener(self, levels: Levels) -> Whitener:
@@ -146,7 +153,14 @@ class Whitener:
         return np.concatenate(parts)
 
 
-def _block(time: np.ndarray, present: np.ndarray, sensitivity: Sensitivity, first: int, last: int) -> Block:
+def _block(
+    time: np.ndarray,
+    present: np.ndarray,
+    sensitivity: Sensitivity,
+    spectrum: NoiseSpectrum,
+    first: int,
+    last: int,
+) -> Block:
     sample, channel = [], []
     for c in range(present.shape[1]):
         own = first + np.flatnonzero(present[first:last, c])
@@ -156,7 +170,7 @@ def _block(time: np.ndarray, present: np.ndarray, sensitivity: Sensitivity, firs
     of_channel = tuple(np.flatnonzero(which == c) for c in range(present.shape[1]))
     lags = tuple(np.abs(time[at[own]][:, None] - time[at[own]]) for own in of_channel)
     signed = time[at][:, None] - time[at]
-    value, mixed, rate = low_passed(signed)
+    value, mixed, rate = spectrum.covariance(signed)
     a, b = sensitivity.to_value[at, which], sensitivity.to_rate[at, which]
     inputs = np.array(
         [
@@ -167,38 +181,6 @@ def _block(time: np.ndarray, present: np.ndarray, sensitivity: Sensitivity, firs
         ]
     )
     return Block(at * present.shape[1] + which, of_channel, lags, inputs.reshape(-1, len(at), len(at)))
-
-
-def low_passed(
-    lag: Float[np.ndarray, "m n"],
-) -> tuple[Float[np.ndarray, "m n"], Float[np.ndarray, "m n"], Float[np.ndarray, "m n"]]:
-    """Covariance of noise after the low-pass filter with itself, of its rate with it, of its rate with its rate.
-
-    Unit variance at lag 0; `lag` is that of the first argument behind the second [s].
-    """
-    grid, value, slope, bend = _filtered_noise()
-    inside = np.abs(lag)
-    even = np.interp(inside, grid, value, right=0.0)
-    odd = np.sign(lag) * np.interp(inside, grid, slope, right=0.0)
-    return even, odd, -np.interp(inside, grid, bend, right=0.0)
-
-
-@lru_cache(maxsize=1)
-def _filtered_noise() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Autocovariance of white noise after a second-order Butterworth filter run both ways, and two derivatives."""
-    frequency = np.linspace(0.0, 4.0 * LOW_PASS, 400)
-    power = low_pass_power(frequency)
-    power[0] *= 0.5  # trapezoidal rule, as at the other end, where there is nothing left
-    power /= power.sum()
-    grid = np.linspace(0.0, 1.0, 1001)
-    angle = 2.0 * np.pi * frequency
-    phase = angle * grid[:, None]
-    return grid, np.cos(phase) @ power, -np.sin(phase) @ (power * angle), -np.cos(phase) @ (power * angle**2)
-
-
-def low_pass_power(frequency: Float[np.ndarray, " f"]) -> Float[np.ndarray, " f"]:
-    """Power that a second-order Butterworth filter run both ways lets through at each frequency [Hz]."""
-    return np.asarray(1.0 / (1.0 + (frequency / LOW_PASS) ** 4) ** 2)
 
 
 def _inverse_factor(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.chain import movement as module
-from geocontact.chain.movement import movement, recorded
+from geocontact.chain.movement import movement, rate_of_waves, recorded
 from geocontact.data.motion import Signals
 
 
@@ -59,6 +59,16 @@ def test_noise_of_high_frequency_is_damped() -> None:
     got = of(np.arange(4000) * 0.005, noise).rate[0]
     assert got[20:-20].std() < 0.12 * np.gradient(noise, 0.005).std()
     assert np.abs(got[[0, -1]]).max() < 100.0  # at the ends the window looks one way, and as far as it does elsewhere
+
+
+@pytest.mark.parametrize("reach", [0.0, 0.035, 0.07])
+@pytest.mark.parametrize(("frequency", "step"), [(2.0, 0.005), (9.0, 0.005), (20.0, 0.005), (3.0, 0.04)])
+def test_rates_of_waves_are_those_that_a_recording_is_given(frequency: float, step: float, reach: float) -> None:
+    time = step * np.arange(4000)
+    signals = Signals(time, np.sin(2.0 * np.pi * frequency * time)[:, None], ("u",), ("rad",))
+    rate = recorded(signals, ("u",), reach).rate[0, 60:-60]
+    seen = np.sqrt(2.0 * np.mean(rate**2))
+    assert rate_of_waves(np.array([frequency]), step, reach)[0] == pytest.approx(seen, rel=0.02)
 
 
 def test_empty_cells_are_bridged_and_the_rest_is_left_as_measured() -> None:

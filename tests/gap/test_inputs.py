@@ -9,15 +9,16 @@ from scipy.signal import butter, filtfilt
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs import denoised, seen_noise
+from geocontact.identify.low_pass import LowPass
 
 STEP = 0.02
 
 
-def trial(noise: float, speed: float, seed: int, lost: bool = False) -> tuple[Trial, np.ndarray]:
+def trial(noise: float, speed: float, seed: int, lost: bool = False, corner: float = 6.0) -> tuple[Trial, np.ndarray]:
     rng = np.random.default_rng(seed)
     time = STEP * np.arange(1000)
     clean = 0.5 * np.sin(2.0 * np.pi * speed * time) + 0.2 * np.sin(2.0 * np.pi * 0.6 * speed * time + 1.0)
-    raw = filtfilt(*butter(2, 6.0, fs=1.0 / STEP), rng.standard_normal(len(time) + 200))[100:-100]
+    raw = filtfilt(*butter(2, corner, fs=1.0 / STEP), rng.standard_normal(len(time) + 200))[100:-100]
     values = clean + noise * raw / raw.std()
     keep = rng.random(len(time)) > 0.02 if lost else np.ones(len(time), bool)
     return Trial("t", Signals(time[keep], values[keep, None], ("u",), ("rad",))), clean[keep]
@@ -25,22 +26,27 @@ def trial(noise: float, speed: float, seed: int, lost: bool = False) -> tuple[Tr
 
 def test_noise_of_a_slow_movement_shows() -> None:
     trials = [trial(0.004, 0.25, seed)[0] for seed in range(3)]
-    assert seen_noise(trials, "u") == pytest.approx(0.004, rel=0.25)
+    assert seen_noise(trials, "u", LowPass(6.0, STEP)) == pytest.approx(0.004, rel=0.25)
+
+
+def test_noise_is_looked_for_below_the_corner_of_its_filter() -> None:
+    trials = [trial(0.004, 0.25, seed, corner=14.0)[0] for seed in range(3)]
+    assert seen_noise(trials, "u", LowPass(14.0, STEP)) == pytest.approx(0.004, rel=0.25)
 
 
 def test_a_fast_movement_hides_it() -> None:
-    assert seen_noise([trial(0.0001, 2.2, seed)[0] for seed in range(3)], "u") is None
+    assert seen_noise([trial(0.0001, 2.2, seed)[0] for seed in range(3)], "u", LowPass(6.0, STEP)) is None
 
 
 @pytest.mark.parametrize("lost", [False, True])
 def test_most_of_the_noise_goes_and_the_movement_stays(lost: bool) -> None:
     recorded, clean = trial(0.004, 0.25, 4, lost)
-    better = denoised(recorded, {"u": 0.004}).column("u")
+    better = denoised(recorded, {"u": 0.004}, LowPass(6.0, STEP)).column("u")
     inside = slice(20, -20)
     assert np.std((better - clean)[inside]) < 0.6 * np.std((recorded.column("u") - clean)[inside])
 
 
 def test_without_noise_nothing_changes() -> None:
     recorded, _ = trial(0.004, 0.25, 5)
-    same = denoised(recorded, {"u": 1e-9}).column("u")
+    same = denoised(recorded, {"u": 1e-9}, LowPass(6.0, STEP)).column("u")
     assert np.abs(same - recorded.column("u")).max() < 1e-6

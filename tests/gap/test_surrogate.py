@@ -17,7 +17,8 @@ def test_a_bump_is_found_among_many_columns() -> None:
     found = chosen(residual, columns, known, 200, 1.0)
     assert found.columns == [7]
     assert found.weights[0] == pytest.approx(0.8, abs=0.2)
-    assert 0.0 < found.calibration < found.nats
+    assert 0.0 < found.calibration < found.gain
+    assert found.price > 1.0
 
 
 def test_nothing_is_found_in_noise() -> None:

@@ -7,9 +7,18 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.signal import butter, filtfilt
 
-from geocontact.identify.covariance import Block, Layout, Levels, Sensitivity, low_passed, most_likely
+from geocontact.identify.covariance import Block, Layout, Levels, Sensitivity, most_likely
+from geocontact.identify.low_pass import LowPass
+from geocontact.identify.noise_spectrum import NoiseSpectrum
 
 COUNT, STEP = 150, 0.02
+
+
+def exact(frequency: np.ndarray) -> np.ndarray:
+    return 2.0 * np.pi * frequency
+
+
+PASSED = NoiseSpectrum.after(LowPass(6.0, STEP), exact)
 
 
 def layout(present: np.ndarray | None = None) -> Layout:
@@ -18,10 +27,14 @@ def layout(present: np.ndarray | None = None) -> Layout:
     to_value = np.ones((COUNT, 2, 1)) * np.array([[[5.0], [2.0]]])
     to_rate = np.zeros((COUNT, 2, 1))
     to_rate[:, 1] = 0.3
-    return Layout.of(time, there, Sensitivity(to_value, to_rate))
+    return Layout.of(time, there, Sensitivity(to_value, to_rate), PASSED)
 
 
 LEVELS = Levels(np.array([0.3, 0.2]), np.array([0.5, 0.1]), np.array([0.1, 0.05]), np.array([0.04]))
+
+
+def differences(frequency: np.ndarray) -> np.ndarray:
+    return np.sin(2.0 * np.pi * frequency * 0.005) / 0.005
 
 
 def whole(block: Block) -> np.ndarray:
@@ -43,22 +56,26 @@ def test_covariance_is_symmetric_and_sums_white_coloured_and_input_noise() -> No
     first = block.of_channel[0][0]
     assert total[first, first] == pytest.approx(0.3**2 + 0.5**2 + 25.0 * 0.04**2, rel=1e-6)
     second = block.of_channel[0][1]
-    away = low_passed(np.array([[STEP]]))[0][0, 0]
+    away = PASSED.covariance(np.array([[STEP]]))[0][0, 0]
     assert total[first, second] == pytest.approx(0.25 * np.exp(-STEP / 0.1) + 25.0 * 0.04**2 * away, rel=1e-6)
 
 
-def test_kernel_is_that_of_filtered_noise() -> None:
+@pytest.mark.parametrize("corner", [3.0, 6.0, 12.0])
+def test_kernel_is_that_of_filtered_noise(corner: float) -> None:
     rng = np.random.default_rng(0)
-    noise = filtfilt(*butter(2, 6.0, fs=200.0), rng.standard_normal(400_000))
+    noise = filtfilt(*butter(2, corner, fs=200.0), rng.standard_normal(400_000))
     noise /= noise.std()
     rate = np.gradient(noise, 0.005)
     lags = np.array([0, 4, 10, 20])
-    value, mixed, both = low_passed(0.005 * lags[None].astype(float))
+    value, mixed, both = NoiseSpectrum.after(LowPass(corner, 0.005), differences).covariance(
+        0.005 * lags[None].astype(float)
+    )
     ends = len(noise) - lags.max()
     for k, lag in enumerate(lags):
         assert value[0, k] == pytest.approx(np.mean(noise[lag : lag + ends] * noise[:ends]), abs=0.02)
-        assert mixed[0, k] == pytest.approx(np.mean(rate[lag : lag + ends] * noise[:ends]), abs=0.6)
-        assert both[0, k] == pytest.approx(np.mean(rate[lag : lag + ends] * rate[:ends]), rel=0.05, abs=12.0)
+        assert mixed[0, k] == pytest.approx(np.mean(rate[lag : lag + ends] * noise[:ends]), abs=0.1 * corner)
+        seen = np.mean(rate[lag : lag + ends] * rate[:ends])
+        assert both[0, k] == pytest.approx(seen, rel=0.05, abs=0.02 * both[0, 0])
 
 
 def test_whitened_noise_is_white_and_colouring_is_the_way_back() -> None:

@@ -154,10 +154,15 @@ def test_noise_has_the_covariance_that_it_states():
     noise = Coloured(2.0, 0.4, 0.3, 0.3)
     drawn = np.array([noise.draw(rng, 30, 0.04) for _ in range(4000)])
     np.testing.assert_allclose(np.cov(drawn.T), noise.covariance(30, 0.04), atol=0.4)
-    drawn = np.array([smooth_noise(rng, 1.0, 40, 0.005) for _ in range(3000)])
-    place, cross, rate = smooth_covariance(1.0, 40, 0.005)
+
+
+@pytest.mark.parametrize("corner", [4.0, 6.0, 10.0])
+def test_noise_of_inputs_has_the_covariance_that_it_states(corner):
+    rng = np.random.default_rng(0)
+    drawn = np.array([smooth_noise(rng, 1.0, 40, 0.005, corner) for _ in range(3000)])
+    place, cross, rate = smooth_covariance(1.0, 40, 0.005, corner)
     np.testing.assert_allclose(np.cov(drawn.T), place, atol=0.12)
-    slope = (drawn[:, 2:] - drawn[:, :-2]) / 0.01
+    slope = (drawn[:, 2:] - drawn[:, :-2]) / 0.01  # 2 % too small at 10 Hz
     assert np.var(slope) == pytest.approx(rate[0, 0], rel=0.05)
     assert np.mean(slope[:, 20] * drawn[:, 11]) == pytest.approx(cross[11, 21], rel=0.15)
 

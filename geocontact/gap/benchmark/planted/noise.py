@@ -10,8 +10,14 @@ from jaxtyping import Float
 from scipy.linalg import toeplitz
 from scipy.signal import butter, filtfilt, freqz, lfilter
 
-CORNER = 6.0
-"""Low-pass of measured inputs [Hz]."""
+USUAL = 6.0
+"""Low-pass of measured inputs that most laboratories use [Hz]."""
+LOWEST, HIGHEST = 3.0, 20.0
+"""That others use [Hz]."""
+OTHERS = 0.6
+"""Share of others."""
+FAR_FROM_NYQUIST = 0.3
+"""Highest corner as a share of the sampling frequency."""
 ORDER = 4
 LONG = 1024
 """Frequencies at which a spectrum is summed."""
@@ -53,32 +59,40 @@ class Coloured:
         return np.asarray(toeplitz(first))
 
 
-def smooth_noise(rng: np.random.Generator, sd: float, count: int, step: float) -> Float[np.ndarray, " s"]:
+def corner_of(rng: np.random.Generator, step: float) -> float:
+    """A laboratory's low-pass of measured inputs [Hz]."""
+    other = np.exp(rng.uniform(np.log(LOWEST), np.log(min(HIGHEST, FAR_FROM_NYQUIST / step))))
+    return float(other if rng.random() < OTHERS else USUAL)
+
+
+def smooth_noise(
+    rng: np.random.Generator, sd: float, count: int, step: float, corner: float
+) -> Float[np.ndarray, " s"]:
     """White noise through a zero-lag Butterworth low-pass, as motion data come; `sd` is that of the outcome."""
-    b, a = butter(ORDER // 2, CORNER, fs=1.0 / step)
+    b, a = butter(ORDER // 2, corner, fs=1.0 / step)
     pad = int(1.0 / step)
     raw = filtfilt(b, a, rng.standard_normal(count + 2 * pad))[pad : pad + count]
-    return np.asarray(raw * sd / np.sqrt(spectrum(step)[1].sum()))
+    return np.asarray(raw * sd / np.sqrt(spectrum(step, corner)[1].sum()))
 
 
-def spectrum(step: float) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
+def spectrum(step: float, corner: float) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
     """Angular frequencies [rad/s] and the power at each of unit white noise after the filter."""
-    b, a = butter(ORDER // 2, CORNER, fs=1.0 / step)
+    b, a = butter(ORDER // 2, corner, fs=1.0 / step)
     grid = (np.arange(LONG) + 0.5) * np.pi / LONG
     _, response = freqz(b, a, worN=grid)
     return grid / step, np.abs(response) ** 4 / LONG
 
 
-def smooth_covariance(sd: float, count: int, step: float) -> tuple[Float[np.ndarray, "s s"], ...]:
+def smooth_covariance(sd: float, count: int, step: float, corner: float) -> tuple[Float[np.ndarray, "s s"], ...]:
     """Covariance of such noise with itself, of the noise with its rate, and of the rate with itself."""
-    place, cross, rate = unit_covariance(count, step)
+    place, cross, rate = unit_covariance(count, step, corner)
     return sd * sd * place, sd * sd * cross, sd * sd * rate
 
 
 @functools.lru_cache(maxsize=8)
-def unit_covariance(count: int, step: float) -> tuple[Float[np.ndarray, "s s"], ...]:
+def unit_covariance(count: int, step: float, corner: float) -> tuple[Float[np.ndarray, "s s"], ...]:
     """The same for a standard deviation of 1."""
-    omega, weight = spectrum(step)
+    omega, weight = spectrum(step, corner)
     weight = weight / weight.sum()
     heard = weight > SILENT * weight.max()
     omega, weight = omega[heard], weight[heard]

@@ -19,7 +19,7 @@ from geocontact.gap.benchmark.planted.motions import (
     elbow_path,
     foot_path,
 )
-from geocontact.gap.benchmark.planted.noise import Coloured
+from geocontact.gap.benchmark.planted.noise import Coloured, corner_of
 
 Rng = np.random.Generator
 
@@ -36,6 +36,8 @@ class Scene:
         Covariance of their trial-to-trial variation.
     noise, input_noise
         Of each output; standard deviation of each measured input.
+    step, corner
+        Of the recording [s]; of the low-pass filter that the inputs came through [Hz].
     path, later
         Draws a movement for a calibration trial; for an evaluation trial.
     """
@@ -52,6 +54,7 @@ class Scene:
     noise: tuple[Coloured, ...]
     input_noise: Float[np.ndarray, " i"]
     step: float
+    corner: float
     path: Callable[[Rng], Path]
     later: Callable[[Rng], Path]
     sole: foot.Sole | None = None
@@ -122,6 +125,7 @@ def elbow_scene(rng: Rng, *, shifted: bool) -> Scene:
         (colour(rng, sd),),
         np.array([rng.uniform(0.0005, 0.002)]),
         step,
+        corner_of(rng, step),
         lambda r: elbow_path(r, style),
         lambda r: elbow_path(r, later),
     )
@@ -168,12 +172,9 @@ def part_names(zones: int) -> tuple[str, ...]:
     return words[zones]
 
 
-def foot_scene(rng: Rng, *, shifted: bool) -> Scene:
-    """A prosthetic foot in stance."""
-    typical = rng.random() < 0.55
-    sole, table = sole_of(rng, typical=typical)
-    n = 1.2 if typical else float(rng.choice([1.0, 1.2, 1.5]))
-    style = FootStyle(
+def foot_style(rng: Rng, *, typical: bool) -> FootStyle:
+    """How the foot is walked on."""
+    return FootStyle(
         stance=0.8 if typical else rng.uniform(0.55, 1.1),
         heel=0.0082 if typical else rng.uniform(0.006, 0.0095),
         middle=0.0070 if typical else rng.uniform(0.0055, 0.008),
@@ -183,16 +184,27 @@ def foot_scene(rng: Rng, *, shifted: bool) -> Scene:
         slide=0.035 if typical else rng.uniform(0.02, 0.08),
         step=0.005,
     )
-    later = style
-    if shifted:
-        faster, harder = (rng.uniform(0.6, 0.75), 1.1) if rng.random() < 0.5 else (0.95, rng.uniform(1.2, 1.35))
-        changes = {
-            "stance": style.stance * faster,
-            "heel": style.heel * harder,
-            "middle": style.middle * harder,
-            "toe": style.toe * harder,
-        }
-        later = FootStyle(**{**style.__dict__, **changes})
+
+
+def other_style(rng: Rng, style: FootStyle) -> FootStyle:
+    """Walked faster, or harder."""
+    faster, harder = (rng.uniform(0.6, 0.75), 1.1) if rng.random() < 0.5 else (0.95, rng.uniform(1.2, 1.35))
+    changes = {
+        "stance": style.stance * faster,
+        "heel": style.heel * harder,
+        "middle": style.middle * harder,
+        "toe": style.toe * harder,
+    }
+    return FootStyle(**{**style.__dict__, **changes})
+
+
+def foot_scene(rng: Rng, *, shifted: bool) -> Scene:
+    """A prosthetic foot in stance."""
+    typical = rng.random() < 0.55
+    sole, table = sole_of(rng, typical=typical)
+    n = 1.2 if typical else float(rng.choice([1.0, 1.2, 1.5]))
+    style = foot_style(rng, typical=typical)
+    later = other_style(rng, style) if shifted else style
     zones = len(sole.names)
     soft = 10.0 ** (3.0 * (n - 1.2) * 0.75)
     if typical:
@@ -232,6 +244,7 @@ def foot_scene(rng: Rng, *, shifted: bool) -> Scene:
         tuple(colour(rng, sd * level) for sd in (3.0, 6.0, 0.001)),
         np.array([5.5e-5, 3e-5, 4e-4]) * rng.uniform(0.6, 1.2),
         style.step,
+        corner_of(rng, style.step),
         lambda r: foot_path(r, style, sole),
         lambda r: foot_path(r, later, sole),
         sole,

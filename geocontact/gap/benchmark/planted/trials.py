@@ -126,7 +126,7 @@ def record(
     outputs = outputs + np.array([one.draw(rng, count, scene.step) for one in scene.noise])
     outputs = without_centre(scene, outputs)
     course = path(np.arange(count) * scene.step)
-    noise = [smooth_noise(rng, sd, count, scene.step) for sd in scene.input_noise]
+    noise = [smooth_noise(rng, sd, count, scene.step, scene.corner) for sd in scene.input_noise]
     inputs = course.position + np.array(noise)
     rows = np.arange(count) if gaps is None else gaps(rng, count)
     return Recording(

@@ -57,7 +57,7 @@ def whitener(scene: Scene, path: Path) -> Trial:
         part = slice(c * count, (c + 1) * count)
         total[part, part] = noise.covariance(count, scene.step)
     for i, sd in enumerate(scene.input_noise):
-        place, cross, rate = smooth_covariance(float(sd), count, scene.step)
+        place, cross, rate = smooth_covariance(float(sd), count, scene.step, scene.corner)
         a, b = slopes(scene, path, count, i)
         # output error = a q + b q' at every sample; channels share the same q
         for c in range(len(scene.outputs)):

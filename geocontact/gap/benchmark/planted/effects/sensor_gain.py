@@ -1,6 +1,6 @@
 """A sensor that is off in gain, a little more at high loads.
 
-planted:   y (1 + g (1 + e (|y|/Y - 1/2))), e = 0.54..0.72; 1..1.3 for cop_x; 0.08..0.11 for force_y, because base
+planted:   y (1 + g (1 + e (|y|/Y - 1/2))), e = 0.54..0.72; 1.2..1.6 for cop_x; 0.08..0.11 for force_y, because base
            parameters nearly take a plain gain of it away
 candidate: (1 + g) y
 """
@@ -21,7 +21,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
         rows = [0, 1]
     names = tuple(scale.output)
     sign = rng.choice([-1.0, 1.0])
-    bend = scale.departure * rng.uniform(0.9, 1.2) * {0: 0.6, 1: 0.09, 2: 1.1}[rows[-1]]
+    bend = scale.departure * rng.uniform(0.9, 1.2) * {0: 0.6, 1: 0.09, 2: 1.3}[rows[-1]]
 
     def hooks(gain: float) -> Hooks:
         def scaled(_: Course, outputs: Outputs) -> Outputs:

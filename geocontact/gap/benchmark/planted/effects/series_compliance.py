@@ -15,9 +15,9 @@ from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: compliance c at small loads [rad/N] or [m/N]."""
     force = scale.force
-    share, limit = rng.uniform(0.2, 0.35), rng.uniform(0.2, 0.35) * force
+    share, limit = rng.uniform(0.16, 0.31), rng.uniform(0.2, 0.35) * force
     if scale.system == "elbow":  # where base parameters take most of a linear spring away
-        share += 0.35 + 0.3 * (1.0 - scale.departure)
+        share += 0.39 + 0.3 * (1.0 - scale.departure)
 
     def hooks(soft: float) -> Hooks:
         def foot(_: Values) -> Values:

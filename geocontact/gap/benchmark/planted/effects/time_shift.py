@@ -1,6 +1,6 @@
 """Outputs come late, by a clock that wanders.
 
-planted:   out(t - d (1 + e sin(2 pi m t/T + phi))), e = 0.24..0.34: buffers fill and empty while a trial runs
+planted:   out(t - d (1 + e sin(2 pi m t/T + phi))), e = 0.28..0.38: buffers fill and empty while a trial runs
 candidate: out(t - d)
 """
 
@@ -16,7 +16,7 @@ from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: delay d [s]."""
-    unsteady = scale.departure * rng.uniform(0.24, 0.34)
+    unsteady = scale.departure * rng.uniform(0.28, 0.38)
     turns, phase = rng.uniform(2.0, 4.0), rng.uniform(0.0, 2.0 * np.pi)
 
     def hooks(delay: float) -> Hooks:

@@ -1,0 +1,61 @@
+"""Corner of the low-pass filter of measured inputs, read off their spectra. All recordings here are synthetic."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.signal import butter, filtfilt
+
+from geocontact.data.motion import Signals
+from geocontact.data.trial import Trial
+from geocontact.gap.corner import USUAL, filter_of
+
+STEP = 0.005
+
+
+def trials(corner: float, noise: float, count: int = 4, lost: float = 0.0, digits: int = 12) -> list[Trial]:
+    """Strides of 0.8 s: harmonics of 1.2 Hz that fall off, noise through the filter, rows lost, values rounded."""
+    rng = np.random.default_rng(int(corner * 10))
+    made = []
+    for k in range(count):
+        time = STEP * np.arange(160)
+        clean = sum(0.3**h * np.sin(2.0 * np.pi * 1.2 * (h + 1) * time + h + 0.1 * k) for h in range(4))
+        raw = filtfilt(*butter(2, corner, fs=1.0 / STEP), rng.standard_normal(len(time) + 400))[200:-200]
+        keep = rng.random(len(time)) >= lost
+        values = np.round(clean + noise * raw / raw.std(), digits)
+        made.append(Trial(f"t{k}", Signals(time[keep], values[keep, None], ("u",), ("rad",))))
+    return made
+
+
+@pytest.mark.parametrize("lost", [0.0, 0.03])
+@pytest.mark.parametrize(("corner", "off"), [(6.0, 0.4), (10.0, 0.2), (20.0, 0.2)])
+def test_a_corner_is_found_unless_the_movement_hides_it(corner: float, off: float, lost: float) -> None:
+    assert filter_of(trials(corner, 0.003, lost=lost), ("u",)).corner == pytest.approx(corner, rel=off)
+
+
+@pytest.mark.parametrize("digits", [4, 5])
+def test_rounding_is_not_taken_for_noise_of_a_high_corner(digits: int) -> None:
+    assert filter_of(trials(6.0, 0.003, digits=digits), ("u",)).corner == pytest.approx(6.0, rel=0.4)
+
+
+def test_without_noise_no_high_corner_is_made_up() -> None:
+    assert filter_of(trials(6.0, 0.0), ("u",)).corner < 1.4 * USUAL
+
+
+def test_inputs_share_it() -> None:
+    both = [
+        Trial(
+            a.name,
+            Signals(a.time, np.column_stack([a.column("u"), b.column("u")]), ("u", "v"), ("rad", "m")),
+        )
+        for a, b in zip(trials(15.0, 0.003), trials(15.0, 1e-5), strict=True)
+    ]
+    assert filter_of(both, ("u", "v")).corner == pytest.approx(15.0, rel=0.2)
+
+
+@pytest.mark.parametrize("still", [0.0, 1.0])
+def test_an_input_that_stands_still_or_is_too_short_says_nothing(still: float) -> None:
+    quiet = [Trial(t.name, Signals(t.time, np.full((len(t), 1), still), ("u",), ("rad",))) for t in trials(9.0, 0.003)]
+    assert filter_of(quiet, ("u",)).corner == USUAL
+    short = [Trial(t.name, Signals(t.time[:20], t.signals.values[:20], ("u",), ("rad",))) for t in trials(9.0, 0.003)]
+    assert filter_of(short, ("u",)).corner == USUAL
