@@ -20,6 +20,7 @@ from geocontact.gap.refit import Refit
 
 BENT = 0.15  # root mean square of the bending, as a share of the effect's
 POWERS = ((1, 0), (2, 0), (0, 1), (0, 2), (1, 1))  # of an input's position and of its rate
+TIMES = (1, 2, 3, 4, 5)  # of time within a trial: two turns of a slow wander
 FAINT = 1e-6  # of the largest singular value, below which a bend adds nothing
 
 
@@ -84,7 +85,7 @@ def _monomials(problem: Problem) -> list[Float[np.ndarray, "_ m"]]:
             made += [a**i * b**j for i, j in POWERS]
     for made, t in zip(columns, trials, strict=True):
         phase = 2.0 * (t.time - t.time[0]) / (t.time[-1] - t.time[0]) - 1.0
-        made += [phase, phase**2]
+        made += [phase**k for k in TIMES]
     return [np.stack(made, axis=1) for made in columns]
 
 

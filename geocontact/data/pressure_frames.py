@@ -1,0 +1,69 @@
+"""What a pressure mat records: one pressure per cell and frame, on a grid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+
+@dataclass(frozen=True, eq=False)
+class PressureFrames:
+    """Frames of one sensor, in the mat's own layout.
+
+    Parameters
+    ----------
+    time
+        Of each frame [s], strictly increasing.
+    pressure
+        Of each cell [Pa], rows outermost; NaN where `valid` is False, never negative elsewhere.
+    pitch
+        Distance between neighbouring rows and between neighbouring columns [m]; cells fill it.
+    valid
+        Cells that there are and that work. False: no cell there (masks, cut-outs), or a dead one.
+    cell_area
+        Sensing area of each cell [m^2]; that of the pitch where the file says nothing else.
+    saturation
+        Pressure at which a cell clips [Pa]; infinite where nobody says.
+    name
+        Of the sensor, for messages: "left", "seat".
+    """
+
+    time: Float[np.ndarray, " t"]
+    pressure: Float[np.ndarray, "t r c"]
+    pitch: tuple[float, float]
+    valid: Bool[np.ndarray, "r c"]
+    cell_area: Float[np.ndarray, "r c"]
+    saturation: float = np.inf
+    name: str = field(default="mat")
+
+    def __post_init__(self) -> None:
+        if not (np.diff(self.time) > 0.0).all():
+            raise ValueError(f"{self.name}: times of the frames must increase")
+        if not min(self.pitch) > 0.0 or not (self.cell_area[self.valid] > 0.0).all():
+            raise ValueError(f"{self.name}: pitch and cell area must be positive")
+        seen = self.pressure[:, self.valid]
+        if not np.isfinite(seen).all() or (seen < 0.0).any():
+            raise ValueError(f"{self.name}: pressures of valid cells must be finite and not negative")
+
+    @property
+    def rows(self) -> int:
+        """Of the grid."""
+        return self.pressure.shape[1]
+
+    @property
+    def columns(self) -> int:
+        """Of the grid."""
+        return self.pressure.shape[2]
+
+    @cached_property
+    def saturated(self) -> Bool[np.ndarray, "t r c"]:
+        """Cells that clip: at or above the saturation level."""
+        return np.asarray(np.nan_to_num(self.pressure, nan=-np.inf) >= self.saturation)
+
+    @cached_property
+    def force(self) -> Float[np.ndarray, " t"]:
+        """Sum of pressure times cell area [N], whichever way the cells look."""
+        return np.asarray(np.nansum(self.pressure * self.cell_area, axis=(1, 2)))
