@@ -51,12 +51,12 @@ class PressureFrames:
     @property
     def rows(self) -> int:
         """Of the grid."""
-        return self.pressure.shape[1]
+        return int(self.pressure.shape[1])
 
     @property
     def columns(self) -> int:
         """Of the grid."""
-        return self.pressure.shape[2]
+        return int(self.pressure.shape[2])
 
     @cached_property
     def saturated(self) -> Bool[np.ndarray, "t r c"]:
