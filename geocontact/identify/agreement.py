@@ -1,0 +1,104 @@
+"""How a curve agrees with a measured one: mean absolute error, root mean square, R², lag, over all and per phase."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from jaxtyping import Float
+
+FEWEST = 3  # samples that both have
+NAN = float("nan")
+OVERLAP = 0.5  # of the samples that a lag must leave to both
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """Numbers of one comparison; NaN where there is nothing to compare.
+
+    Parameters
+    ----------
+    mae, rmsd, bias
+        Mean absolute, root mean square and mean difference, model - measured, in the curves' unit.
+    r2
+        Coefficient of determination 1 - SS_res/SS_tot about the measured mean: negative where the mean is the better
+        model; NaN where the measured curve is constant.
+    lag
+        How much the model is late [s]: the shift that makes the correlation largest, to a fraction of a sample.
+    correlation
+        At that lag.
+    samples
+        How many were compared.
+    """
+
+    mae: float
+    rmsd: float
+    bias: float
+    r2: float
+    lag: float
+    correlation: float
+    samples: int
+
+
+def agreement(
+    model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], step: float, longest: float = 0.5
+) -> Agreement:
+    """Curves on the same evenly spaced times, `step` [s] apart; samples that are NaN in either do not count.
+
+    `longest` [s] is the largest lag that is looked at.
+    """
+    both = np.isfinite(model) & np.isfinite(measured)
+    count = int(both.sum())
+    if count < FEWEST:
+        return Agreement(NAN, NAN, NAN, NAN, NAN, NAN, count)
+    off = (model - measured)[both]
+    spread = measured[both] - measured[both].mean()
+    total = float(spread @ spread)
+    lag, correlation = lag_of(np.where(both, model, np.nan), np.where(both, measured, np.nan), step, longest)
+    return Agreement(
+        float(np.abs(off).mean()),
+        float(np.sqrt(np.mean(off**2))),
+        float(off.mean()),
+        1.0 - float(off @ off) / total if total > 0.0 else NAN,
+        lag,
+        correlation,
+        count,
+    )
+
+
+def per_phase(
+    model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], step: float, parts: int = 10
+) -> list[Agreement]:
+    """The same over `parts` equal stretches of the recording."""
+    edges = np.round(np.linspace(0, len(model), parts + 1)).astype(int)
+    return [agreement(model[a:b], measured[a:b], step, 0.0) for a, b in pairwise(edges)]
+
+
+def lag_of(
+    model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], step: float, longest: float
+) -> tuple[float, float]:
+    """Lag [s] of the largest correlation, a parabola through it and its neighbours, and that correlation."""
+    most = min(round(longest / step), int((1.0 - OVERLAP) * len(model)))
+    found = np.array([_correlation(model, measured, k) for k in range(-most, most + 1)])
+    if not np.isfinite(found).any():
+        return NAN, NAN
+    at = int(np.nanargmax(found))
+    shift = 0.0
+    if 0 < at < len(found) - 1 and np.isfinite(found[at - 1 : at + 2]).all():
+        left, middle, right = found[at - 1 : at + 2]
+        bend = left - 2.0 * middle + right
+        shift = 0.5 * float(left - right) / float(bend) if bend < 0.0 else 0.0
+    return float((at - most + shift) * step), float(found[at])
+
+
+def _correlation(model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], late: int) -> float:
+    """Pearson's, of the model `late` samples on with the measured."""
+    count = len(model) - abs(late)
+    a, b = model[max(late, 0) :][:count], measured[max(-late, 0) :][:count]
+    both = np.isfinite(a) & np.isfinite(b)
+    if both.sum() < FEWEST:
+        return NAN
+    a, b = a[both] - a[both].mean(), b[both] - b[both].mean()
+    size = float(np.sqrt((a @ a) * (b @ b)))
+    return float(a @ b) / size if size > 0.0 else NAN
