@@ -1,0 +1,234 @@
+"""From numbers in the order of a file to cells on the grid of a mat: what every reader ends with."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from array import array
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.pressure_frames import PressureFrames
+from geocontact.io.mats.layout import MatLayout
+from geocontact.io.mats.units import pressure_unit
+
+T = TypeVar("T", float, int)
+
+_CLOSE = 1e-3
+"""Relative difference below which a file and its layout say the same."""
+
+_UNEVEN = 0.05
+"""Relative difference of a rate and the frames' times below which they agree: times are rounded."""
+
+_CLIPPED = 1.0 - 1e-9
+"""A level converted from another unit than the pressures may come out an ulp above them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """Frames as one file has them, and what the file says of the mat; None for what it does not say.
+
+    Parameters
+    ----------
+    file, name
+        Path as given; name of the mat, for messages.
+    time
+        Of each frame [s]; None where the file has none.
+    lines
+        At which each frame begins.
+    values
+        Frame by frame, in the unit of the file; NaN where it has no value.
+    unit
+        Pascals per unit.
+    ids
+        Place of each value of a frame among the ids, from 0; None where they are complete and in order.
+    pitch, cell_area, saturation
+        SI.
+    """
+
+    file: str
+    name: str
+    time: Sequence[float] | None
+    lines: Sequence[int]
+    values: array[float]
+    unit: float | None = None
+    ids: Sequence[int] | None = None
+    rows: int | None = None
+    columns: int | None = None
+    pitch: tuple[float, float] | None = None
+    cell_area: float | None = None
+    saturation: float | None = None
+    rate: float | None = None
+
+
+def frames_of(found: Recording, layout: MatLayout) -> PressureFrames:
+    """Cells on the grid, in SI; what the file leaves open is taken from the layout, what they disagree on is refused.
+
+    Pressures below zero are the noise of an offset: they become zero, with one warning that counts them.
+    """
+    rows = _needed(found, "rows", found.rows, layout.rows)
+    columns = _needed(found, "columns", found.columns, layout.columns)
+    unit = _needed(found, "unit", found.unit, pressure_unit(layout.unit) if layout.unit else None)
+    pitch, area = _sizes(found, layout)
+    saturation = _settled(found, "saturation_kPa", found.saturation, layout.saturation)
+    time = _times(found, layout)
+    row, column = _places(found, layout, rows, columns)
+    values = np.frombuffer(found.values, dtype=np.float64).reshape(len(found.lines), -1)
+    pressure = np.full((len(values), rows, columns), np.nan)
+    pressure[:, row, column] = values
+    with np.errstate(over="ignore"):  # refused below as not finite
+        pressure *= unit
+    valid = _valid(found, layout, pressure)
+    pressure[:, ~valid] = np.nan
+    _clip_negative(pressure, unit, found)
+    areas = np.full((rows, columns), math.prod(pitch) if area is None else area[0])
+    if area is not None and len(area) > 1:
+        areas[row, column] = area
+    level = math.inf if saturation is None else saturation * _CLIPPED
+    return PressureFrames(time, pressure, pitch, valid, areas, level, found.name)
+
+
+def _settled(found: Recording, key: str, said: T | None, declared: T | None) -> T | None:
+    """What the file says or the layout declares; they may not disagree."""
+    if said is not None and declared is not None and not math.isclose(said, declared, rel_tol=_CLOSE):
+        what = f"the file says {said:g} where the layout says {declared:g} (SI)"
+        raise InputError(found.file, key, what, f"correct {key} in the layout, or leave it out")
+    return declared if said is None else said
+
+
+def _needed(found: Recording, key: str, said: T | None, declared: T | None) -> T:
+    value = _settled(found, key, said, declared)
+    if value is None:
+        raise InputError(found.file, "", f"does not say the {key} of the mat", f"write {key} in the layout file")
+    return value
+
+
+def _sizes(found: Recording, layout: MatLayout) -> tuple[tuple[float, float], tuple[float, ...] | None]:
+    """Pitch [m] and areas [m^2] of the cells: one for all, one for each value, or None for what the pitch gives."""
+    areas = tuple(area * 1e-6 for area in layout.cell_area_mm2)
+    if len(areas) < 2:
+        area = _settled(found, "cell_area_mm2", found.cell_area, areas[0] if areas else None)
+        areas = () if area is None else (area,)
+    side = math.sqrt(areas[0]) if areas else None
+    square: tuple[float | None, float | None] = side, side
+    declared: tuple[float | None, float | None] = layout.pitch or (None, None)
+    said = found.pitch or (square if layout.pitch is None else (None, None))
+    rows, columns = (_needed(found, "pitch_mm", said[k], declared[k]) for k in (0, 1))
+    return (rows, columns), areas or None
+
+
+def _times(found: Recording, layout: MatLayout) -> Float[np.ndarray, " t"]:
+    if found.time is None:
+        rate = _needed(found, "rate_Hz", found.rate, layout.rate_Hz)
+        return np.arange(len(found.lines)) / rate
+    time = np.asarray(found.time, dtype=np.float64)
+    if not np.isfinite(time).all():
+        line = found.lines[int(np.flatnonzero(~np.isfinite(time))[0])]
+        raise InputError(found.file, f"line {line}", "the frame has no time", "every frame needs one")
+    late = np.flatnonzero(np.diff(time) <= 0.0)
+    if len(late):
+        i = late[0]
+        what = f"time {time[i + 1]:.9g} s does not follow {time[i]:.9g} s"
+        raise InputError(found.file, f"line {found.lines[i + 1]}", what, "time must increase from frame to frame")
+    interval = float(np.median(np.diff(time))) if len(time) > 1 else None
+    for claimed, key in ((layout.rate_Hz, "rate_Hz of the layout"), (found.rate, "rate of the file")):
+        if claimed is not None and interval is not None and abs(claimed * interval - 1.0) > _UNEVEN:
+            what = f"{key} is {claimed:g} Hz but frames are {interval:.6g} s apart"
+            raise InputError(found.file, "", what, "correct the one that is wrong")
+    return time
+
+
+def _places(
+    found: Recording, layout: MatLayout, rows: int, columns: int
+) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+    """Row and column of each value of a frame in the returned grid."""
+    count = len(found.values) // max(len(found.lines), 1)
+    if not count:
+        raise InputError(found.file, "", "holds no frames", "is the export complete?")
+    ids = np.arange(count) if found.ids is None else np.asarray(found.ids)
+    table = layout.sensors.get(found.name)
+    known = rows * columns if table is None else len(table)
+    if ids.max() >= known:
+        what = f"has cell {ids.max() + layout.first_id} where the layout places {known}"
+        raise InputError(found.file, "", what, "correct rows, columns, first_id or sensors in the layout")
+    if len(layout.cell_area_mm2) not in (0, 1, count):
+        what = f"cell_area_mm2 of the layout has {len(layout.cell_area_mm2)} areas for {count} cells"
+        raise InputError(found.file, "", what, "give one for all, or one for each cell of the file")
+    if found.ids is not None and count < known:
+        message = (
+            f"{found.file}: {known - count} of {known} cells of '{found.name}' are not in the file; taken as absent"
+        )
+        warnings.warn(InputWarning(message), stacklevel=4)
+    if table is not None:
+        places = np.array(table, dtype=np.int64)[ids]
+        return _within(places[:, 0], places[:, 1], rows, columns, found)
+    row, column = np.divmod(ids, columns) if layout.order == "row" else np.divmod(ids, rows)[::-1]
+    if layout.serpentine and layout.order == "row":
+        column = np.where(row % 2, columns - 1 - column, column)
+    elif layout.serpentine:
+        row = np.where(column % 2, rows - 1 - row, row)
+    row = rows - 1 - row if layout.origin.startswith("bottom") else row
+    turned = layout.origin.endswith("right") != bool(layout.mirrored)
+    return row, columns - 1 - column if turned else column
+
+
+def _within(
+    row: Int[np.ndarray, " n"], column: Int[np.ndarray, " n"], rows: int, columns: int, found: Recording
+) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+    if row.max() >= rows or column.max() >= columns:
+        what = f"sensors.{found.name} of the layout leaves the {rows} x {columns} grid"
+        raise InputError(found.file, "", what, "rows and columns are counted from 0")
+    return row, column
+
+
+def _valid(found: Recording, layout: MatLayout, pressure: Float[np.ndarray, "t r c"]) -> Bool[np.ndarray, "r c"]:
+    """Cells that have a value in every frame and that the layout takes for sound; gaps in a recording are refused."""
+    gaps = np.isnan(pressure)
+    valid: Bool[np.ndarray, "r c"] = np.asarray(~gaps.all(axis=0))
+    for row, column in (*layout.masked, *layout.dead):
+        if row >= valid.shape[0] or column >= valid.shape[1]:
+            what = f"masked or dead cell [{row}, {column}] of the layout is outside the {valid.shape} grid"
+            raise InputError(found.file, "", what, "rows and columns are counted from 0")
+        valid[row, column] = False
+    gaps &= valid
+    if gaps.any():
+        frame, row, column = _first(gaps)
+        what = f"frame {frame + 1} has no value in cell [{row}, {column}], which other frames have"
+        remedy = "list the cell under dead in the layout, or export the recording again"
+        raise InputError(found.file, f"line {found.lines[frame]}", what, remedy)
+    infinite = np.isinf(pressure) & valid
+    if infinite.any():
+        frame, row, column = _first(infinite)
+        what = f"cell [{row}, {column}] of frame {frame + 1} is not finite"
+        raise InputError(found.file, f"line {found.lines[frame]}", what, "list the cell under dead in the layout")
+    if not valid.any():
+        raise InputError(found.file, "", f"no cell of '{found.name}' has a value", "is the export complete?")
+    return valid
+
+
+def _first(marked: Bool[np.ndarray, "t r c"]) -> tuple[int, int, int]:
+    """Frame, row and column of the first marked value."""
+    frame, row, column = np.unravel_index(int(marked.argmax()), marked.shape)
+    return int(frame), int(row), int(column)
+
+
+def _clip_negative(pressure: Float[np.ndarray, "t r c"], unit: float, found: Recording) -> None:
+    """Set to zero in place what is below, and say so once; mostly negative pressures are refused."""
+    below = pressure < 0.0
+    if not below.any():
+        return
+    lowest, highest = float(np.nanmin(pressure)), float(np.nanmax(pressure))
+    if -lowest > highest:
+        what = f"pressures of '{found.name}' run from {lowest / unit:g} to {highest / unit:g} of the file's unit"
+        raise InputError(found.file, "", what, "is their sign turned, or an offset taken off twice?")
+    message = (
+        f"{found.file}: {int(below.sum())} pressures of '{found.name}' below 0 (lowest {lowest / unit:g} "
+        f"of the file's unit) are taken as 0"
+    )
+    warnings.warn(InputWarning(message), stacklevel=4)
+    pressure[below] = 0.0

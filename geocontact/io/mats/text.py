@@ -1,0 +1,160 @@
+"""Text that mats' programs export: its lines, and numbers with a decimal point or comma."""
+
+from __future__ import annotations
+
+import csv
+from array import array
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from os import fspath
+from pathlib import Path
+
+from geocontact.data.errors import InputError
+from geocontact.io.file_preflight import UNKNOWN, looks_like, read_bytes
+from geocontact.io.mats.layout import MatLayout
+from geocontact.io.text_lines import BYTE_ORDER_MARK, lines
+
+LARGEST_RECORDING = 512_000_000
+"""Bytes of one file."""
+
+MOST_VALUES = 40_000_000
+"""Cells times frames of one mat: 512 cells at 100 Hz for 13 minutes, 0.3 GB."""
+
+HEAD = 1 << 16
+"""Bytes in which a file has to show of what kind it is."""
+
+LONGEST_LINE = 1_000_000
+"""Bytes; 10 characters for each of 1e5 cells."""
+
+
+@dataclass(frozen=True)
+class MatText:
+    """A file's content and its path for messages; `encoding` is what its bytes are read with."""
+
+    file: str
+    data: bytes
+    encoding: str
+
+    @cached_property
+    def head(self) -> tuple[str, ...]:
+        """The lines at its beginning, blank ones too; none that is cut."""
+        found = [line.decode(self.encoding, "replace").strip(" ") for line in self.data[:HEAD].splitlines()]
+        return tuple(found[:-1] if len(self.data) > HEAD and len(found) > 1 else found)
+
+    def lines(self) -> Iterator[tuple[int, str]]:
+        """Number and text of every line that is not blank, without blanks around it; tabs at its end are cells."""
+        for number, line in enumerate(lines(self.data), 1):
+            if len(line) > LONGEST_LINE:
+                raise InputError(self.file, f"line {number}", "does not end", "is this the export of a mat?")
+            if text := line.decode(self.encoding, "replace").strip(" "):
+                yield number, text
+
+
+def read_mat_text(path: Path) -> MatText:
+    """Content of an export: text in UTF-8 or, as older programs write their `²`, in Windows-1252."""
+    file = fspath(path)
+    try:
+        size = path.stat().st_size if path.is_file() else 0
+    except (OSError, ValueError):  # `read_bytes` says why
+        size = 0
+    if size > LARGEST_RECORDING:
+        what = f"{size / 1e6:.0f} MB is more than the {LARGEST_RECORDING / 1e6:.0f} MB that are read"
+        raise InputError(file, "", what, "export it in parts")
+    data = read_bytes(path).removeprefix(BYTE_ORDER_MARK)
+    if not data.strip():
+        raise InputError(file, "", "the file is empty", "export it again")
+    what, _ = looks_like(data)
+    if what in ("plain text", UNKNOWN[0]):
+        what = "binary data" if b"\0" in data else ""
+    if what:
+        remedy = "export the recording as text (ASCII, CSV), or fetch the file itself"
+        raise InputError(file, "", f"is not the recording of a mat: it looks like {what}", remedy)
+    try:
+        data.decode("utf-8")
+    except UnicodeDecodeError:
+        return MatText(file, data, "cp1252")
+    return MatText(file, data, "utf-8")
+
+
+@dataclass(frozen=True)
+class Notation:
+    """How rows of numbers are written: what separates them and the decimal mark."""
+
+    delimiter: str
+    decimal: str
+
+    def cells(self, line: str) -> list[str]:
+        """Of a line; quoted ones keep the commas inside them, and a separator at the end begins no cell."""
+        found = line.split(self.delimiter) if '"' not in line else self._unquoted(line)
+        return found[:-1] if len(found) > 1 and not found[-1].strip() else found
+
+    def _unquoted(self, line: str) -> list[str]:
+        try:
+            return next(csv.reader([line], delimiter=self.delimiter, skipinitialspace=True))
+        except csv.Error:  # a quote left open before very many characters: one cell, and no number
+            return [line]
+
+    def add(self, cells: list[str], values: array[float], file: str, line: int, missing: str = "") -> None:
+        """Append the numbers in `cells` to `values`; NaN where a cell is blank or says `missing`."""
+        if len(values) + len(cells) > MOST_VALUES:
+            what = f"more than the {MOST_VALUES} values that are read"
+            raise InputError(file, f"line {line}", what, "export it in parts")
+        start = len(values)
+        try:
+            text = cells if self.decimal == "." else [self._pointed(cell) for cell in cells]
+            values.extend(map(float, text))
+            plain = not any("_" in cell for cell in cells)
+        except ValueError:
+            plain = False
+        if not plain:
+            del values[start:]
+            values.extend(self._number(cell, column, file, line, missing) for column, cell in enumerate(cells, 1))
+
+    def number(self, text: str) -> float:
+        """Of one cell; ValueError when it is none. Python's `1_000` is none here, and neither is 1.234,5."""
+        if "_" in text:
+            raise ValueError(text)
+        return float(text if self.decimal == "." else self._pointed(text))
+
+    def _pointed(self, text: str) -> str:
+        if "." in text:
+            raise ValueError(text)
+        return text.replace(",", ".")
+
+    def _number(self, cell: str, column: int, file: str, line: int, missing: str) -> float:
+        text = cell.strip()
+        if not text or text == missing:
+            return float("nan")
+        try:
+            return self.number(text)
+        except ValueError:
+            mark = "point" if self.decimal == "." else "comma"
+            what = f"'{_shown(text)}' in cell {column} is not a number with a decimal {mark}"
+            remedy = f"export it again, or say delimiter and decimal in the layout (read here: {self.words})"
+            raise InputError(file, f"line {line}", what, remedy) from None
+
+    @property
+    def words(self) -> str:
+        """For messages."""
+        return f"delimiter '{'tab' if self.delimiter == chr(9) else self.delimiter}', decimal '{self.decimal}'"
+
+
+def notation_of(sample: Iterable[str], layout: MatLayout | None) -> Notation:
+    """How rows of cells are written, by the layout or by the rows at the beginning of the file.
+
+    Tabs and semicolons separate wherever they occur; then a comma inside a cell is a decimal comma. With commas
+    between the cells a decimal comma is one only inside quotes.
+    """
+    rows = list(sample)
+    delimiter = {"tab": "\t"}.get(said, said) if (said := layout.delimiter if layout else None) else None
+    delimiter = delimiter or next((mark for mark in "\t;" if any(mark in row for row in rows)), ",")
+    decimal = layout.decimal if layout else None
+    if decimal is None:
+        plain = Notation(delimiter, ".")
+        decimal = "," if any("," in cell for row in rows for cell in plain.cells(row)) else "."
+    return Notation(delimiter, decimal)
+
+
+def _shown(text: str) -> str:
+    return "".join(c if c.isprintable() else "?" for c in text[:24])

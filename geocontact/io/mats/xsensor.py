@@ -1,0 +1,228 @@
+"""XSENSOR .csv: before every frame lines `Key:,"value"`, then its rows; two sensors may take turns.
+
+Keys are read by name and stay in force until they are said again: Frame, Time, Sensor, Rows, Columns, Units, Sensel
+Width, Sensel Height, Sensel Area with their unit in round brackets. Values may be quoted, `"1,25"`, with a decimal
+comma. Other keys (Average Pressure, Contact Area (in²), COP Row …) are results of the maker's program and not used.
+"""
+
+from __future__ import annotations
+
+import re
+from array import array
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from geocontact.data.errors import InputError
+from geocontact.data.pressure_frames import PressureFrames
+from geocontact.io.mats.cells import Recording, frames_of
+from geocontact.io.mats.layout import MatLayout
+from geocontact.io.mats.text import MatText, Notation, notation_of
+from geocontact.io.mats.units import area_unit, length_unit, pressure_unit
+
+KIND = "xsensor"
+
+MOST_SENSORS = 16
+
+_KEY = re.compile(r'"?(?P<key>[^\W\d][^",;:(]{0,60})(?:\((?P<unit>[^()]{0,20})\))?:?"?[,;\t](?P<value>.*)')
+_KEY_ALONE = re.compile(r'"?[^\W\d][^,;"]*"?[,;\t]*')
+_CLOCK = re.compile(r"(?P<h>\d{1,2}):(?P<m>\d{2}):(?P<s>\d{2}(?:[.,]\d+)?)\s*(?P<half>[AP]M)?", re.IGNORECASE)
+_DAY = 86400.0
+_NEEDED = frozenset({"rows", "columns"})
+
+Keys = dict[str, tuple[int, str, str]]
+"""Line, unit in brackets and value of each key, in lower case."""
+
+
+@dataclass(eq=False)
+class _Sensor:
+    """What is gathered of one sensor while the file is read."""
+
+    keys: Keys
+    size: tuple[int, int]
+    lines: list[int] = field(default_factory=list)
+    frames: list[int | None] = field(default_factory=list)
+    clock: list[float | None] = field(default_factory=list)
+    values: array[float] = field(default_factory=lambda: array("d"))
+
+
+def is_xsensor(text: MatText) -> bool:
+    """Whether it begins with lines `Key:,value`, Rows and Columns among them."""
+    return {_key(found) for line in text.head[:200] if (found := _KEY.fullmatch(line))} >= _NEEDED
+
+
+def read_xsensor(text: MatText, layout: MatLayout | None) -> tuple[PressureFrames, ...]:
+    """One mat per sensor, named as the file names it; "mat" where it has no name."""
+    layout = layout or MatLayout()
+    sensors = _gathered(text, layout)
+    first = next(iter(sensors.values()))
+    start = first.clock[0] or 0.0, first.frames[0] or 0
+    return tuple(frames_of(_recording(name, one, start, layout, text.file), layout) for name, one in sensors.items())
+
+
+def _key(found: re.Match[str]) -> str:
+    return found["key"].strip().lower()
+
+
+def _gathered(text: MatText, layout: MatLayout) -> dict[str, _Sensor]:
+    sensors: dict[str, _Sensor] = {}
+    notation = _notation(text, layout)
+    said: Keys = {}
+    block: Keys = {}
+    current: _Sensor | None = None
+    left = 0
+    for number, line in text.lines():
+        if not line.strip('\t,;" '):
+            continue
+        if found := _KEY.fullmatch(line):
+            _require_whole(left, number, text.file)
+            block[_key(found)] = (number, found["unit"] or "", found["value"].strip(' \t,;"'))
+            continue
+        if _KEY_ALONE.fullmatch(line):
+            _require_whole(left, number, text.file)
+            continue
+        if block:
+            name = _name(block, sensors, number, text.file)
+            current = sensors.get(name)
+            if current is None:
+                current = sensors[name] = _new(said | block, len(sensors), layout, number, text.file)
+            _begin(current, said | block, block, number, text.file)
+            said |= block
+            left, block = current.size[0], {}
+        if current is None or not left:
+            what = "more rows than the key Rows says" if current else "values before any key"
+            raise InputError(text.file, f"line {number}", what, "is this an XSENSOR export?")
+        cells = notation.cells(line)
+        if len(cells) != current.size[1]:
+            what = f"{len(cells)} cells where Columns is {current.size[1]}"
+            remedy = f"is the file cut off, or delimiter and decimal other than read here ({notation.words})?"
+            raise InputError(text.file, f"line {number}", what, remedy)
+        notation.add(cells, current.values, text.file, number)
+        left -= 1
+    if not sensors:
+        raise InputError(text.file, "", "no frame", "is the export complete?")
+    _require_whole(left, number, text.file)
+    return sensors
+
+
+def _notation(text: MatText, layout: MatLayout) -> Notation:
+    return notation_of((line for line in text.head if re.match(r'"?[-+]?\d', line)), layout)
+
+
+def _require_whole(left: int, line: int, file: str) -> None:
+    if left:
+        raise InputError(file, f"line {line}", f"{left} rows of the frame above are missing", "is the file cut off?")
+
+
+def _name(block: Keys, sensors: dict[str, _Sensor], line: int, file: str) -> str:
+    if "sensor" in block:
+        return block["sensor"][2] or "mat"
+    if len(sensors) > 1:
+        what = "a frame does not say of which sensor it is"
+        raise InputError(file, f"line {line}", what, "export it with the key Sensor, or each sensor by itself")
+    return next(iter(sensors), "mat")
+
+
+def _new(keys: Keys, known: int, layout: MatLayout, line: int, file: str) -> _Sensor:
+    if known >= MOST_SENSORS:
+        raise InputError(file, f"line {line}", f"more than {MOST_SENSORS} sensors", "export each by itself")
+    return _Sensor(keys, (_count(keys, "rows", layout.rows, file), _count(keys, "columns", layout.columns, file)))
+
+
+def _begin(sensor: _Sensor, keys: Keys, block: Keys, line: int, file: str) -> None:
+    """A frame of a sensor; its size may not differ from the sensor's first frame."""
+    own = {key: block.get(key, sensor.keys.get(key)) for key in _NEEDED}
+    for key, size in zip(("rows", "columns"), sensor.size, strict=True):
+        if (said := own[key]) is not None and said[2] != str(size):
+            what = f"{key} is {said[2][:20]} where the sensor's first frame has {size}"
+            raise InputError(file, f"line {said[0]}", what, "export one size of frame")
+    sensor.lines.append(line)
+    number = keys.get("frame", (0, "", ""))[2].replace(",", "").replace(".", "")
+    sensor.frames.append(int(number[:9]) if number.isdecimal() else None)
+    sensor.clock.append(_seconds(keys["time"], file) if "time" in keys else None)
+
+
+def _count(keys: Keys, key: str, declared: int | None, file: str) -> int:
+    line, _, text = keys.get(key, (0, "", ""))
+    if not line and declared is not None:
+        return declared
+    if not text.isdecimal() or not 1 <= int(text[:9]) <= 1000:
+        what = f"{key.capitalize()} is '{text[:20]}'" if line else f"no key {key.capitalize()}"
+        place = f"line {line}" if line else ""
+        raise InputError(file, place, what, f"expected a number from 1 to 1000, or {key} in the layout")
+    return int(text)
+
+
+def _seconds(said: tuple[int, str, str], file: str) -> float:
+    """Of a time of day, 14:03:07.250 or 2:03:07,25 PM, or a number of seconds."""
+    line, _, text = said
+    if found := _CLOCK.fullmatch(text):
+        hours = int(found["h"]) % 12 + 12 * (found["half"].upper() == "PM") if found["half"] else int(found["h"])
+        return hours * 3600.0 + int(found["m"]) * 60.0 + float(found["s"].replace(",", "."))
+    if re.fullmatch(r"\d{1,9}(?:[.,]\d{1,9})?", text):
+        return float(text.replace(",", "."))
+    raise InputError(file, f"line {line}", f"Time is '{text[:30]}'", "expected hours:minutes:seconds")
+
+
+def _recording(name: str, sensor: _Sensor, start: tuple[float, int], layout: MatLayout, file: str) -> Recording:
+    keys = sensor.keys
+    width = _size(keys, "sensel width", length_unit, file)
+    height = _size(keys, "sensel height", length_unit, file)
+    return Recording(
+        file,
+        name,
+        _times(sensor, start, layout),
+        sensor.lines,
+        sensor.values,
+        _unit(keys, file),
+        rows=sensor.size[0],
+        columns=sensor.size[1],
+        pitch=None if height is None or width is None else (height, width),
+        cell_area=_size(keys, "sensel area", area_unit, file),
+    )
+
+
+def _times(sensor: _Sensor, start: tuple[float, int], layout: MatLayout) -> list[float] | None:
+    """By the clock, or by the frames' numbers where it is missing or too coarse and the layout has a rate."""
+    clock = [seconds for seconds in sensor.clock if seconds is not None]
+    numbers = [number for number in sensor.frames if number is not None]
+    counted = layout.rate_Hz is not None and len(numbers) == len(sensor.lines)
+    if len(clock) == len(sensor.lines) and not (counted and len(set(clock)) < len(clock)):
+        return _since(start[0], clock)
+    return [(number - start[1]) / layout.rate_Hz for number in numbers] if counted and layout.rate_Hz else None
+
+
+def _since(start: float, clock: list[float]) -> list[float]:
+    """Seconds since `start`; where the clock falls by half a day it has passed midnight."""
+    days, seconds, before = 0.0, [], start
+    for now in clock:
+        days += _DAY * (now < before - _DAY / 2)
+        seconds.append(now + days - start)
+        before = now
+    return seconds
+
+
+def _size(keys: Keys, key: str, unit_of: Callable[[str], float | None], file: str) -> float | None:
+    """A positive length or area in SI; None without the key."""
+    if key not in keys:
+        return None
+    line, unit, text = keys[key]
+    factor = unit_of(unit)
+    if factor is None:
+        what = f"{key.title()} is in '{unit[:20]}', which is not a unit known here"
+        raise InputError(file, f"line {line}", what, "export it in cm or in")
+    try:
+        number = float(text.replace(",", "."))
+    except ValueError:
+        number = 0.0
+    if not 0.0 < number < float("inf"):
+        raise InputError(file, f"line {line}", f"{key.title()} is '{text[:30]}'", "expected a positive number")
+    return number * factor
+
+
+def _unit(keys: Keys, file: str) -> float | None:
+    line, _, text = keys.get("units", (0, "", ""))
+    factor = pressure_unit(text) if line else None
+    if line and factor is None:
+        what = f"Units is '{text[:20]}', which is not a unit of pressure known here"
+        raise InputError(file, f"line {line}", what, "export pressures, calibrated, in kPa")
+    return factor
