@@ -13,7 +13,10 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
 
 from meshes.gait import synthetic_gait
+from meshes.mat_files import recording_files
+from meshes.mat_recordings import recordings
 from meshes.motion_files import opensim_model, opensim_motion, pose_table
+from meshes.segment_meshes import RINGS, segment_mesh
 from meshes.simple_shapes import SAMPLES
 from meshes.stl import snapped, stl_bytes
 from meshes.total_knee import RESOLUTIONS, total_knee
@@ -51,12 +54,23 @@ def motion_files() -> dict[str, bytes]:
     return {name: text.encode("ascii") for name, text in texts.items()}
 
 
+def mat_files() -> dict[str, bytes]:
+    """STL files of the body segments, and the recordings of the mats on them."""
+    files = {}
+    for segment, rings in RINGS.items():
+        title = f"geocontact synthetic {segment.name.replace('_', ' ')}, n = {rings}, mm"
+        files[f"{segment.name}.stl"] = stl_bytes(*segment_mesh(segment, rings), title)
+    for recording in recordings():
+        files |= recording_files(recording)
+    return files
+
+
 def committed_files() -> dict[str, bytes]:
     """Every generated file that belongs to the repository."""
     files: dict[str, bytes] = {}
     for side, resolution in COMMITTED:
         files |= knee_files(side, resolution)
-    return files | simple_files() | motion_files()
+    return files | simple_files() | motion_files() | mat_files()
 
 
 def differing(files: dict[str, bytes], folder: Path) -> list[str]:
@@ -66,8 +80,8 @@ def differing(files: dict[str, bytes], folder: Path) -> list[str]:
 
 def write(files: dict[str, bytes], folder: Path) -> None:
     """Write the files into `folder`, made if need be."""
-    folder.mkdir(parents=True, exist_ok=True)
     for name, data in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(data)
 
 

@@ -53,6 +53,12 @@ def volume(vertices: np.ndarray, faces: np.ndarray) -> float:
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 
 
+def area(vertices: np.ndarray, faces: np.ndarray) -> float:
+    """Area of all triangles, in the square of the vertices' unit."""
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+
+
 def is_closed(faces: np.ndarray) -> bool:
     """Whether every edge belongs to exactly two faces that run through it in opposite directions."""
     edges = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
