@@ -168,6 +168,9 @@ def test_shipped_readings_as_frames_of_a_mat(recording):
     loaded = exact.normal > 1
     assert frames.force[loaded] == pytest.approx(exact.normal[loaded], rel=5e-3)
     assert frames.force[~loaded] == pytest.approx(exact.normal[~loaded], abs=0.01)
+    centres = mat.segment.points(mat.parameters(np.arange(mat.rows) + 0.5, np.arange(mat.columns) + 0.5))
+    middle = np.einsum("trc,rcx->tx", cells[loaded], centres) / cells[loaded].sum(axis=(1, 2))[:, None]
+    assert middle == pytest.approx(exact.centre[loaded], abs=0.2), "a mirrored mat is centimetres off"
     assert (cells.max(axis=(1, 2)) <= exact.peak * 1e-3 + 1e-3).all()
 
 
