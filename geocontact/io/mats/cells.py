@@ -124,8 +124,7 @@ def _sizes(found: Recording, layout: MatLayout) -> tuple[tuple[float, float], tu
 
 def _times(found: Recording, layout: MatLayout) -> Float[np.ndarray, " t"]:
     if found.time is None:
-        rate = _needed(found, "rate_Hz", found.rate, layout.rate_Hz)
-        return np.arange(len(found.lines)) / rate
+        return np.arange(len(found.lines)) / _needed(found, "rate_Hz", found.rate, layout.rate_Hz)
     time = np.asarray(found.time, dtype=np.float64)
     if not np.isfinite(time).all():
         line = found.lines[int(np.flatnonzero(~np.isfinite(time))[0])]
@@ -135,10 +134,11 @@ def _times(found: Recording, layout: MatLayout) -> Float[np.ndarray, " t"]:
         i = late[0]
         what = f"time {time[i + 1]:.9g} s does not follow {time[i]:.9g} s"
         raise InputError(found.file, f"line {found.lines[i + 1]}", what, "time must increase from frame to frame")
-    interval = float(np.median(np.diff(time))) if len(time) > 1 else None
-    for claimed, key in ((layout.rate_Hz, "rate_Hz of the layout"), (found.rate, "rate of the file")):
-        if claimed is not None and interval is not None and abs(claimed * interval - 1.0) > _UNEVEN:
-            what = f"{key} is {claimed:g} Hz but frames are {interval:.6g} s apart"
+    rate = _settled(found, "rate_Hz", found.rate, layout.rate_Hz)
+    if rate is not None and len(time) > 1:
+        steps = rate * float(np.median(np.diff(time)))  # more than one where frames were left out
+        if abs(steps - max(round(steps), 1)) > _UNEVEN:
+            what = f"the rate is {rate:g} Hz but frames are {steps / rate:.6g} s apart"
             raise InputError(found.file, "", what, "correct the one that is wrong")
     return time
 

@@ -17,7 +17,7 @@ from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.csv_text import LONGEST_NAME
 from geocontact.io.mats.cells import Recording, frames_of
 from geocontact.io.mats.layout import MatLayout
-from geocontact.io.mats.text import MatText, Notation, notation_of
+from geocontact.io.mats.text import MatText, Notation, notation_of, shown
 from geocontact.io.mats.units import pressure_unit
 from geocontact.io.units import split_header
 
@@ -74,7 +74,7 @@ def _time(cell: str, notation: Notation, file: str, line: int) -> float:
         value = float("nan")
     if not np.isfinite(value):
         raise InputError(
-            file, f"line {line}", f"time is '{cell.strip()[:24]}'", "every frame needs its time in seconds"
+            file, f"line {line}", f"time is '{shown(cell.strip())}'", "every frame needs its time in seconds"
         )
     return value
 
@@ -89,13 +89,13 @@ def _columns(
     if match := _TIME.fullmatch(names[0][0]):
         unit = names.pop(0)[1] or match["unit"] or ""
         if unit not in _SECONDS:
-            raise InputError(file, place, f"time is in '{unit[:20]}'", "write `time [s]` or [ms]")
+            raise InputError(file, place, f"time is in '{shown(unit)}'", "write `time [s]` or [ms]")
         scale = _SECONDS[unit]
     ids = []
     for name, _ in names:
         found = _ID.fullmatch(name)
         if found is None:
-            what = f"column '{name[:40]}' is neither time nor a cell with an id"
+            what = f"column '{shown(name)}' is neither time nor a cell with an id"
             raise InputError(file, place, what, "one row `time [s], 1, 2, ...` is needed above the frames")
         ids.append(int(found["id"]) - layout.first_id)
     if not ids:
@@ -122,6 +122,6 @@ def _unit(units: set[str], file: str, place: str) -> float | None:
         return None
     known = {pressure_unit(unit) for unit in units}
     if len(known) > 1 or None in known:
-        shown = ", ".join(sorted(repr(unit[:20]) for unit in units))
+        shown = ", ".join(sorted(f"'{shown(unit)}'" for unit in units))
         raise InputError(file, place, f"cells are in {shown}", "one unit of pressure for all of them is needed")
     return known.pop()

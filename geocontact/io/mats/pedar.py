@@ -18,7 +18,7 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import Recording, frames_of
 from geocontact.io.mats.layout import MatLayout
-from geocontact.io.mats.text import MatText, notation_of
+from geocontact.io.mats.text import MatText, notation_of, shown
 from geocontact.io.mats.units import pressure_unit
 
 KIND = "pedar"
@@ -92,7 +92,7 @@ def _header(rows: Iterator[tuple[int, str]], file: str) -> Header:
         if found := _UNIT.match(line):
             unit = pressure_unit(found["unit"])
             if unit is None:
-                what = f"pressures are in '{found['unit'][:20]}', which is not a unit of pressure known here"
+                what = f"pressures are in '{shown(found['unit'])}', which is not a unit of pressure known here"
                 raise InputError(file, f"line {number}", what, "export them in kPa")
         if found := _INSOLE.match(line):
             ids = tuple(int(word[:6]) for word in re.findall(r"\d+", found["ids"]))
@@ -103,8 +103,9 @@ def _header(rows: Iterator[tuple[int, str]], file: str) -> Header:
 
 
 def _number(text: str) -> float | None:
+    """A positive number; None for what is none."""
     try:
-        return float(text.replace(",", "."))
+        return float(text.replace(",", ".")) or None
     except ValueError:
         return None
 

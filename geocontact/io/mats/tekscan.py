@@ -16,8 +16,8 @@ from itertools import dropwhile, islice
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import Recording, frames_of
-from geocontact.io.mats.layout import MatLayout
-from geocontact.io.mats.text import MatText, Notation, notation_of
+from geocontact.io.mats.layout import MOST_LINES, MatLayout
+from geocontact.io.mats.text import MatText, Notation, notation_of, shown
 from geocontact.io.mats.units import area_unit, length_unit, pressure_unit
 
 KIND = "tekscan"
@@ -134,7 +134,7 @@ def _check_count(keys: Keys, numbers: list[int], file: str) -> None:
     """The last frame announced has to be there."""
     line, text = keys.get("END_FRAME", (0, ""))
     if text.isdecimal() and numbers[-1] < int(text[:9]):
-        what = f"END_FRAME is {text[:9]} but the last frame is {numbers[-1]}"
+        what = f"END_FRAME is {shown(text)} but the last frame is {numbers[-1]}"
         raise InputError(file, f"line {line}", what, "is the file cut off?")
 
 
@@ -143,7 +143,7 @@ def _require_known_side(keys: Keys, layout: MatLayout, file: str) -> None:
     for key in ("MIRROR_ROW", "MIRROR_COL"):
         line, text = keys.get(key, (0, "0"))
         if text not in ("0", "") and layout.mirrored is None:
-            what = f"{key} is {text[:20]}: rows may run as seen from behind the mat"
+            what = f"{key} is {shown(text)}: rows may run as seen from behind the mat"
             raise InputError(file, f"line {line}", what, "say mirrored = true (turn rows back) or false in the layout")
 
 
@@ -153,8 +153,8 @@ def _count(keys: Keys, key: str, declared: int | None, file: str) -> int:
             raise InputError(file, "", f"no key {key}", "say rows and columns in the layout")
         return declared
     line, text = keys[key]
-    if not text.isdecimal() or not 1 <= int(text[:9]) <= 1000:
-        raise InputError(file, f"line {line}", f"{key} is '{text[:20]}'", "expected a number from 1 to 1000")
+    if not text.isdecimal() or len(text) > 9 or not 1 <= int(text) <= MOST_LINES:
+        raise InputError(file, f"line {line}", f"{key} is '{shown(text)}'", f"expected a number from 1 to {MOST_LINES}")
     return int(text)
 
 
@@ -171,14 +171,14 @@ def _quantity(
     except ValueError:
         number = 0.0
     if found is None or not 0.0 < number < float("inf"):
-        raise InputError(file, f"line {line}", f"{key} is '{text[:30]}'", "expected a positive number")
+        raise InputError(file, f"line {line}", f"{key} is '{shown(text)}'", "expected a positive number")
     if unit_of is None:
         return number
     if not found["unit"]:
         return None if default is None else number * default
     factor = unit_of(found["unit"])
     if factor is None:
-        what = f"{key} is in '{found['unit'][:20]}', which is not a unit known here"
+        what = f"{key} is in '{shown(found['unit'])}', which is not a unit known here"
         raise InputError(file, f"line {line}", what, "export it in metric units")
     return number * factor
 
@@ -190,6 +190,6 @@ def _unit(keys: Keys, file: str) -> float | None:
         raise InputError(file, f"line {line}", "values are raw counts of the sensor", "calibrate it before the export")
     factor = pressure_unit(text) if line else None
     if line and factor is None:
-        what = f"UNITS is '{text[:20]}', which is not a unit of pressure known here"
+        what = f"UNITS is '{shown(text)}', which is not a unit of pressure known here"
         raise InputError(file, f"line {line}", what, "export pressures in kPa")
     return factor

@@ -130,7 +130,7 @@ class Notation:
             return self.number(text)
         except ValueError:
             mark = "point" if self.decimal == "." else "comma"
-            what = f"'{_shown(text)}' in cell {column} is not a number with a decimal {mark}"
+            what = f"'{shown(text)}' in cell {column} is not a number with a decimal {mark}"
             remedy = f"export it again, or say delimiter and decimal in the layout (read here: {self.words})"
             raise InputError(file, f"line {line}", what, remedy) from None
 
@@ -156,5 +156,6 @@ def notation_of(sample: Iterable[str], layout: MatLayout | None) -> Notation:
     return Notation(delimiter, decimal)
 
 
-def _shown(text: str) -> str:
-    return "".join(c if c.isprintable() else "?" for c in text[:24])
+def shown(text: str) -> str:
+    """The beginning of a text as it is quoted in a message."""
+    return "".join(c if c.isprintable() else "?" for c in text[:30])

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import re
 from array import array
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import Recording, frames_of
-from geocontact.io.mats.layout import MatLayout
-from geocontact.io.mats.text import MatText, Notation, notation_of
+from geocontact.io.mats.layout import MOST_LINES, MatLayout
+from geocontact.io.mats.text import MatText, Notation, notation_of, shown
 from geocontact.io.mats.units import area_unit, length_unit, pressure_unit
 
 KIND = "xsensor"
@@ -31,6 +31,9 @@ _NEEDED = frozenset({"rows", "columns"})
 
 Keys = dict[str, tuple[int, str, str]]
 """Line, unit in brackets and value of each key, in lower case."""
+
+Rows = list[tuple[int, str]]
+"""Line and text of each row of a frame."""
 
 
 @dataclass(eq=False)
@@ -59,63 +62,73 @@ def read_xsensor(text: MatText, layout: MatLayout | None) -> tuple[PressureFrame
     return tuple(frames_of(_recording(name, one, start, layout, text.file), layout) for name, one in sensors.items())
 
 
-def _key(found: re.Match[str]) -> str:
-    return found["key"].strip().lower()
-
-
 def _gathered(text: MatText, layout: MatLayout) -> dict[str, _Sensor]:
+    """Frames of each sensor, in the order in which sensors appear."""
     sensors: dict[str, _Sensor] = {}
     notation = _notation(text, layout)
     said: Keys = {}
+    for block, rows in _blocks(text):
+        line = rows[0][0]
+        said = said | block
+        name = _name(block, sensors, line, text.file)
+        if name not in sensors:
+            sensors[name] = _new(said, len(sensors), layout, line, text.file)
+        _begin(sensors[name], said, block, line, text.file)
+        _add(rows, sensors[name], notation, text.file)
+    if not sensors:
+        raise InputError(text.file, "", "no frame", "is the export complete?")
+    return sensors
+
+
+def _blocks(text: MatText) -> Iterator[tuple[Keys, Rows]]:
+    """Frame by frame the keys said anew and the rows below them."""
     block: Keys = {}
-    current: _Sensor | None = None
-    left = 0
+    rows: Rows = []
     for number, line in text.lines():
         if not line.strip('\t,;" '):
             continue
-        if found := _KEY.fullmatch(line):
-            _require_whole(left, number, text.file)
+        found = _KEY.fullmatch(line)
+        if found is None and not _KEY_ALONE.fullmatch(line):
+            rows.append((number, line))
+            if len(rows) > MOST_LINES:
+                raise InputError(text.file, f"line {number}", f"more than {MOST_LINES} rows", "is this a mat's export?")
+            continue
+        if rows:
+            yield block, rows
+            block, rows = {}, []
+        if found:
             block[_key(found)] = (number, found["unit"] or "", found["value"].strip(' \t,;"'))
-            continue
-        if _KEY_ALONE.fullmatch(line):
-            _require_whole(left, number, text.file)
-            continue
-        if block:
-            name = _name(block, sensors, number, text.file)
-            current = sensors.get(name)
-            if current is None:
-                current = sensors[name] = _new(said | block, len(sensors), layout, number, text.file)
-            _begin(current, said | block, block, number, text.file)
-            said |= block
-            left, block = current.size[0], {}
-        if current is None or not left:
-            what = "more rows than the key Rows says" if current else "values before any key"
-            raise InputError(text.file, f"line {number}", what, "is this an XSENSOR export?")
+    if rows:
+        yield block, rows
+    elif block.keys() & {"frame", "sensor", "time"}:
+        raise InputError(text.file, f"line {number}", "a frame has no rows", "is the file cut off?")
+
+
+def _add(rows: Rows, sensor: _Sensor, notation: Notation, file: str) -> None:
+    """The rows of one frame, which are as many and as long as the sensor's keys say."""
+    for number, line in rows:
         cells = notation.cells(line)
-        if len(cells) != current.size[1]:
-            what = f"{len(cells)} cells where Columns is {current.size[1]}"
+        if len(cells) != sensor.size[1]:
+            what = f"{len(cells)} cells where Columns is {sensor.size[1]}"
             remedy = f"is the file cut off, or delimiter and decimal other than read here ({notation.words})?"
-            raise InputError(text.file, f"line {number}", what, remedy)
-        notation.add(cells, current.values, text.file, number)
-        left -= 1
-    if not sensors:
-        raise InputError(text.file, "", "no frame", "is the export complete?")
-    _require_whole(left, number, text.file)
-    return sensors
+            raise InputError(file, f"line {number}", what, remedy)
+        notation.add(cells, sensor.values, file, number)
+    if len(rows) != sensor.size[0]:
+        what = f"a frame of {len(rows)} rows where Rows is {sensor.size[0]}"
+        raise InputError(file, f"line {rows[-1][0]}", what, "is the file cut off?")
+
+
+def _key(found: re.Match[str]) -> str:
+    return found["key"].strip().lower()
 
 
 def _notation(text: MatText, layout: MatLayout) -> Notation:
     return notation_of((line for line in text.head if re.match(r'"?[-+]?\d', line)), layout)
 
 
-def _require_whole(left: int, line: int, file: str) -> None:
-    if left:
-        raise InputError(file, f"line {line}", f"{left} rows of the frame above are missing", "is the file cut off?")
-
-
 def _name(block: Keys, sensors: dict[str, _Sensor], line: int, file: str) -> str:
     if "sensor" in block:
-        return block["sensor"][2] or "mat"
+        return shown(block["sensor"][2]) or "mat"
     if len(sensors) > 1:
         what = "a frame does not say of which sensor it is"
         raise InputError(file, f"line {line}", what, "export it with the key Sensor, or each sensor by itself")
@@ -133,7 +146,7 @@ def _begin(sensor: _Sensor, keys: Keys, block: Keys, line: int, file: str) -> No
     own = {key: block.get(key, sensor.keys.get(key)) for key in _NEEDED}
     for key, size in zip(("rows", "columns"), sensor.size, strict=True):
         if (said := own[key]) is not None and said[2] != str(size):
-            what = f"{key} is {said[2][:20]} where the sensor's first frame has {size}"
+            what = f"{key.capitalize()} is {shown(said[2])} where the sensor's first frame has {size}"
             raise InputError(file, f"line {said[0]}", what, "export one size of frame")
     sensor.lines.append(line)
     number = keys.get("frame", (0, "", ""))[2].replace(",", "").replace(".", "")
@@ -145,10 +158,10 @@ def _count(keys: Keys, key: str, declared: int | None, file: str) -> int:
     line, _, text = keys.get(key, (0, "", ""))
     if not line and declared is not None:
         return declared
-    if not text.isdecimal() or not 1 <= int(text[:9]) <= 1000:
-        what = f"{key.capitalize()} is '{text[:20]}'" if line else f"no key {key.capitalize()}"
+    if not text.isdecimal() or len(text) > 9 or not 1 <= int(text) <= MOST_LINES:
+        what = f"{key.capitalize()} is '{shown(text)}'" if line else f"no key {key.capitalize()}"
         place = f"line {line}" if line else ""
-        raise InputError(file, place, what, f"expected a number from 1 to 1000, or {key} in the layout")
+        raise InputError(file, place, what, f"expected a number from 1 to {MOST_LINES}, or {key} in the layout")
     return int(text)
 
 
@@ -160,7 +173,7 @@ def _seconds(said: tuple[int, str, str], file: str) -> float:
         return hours * 3600.0 + int(found["m"]) * 60.0 + float(found["s"].replace(",", "."))
     if re.fullmatch(r"\d{1,9}(?:[.,]\d{1,9})?", text):
         return float(text.replace(",", "."))
-    raise InputError(file, f"line {line}", f"Time is '{text[:30]}'", "expected hours:minutes:seconds")
+    raise InputError(file, f"line {line}", f"Time is '{shown(text)}'", "expected hours:minutes:seconds")
 
 
 def _recording(name: str, sensor: _Sensor, start: tuple[float, int], layout: MatLayout, file: str) -> Recording:
@@ -208,14 +221,14 @@ def _size(keys: Keys, key: str, unit_of: Callable[[str], float | None], file: st
     line, unit, text = keys[key]
     factor = unit_of(unit)
     if factor is None:
-        what = f"{key.title()} is in '{unit[:20]}', which is not a unit known here"
+        what = f"{key.title()} is in '{shown(unit)}', which is not a unit known here"
         raise InputError(file, f"line {line}", what, "export it in cm or in")
     try:
         number = float(text.replace(",", "."))
     except ValueError:
         number = 0.0
     if not 0.0 < number < float("inf"):
-        raise InputError(file, f"line {line}", f"{key.title()} is '{text[:30]}'", "expected a positive number")
+        raise InputError(file, f"line {line}", f"{key.title()} is '{shown(text)}'", "expected a positive number")
     return number * factor
 
 
@@ -223,6 +236,6 @@ def _unit(keys: Keys, file: str) -> float | None:
     line, _, text = keys.get("units", (0, "", ""))
     factor = pressure_unit(text) if line else None
     if line and factor is None:
-        what = f"Units is '{text[:20]}', which is not a unit of pressure known here"
+        what = f"Units is '{shown(text)}', which is not a unit of pressure known here"
         raise InputError(file, f"line {line}", what, "export pressures, calibrated, in kPa")
     return factor
