@@ -122,6 +122,6 @@ def _unit(units: set[str], file: str, place: str) -> float | None:
         return None
     known = {pressure_unit(unit) for unit in units}
     if len(known) > 1 or None in known:
-        shown = ", ".join(sorted(f"'{shown(unit)}'" for unit in units))
-        raise InputError(file, place, f"cells are in {shown}", "one unit of pressure for all of them is needed")
+        said = ", ".join(sorted(f"'{shown(unit)}'" for unit in units))
+        raise InputError(file, place, f"cells are in {said}", "one unit of pressure for all of them is needed")
     return known.pop()

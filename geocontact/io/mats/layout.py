@@ -163,8 +163,9 @@ def _refusal(error: ValidationError, file: str) -> InputError:
     """One line for the first thing that is wrong; an unknown key comes before what it may have been meant as."""
     first, *_ = sorted(error.errors(), key=lambda found: found["type"] != "extra_forbidden")
     place = ".".join(str(part) for part in first["loc"] if part != "[key]")
+    place = "".join(filter(str.isprintable, place))[:80]
     if first["type"] == "extra_forbidden":
         keys = ", ".join(name for name in MatLayout.model_fields if name != "file")
-        return InputError(file, "", f"unknown key {place[:80]!r}", f"keys are {keys}")
+        return InputError(file, "", f"unknown key {place!r}", f"keys are {keys}")
     reason = first["msg"].removeprefix("Value error, ")
-    return InputError(file, place[:80], f"is {first['input']!r:.60}", reason[0].lower() + reason[1:])
+    return InputError(file, place, f"is {first['input']!r:.60}", reason[0].lower() + reason[1:])

@@ -166,3 +166,11 @@ def test_layouts_that_cannot_be_used(tmp_path: Path, case: str) -> None:
     line = str(caught.value).replace(f"{tmp_path}/layout.toml", "").strip(": ")
     assert line.startswith(expected), line
     assert "\n" not in line and len(line) < 500
+
+
+def test_the_layout_in_the_documentation_is_one(tmp_path: Path) -> None:
+    page = (Path(__file__).parents[3] / "docs/reference/mat_files.md").read_text(encoding="utf-8")
+    example = page.split("```toml\n")[1].split("```")[0]
+    said = layout(tmp_path, example)
+    assert (said.rows, said.columns, said.dead, said.saturation) == (16, 8, ((5, 3),), 60e3)
+    assert set(said.model_fields_set) == set(type(said).model_fields), "every key is shown"
