@@ -25,6 +25,12 @@ _CLOSE = 1e-3
 _UNEVEN = 0.05
 """Relative difference of a rate and the frames' times below which they agree: times are rounded."""
 
+_PITCH = 1e-4, 0.5
+"""Smallest and largest distance of neighbouring cells [m]."""
+
+_LATEST = 1e10
+"""Seconds; 300 years."""
+
 _CLIPPED = 1.0 - 1e-9
 """A level converted from another unit than the pressures may come out an ulp above them."""
 
@@ -119,6 +125,14 @@ def _sizes(found: Recording, layout: MatLayout) -> tuple[tuple[float, float], tu
     declared: tuple[float | None, float | None] = layout.pitch or (None, None)
     said = found.pitch or (square if layout.pitch is None else (None, None))
     rows, columns = (_needed(found, "pitch_mm", said[k], declared[k]) for k in (0, 1))
+    if not (_PITCH[0] <= min(rows, columns) and max(rows, columns) <= _PITCH[1]):
+        what = f"a pitch of {rows * 1e3:g} x {columns * 1e3:g} mm is not that of a mat"
+        raise InputError(found.file, "", what, "is its unit right?")
+    if len(areas) == 1 and not 0.01 <= (part := areas[0] / (rows * columns)) <= 1.05:
+        what = (
+            f"a cell of {areas[0] * 1e6:g} mm^2 fills {part:.3g} of the pitch of {rows * 1e3:g} x {columns * 1e3:g} mm"
+        )
+        raise InputError(found.file, "", what, "are their units right?")
     return (rows, columns), areas or None
 
 
@@ -126,8 +140,9 @@ def _times(found: Recording, layout: MatLayout) -> Float[np.ndarray, " t"]:
     if found.time is None:
         return np.arange(len(found.lines)) / _needed(found, "rate_Hz", found.rate, layout.rate_Hz)
     time = np.asarray(found.time, dtype=np.float64)
-    if not np.isfinite(time).all():
-        line = found.lines[int(np.flatnonzero(~np.isfinite(time))[0])]
+    unusable = np.flatnonzero(~(np.abs(time) <= _LATEST))
+    if len(unusable):
+        line = found.lines[int(unusable[0])]
         raise InputError(found.file, f"line {line}", "the frame has no time", "every frame needs one")
     late = np.flatnonzero(np.diff(time) <= 0.0)
     if len(late):
@@ -152,6 +167,9 @@ def _places(
         raise InputError(found.file, "", "holds no frames", "is the export complete?")
     ids = np.arange(count) if found.ids is None else np.asarray(found.ids)
     table = layout.sensors.get(found.name)
+    if layout.sensors and table is None:
+        what = f"sensors of the layout places no cell of '{found.name}'"
+        raise InputError(found.file, "", what, f"write sensors.{found.name}, or leave sensors out")
     known = rows * columns if table is None else len(table)
     if ids.max() >= known:
         what = f"has cell {ids.max() + layout.first_id} where the layout places {known}"

@@ -21,9 +21,13 @@ MOST_LINES = 1000
 """Rows, or columns, of one mat."""
 
 
+SMALLEST, LARGEST = 1e-6, 1e9
+"""Of any length, area, rate or pressure of a mat in its usual unit."""
+
+
 def _positive(value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value < math.inf:
-        raise ValueError("expected a positive number")
+    if isinstance(value, bool) or not isinstance(value, int | float) or not SMALLEST <= value <= LARGEST:
+        raise ValueError(f"expected a positive number, {SMALLEST:g} to {LARGEST:g}")
     return float(value)
 
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import Recording, frames_of
-from geocontact.io.mats.layout import MatLayout
+from geocontact.io.mats.layout import LARGEST, SMALLEST, MatLayout
 from geocontact.io.mats.text import MatText, notation_of, shown
 from geocontact.io.mats.units import pressure_unit
 
@@ -105,9 +105,10 @@ def _header(rows: Iterator[tuple[int, str]], file: str) -> Header:
 def _number(text: str) -> float | None:
     """A positive number; None for what is none."""
     try:
-        return float(text.replace(",", ".")) or None
+        value = float(text.replace(",", "."))
     except ValueError:
         return None
+    return value if SMALLEST <= value <= LARGEST else None
 
 
 def _sides(line: str, listed: dict[str, tuple[int, ...]], file: str, place: str) -> dict[str, tuple[int, ...]]:

@@ -16,7 +16,7 @@ from itertools import dropwhile, islice
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import Recording, frames_of
-from geocontact.io.mats.layout import MOST_LINES, MatLayout
+from geocontact.io.mats.layout import LARGEST, MOST_LINES, SMALLEST, MatLayout
 from geocontact.io.mats.text import MatText, Notation, notation_of, shown
 from geocontact.io.mats.units import area_unit, length_unit, pressure_unit
 
@@ -170,7 +170,7 @@ def _quantity(
         number = float(found["number"].replace(",", ".")) if found else 0.0
     except ValueError:
         number = 0.0
-    if found is None or not 0.0 < number < float("inf"):
+    if found is None or not SMALLEST <= number <= LARGEST:
         raise InputError(file, f"line {line}", f"{key} is '{shown(text)}'", "expected a positive number")
     if unit_of is None:
         return number

@@ -156,6 +156,6 @@ def notation_of(sample: Iterable[str], layout: MatLayout | None) -> Notation:
     return Notation(delimiter, decimal)
 
 
-def shown(text: str) -> str:
+def shown(text: str, most: int = 30) -> str:
     """The beginning of a text as it is quoted in a message."""
-    return "".join(c if c.isprintable() else "?" for c in text[:30])
+    return "".join(c if c.isprintable() else "?" for c in text[:most])

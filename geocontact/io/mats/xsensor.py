@@ -14,8 +14,9 @@ from dataclasses import dataclass, field
 
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
+from geocontact.io.csv_text import LONGEST_NAME
 from geocontact.io.mats.cells import Recording, frames_of
-from geocontact.io.mats.layout import MOST_LINES, MatLayout
+from geocontact.io.mats.layout import LARGEST, MOST_LINES, SMALLEST, MatLayout
 from geocontact.io.mats.text import MatText, Notation, notation_of, shown
 from geocontact.io.mats.units import area_unit, length_unit, pressure_unit
 
@@ -25,7 +26,9 @@ MOST_SENSORS = 16
 
 _KEY = re.compile(r'"?(?P<key>[^\W\d][^",;:(]{0,60})(?:\((?P<unit>[^()]{0,20})\))?:?"?[,;\t](?P<value>.*)')
 _KEY_ALONE = re.compile(r'"?[^\W\d][^,;"]*"?[,;\t]*')
-_CLOCK = re.compile(r"(?P<h>\d{1,2}):(?P<m>\d{2}):(?P<s>\d{2}(?:[.,]\d+)?)\s*(?P<half>[AP]M)?", re.IGNORECASE)
+_CLOCK = re.compile(
+    r"(?:\S{6,12}\s+)?(?P<h>\d{1,2}):(?P<m>\d{2}):(?P<s>\d{2}(?:[.,]\d+)?)\s*(?P<half>[AP]M)?", re.IGNORECASE
+)
 _DAY = 86400.0
 _NEEDED = frozenset({"rows", "columns"})
 
@@ -128,7 +131,7 @@ def _notation(text: MatText, layout: MatLayout) -> Notation:
 
 def _name(block: Keys, sensors: dict[str, _Sensor], line: int, file: str) -> str:
     if "sensor" in block:
-        return shown(block["sensor"][2]) or "mat"
+        return shown(block["sensor"][2], LONGEST_NAME) or "mat"
     if len(sensors) > 1:
         what = "a frame does not say of which sensor it is"
         raise InputError(file, f"line {line}", what, "export it with the key Sensor, or each sensor by itself")
@@ -166,7 +169,7 @@ def _count(keys: Keys, key: str, declared: int | None, file: str) -> int:
 
 
 def _seconds(said: tuple[int, str, str], file: str) -> float:
-    """Of a time of day, 14:03:07.250 or 2:03:07,25 PM, or a number of seconds."""
+    """Of a time of day with or without its date, 14:03:07.250 or 2:03:07,25 PM, or a number of seconds."""
     line, _, text = said
     if found := _CLOCK.fullmatch(text):
         hours = int(found["h"]) % 12 + 12 * (found["half"].upper() == "PM") if found["half"] else int(found["h"])
@@ -227,7 +230,7 @@ def _size(keys: Keys, key: str, unit_of: Callable[[str], float | None], file: st
         number = float(text.replace(",", "."))
     except ValueError:
         number = 0.0
-    if not 0.0 < number < float("inf"):
+    if not SMALLEST <= number <= LARGEST:
         raise InputError(file, f"line {line}", f"{key.title()} is '{shown(text)}'", "expected a positive number")
     return number * factor
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import random
 import warnings
 from pathlib import Path
@@ -111,6 +112,11 @@ EDITS = {
     "tekscan frames go back": ("tekscan", "Frame 6", "Frame 8", "line 28: time 0.12 s does not follow 0.14 s"),
     "tekscan B in one frame": ("tekscan", "13,14", "13,B", "line 28: frame 2 has no value in cell [1, 1]"),
     "tekscan no frame": ("tekscan", TEKSCAN[TEKSCAN.index("\nFrame 6") :], "", "no line `Frame n` below ASCII_DATA"),
+    "tekscan pitch in m": ("tekscan", "10.16 mm", "10.16 m", "a pitch of 10160 x 5.08 mm is not that of a mat"),
+    "tekscan tiny pitch": ("tekscan", "10.16 mm", "1e-200 mm", "line 7: ROW_SPACING is '1e-200 mm'"),
+    "tekscan area in cm2": ("tekscan", "51.6128 mm2", "51.6128 cm2", "a cell of 5161.28 mm^2 fills 100 of the pitch"),
+    "tekscan tiny interval": ("tekscan", "FRAME 0.02", "FRAME 1e-320", "line 11: SECONDS_PER_FRAME is '1e-320'"),
+    "time beyond reason": ("grid", "0.02,", "1e308,", "line 4: the frame has no time"),
     "tekscan area": ("tekscan", "51.6128 mm2", "51.6128 mm", "line 9: SENSEL_AREA is in 'mm'"),
     "xsensor other size": (
         "xsensor",
@@ -207,6 +213,11 @@ def test_layout_and_file_may_not_disagree(tmp_path: Path) -> None:
     assert mat.rows == 3
 
 
+def test_places_of_sensors_are_never_taken_from_another_mat(tmp_path: Path) -> None:
+    line = refusal(tmp_path, GRID, GRID_LAYOUT + "sensors.left = [[0,0],[0,1],[0,2],[1,0],[1,1],[1,2]]")
+    assert line.startswith("sensors of the layout places no cell of 'mat'; write sensors.mat")
+
+
 def test_a_layout_says_what_a_tekscan_file_leaves_out(tmp_path: Path) -> None:
     bare = "ASCII_DATA @@\n\nFrame 3\n1,2\n3,4\n\nFrame 5\n5,6\n7,8\n"
     said = 'rows = 2\ncolumns = 2\npitch_mm = 5\nunit = "bar"\nrate_Hz = 10\nsaturation_kPa = 700'
@@ -241,6 +252,16 @@ def test_xsensor_with_a_coarse_clock_follows_its_frames_and_a_rate(tmp_path: Pat
     seat, back = read_mat(write(tmp_path, text), layout(tmp_path, "rate_Hz = 25"))
     np.testing.assert_allclose(seat.time, [0.0, 0.04], rtol=1e-12)
     np.testing.assert_array_equal(back.time, seat.time)
+
+
+def test_xsensor_without_quotes_and_with_points(tmp_path: Path) -> None:
+    text = "\n".join(
+        ",".join(cell.replace(",", ".") for cell in next(csv.reader([line]))) for line in XSENSOR.splitlines()[:17]
+    )
+    (seat,) = read_mat(write(tmp_path, text.replace("Width (in):", "Width (in)").replace("23:59", "2026-02-03 23:59")))
+    (quoted, _) = read_mat(write(tmp_path, XSENSOR))
+    np.testing.assert_array_equal(seat.pressure, quoted.pressure[:1])
+    assert seat.pitch == quoted.pitch
 
 
 def test_clock_of_twelve_hours(tmp_path: Path) -> None:
