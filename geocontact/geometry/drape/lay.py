@@ -1,0 +1,62 @@
+"""Laying a mat onto a surface so that its cells keep their size."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.geometry.drape.anchor import anchored
+from geocontact.geometry.drape.cells import Drape, measured
+from geocontact.geometry.drape.geodesics import Geodesics, Places
+from geocontact.geometry.drape.mat import Marks, Mat
+from geocontact.geometry.drape.relax import relaxed
+from geocontact.geometry.drape.spread import Anchor, Way, spread
+
+
+def lay(geodesics: Geodesics, mat: Mat, at: Marks | Anchor, belt: Way | None = None, settle: bool = True) -> Drape:
+    """The mat on the surface: spread along straightest lines from its middle, then evened out.
+
+    Parameters
+    ----------
+    at
+        Two marks or more of the mat on the body, or where its middle lies and which way its rows run.
+    belt
+        The direction of the mat that goes once around the body and meets itself; its end is put onto its beginning.
+        None: the mat has two ends, which may lie on each other on a thin body; such cells are told as folded.
+    settle
+        Whether the spread mat is evened out. Where the surface can be laid flat there is nothing to even out.
+    """
+    spine: Way = _spine(mat, belt)
+    anchor = at if isinstance(at, Anchor) else anchored(geodesics, mat, at, spine)
+    if not anchor.place.on[0]:
+        raise ValueError("the middle of the mat is not on the surface")
+    row, column = np.arange(mat.rows + 1.0), np.arange(mat.columns + 1.0)
+    ahead = (row - mat.middle[0]) * mat.pitch[0]
+    aside = (column - mat.middle[1]) * mat.pitch[1]
+    nodes = spread(geodesics, anchor, mat, ahead, aside, spine)
+    if settle or belt:
+        nodes = relaxed(geodesics, mat, nodes, belt)
+    misses = None
+    if isinstance(at, Marks):
+        misses = np.linalg.norm(between(nodes, at.cells) - at.points, axis=1)
+    return measured(geodesics, mat, nodes, misses)
+
+
+def _spine(mat: Mat, belt: Way | None) -> Way:
+    """Ribs are the short side of the mat, where they drift apart least; those of a belt go around."""
+    if belt is not None:
+        return "columns" if belt == "rows" else "rows"
+    return "rows" if mat.rows * mat.pitch[0] >= mat.columns * mat.pitch[1] else "columns"
+
+
+def between(nodes: Places, cells: Float[np.ndarray, "k 2"]) -> Float[np.ndarray, "k 3"]:
+    """Points at positions counted in cells [m], linear between the corners of their cell; NaN where it is not there."""
+    last = np.array(nodes.face.shape) - 2
+    low = np.clip(np.floor(cells).astype(np.int64), 0, last)
+    s, t = (cells - low).T[..., None]
+    i, j = low.T
+    p = nodes.point
+    with np.errstate(invalid="ignore"):
+        first = (1.0 - s) * p[i, j] + s * p[i + 1, j]
+        second = (1.0 - s) * p[i, j + 1] + s * p[i + 1, j + 1]
+    return np.asarray((1.0 - t) * first + t * second)

@@ -1,0 +1,156 @@
+"""Evening out a mat that cannot lie flat: its cells' sides are brought back to the pitch, as threads of a cloth are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.sparse import coo_array, eye_array
+from scipy.sparse.linalg import spsolve
+
+from geocontact.geometry.drape.geodesics import Geodesics, Joins, Places
+from geocontact.geometry.drape.mat import Mat
+from geocontact.geometry.drape.spread import Way
+
+SHEAR = 0.05  # stiffness of the diagonals over that of the sides: cloth is sheared much more easily than stretched
+EVEN = 1e-10  # of a side: nothing to even out
+SETTLED = 1e-6  # of the pitch, largest move of a round
+ROUNDS = 40
+GAIN = 1e-3  # of the sum of squares: less is not worth another round
+DAMPING = 1e-6
+STIFF = 1e6  # damping at which there is nothing more to gain
+STRIDE = 0.25  # of the pitch, largest move
+AROUND = 0.1  # a belt may be this much longer or shorter than the way around the body
+
+
+@dataclass(frozen=True, eq=False)
+class Springs:
+    """Pairs of nodes (flat indices), the length at which each rests [m], and the root of its stiffness."""
+
+    start: Int[np.ndarray, " e"]
+    goal: Int[np.ndarray, " e"]
+    rest: Float[np.ndarray, " e"]
+    weight: Float[np.ndarray, " e"]
+
+
+def relaxed(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way | None = None) -> Places:
+    """Corners moved along the surface until sides differ least from the pitch, and diagonals, weakly, from theirs.
+
+    Least squares over all corners that lie on the surface, by damped Gauss-Newton. A straightest line of length L from
+    a to b grows by db . t_b - da . t_a when its ends move, t the unit directions of the line there (first variation of
+    arc length), so the derivative is exact. With soft diagonals the result nears a Chebyshev net, whose sides keep the
+    pitch and whose angles turn by the integral of the Gaussian curvature (Hazzidakis 1879). A mat that fits already is
+    returned as it is.
+    """
+    flat = Places(nodes.face.ravel(), nodes.point.reshape(-1, 3))
+    owner = _owner(nodes.face.shape, belt)
+    springs = _springs(mat, nodes.face.shape, flat, owner)
+    if belt is not None:
+        _goes_around(geodesics, mat, nodes, belt)
+    damping = DAMPING
+    residual, joins = _residual(geodesics, springs, flat)
+    for _ in range(ROUNDS):
+        if not len(residual) or np.abs(residual / springs.rest).max() < EVEN:
+            break
+        axes = _axes(geodesics, flat)
+        shift = _step(springs, joins, residual, axes, damping)
+        size = float(np.linalg.norm(shift, axis=1).max())
+        shift *= min(1.0, STRIDE * min(mat.pitch) / size) if size > 0.0 else 1.0
+        trial = geodesics.moved(flat, shift)
+        trial = Places(np.where(trial.on, trial.face, flat.face), np.where(trial.on[:, None], trial.point, flat.point))
+        after, joins_after = _residual(geodesics, springs, trial)
+        if not after @ after < residual @ residual:
+            damping *= 10.0
+            if damping > STIFF:
+                break
+            continue
+        little = after @ after > (1.0 - GAIN) * (residual @ residual)
+        flat, residual, joins, damping = trial, after, joins_after, max(0.1 * damping, DAMPING)
+        if little or size < SETTLED * min(mat.pitch):
+            break
+    flat = Places(flat.face[owner], flat.point[owner])
+    return Places(flat.face.reshape(nodes.face.shape), flat.point.reshape(nodes.point.shape))
+
+
+def _owner(shape: tuple[int, ...], belt: Way | None) -> Int[np.ndarray, " n"]:
+    """Which node stands for each: itself, or the first of its row or column for the last of a belt."""
+    index = np.arange(shape[0] * shape[1]).reshape(shape)
+    if belt == "rows":
+        index[-1] = index[0]
+    elif belt == "columns":
+        index[:, -1] = index[:, 0]
+    return index.ravel()
+
+
+def _springs(mat: Mat, shape: tuple[int, ...], flat: Places, owner: Int[np.ndarray, " n"]) -> Springs:
+    """Sides and diagonals between nodes that are on the surface, each once."""
+    index = np.arange(shape[0] * shape[1]).reshape(shape)
+    diagonal = float(np.hypot(*mat.pitch))
+    parts = [
+        (index[:-1], index[1:], mat.pitch[0], 1.0),
+        (index[:, :-1], index[:, 1:], mat.pitch[1], 1.0),
+        (index[:-1, :-1], index[1:, 1:], diagonal, np.sqrt(SHEAR)),
+        (index[1:, :-1], index[:-1, 1:], diagonal, np.sqrt(SHEAR)),
+    ]
+    start = owner[np.concatenate([a.ravel() for a, _, _, _ in parts])]
+    goal = owner[np.concatenate([b.ravel() for _, b, _, _ in parts])]
+    rest = np.concatenate([np.full(a.size, length) for a, _, length, _ in parts])
+    weight = np.concatenate([np.full(a.size, share) for a, _, _, share in parts])
+    pairs = np.column_stack([start, goal])
+    _, first = np.unique(pairs, axis=0, return_index=True)
+    first = np.sort(first)
+    first = first[flat.on[start[first]] & flat.on[goal[first]]]
+    return Springs(start[first], goal[first], rest[first], weight[first])
+
+
+def _residual(geodesics: Geodesics, springs: Springs, flat: Places) -> tuple[Float[np.ndarray, " e"], Joins]:
+    """Weighted change of each spring's length [m]; 0 where no straightest line was found."""
+    joins = geodesics.joined(
+        Places(flat.face[springs.start], flat.point[springs.start]),
+        Places(flat.face[springs.goal], flat.point[springs.goal]),
+    )
+    return np.nan_to_num(springs.weight * (joins.length - springs.rest)), joins
+
+
+def _axes(geodesics: Geodesics, flat: Places) -> Float[np.ndarray, "n 2 3"]:
+    """Two unit vectors along the surface at each place; zero off it."""
+    normal = np.nan_to_num(geodesics.normal(flat))
+    least = np.eye(3)[np.abs(normal).argmin(axis=1)]
+    first = np.cross(normal, least)
+    first /= np.maximum(np.linalg.norm(first, axis=1, keepdims=True), 1e-300)
+    return np.stack([first, np.cross(normal, first)], axis=1)
+
+
+def _step(
+    springs: Springs,
+    joins: Joins,
+    residual: Float[np.ndarray, " e"],
+    axes: Float[np.ndarray, "n 2 3"],
+    damping: float,
+) -> Float[np.ndarray, "n 3"]:
+    """Damped Gauss-Newton move of every node [m]."""
+    e = np.arange(len(residual))
+    ahead = springs.weight[:, None] * np.nan_to_num(np.einsum("eax,ex->ea", axes[springs.goal], joins.arriving))
+    behind = -springs.weight[:, None] * np.nan_to_num(np.einsum("eax,ex->ea", axes[springs.start], joins.leaving))
+    row = np.concatenate([e, e, e, e])
+    column = np.concatenate([2 * springs.goal, 2 * springs.goal + 1, 2 * springs.start, 2 * springs.start + 1])
+    value = np.concatenate([*ahead.T, *behind.T])
+    jacobian = coo_array((value, (row, column)), shape=(len(e), 2 * len(axes))).tocsc()
+    normal_matrix = (jacobian.T @ jacobian + damping * eye_array(2 * len(axes), format="csc")).tocsc()
+    move = spsolve(normal_matrix, -(jacobian.T @ residual)).reshape(-1, 2)
+    return np.asarray(np.einsum("na,nax->nx", move, axes))
+
+
+def _goes_around(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way) -> None:
+    """Refuse a belt whose ends are far apart, or far past each other, on the body."""
+    ends = (nodes.point[0], nodes.point[-1]) if belt == "rows" else (nodes.point[:, 0], nodes.point[:, -1])
+    if not (np.isfinite(ends[0]).all() and np.isfinite(ends[1]).all()):
+        raise ValueError(f"the belt runs off {geodesics.surface.name}, which does not go all the way around")
+    length = (mat.rows if belt == "rows" else mat.columns) * mat.pitch[0 if belt == "rows" else 1]
+    gap = float(np.linalg.norm(ends[1] - ends[0], axis=1).mean())
+    if gap > AROUND * length:
+        raise ValueError(
+            f"the belt is {length:.3f} m long and its ends lie {gap:.3f} m apart on {geodesics.surface.name}; it does "
+            "not go once around there"
+        )

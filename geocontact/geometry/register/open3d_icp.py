@@ -1,0 +1,56 @@
+"""The same registration by open3d, where it is installed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.geometry.register.icp import BIWEIGHT, Search, judged
+from geocontact.geometry.register.quality import Registration
+from geocontact.geometry.register.samples import samples
+from geocontact.geometry.surface import Surface
+
+DENSE = 200_000  # points that stand for the fixed surface, which open3d takes as a cloud
+FINE = 1e-4  # m; scale of the residuals in the last search
+
+
+def open3d_icp(moving: Surface, fixed: Surface, start: RigidTransform, search: Search | None = None) -> Registration:
+    """The pose X_BA of `icp`, found by open3d's point-to-plane search with Tukey's weights.
+
+    B is a dense cloud to it, so partners on the rim cannot be dropped: pairs are bounded by the reach first, and by
+    ever less of it afterwards. Its residual map is made by the same distances as that of `icp`.
+    """
+    o3d: Any = _open3d()
+    search = search or Search()
+    points, normals = samples(moving, search.points)
+    clouds = []
+    for positions, directions in ((points, normals), samples(fixed, DENSE)):
+        cloud = o3d.geometry.PointCloud(o3d.utility.Vector3dVector(positions))
+        cloud.normals = o3d.utility.Vector3dVector(directions)
+        clouds.append(cloud)
+    registration = o3d.pipelines.registration
+    matrix, rounds, reach = start.as_matrix(), 0, search.reach
+    ends = registration.ICPConvergenceCriteria(1e-12, 1e-12, search.rounds)
+    while True:
+        plane = registration.TransformationEstimationPointToPlane(
+            registration.TukeyLoss(BIWEIGHT * max(0.1 * reach, FINE))
+        )
+        found = registration.registration_icp(*clouds, reach, matrix, plane, ends)
+        matrix, rounds = np.asarray(found.transformation), rounds + 1
+        if reach <= search.tolerance:
+            break
+        reach = max(0.5 * reach, search.tolerance)
+    return judged(fixed, points, normals, RigidTransform.from_matrix(matrix), search, True, rounds)
+
+
+def _open3d() -> Any:
+    """The library, or a line that says what to do without it."""
+    try:
+        import open3d
+    except (ImportError, OSError) as why:  # its wheel needs system libraries that a bare machine lacks
+        raise ImportError(
+            f"open3d does not import ({why}); install geocontact[scan], or register by geometry.register.icp"
+        ) from why
+    return open3d
