@@ -295,7 +295,7 @@ def _damaged(data: bytes, chance: random.Random) -> bytes:
             case 0:
                 damaged[place] = chance.choice(b'0123456789,.;\t\n"-eB@ \xb2\xff')
             case 1:
-                del damaged[place : place + chance.randint(1, 30)]
+                del damaged[place + 1 : place + chance.randint(2, 30)]
             case 2:
                 damaged[place:place] = damaged[place : place + chance.randint(1, 60)]
             case _:
