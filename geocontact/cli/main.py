@@ -32,6 +32,7 @@ app.command("geocontact.cli.doctor:doctor", name="doctor")
 app.command("geocontact.cli.fit:fit", name="fit")
 app.command("geocontact.cli.gap:gap", name="gap")
 app.command("geocontact.cli.loadcells:loadcells", name="loadcells")
+app.command("geocontact.cli.mat:mat", name="mat")
 app.command("geocontact.cli.modulus:modulus", name="modulus")
 app.command("geocontact.cli.view:view", name="view")
 

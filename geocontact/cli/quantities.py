@@ -191,3 +191,28 @@ def _checked(point: tuple[float, float, float], direction: tuple[float, float, f
         return Axis(point, direction)
     except ValueError as error:
         raise InputError("", "--axis", str(error), f"check {text!r}") from error
+
+
+def windows(text: str, option: str) -> list[tuple[float, float]]:
+    """ "0:0.5,9:9.5" to pairs of times [s]."""
+    found = []
+    for part in text.split(","):
+        first, colon, last = part.partition(":")
+        if not colon:
+            raise InputError("", option, f"{part!r} is not a time from … to", "write for example 0:0.5")
+        found.append((number(first, option, "0:0.5"), number(last, option, "0:0.5")))
+        if found[-1][1] <= found[-1][0]:
+            raise InputError("", option, f"{part!r} ends before it begins", "write for example 0:0.5")
+    return found
+
+
+def registration(text: str) -> tuple[float, float]:
+    """ "1mm,2deg" to a length [m] and an angle [rad]."""
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != 2 or not parts[1].endswith(("deg", "rad")):
+        raise InputError("", "--registration", f"{text!r} is not a length and an angle", "write 1mm,2deg")
+    angle = number(parts[1][:-3], "--registration", "1mm,2deg") * ANGLE[parts[1][-3:]]
+    shift = length(parts[0], "--registration")
+    if shift < 0.0 or angle < 0.0:
+        raise InputError("", "--registration", f"{text!r} is negative", "write 1mm,2deg")
+    return shift, angle

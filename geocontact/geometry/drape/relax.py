@@ -14,6 +14,7 @@ from geocontact.geometry.drape.mat import Mat
 from geocontact.geometry.drape.spread import Way
 
 SHEAR = 0.05  # stiffness of the diagonals over that of the sides: cloth is sheared much more easily than stretched
+STAYS = 0.003  # stiffness that holds each corner where it was spread, over that of the sides, as a root
 EVEN = 1e-10  # of a side: nothing to even out
 SETTLED = 1e-6  # of the pitch, largest move of a round
 ROUNDS = 40
@@ -41,7 +42,8 @@ def relaxed(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way | None = No
     a to b grows by db . t_b - da . t_a when its ends move, t the unit directions of the line there (first variation of
     arc length), so the derivative is exact. With soft diagonals the result nears a Chebyshev net, whose sides keep the
     pitch and whose angles turn by the integral of the Gaussian curvature (Hazzidakis 1879). A mat that fits already is
-    returned as it is.
+    returned as it is. Weak springs hold every corner where it was spread: a mat that marks put somewhere shall not
+    slide to where it would fit better.
     """
     flat = Places(nodes.face.ravel(), nodes.point.reshape(-1, 3))
     owner = _owner(nodes.face.shape, belt)
@@ -49,23 +51,26 @@ def relaxed(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way | None = No
     if belt is not None:
         _goes_around(geodesics, mat, nodes, belt)
     damping = DAMPING
+    spread_to = flat.point
     residual, joins = _residual(geodesics, springs, flat)
     for _ in range(ROUNDS):
         if not len(residual) or np.abs(residual / springs.rest).max() < EVEN:
             break
         axes = _axes(geodesics, flat)
-        shift = _step(springs, joins, residual, axes, damping)
+        astray = np.nan_to_num(flat.point - spread_to)
+        shift = _step(springs, joins, residual, axes, astray, damping)
         size = float(np.linalg.norm(shift, axis=1).max())
         shift *= min(1.0, STRIDE * min(mat.pitch) / size) if size > 0.0 else 1.0
         trial = geodesics.moved(flat, shift)
         trial = Places(np.where(trial.on, trial.face, flat.face), np.where(trial.on[:, None], trial.point, flat.point))
         after, joins_after = _residual(geodesics, springs, trial)
-        if not after @ after < residual @ residual:
+        before, now = _energy(residual, astray), _energy(after, np.nan_to_num(trial.point - spread_to))
+        if not now < before:
             damping *= 10.0
             if damping > STIFF:
                 break
             continue
-        little = after @ after > (1.0 - GAIN) * (residual @ residual)
+        little = now > (1.0 - GAIN) * before
         flat, residual, joins, damping = trial, after, joins_after, max(0.1 * damping, DAMPING)
         if little or size < SETTLED * min(mat.pitch):
             break
@@ -127,6 +132,7 @@ def _step(
     joins: Joins,
     residual: Float[np.ndarray, " e"],
     axes: Float[np.ndarray, "n 2 3"],
+    astray: Float[np.ndarray, "n 3"],
     damping: float,
 ) -> Float[np.ndarray, "n 3"]:
     """Damped Gauss-Newton move of every node [m]."""
@@ -137,9 +143,15 @@ def _step(
     column = np.concatenate([2 * springs.goal, 2 * springs.goal + 1, 2 * springs.start, 2 * springs.start + 1])
     value = np.concatenate([*ahead.T, *behind.T])
     jacobian = coo_array((value, (row, column)), shape=(len(e), 2 * len(axes))).tocsc()
-    normal_matrix = (jacobian.T @ jacobian + damping * eye_array(2 * len(axes), format="csc")).tocsc()
-    move = spsolve(normal_matrix, -(jacobian.T @ residual)).reshape(-1, 2)
+    held = STAYS**2 * np.einsum("nax,nx->na", axes, astray).ravel()
+    stiffness = (jacobian.T @ jacobian + (damping + STAYS**2) * eye_array(2 * len(axes), format="csc")).tocsc()
+    move = spsolve(stiffness, -(jacobian.T @ residual) - held).reshape(-1, 2)
     return np.asarray(np.einsum("na,nax->nx", move, axes))
+
+
+def _energy(residual: Float[np.ndarray, " e"], astray: Float[np.ndarray, "n 3"]) -> float:
+    """Of all springs and of the holds [m^2]."""
+    return float(residual @ residual) + STAYS**2 * float((astray**2).sum())
 
 
 def _goes_around(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way) -> None:

@@ -1,8 +1,9 @@
 """A plain grid: one row per frame, the time first and then one column per cell; pliance exports are brought to it.
 
 novel gives no description of pliance files, so their cells are placed by a layout file. Columns are `time [s]` (or
-[ms]; without it the layout has `rate_Hz`) and one for each cell, whose name ends with the cell's id: `1`, `cell_17`.
-Their unit is in brackets, `17 [kPa]`, or in the layout. Lines before the header that begin with `#` are skipped.
+[ms]; without it the layout has `rate_Hz`) and one for each cell, whose name ends with the cell's id, `1`, `cell_17`, or
+is its row and column from 0, `r0c0`. Their unit is in brackets, `17 [kPa]`, or in the layout. Lines before the header
+that begin with `#` are skipped.
 """
 
 from __future__ import annotations
@@ -26,13 +27,14 @@ KIND = "grid"
 _TIME = re.compile(r"time\s*(?:\(?\s*(?P<unit>\w+)\s*\)?)?", re.IGNORECASE)
 _SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "secs": 1.0, "ms": 1e-3}
 _ID = re.compile(r"[^\d]*(?P<id>\d{1,6})")
+_PLACE = re.compile(r"r(?P<row>\d{1,4})c(?P<column>\d{1,4})")
 
 
 def is_grid(text: MatText) -> bool:
     """Whether the first line that is no comment names columns, the last of them with an id."""
     header = next((line for line in text.head if line and not line.startswith("#")), "")
     names = [name for name, _ in _names(header, notation_of([header], None))]
-    return len(names) > 1 and all(_ID.fullmatch(name) for name in names[1:])
+    return len(names) > 1 and all(_ID.fullmatch(name) or _PLACE.fullmatch(name) for name in names[1:])
 
 
 def read_grid(text: MatText, layout: MatLayout | None) -> tuple[PressureFrames, ...]:
@@ -93,6 +95,10 @@ def _columns(
         scale = _SECONDS[unit]
     ids = []
     for name, _ in names:
+        place_of = _PLACE.fullmatch(name)
+        if place_of is not None:
+            ids.append(_placed_id(int(place_of["row"]), int(place_of["column"]), layout, file, place))
+            continue
         found = _ID.fullmatch(name)
         if found is None:
             what = f"column '{shown(name)}' is neither time nor a cell with an id"
@@ -108,6 +114,17 @@ def _columns(
         twice = sorted(ids)[int(np.flatnonzero(np.diff(sorted(ids)) == 0)[0])] + layout.first_id
         raise InputError(file, place, f"cell {twice} occurs twice", "each cell has one column")
     return scale, ids, _unit({unit for _, unit in names}, file, place)
+
+
+def _placed_id(row: int, column: int, layout: MatLayout, file: str, place: str) -> int:
+    """Number from 0, in the order of the layout, of the cell in a row and column of the file's own drawing."""
+    rows, columns = layout.rows or 0, layout.columns or 0
+    if row >= rows or column >= columns:
+        raise InputError(
+            file, place, f"cell r{row}c{column} is not on a mat of {rows} x {columns}", "both count from 0"
+        )
+    outer, inner, count = (row, column, columns) if layout.order == "row" else (column, row, rows)
+    return outer * count + (count - 1 - inner if layout.serpentine and outer % 2 else inner)
 
 
 def _names(header: str, notation: Notation) -> list[tuple[str, str]]:

@@ -1,0 +1,100 @@
+"""`geocontact mat`: the options of the command; the work is in `mat_analysis`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+
+Dashed = Parameter(allow_leading_hyphen=True)
+Flag = Parameter(negative="")
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class MatOptions:
+    """Options of a pressure mat as typed.
+
+    Parameters
+    ----------
+    surface
+        Scan of the body that the mat lies on.
+    unit
+        Length unit of the scan; never guessed.
+    landmarks
+        Places of the mat and the points of the scan that they lie on: id, row, column, x [mm], y [mm], z [mm], in the
+        scan's frame; row and column count cells from the corner of the first one.
+    out
+        Folder for the results.
+    layout
+        layout.toml: rows, columns, pitch_mm or cell_area_mm2, order of the cells, origin, mirrored, saturation.
+    kind
+        Format of FRAMES, where its content does not tell.
+    sensor
+        Which mat, where FRAMES holds several ("left").
+    lay
+        geodesic: along the surface, every cell keeps its pitch. closest: a flat mat pushed down along the shortest way.
+    point
+        Point that moments refer to, x,y,z in the scan's unit; 0,0,0 unless given.
+    frame
+        Name of the scan's frame in the results.
+    cutoff
+        Zero-lag Butterworth low-pass [Hz]; 0 for none.
+    unloaded
+        Times without load [s], for offset, and drift where there are two: 0:0.5,9:9.5
+    touched
+        Pressure from which a cell counts as touched: 1kPa unless given.
+    gate
+        Force [N] below which there is no centre of pressure.
+    segment
+        Part of the surface with a name, as often as there are parts: "upper=y > 20" (x y z nx ny nz, the scan's unit).
+    accuracy
+        How far each cell is off by itself: 10% unless given.
+    gain
+        How far all cells are off together.
+    registration
+        How far the mat may lie elsewhere, along and about each axis: 1mm,2deg
+    compare
+        Forces of a model (or of a plate) over time, columns as in wrench.csv: agreement in agreement.csv.
+    parquet
+        Also write the tables as .parquet.
+    """
+
+    surface: Path
+    unit: Literal["m", "cm", "mm", "in"]
+    landmarks: Path
+    out: Path
+    layout: Path | None = None
+    kind: Literal["grid", "pedar", "tekscan", "xsensor"] | None = None
+    sensor: str | None = None
+    lay: Literal["geodesic", "closest"] = "geodesic"
+    point: Annotated[str | None, Dashed] = None
+    frame: str | None = None
+    cutoff: float = 6.0
+    unloaded: Annotated[str | None, Dashed] = None
+    touched: str = "1kPa"
+    gate: float = 5.0
+    segment: tuple[str, ...] = ()
+    accuracy: str = "10%"
+    gain: str | None = None
+    registration: str | None = None
+    compare: Path | None = None
+    parquet: Annotated[bool, Flag] = False
+
+
+def mat(frames: Path, /, *, options: MatOptions) -> int:
+    """Pressures of a mat on the surface of a body scan: force, moment, centre of pressure and area over time.
+
+    Writes wrench.csv, uncertainty.csv, cells.csv, frames_cells.csv, segments.csv with --segment, agreement.csv with
+    --compare, mat_on_surface.vtp, report.html, mat.png, mat.svg and run.json into OUT.
+
+    Parameters
+    ----------
+    frames
+        Recording of the mat: a grid of cells (.csv), novel pedar (.asc), Tekscan (.asf .csv) or XSENSOR (.csv).
+    """
+    from geocontact.cli.mat_analysis import analyse  # numpy and friends: not for --help
+
+    return analyse(frames, options)

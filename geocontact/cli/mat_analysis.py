@@ -1,0 +1,185 @@
+"""A pressure mat on a body scan: reads, lays, maps, writes, says what it found."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool
+
+from geocontact.cli import quantities
+from geocontact.cli.bodies import chosen_faces, read_surface
+from geocontact.cli.mat import MatOptions
+from geocontact.cli.mat_comparison import compared
+from geocontact.cli.mat_reading import Recording, recording
+from geocontact.cli.mat_results import Result, write_results
+from geocontact.cli.output import written_whole
+from geocontact.cli.patience import preparing
+from geocontact.cli.record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.pressure_frames import PressureFrames
+from geocontact.geometry.drape.cells import Drape
+from geocontact.geometry.drape.closest_point import project
+from geocontact.geometry.drape.geodesics import Geodesics
+from geocontact.geometry.drape.lay import lay
+from geocontact.geometry.drape.mat import Marks, Mat
+from geocontact.geometry.surface import Surface
+from geocontact.io.mat_landmarks import MatLandmarks, read_mat_landmarks
+from geocontact.io.units import LENGTH
+from geocontact.loads.mat_errors import MatErrors, wrench_covariance
+from geocontact.loads.mat_load import mat_load, segment_loads
+from geocontact.loads.mat_map import MatMap, mat_map
+
+FAR = 0.25  # of the mat's pitch; landmarks that miss their points by more deserve a word
+SMALL, LARGE = 0.05, 4.0  # m, of a scan of a body segment or a body
+SHRUNK = 0.05  # of a cell's area
+
+
+def analyse(path: Path, o: MatOptions) -> int:
+    """Run the whole analysis."""
+    record = Record("mat", {"frames": path, **asdict(o)})
+    _refuse_idle(o)
+    with record.catching_warnings(), written_whole(o.out) as draft:
+        seen = recording(record, path, o)
+        surface = read_surface(record, "surface", o.surface, o.unit, None)
+        _guard(surface, seen.frames, o)
+        marks = read_mat_landmarks(o.landmarks, seen.frames.rows, seen.frames.columns)
+        record.add_input("--landmarks", o.landmarks, landmarks=len(marks.name))
+        with preparing():
+            laid = _laid(record, surface, seen.frames, marks, o)
+            placed = _mapped(surface, laid, seen.frames)
+        result = _loads(record, Placed(surface, laid, placed, marks), seen, o)
+        agreed = compared(record, result, o)
+        write_results(record, result, agreed, o, draft)
+        record.write(draft)
+        written = sorted(file.name for file in draft.iterdir())
+    record.say(f"results in {o.out}: {', '.join(written)}")
+    record.speak()
+    return 0
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """A mat on its surface."""
+
+    surface: Surface
+    laid: Drape
+    map: MatMap
+    marks: MatLandmarks
+
+
+def _refuse_idle(o: MatOptions) -> None:
+    rows = (
+        (not (np.isfinite(o.gate) and o.gate >= 0.0), "--gate", f"{o.gate:g} is not a force of 0 N or more", "e.g. 5"),
+        (not (np.isfinite(o.cutoff) and o.cutoff >= 0.0), "--cutoff", f"{o.cutoff:g} is not a frequency", "e.g. 6"),
+    )  # fmt: skip
+    for wrong, option, what, remedy in rows:
+        if wrong:
+            raise InputError("", option, what, remedy)
+
+
+def _guard(surface: Surface, frames: PressureFrames, o: MatOptions) -> None:
+    """Refuse a scan that is no body, or that the mat cannot lie on: a unit is wrong then."""
+    span = float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
+    mat = float(np.hypot(frames.rows * frames.pitch[0], frames.columns * frames.pitch[1]))
+    if SMALL <= span <= LARGE and mat < 3.0 * span:
+        return
+    likely = [unit for unit, factor in LENGTH.items() if SMALL <= span / LENGTH[o.unit] * factor <= LARGE]
+    named = f"; the file looks like {' or '.join(likely)}, pass --unit {likely[0]}" if likely else ""
+    what = f"the scan spans {span * 1e3:.4g} mm and the mat {mat * 1e3:.4g} mm{named}"
+    raise InputError(o.surface, "", what, "check --unit and the mat's pitch")
+
+
+def _laid(record: Record, surface: Surface, frames: PressureFrames, marks: MatLandmarks, o: MatOptions) -> Drape:
+    mat = Mat(frames.rows, frames.columns, frames.pitch)
+    at = Marks(marks.place, marks.point, marks.name)
+    geodesics = Geodesics(surface)
+    try:
+        laid = lay(geodesics, mat, at) if o.lay == "geodesic" else project(geodesics, mat, at)
+    except ValueError as error:
+        raise InputError(o.landmarks, "", str(error), "check the landmarks' places, points and unit") from error
+    _say_how_it_lies(record, laid, frames, marks)
+    return laid
+
+
+def _say_how_it_lies(record: Record, laid: Drape, frames: PressureFrames, marks: MatLandmarks) -> None:
+    missed = np.nan_to_num(laid.misses, nan=np.inf)
+    worst = int(np.argmax(missed))
+    off = frames.valid & ~laid.covered
+    known = laid.distortion[laid.covered & frames.valid]
+    record.results["mat"] = {
+        "cells": int(frames.valid.sum()),
+        "uncovered_cells": np.argwhere(off).tolist(),
+        "folded_cells": np.argwhere(laid.folded & frames.valid).tolist(),
+        "area_distortion_largest": float(np.abs(known).max()) if known.size else None,
+        "area_distortion_rms": float(np.sqrt(np.mean(known**2))) if known.size else None,
+        "landmark_residual_mm": {n: float(m) * 1e3 for n, m in zip(marks.name, laid.misses, strict=True)},
+    }
+    if missed[worst] > FAR * min(frames.pitch):
+        where = f"{missed[worst] * 1e3:.1f} mm" if np.isfinite(missed[worst]) else "the edge of the scan"
+        record.warn(f"landmark {marks.name[worst]} is missed by {where}")
+    if off.any():
+        record.warn(f"{int(off.sum())} cells hang over the edge of the scan; what they read is left out")
+    if (laid.folded & frames.valid).any():
+        record.warn(f"{int((laid.folded & frames.valid).sum())} cells are folded over others: check the landmarks")
+    if known.size and np.abs(known).max() > SHRUNK:
+        record.warn(f"cells are up to {np.abs(known).max():.1%} larger or smaller on the scan than on the flat mat")
+
+
+def _mapped(surface: Surface, laid: Drape, frames: PressureFrames) -> MatMap:
+    try:
+        return mat_map(surface, laid.nodes, frames.valid & laid.covered, frames.cell_area)
+    except ValueError as error:
+        raise InputError("", "--landmarks", str(error), "check the landmarks and the unit of the scan") from error
+
+
+def _loads(record: Record, p: Placed, seen: Recording, o: MatOptions) -> Result:
+    origin = np.zeros(3) if o.point is None else np.array(quantities.centre(o.point, o.unit))
+    frame = o.frame or f"of {o.surface.name}"
+    touched = quantities.modulus(o.touched, "--touched")
+    pressure = p.map.of(seen.frames.pressure)
+    whole = mat_load(p.map, pressure, origin, frame, o.gate, touched)
+    parts = segment_loads(p.map, pressure, origin, frame, _segments(record, p, o), o.gate, touched)
+    errors = _errors(o)
+    spread = wrench_covariance(p.map, pressure, whole.wrench, errors)
+    heaviest = int(np.argmax(whole.pressing))
+    record.results["load"] = {
+        "frame": frame,
+        "point_mm": (origin * 1e3).tolist(),
+        "frames": len(seen.frames.time),
+        "largest_force_N": round(float(whole.pressing[heaviest]), 6),
+        "at_s": round(float(seen.frames.time[heaviest]), 6),
+        "perpendicular_N": round(float(whole.perpendicular[heaviest]), 6),
+        "interface_normal": whole.normal.tolist(),
+        "peak_Pa": float(whole.peak.max()),
+        "below_zero_clipped_Pa": seen.clipped,
+        "segments": list(parts),
+    }
+    record.say(
+        f"force up to {whole.pressing[heaviest]:.1f} N at {seen.frames.time[heaviest]:g} s, pressure up to "
+        f"{whole.peak.max() * 1e-3:.1f} kPa, area up to {whole.area.max() * 1e4:.0f} cm²"
+    )
+    return Result(p.surface, p.laid, p.map, p.marks, seen, pressure, whole, parts, spread, errors)
+
+
+def _segments(record: Record, p: Placed, o: MatOptions) -> dict[str, Bool[np.ndarray, " n"]]:
+    """Cells of each segment: those that lie for the most part on its faces."""
+    found: dict[str, Bool[np.ndarray, " n"]] = {}
+    for text in o.segment:
+        name, sign, expression = text.partition("=")
+        name = name.strip()
+        if not sign or not name.replace("_", "").replace("-", "").isalnum() or name in found:
+            raise InputError("", "--segment", f"{text!r} has no name of its own", 'write for example "upper=y > 20"')
+        faces = chosen_faces(record, "--segment", expression.strip(), p.surface, o.unit)
+        inside = p.map.share.T @ np.asarray(faces, float)
+        found[name] = np.asarray(inside > 0.5)
+        if not found[name].any():
+            raise InputError("", "--segment", f"no cell lies on {text!r}", "check the expression and the frame")
+    return found
+
+
+def _errors(o: MatOptions) -> MatErrors:
+    shift, turn = (0.0, 0.0) if o.registration is None else quantities.registration(o.registration)
+    gain = 0.0 if o.gain is None else quantities.fraction(o.gain, "--gain")
+    return MatErrors(quantities.fraction(o.accuracy, "--accuracy"), gain, shift, turn)

@@ -1,0 +1,115 @@
+"""What a mat recorded, made ready: read, freed of what an unloaded mat reads, smoothed, flagged."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.cli import quantities
+from geocontact.cli.mat import MatOptions
+from geocontact.cli.record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.pressure_frames import PressureFrames
+from geocontact.identify.zero_lag import zero_lag
+from geocontact.io.mats.catalogue import read_mat
+from geocontact.io.mats.layout import read_layout
+from geocontact.loads.mat_offset import Unloaded, unloaded
+
+UNEVEN = 0.01  # of the median step: more, and a filter does not know what a frequency is
+RESTING = 0.05  # of the largest force; a mat that never reads less has an offset, or was never unloaded
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """Frames as they are used, and what was done to them.
+
+    Parameters
+    ----------
+    frames
+        Offset taken off, smoothed, not below 0.
+    read
+        As they were read.
+    clipped
+        Largest pressure below zero that was set to 0 [Pa].
+    """
+
+    frames: PressureFrames
+    read: PressureFrames
+    clipped: float
+
+
+def recording(record: Record, path: Path, o: MatOptions) -> Recording:
+    """The mat that is asked for."""
+    layout = None if o.layout is None else read_layout(o.layout)
+    if o.layout is not None:
+        record.add_input("--layout", o.layout)
+    mats = read_mat(path, layout, o.kind)
+    read = _chosen(mats, o)
+    record.add_input(
+        "frames", path, mat=read.name, rows=read.rows, columns=read.columns, frames=len(read.time),
+        cells=int(read.valid.sum()), pitch_mm=[round(p * 1e3, 4) for p in read.pitch],
+    )  # fmt: skip
+    pressure = np.where(read.valid, read.pressure, 0.0)
+    if o.unloaded is not None:
+        pressure = pressure - _zero(read, pressure, o).at(read.time)
+    pressure = _smooth(read, pressure, o)
+    low = float(min(pressure.min(initial=0.0), 0.0))
+    pressure = np.where(read.valid, np.maximum(pressure, 0.0), np.nan)
+    frames = replace(read, pressure=pressure)
+    _say_what_is_odd(record, read, frames, o)
+    return Recording(frames, read, -low)
+
+
+def _chosen(mats: tuple[PressureFrames, ...], o: MatOptions) -> PressureFrames:
+    names = [each.name for each in mats]
+    if o.sensor is None:
+        if len(mats) > 1:
+            raise InputError("", "--sensor", f"the recording holds {len(mats)} mats", f"choose {' or '.join(names)}")
+        return mats[0]
+    if o.sensor not in names:
+        raise InputError("", "--sensor", f"there is no mat {o.sensor!r}", f"the recording holds {', '.join(names)}")
+    return mats[names.index(o.sensor)]
+
+
+def _zero(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOptions) -> Unloaded:
+    try:
+        return unloaded(read.time, pressure, quantities.windows(str(o.unloaded), "--unloaded"))
+    except ValueError as error:
+        raise InputError(
+            "", "--unloaded", str(error), f"frames run from {read.time[0]:g} to {read.time[-1]:g} s"
+        ) from error
+
+
+def _smooth(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOptions) -> Float[np.ndarray, "t r c"]:
+    if o.cutoff == 0.0:
+        return pressure
+    steps = np.diff(read.time)
+    if len(steps) and np.ptp(steps) > UNEVEN * np.median(steps):
+        what = f"frames are {steps.min():g} to {steps.max():g} s apart"
+        raise InputError("", "--cutoff", f"{what}: a filter needs even steps", "give --cutoff 0")
+    try:
+        return zero_lag(pressure, float(np.median(steps)) if len(steps) else 1.0, o.cutoff)
+    except ValueError as error:
+        raise InputError("", "--cutoff", str(error), "give a lower one, or 0 for none") from error
+
+
+def _say_what_is_odd(record: Record, read: PressureFrames, frames: PressureFrames, o: MatOptions) -> None:
+    clipping = read.saturated & read.valid
+    if clipping.any():
+        cells, share = int(clipping.any(axis=0).sum()), clipping.any(axis=(1, 2)).mean()
+        record.warn(
+            f"{cells} cells clip at {read.saturation * 1e-3:g} kPa, in {share:.0%} of the frames: forces are too low"
+        )
+    dead = int((~read.valid).sum())
+    if dead:
+        record.say(f"{dead} of {read.valid.size} places of the grid have no working cell")
+    silent = read.valid & ~(frames.pressure > 0.0).any(axis=0)
+    if silent.any() and not silent.all():
+        record.results["silent_cells"] = np.argwhere(silent).tolist()
+    force = frames.force
+    if o.unloaded is None and force.max(initial=0.0) > 0.0 and force.min() > RESTING * force.max():
+        what = f"the mat never reads less than {force.min():.0f} N"
+        record.warn(f"{what}: if it was unloaded at some time, say when with --unloaded")

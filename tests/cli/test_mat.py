@@ -1,0 +1,213 @@
+"""`geocontact mat`: a mat on a scan, as users and outside checks meet it. All recordings here are synthetic."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from tests.cli.calls import Call, call, done, written
+
+COLUMNS = [
+    "time [s]", "fx [N]", "fy [N]", "fz [N]", "mx [N m]", "my [N m]", "mz [N m]", "normal [N]", "perpendicular [N]",
+    "area [mm^2]", "peak [Pa]", "mean [Pa]", "cop_x [mm]", "cop_y [mm]", "cop_z [mm]",
+]  # fmt: skip
+FILES = {
+    "wrench.csv", "uncertainty.csv", "cells.csv", "frames_cells.csv", "mat_on_surface.vtp", "mat.png", "mat.svg",
+    "report.html", "run.json",
+}  # fmt: skip
+ROWS, COLS, PITCH = 4, 3, 10.0
+"""A mat of 40 × 30 mm on a plate of 100 × 100 mm, its first corner at (20, 30)."""
+LAYOUT = f'rows = {ROWS}\ncolumns = {COLS}\npitch_mm = {PITCH}\nunit = "kPa"\norder = "row"\n'
+STILL = ("--cutoff", "0")
+
+
+def scan(folder: Path) -> Path:
+    """A flat piece of skin in the plane z = 0, outwards +z."""
+    lines = [f"v {x} {y} 0" for x in range(0, 101, 20) for y in range(0, 101, 20)]
+    faces = []
+    for a in range(5):
+        for b in range(5):
+            k = 6 * a + b + 1
+            faces += [f"f {k} {k + 6} {k + 7}", f"f {k} {k + 7} {k + 1}"]
+    return written(folder / "skin.obj", "\n".join([*lines, *faces]) + "\n")
+
+
+def marks(folder: Path, *rows: str) -> Path:
+    """Rows of the mat run along x, columns along y: rows × columns points outwards."""
+    rows = rows or ("a,0,0,20,30,0", "b,4,0,60,30,0", "c,0,3,20,60,0", "d,4,3,60,60,0")
+    return written(folder / "landmarks.csv", "\n".join(["id, row, column, x [mm], y [mm], z [mm]", *rows]) + "\n")
+
+
+def frames(folder: Path, pressure: np.ndarray, step: float = 0.02) -> Path:
+    """Frames × rows × columns in kPa."""
+    names = [f"r{r}c{c}" for r in range(ROWS) for c in range(COLS)]
+    rows = [",".join(f"{v:.10g}" for v in (k * step, *p.ravel())) for k, p in enumerate(pressure)]
+    return written(folder / "frames.csv", "\n".join([",".join(["time [s]", *names]), *rows]) + "\n")
+
+
+def uniform(count: int = 50, kpa: float = 10.0) -> np.ndarray:
+    return np.full((count, ROWS, COLS), kpa)
+
+
+def mat(folder: Path, pressure: np.ndarray, *options: object, layout: str = LAYOUT, unit: str = "mm") -> Call:
+    """`geocontact mat` into `folder`/out."""
+    folder.mkdir(exist_ok=True)
+    return call(
+        "mat", frames(folder, pressure), "--layout", written(folder / "layout.toml", layout), "--surface", scan(folder),
+        "--unit", unit, "--landmarks", marks(folder), "--out", folder / "out", *options, folder=folder / "out",
+    )  # fmt: skip
+
+
+def refused(result: Call, said: str) -> None:
+    """One line, exit code 2, nothing left behind."""
+    assert result.code == 2, result.err
+    assert len(result.complaints) == 1 and said in result.complaints[0], result.err
+    assert not result.folder.exists()
+
+
+def table(result: Call, name: str = "wrench.csv") -> pd.DataFrame:
+    return pd.read_csv(result.folder / name, comment="#")
+
+
+def test_contract(tmp_path: Path) -> None:
+    result = done(mat(tmp_path, uniform(), *STILL))
+    assert {file.name for file in result.folder.iterdir()} == FILES
+    head = result.bytes("wrench.csv").decode().splitlines()[:2]
+    assert head[0] == "# point_mm = 0, 0, 0" and head[1].startswith("# frame = of skin.obj")
+    ours = table(result)
+    assert list(ours.columns) == COLUMNS
+    force = 10e3 * 12 * 1e-4
+    np.testing.assert_allclose(ours["fz [N]"], -force, rtol=1e-9)
+    np.testing.assert_allclose(ours[["fx [N]", "fy [N]"]], 0.0, atol=1e-9)
+    # r × F with r = (0.04, 0.045, 0) and F = (0, 0, -force)
+    np.testing.assert_allclose(ours["mx [N m]"], -0.045 * force, rtol=1e-9)
+    np.testing.assert_allclose(ours["my [N m]"], 0.04 * force, rtol=1e-9)
+    np.testing.assert_allclose(ours["perpendicular [N]"], force, rtol=1e-9)
+    np.testing.assert_allclose(ours["area [mm^2]"], 1200.0, rtol=1e-9)
+    np.testing.assert_allclose(ours[["cop_x [mm]", "cop_y [mm]", "cop_z [mm]"]], [[40.0, 45.0, 0.0]] * 50, atol=1e-6)
+    record = result.record()
+    assert (record["command"], set(record["files"])) == ("mat", FILES)
+    assert record["results"]["mat"]["uncovered_cells"] == []
+    cells = table(result, "cells.csv")
+    assert len(cells) == 12
+    np.testing.assert_allclose(cells.loc[0, ["x [m]", "y [m]", "z [m]"]].astype(float), [0.025, 0.035, 0.0], atol=1e-9)
+    assert list(table(result, "frames_cells.csv").columns[:2]) == ["time [s]", "c0 [Pa]"]
+
+
+def test_a_loaded_corner_shows_where_it_is(tmp_path: Path) -> None:
+    pressure = uniform(40, 0.0)
+    pressure[:, 3, 0] = 50.0
+    ours = table(done(mat(tmp_path, pressure, *STILL, "--gate", "0")))
+    np.testing.assert_allclose(ours[["cop_x [mm]", "cop_y [mm]"]], [[55.0, 35.0]] * 40, atol=1e-6)
+
+
+def test_moments_refer_to_the_point_and_the_frame_has_its_name(tmp_path: Path) -> None:
+    result = done(mat(tmp_path, uniform(), *STILL, "--point", "40,45,-7", "--frame", "thigh"))
+    np.testing.assert_allclose(table(result)[["mx [N m]", "my [N m]", "mz [N m]"]], 0.0, atol=1e-9)
+    assert result.bytes("wrench.csv").decode().startswith("# point_mm = 40, 45, -7\n# frame = thigh")
+
+
+def test_segments_share_the_force(tmp_path: Path) -> None:
+    options = ("--segment", "near=x < 40", "--segment", "far=x > 40")
+    result = done(mat(tmp_path, uniform(), *STILL, *options))
+    parts = table(result, "segments.csv")
+    force = {name: group["normal [N]"].iloc[0] for name, group in parts.groupby("segment")}
+    assert force == pytest.approx({"near": 6.0, "far": 6.0})
+
+
+def test_offset_and_drift_go_with_unloaded_frames(tmp_path: Path) -> None:
+    time = 0.02 * np.arange(200)
+    pressure = np.zeros((200, ROWS, COLS))
+    pressure[60:140] = 20.0
+    offset = 1.0 + 0.3 * time[:, None, None]
+    clean, off = (table(done(mat(tmp_path / name, p, *STILL, *more))) for name, p, more in (
+        ("clean", pressure, ()), ("off", pressure + offset, ("--unloaded", "0:0.5,3.4:3.9")),
+    ))  # fmt: skip
+    np.testing.assert_allclose(off["normal [N]"], clean["normal [N]"], atol=1e-6)
+
+
+def test_the_filter_takes_quick_noise_off(tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    pressure = 20.0 + 5.0 * rng.standard_normal((200, ROWS, COLS))
+    rough, smooth = (table(done(mat(tmp_path / name, np.maximum(pressure, 0.0), *options)))["normal [N]"]
+                     for name, options in (("rough", STILL), ("smooth", ())))  # fmt: skip
+    assert smooth.iloc[20:-20].std() < 0.7 * rough.iloc[20:-20].std()
+    assert smooth.mean() == pytest.approx(rough.mean(), rel=0.01)
+
+
+def test_uncertainty_follows_what_is_stated(tmp_path: Path) -> None:
+    options = ("--accuracy", "20%", "--gain", "5%", "--registration", "0mm,2deg")
+    sd = table(done(mat(tmp_path, uniform(), *STILL, *options)), "uncertainty.csv").iloc[0]
+    own = 0.2 * 10e3 * 1e-4 * np.sqrt(12)
+    assert sd["sd_fz [N]"] == pytest.approx(np.hypot(own, 0.05 * 12.0), rel=1e-6)
+    assert sd["sd_fx [N]"] == pytest.approx(np.radians(2.0) * 12.0, rel=1e-6)
+
+
+def test_a_model_is_put_beside_it(tmp_path: Path) -> None:
+    model = written(tmp_path / "model.csv", "time [s],normal [N]\n0,13\n1,13\n")
+    result = done(mat(tmp_path, uniform(), *STILL, "--compare", model))
+    agreed = table(result, "agreement.csv")
+    whole = agreed[agreed["phase"] == "all"].iloc[0]
+    assert whole["mae"] == pytest.approx(1.0) and whole["rmsd"] == pytest.approx(1.0) and len(agreed) == 11
+
+
+def test_saturation_and_dead_cells_are_told(tmp_path: Path) -> None:
+    layout = LAYOUT + "saturation_kPa = 10.0\ndead = [[0, 0]]\n"
+    result = done(mat(tmp_path, uniform(), *STILL, layout=layout))
+    assert "11 cells clip at 10 kPa" in result.err
+    assert table(result)["normal [N]"].iloc[0] == pytest.approx(11.0)
+
+
+def test_a_mat_that_hangs_over_leaves_its_cells_out(tmp_path: Path) -> None:
+    over = written(
+        tmp_path / "over.csv", marks(tmp_path, "a,0,0,80,30,0", "b,1,0,90,30,0", "c,0,3,80,60,0").read_text()
+    )
+    result = done(call(
+        "mat", frames(tmp_path, uniform()), "--layout", written(tmp_path / "layout.toml", LAYOUT), "--surface",
+        scan(tmp_path), "--unit", "mm", "--landmarks", over, "--out", tmp_path / "out", *STILL, folder=tmp_path / "out",
+    ))  # fmt: skip
+    assert "6 cells hang over the edge" in result.err
+    assert table(result)["normal [N]"].iloc[0] == pytest.approx(6.0)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--unit", "m"), "looks like"),
+        (("--unloaded", "7:8"), "holds 0 frames"),
+        (("--unloaded", "1"), "is not a time from"),
+        (("--cutoff", "30"), "needs to lie between"),
+        (("--segment", "x < 40"), "has no name"),
+        (("--segment", "far=x > 400"), "holds for no face"),
+        (("--registration", "2deg"), "is not a length and an angle"),
+        (("--touched", "3mm"), "is not a pressure"),
+        (("--sensor", "left"), "there is no mat 'left'"),
+        (("--gate", "-1"), "is not a force"),
+    ],
+)
+def test_what_makes_no_sense_is_one_line(tmp_path: Path, options: tuple[str, str], said: str) -> None:
+    unit = options[1] if options[0] == "--unit" else "mm"
+    rest = () if options[0] == "--unit" else options
+    refused(mat(tmp_path, uniform(), *rest, unit=unit), said)
+
+
+@pytest.mark.parametrize(
+    ("rows", "said"),
+    [
+        (("a,0,0,20,30,0",), "1 landmark is too few"),
+        (("a,0,0,20,30,0", "a,4,0,60,30,0"), "id a occurs twice"),
+        (("a,0,0,20,30,0", "b,5,0,70,30,0"), "off a mat of 4 × 3"),
+        (("a,0,0,20,30,0", "b,four,0,60,30,0"), "row is 'four'"),
+        (("a,0,0,20,30,0", "b,4,0,20,30,0"), "all landmarks are at one point"),
+    ],
+)
+def test_landmarks_that_cannot_be_are_one_line(tmp_path: Path, rows: tuple[str, ...], said: str) -> None:
+    result = call(
+        "mat", frames(tmp_path, uniform()), "--layout", written(tmp_path / "layout.toml", LAYOUT), "--surface",
+        scan(tmp_path), "--unit", "mm", "--landmarks", marks(tmp_path, *rows), "--out", tmp_path / "out",
+        folder=tmp_path / "out",
+    )  # fmt: skip
+    refused(result, said)
