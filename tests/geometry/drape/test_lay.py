@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.geometry.drape.anchor import _aimed, marked
 from geocontact.geometry.drape.lay import between, lay
 from geocontact.geometry.drape.mat import Marks, Mat
-from geocontact.geometry.drape.spread import Anchor
+from geocontact.geometry.drape.spread import Anchor, spread
 from tests.geometry.drape.sheets import cone, over, plane, sphere, thigh, tube
 
 SIDE = np.sqrt(2e-4)  # of a square cell of 2 cm^2
@@ -236,6 +237,19 @@ def test_marks_off_the_surface_are_told_by_their_misses():
     assert found.nodes == pytest.approx(truth.nodes, abs=1e-5)
 
 
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_the_search_for_the_marks_begins_at_the_answer_on_a_plane(mirrored):
+    sheet, mat = over(plane()), Mat(16, 8, (0.014, 0.018), mirrored)
+    truth = at(sheet, [0.03, -0.01, 0.0], [0.6, 0.8, 0.0])
+    cells = np.array([[2.0, 1.0], [14.0, 2.0], [3.5, 7.0]])
+    marks = Marks(cells, marked(sheet, mat, Marks(cells, np.zeros((3, 3))), truth))
+    goals = sheet.nearest(marks.points)
+    for k in range(3):
+        start = _aimed(sheet, mat, marks, goals, k)
+        assert start.place.point[0] == pytest.approx(truth.place.point[0], abs=1e-14)
+        assert start.heading == pytest.approx(truth.heading, abs=1e-13)
+
+
 def test_a_mat_the_other_way_up_is_refused():
     sheet = over(tube())
     truth = lay(sheet, Mat(16, 8, (SIDE, SIDE), mirrored=True), at(sheet, [0.06, 0, 0.25], [0, 0, 1]))
@@ -264,8 +278,6 @@ def test_refused():
 def test_positions_between_nodes():
     sheet = over(plane())
     anchor = at(sheet, [0, 0, 0], [1, 0, 0])
-    from geocontact.geometry.drape.spread import spread
-
     row, column = (np.arange(17.0) - 8) * SIDE, (np.arange(9.0) - 4) * SIDE
     nodes = spread(sheet, anchor, MAT, row, column)
     cells = np.array([[0.0, 0.0], [16.0, 8.0], [3.25, 5.5]])

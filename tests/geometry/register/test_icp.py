@@ -69,6 +69,14 @@ def test_overlap_is_the_share_of_the_area_that_has_a_partner():
     assert miss == found.residual.max()
 
 
+def test_a_small_fixed_patch_under_a_large_scan():
+    """Most points lie beyond its rim; taken for partners they would pull."""
+    patch = bumpy(-0.06, 0.05, -0.05, 0.06, 120)
+    found = icp(FIXED, patch, off(4.0, 0.006))
+    assert apart(found.pose, RigidTransform.identity()) < 1e-6
+    assert found.overlap < 0.3
+
+
 def test_a_motion_of_the_scan_goes_into_the_pose():
     X = RigidTransform.from_components([0.1, 0.4, -0.3], Rotation.from_rotvec([0.3, -0.2, 0.9]))
     here = icp(PARTLY, FIXED, off())
