@@ -106,7 +106,7 @@ def joined(vertices, faces, neighbour, face, point, goal_face, goal):
                 break
             best = size
             aim[:] = d
-            _into_plane(aim, _normal(vertices, faces, goal_face[i]))
+            _laid_into(vertices, faces, neighbour, f, goal_face[i], aim)
             ahead = _dot(miss, d)
             length[i], left[i] = reach + ahead, size
             leaving[i] = first
@@ -142,6 +142,19 @@ def _into_plane(d, normal):
     size = np.sqrt(_dot(d, d))
     if size > 0.0:
         d /= size
+
+
+@kernel
+def _laid_into(vertices, faces, neighbour, f, goal, d):
+    """Turn d from face f into the plane of the face `goal`, in place: about their common edge, else straight down."""
+    for k in range(3):
+        if f != goal and neighbour[f, k] == goal:
+            a = vertices[faces[f, k]]
+            along = vertices[faces[f, (k + 1) % 3]] - a
+            along /= np.sqrt(_dot(along, along))
+            out = _dot(d, np.cross(along, _normal(vertices, faces, f)))
+            d[:] = _dot(d, along) * along + out * np.cross(along, _normal(vertices, faces, goal))
+    _into_plane(d, _normal(vertices, faces, goal))
 
 
 @kernel

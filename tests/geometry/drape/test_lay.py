@@ -41,7 +41,9 @@ def test_rows_down_and_columns_right_seen_from_outside():
     assert not other.folded.any()
 
 
-@pytest.mark.parametrize("body", [tube(), cone()], ids=["tube", "cone"])
+@pytest.mark.parametrize(
+    "body", [tube(), cone(), tube(n=120), cone(120)], ids=["tube", "cone", "fine tube", "fine cone"]
+)
 @pytest.mark.parametrize("turn", [0.0, 0.4, 1.3])
 def test_what_can_be_laid_flat_keeps_every_side_and_area(body, turn):
     sheet = over(body)
@@ -94,7 +96,7 @@ def test_a_belt_closes_around_a_tube(n):
     assert found.distortion == pytest.approx(both, abs=1e-7)
     assert found.covered.all() and not found.folded.any()
     girth = np.linalg.norm(np.diff(found.centre, axis=1, append=found.centre[:, :1]), axis=2).sum(axis=1)
-    assert girth == pytest.approx(np.full(8, 2 * np.pi * radius), rel=0.02)
+    assert girth == pytest.approx(np.full(8, 2 * np.pi * radius), rel=0.03)
 
 
 def test_a_belt_of_rows_is_the_belt_of_columns_turned():
