@@ -92,7 +92,6 @@ def speed(faces: int, frames: int) -> dict[str, object]:
     from geocontact.geometry.drape.geodesics import Geodesics
     from geocontact.geometry.drape.lay import lay
     from geocontact.geometry.drape.mat import Mat
-
     from geocontact.loads.mat_errors import MatErrors, wrench_covariance
     from geocontact.loads.mat_load import mat_load
     from geocontact.loads.mat_map import mat_map
@@ -146,11 +145,11 @@ def memory() -> float:
 
 def registration(draws: int) -> dict[str, object]:
     """Errors of force, moment and centre: of the mat where it is, and where it is thought to be."""
+    from scipy.spatial.transform import Rotation
+
     from geocontact.geometry.drape.geodesics import Geodesics
     from geocontact.geometry.drape.lay import lay
     from geocontact.geometry.drape.mat import Marks, Mat
-    from scipy.spatial.transform import Rotation
-
     from geocontact.geometry.surface import Surface
     from geocontact.io.mat_landmarks import read_mat_landmarks
     from geocontact.io.mats.catalogue import read_mat

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from tests.cli.calls import Call, call, done, written
+from tests.cli.calls import MESHES, Call, call, done, written
 
 COLUMNS = [
     "time [s]", "fx [N]", "fy [N]", "fz [N]", "mx [N m]", "my [N m]", "mz [N m]", "normal [N]", "perpendicular [N]",
@@ -211,3 +211,28 @@ def test_landmarks_that_cannot_be_are_one_line(tmp_path: Path, rows: tuple[str, 
         folder=tmp_path / "out",
     )  # fmt: skip
     refused(result, said)
+
+
+@pytest.mark.parametrize(("folder", "surface"), [("mat_thigh_16x8", "thigh"), ("mat_torso_32x8", "torso")])
+def test_the_shipped_recordings_give_the_wrench_of_their_closed_forms(
+    tmp_path: Path, folder: str, surface: str
+) -> None:
+    given = MESHES / folder
+    result = done(call(
+        "mat", given / "frames.csv", "--layout", given / "layout.toml", "--surface", MESHES / f"{surface}.stl",
+        "--unit", "mm", "--landmarks", given / "landmarks.csv", "--out", tmp_path / "out", *STILL,
+        folder=tmp_path / "out",
+    ))  # fmt: skip
+    assert result.warnings == []
+    ours, truth = table(result), pd.read_csv(given / "truth.csv", comment="#", skipinitialspace=True)
+    pressed = truth["normal [N]"] > 0.25 * truth["normal [N]"].max()
+    force, exact = (each.loc[pressed, [f"f{a} [N]" for a in "xyz"]].to_numpy() for each in (ours, truth))
+    off = np.linalg.norm(force - exact, axis=1) / np.linalg.norm(exact, axis=1)
+    assert off.max() < 0.006
+    names = [f"cop_{a} [mm]" for a in "xyz"]
+    assert (
+        np.linalg.norm(ours.loc[pressed, names].to_numpy() - truth.loc[pressed, names].to_numpy(), axis=1).max() < 1.0
+    )
+    names = [f"m{a} [N m]" for a in "xyz"]
+    moment = np.linalg.norm(ours.loc[pressed, names].to_numpy() - truth.loc[pressed, names].to_numpy(), axis=1)
+    assert (moment < 1e-3 * np.linalg.norm(exact, axis=1)).all(), "an arm of less than 1 mm"
