@@ -31,8 +31,8 @@ def run(tmp_path, monkeypatch):
     return executed
 
 
-def test_there_is_one_for_the_contact_area_one_for_the_gap_and_one_for_the_knee():
-    assert {"contact_area", "gap", "knee"} <= {notebook.stem for notebook in NOTEBOOKS}
+def test_there_is_one_for_the_contact_area_the_gap_the_knee_and_the_mat():
+    assert {"contact_area", "gap", "knee", "mat"} <= {notebook.stem for notebook in NOTEBOOKS}
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
@@ -53,6 +53,13 @@ def test_contact_area_runs_on_the_shipped_meshes(run, tmp_path):
     assert "101 frames" in said and "no real data here; everything above is synthetic" in said
     page = (tmp_path / "contact-area-result" / "report.html").read_text(encoding="utf-8")
     assert "Synthetic knee over gait" in page
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")  # of the notebook machinery itself
+def test_mat_runs_on_the_shipped_recording(run):
+    said = run(ROOT / "notebooks" / "mat.ipynb")
+    assert "151 frames of 16 x 8 cells" in said and "exactly" in said
 
 
 @pytest.mark.slow
