@@ -20,8 +20,9 @@ from geocontact.geometry.surface import Surface
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-PARTS, MOST_PARTS = 4, 12  # per side of a cell
-PER_EDGE = 1.5  # parts per edge of a face, so that no face under a cell is passed over
+PARTS, MOST_PARTS = 4, 24  # per side of a cell
+PER_EDGE = 2.5  # parts per shortest edge of a face, so that no face under a cell is passed over
+ROUNDS = 30  # of proportional fitting
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,16 +121,17 @@ def mat_map(
         each.sum(axis=1),
         np.cross(centre, each).sum(axis=1),
         np.einsum("nk,nki->ni", weight, centre),
-        _shares(face, weight, len(surface.faces)),
+        _shares(face, weight, sensing, surface.face_area),
         valid & ~lying,
     )
 
 
 def parts_of(surface: Surface, corners: Float[np.ndarray, "n 4 3"]) -> int:
     """Parts per side of a cell, so that they are smaller than the faces under them, within limits."""
-    cell = float(np.median(np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1)))
+    sides = corners[:, [1, 2]] - corners[:, [0, 0]]
+    cell = float(np.median(np.linalg.norm(sides, axis=2).max(axis=1)))
     near = surface.proximity(corners.mean(axis=1)).face
-    edge = float(np.median(surface.edge_length[near]))
+    edge = float(np.median(surface.edge_length[near].min(axis=1)))
     return int(np.clip(np.ceil(PER_EDGE * cell / edge), PARTS, MOST_PARTS))
 
 
@@ -148,8 +150,25 @@ def _laid(
     return area.reshape(len(corners), -1, 3), middle.reshape(len(corners), -1, 3)
 
 
-def _shares(face: Int[np.ndarray, " p"], weight: Float[np.ndarray, "n k"], faces: int) -> csr_array:
-    from scipy.sparse import coo_array
+def _shares(
+    face: Int[np.ndarray, " p"],
+    weight: Float[np.ndarray, "n k"],
+    area: Float[np.ndarray, " n"],
+    face_area: Float[np.ndarray, " f"],
+) -> csr_array:
+    """Part of each cell that each face carries; columns sum to 1.
+
+    Parts are points, so a small face may get more of them than lie on its area. Rows are scaled down to the face's area
+    and columns back to 1, in turns (iterative proportional fitting: Deming & Stephan 1940, Ann. Math. Stat. 11:427),
+    until a uniform pressure is uniform on the faces that cells cover.
+    """
+    from scipy.sparse import coo_array, diags_array
 
     cells = np.repeat(np.arange(len(weight)), weight.shape[1])
-    return coo_array((weight.ravel(), (face, cells)), shape=(faces, len(weight))).tocsr()
+    share = coo_array((weight.ravel(), (face, cells)), shape=(len(face_area), len(weight))).tocsr()
+    for _ in range(ROUNDS):
+        carried = share @ area
+        fits = np.divide(face_area, carried, out=np.ones_like(carried), where=carried > face_area)
+        share = diags_array(fits) @ share
+        share = share @ diags_array(1.0 / share.sum(axis=0))
+    return share.tocsr()

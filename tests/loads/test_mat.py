@@ -131,11 +131,12 @@ def test_pressing_is_conserved_on_the_faces() -> None:
 def test_uniform_pressure_is_about_uniform_on_the_faces_inside() -> None:
     surface = cylinder(40)
     area = LENGTH * 2.0 * HALF * RADIUS / 48
-    placed = mat_map(surface, nodes_on_cylinder(8, 6), *everywhere(8, 6, area), parts=12)
+    placed = mat_map(surface, nodes_on_cylinder(8, 6), *everywhere(8, 6, area))
     on_faces = placed.face_pressure(np.ones((1, 48)), surface.face_area)[0]
     middle = surface.vertices[surface.faces].mean(axis=1)
     inside = (np.abs(middle[:, 0]) < 0.08) & (np.abs(np.arctan2(middle[:, 1], middle[:, 2])) < 0.5)
-    assert on_faces[inside].mean() == pytest.approx(1.0, abs=0.01)
+    assert on_faces[inside].mean() == pytest.approx(1.0, abs=0.02)
+    assert on_faces[inside].std() < 0.05 and on_faces.max() < 1.02
     outside = (np.abs(middle[:, 0]) > 0.11) | (np.abs(np.arctan2(middle[:, 1], middle[:, 2])) > 0.7)
     assert (on_faces[outside] == 0.0).all()
 
