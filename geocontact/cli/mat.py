@@ -48,6 +48,15 @@ class MatOptions:
         Pressure from which a cell counts as touched: 1kPa unless given.
     gate
         Force [N] below which there is no centre of pressure.
+    body_landmarks
+        Points seen on the scan and on a body model: id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm].
+        All results are in the body's frame then.
+    body
+        Surface of that body, for --icp.
+    body_unit
+        Its unit; that of the scan unless given.
+    icp
+        Fit the scan to the body's surface by shape, beginning where the landmarks put it.
     segment
         Part of the surface with a name, as often as there are parts: "upper=y > 20" (x y z nx ny nz, the scan's unit).
     accuracy
@@ -76,6 +85,10 @@ class MatOptions:
     unloaded: Annotated[str | None, Dashed] = None
     touched: str = "1kPa"
     gate: float = 5.0
+    body_landmarks: Path | None = None
+    body: Path | None = None
+    body_unit: Literal["m", "cm", "mm", "in"] | None = None
+    icp: Annotated[bool, Flag] = False
     segment: tuple[str, ...] = ()
     accuracy: str = "10%"
     gain: str | None = None
@@ -87,8 +100,8 @@ class MatOptions:
 def mat(frames: Path, /, *, options: MatOptions) -> int:
     """Pressures of a mat on the surface of a body scan: force, moment, centre of pressure and area over time.
 
-    Writes wrench.csv, uncertainty.csv, cells.csv, frames_cells.csv, segments.csv with --segment, agreement.csv with
-    --compare, mat_on_surface.vtp, report.html, mat.png, mat.svg and run.json into OUT.
+    Writes wrench.csv, uncertainty.csv, cells.csv, frames_cells.csv, segments.csv with --segment, registration.csv with
+    --body-landmarks, agreement.csv with --compare, mat_on_surface.vtp, report.html, mat.png, mat.svg, run.json.
 
     Parameters
     ----------

@@ -13,6 +13,7 @@ from geocontact.cli.bodies import chosen_faces, read_surface
 from geocontact.cli.mat import MatOptions
 from geocontact.cli.mat_comparison import compared
 from geocontact.cli.mat_reading import Recording, recording
+from geocontact.cli.mat_registration import registered
 from geocontact.cli.mat_results import Result, write_results
 from geocontact.cli.output import written_whole
 from geocontact.cli.patience import preparing
@@ -24,6 +25,7 @@ from geocontact.geometry.drape.closest_point import project
 from geocontact.geometry.drape.geodesics import Geodesics
 from geocontact.geometry.drape.lay import lay
 from geocontact.geometry.drape.mat import Marks, Mat
+from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
 from geocontact.io.mat_landmarks import MatLandmarks, read_mat_landmarks
 from geocontact.io.units import LENGTH
@@ -47,9 +49,10 @@ def analyse(path: Path, o: MatOptions) -> int:
         marks = read_mat_landmarks(o.landmarks, seen.frames.rows, seen.frames.columns)
         record.add_input("--landmarks", o.landmarks, landmarks=len(marks.name))
         with preparing():
+            surface, marks, found = registered(record, surface, marks, o)
             laid = _laid(record, surface, seen.frames, marks, o)
             placed = _mapped(surface, laid, seen.frames)
-        result = _loads(record, Placed(surface, laid, placed, marks), seen, o)
+        result = _loads(record, Placed(surface, laid, placed, marks, found), seen, o)
         agreed = compared(record, result, o)
         write_results(record, result, agreed, o, draft)
         record.write(draft)
@@ -67,6 +70,7 @@ class Placed:
     laid: Drape
     map: MatMap
     marks: MatLandmarks
+    registration: Registration | None
 
 
 def _refuse_idle(o: MatOptions) -> None:
@@ -136,7 +140,8 @@ def _mapped(surface: Surface, laid: Drape, frames: PressureFrames) -> MatMap:
 
 def _loads(record: Record, p: Placed, seen: Recording, o: MatOptions) -> Result:
     origin = np.zeros(3) if o.point is None else np.array(quantities.centre(o.point, o.unit))
-    frame = o.frame or f"of {o.surface.name}"
+    whose = o.surface if p.registration is None else o.body or o.body_landmarks or o.surface
+    frame = o.frame or f"of {whose.name}"
     touched = quantities.modulus(o.touched, "--touched")
     pressure = p.map.of(seen.frames.pressure)
     whole = mat_load(p.map, pressure, origin, frame, o.gate, touched)
@@ -160,7 +165,7 @@ def _loads(record: Record, p: Placed, seen: Recording, o: MatOptions) -> Result:
         f"force up to {whole.pressing[heaviest]:.1f} N at {seen.frames.time[heaviest]:g} s, pressure up to "
         f"{whole.peak.max() * 1e-3:.1f} kPa, area up to {whole.area.max() * 1e4:.0f} cm²"
     )
-    return Result(p.surface, p.laid, p.map, p.marks, seen, pressure, whole, parts, spread, errors)
+    return Result(p.surface, p.laid, p.map, p.marks, seen, pressure, whole, parts, spread, errors, p.registration)
 
 
 def _segments(record: Record, p: Placed, o: MatOptions) -> dict[str, Bool[np.ndarray, " n"]]:

@@ -14,10 +14,12 @@ from geocontact import __version__
 from geocontact.cli.figures import save_both
 from geocontact.cli.mat import MatOptions
 from geocontact.cli.mat_reading import Recording
+from geocontact.cli.mat_registration import registration_table
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.geometry.drape.cells import Drape
+from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
 from geocontact.io.mat_landmarks import MatLandmarks
 from geocontact.io.results import write_table
@@ -54,6 +56,7 @@ class Result:
     parts: Mapping[str, MatLoad]
     covariance: Float[np.ndarray, "t six six"]
     errors: MatErrors
+    registration: Registration | None
 
 
 def write_results(record: Record, r: Result, agreed: pd.DataFrame | None, o: MatOptions, folder: Path) -> None:
@@ -66,6 +69,8 @@ def write_results(record: Record, r: Result, agreed: pd.DataFrame | None, o: Mat
     if r.parts:
         tables = [load_table(part, time).assign(segment=name) for name, part in r.parts.items()]
         _write(pd.concat(tables).loc[:, ["segment", *tables[0].columns[:-1]]], folder, "segments", r, o)
+    if r.registration is not None:
+        write_table(registration_table(r.registration), folder, o.parquet, "registration")
     if agreed is not None:
         write_table(agreed, folder, o.parquet, "agreement")
     heaviest = int(np.argmax(r.whole.pressing))

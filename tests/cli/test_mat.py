@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+import trimesh
+from scipy.spatial.transform import Rotation
 
 from tests.cli.calls import MESHES, Call, call, done, written
 
@@ -236,3 +238,41 @@ def test_the_shipped_recordings_give_the_wrench_of_their_closed_forms(
     names = [f"m{a} [N m]" for a in "xyz"]
     moment = np.linalg.norm(ours.loc[pressed, names].to_numpy() - truth.loc[pressed, names].to_numpy(), axis=1)
     assert (moment < 1e-3 * np.linalg.norm(exact, axis=1)).all(), "an arm of less than 1 mm"
+
+
+@pytest.mark.parametrize("shape", [False, True])
+def test_results_are_in_the_frame_of_the_body_that_the_scan_is_registered_to(tmp_path: Path, shape: bool) -> None:
+    given, pose = MESHES / "mat_thigh_16x8", Rotation.from_rotvec([0.3, -0.5, 0.2])
+    shift = np.array([40.0, -25.0, 60.0])
+    body = trimesh.load(MESHES / "thigh.stl")
+    there = pose.inv().apply(body.vertices - shift)
+    trimesh.Trimesh(there, body.faces, process=False).export(tmp_path / "scan.stl")
+    marks = pd.read_csv(given / "landmarks.csv", skipinitialspace=True)
+    axes = [f"{a} [mm]" for a in "xyz"]
+    on_body = marks[axes].to_numpy()
+    marks[axes] = pose.inv().apply(on_body - shift)
+    marks.to_csv(tmp_path / "landmarks.csv", index=False)
+    off = np.random.default_rng(0).normal(0.0, 2.0 if shape else 0.0, on_body.shape)
+    pairs = pd.DataFrame(
+        np.column_stack([marks[axes].to_numpy() + off, on_body]), columns=[*axes, *(f"body_{a}" for a in axes)]
+    )
+    pairs.insert(0, "id", marks["id"])
+    pairs.to_csv(tmp_path / "pairs.csv", index=False)
+    options = ("--body", MESHES / "thigh.stl", "--icp") if shape else ()
+    result = done(call(
+        "mat", given / "frames.csv", "--layout", given / "layout.toml", "--surface", tmp_path / "scan.stl",
+        "--unit", "mm",
+        "--landmarks", tmp_path / "landmarks.csv", "--body-landmarks", tmp_path / "pairs.csv", *options, *STILL,
+        "--out", tmp_path / "out", folder=tmp_path / "out",
+    ))  # fmt: skip
+    ours, truth = table(result), pd.read_csv(given / "truth.csv", comment="#", skipinitialspace=True)
+    k = int(truth["normal [N]"].argmax())
+    names = [f"f{a} [N]" for a in "xyz"]
+    assert np.linalg.norm(ours.loc[k, names] - truth.loc[k, names]) < 0.02 * truth.loc[k, "normal [N]"]
+    told = result.record()["results"][f"registration by {'shape' if shape else 'landmarks'}"]
+    assert told["rms_mm"] < 0.5
+    assert len(table(result, "registration.csv")) > 0
+
+
+def test_registration_by_shape_alone_is_refused(tmp_path: Path) -> None:
+    refused(mat(tmp_path, uniform(), "--icp"), "needs landmarks to begin with")

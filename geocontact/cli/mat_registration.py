@@ -1,0 +1,97 @@
+"""The scan in the frame of a body model: by landmarks that both have, and by shape where that is asked for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.cli.bodies import read_surface
+from geocontact.cli.mat import MatOptions
+from geocontact.cli.record import Record
+from geocontact.data.errors import InputError
+from geocontact.geometry.register.icp import icp
+from geocontact.geometry.register.landmarks import fit_landmarks
+from geocontact.geometry.register.quality import Registration
+from geocontact.geometry.register.scale_guard import compare_landmarks
+from geocontact.geometry.surface import Surface
+from geocontact.io.mat_landmarks import MatLandmarks
+from geocontact.io.side_table import read_side_table
+
+SCAN, BODY = ("x [m]", "y [m]", "z [m]"), ("body_x [m]", "body_y [m]", "body_z [m]")
+EXAMPLE = "id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm]"
+
+
+def registered(
+    record: Record, scan: Surface, marks: MatLandmarks, o: MatOptions
+) -> tuple[Surface, MatLandmarks, Registration | None]:
+    """Scan and marks of the mat in the body's frame, and how well they fit; as they are without --body-landmarks."""
+    if o.body_landmarks is None:
+        if o.body is not None or o.icp:
+            option = "--body" if o.body is not None else "--icp"
+            raise InputError("", option, "needs landmarks to begin with", "give --body-landmarks")
+        return scan, marks, None
+    names, on_scan, on_body = _pairs(o.body_landmarks)
+    record.add_input("--body-landmarks", o.body_landmarks, landmarks=len(names))
+    try:
+        guard = compare_landmarks(on_scan, on_body)
+        found = fit_landmarks(on_scan, on_body, names=names)
+        if guard.warning:
+            record.warn(guard.warning)
+        _tell(record, "landmarks", found)
+        if o.icp:
+            found = icp(scan, _body(record, o), found.pose)
+            _tell(record, "shape", found)
+            if not found.converged:
+                record.warn("the registration by shape did not settle; look at registration.csv")
+    except ValueError as error:
+        raise InputError(o.body_landmarks, "", str(error), "check landmarks, units and --body") from error
+    moved = Surface(found.pose.apply(scan.vertices), scan.faces, scan.name)
+    return moved, replace(marks, point=found.pose.apply(marks.point)), found
+
+
+def registration_table(found: Registration) -> pd.DataFrame:
+    """The residual map: the points of the scan that were compared, in the body's frame."""
+    return pd.DataFrame(
+        {
+            **{f"{axis} [mm]": found.points[:, k] * 1e3 for k, axis in enumerate("xyz")},
+            "residual [mm]": found.residual * 1e3,
+        }
+    )
+
+
+def _body(record: Record, o: MatOptions) -> Surface:
+    if o.body is None:
+        raise InputError("", "--icp", "has no body to fit the scan to", "give --body")
+    return read_surface(record, "body", o.body, o.body_unit or o.unit, None)
+
+
+def _pairs(path: Path) -> tuple[tuple[str, ...], Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
+    table = read_side_table(path)
+    missing = [name for name in ("id", *SCAN, *BODY) if name not in table.columns]
+    if missing:
+        what = f"no column {', '.join(each.replace('[m]', 'with a unit of length') for each in missing)}"
+        raise InputError(path, "line 1", what, f"write {EXAMPLE}")
+    return (
+        tuple(str(each) for each in table["id"]),
+        table[list(SCAN)].to_numpy(float),
+        table[list(BODY)].to_numpy(float),
+    )
+
+
+def _tell(record: Record, way: str, found: Registration) -> None:
+    worst, off = found.worst
+    record.results[f"registration by {way}"] = {
+        "rms_mm": found.rms * 1e3,
+        "overlap": found.overlap,
+        "worst": worst,
+        "worst_mm": off * 1e3,
+        "hold": None if np.isnan(found.hold) else found.hold,
+        "pose": found.pose.as_matrix().tolist(),
+    }
+    record.say(
+        f"registration by {way}: root mean square {found.rms * 1e3:.2f} mm, {found.overlap:.0%} of the points met"
+    )
