@@ -9,7 +9,7 @@ with landmarks shifted by 1 mm and turned by 2° at random about the middle of t
 held against those of the closed form (`truth.csv`).
 
 Draping: the area under each cell against that of the flat cell, laid along the surface and pushed down along the
-shortest way, on a cylinder, on the shipped segments and, where the real data are, on a whole body.
+shortest way, on a cylinder and on a doubly curved thigh.
 """
 
 from __future__ import annotations

@@ -34,10 +34,13 @@ class MatOptions:
         Format of FRAMES, where its content does not tell.
     sensor
         Which mat, where FRAMES holds several ("left").
+    seen_from
+        Side from which the layout shows the mat where it lies: outside, with the body behind it, or body, as seat mats
+        are drawn.
     lay
         geodesic: along the surface, every cell keeps its pitch. closest: a flat mat pushed down along the shortest way.
     point
-        Point that moments refer to, x,y,z in the scan's unit; 0,0,0 unless given.
+        Point that moments refer to, x,y,z in the scan's unit and the frame of the results; 0,0,0 unless given.
     frame
         Name of the scan's frame in the results.
     cutoff
@@ -78,6 +81,7 @@ class MatOptions:
     layout: Path | None = None
     kind: Literal["grid", "pedar", "tekscan", "xsensor"] | None = None
     sensor: str | None = None
+    seen_from: Literal["outside", "body"] = "outside"
     lay: Literal["geodesic", "closest"] = "geodesic"
     point: Annotated[str | None, Dashed] = None
     frame: str | None = None

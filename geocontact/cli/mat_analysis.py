@@ -33,6 +33,7 @@ from geocontact.loads.mat_errors import MatErrors, wrench_covariance
 from geocontact.loads.mat_load import mat_load, segment_loads
 from geocontact.loads.mat_map import MatMap, mat_map
 
+LOST = 3.0  # times the pitch; a mat that misses a landmark by more does not lie there
 FAR = 0.25  # of the mat's pitch; landmarks that miss their points by more deserve a word
 SMALL, LARGE = 0.05, 4.0  # m, of a scan of a body segment or a body
 SHRUNK = 0.05  # of a cell's area
@@ -96,13 +97,13 @@ def _guard(surface: Surface, frames: PressureFrames, o: MatOptions) -> None:
 
 
 def _laid(record: Record, surface: Surface, frames: PressureFrames, marks: MatLandmarks, o: MatOptions) -> Drape:
-    mat = Mat(frames.rows, frames.columns, frames.pitch)
+    mat = Mat(frames.rows, frames.columns, frames.pitch, mirrored=o.seen_from == "body")
     at = Marks(marks.place, marks.point, marks.name)
     geodesics = Geodesics(surface)
     try:
         laid = lay(geodesics, mat, at) if o.lay == "geodesic" else project(geodesics, mat, at)
     except ValueError as error:
-        raise InputError(o.landmarks, "", str(error), "check the landmarks' places, points and unit") from error
+        raise InputError(o.landmarks, "", str(error), "check landmarks, unit and --seen-from") from error
     _say_how_it_lies(record, laid, frames, marks)
     return laid
 
@@ -118,8 +119,13 @@ def _say_how_it_lies(record: Record, laid: Drape, frames: PressureFrames, marks:
         "folded_cells": np.argwhere(laid.folded & frames.valid).tolist(),
         "area_distortion_largest": float(np.abs(known).max()) if known.size else None,
         "area_distortion_rms": float(np.sqrt(np.mean(known**2))) if known.size else None,
-        "landmark_residual_mm": {n: float(m) * 1e3 for n, m in zip(marks.name, laid.misses, strict=True)},
+        "landmark_residual_mm": {
+            n: float(m) * 1e3 if np.isfinite(m) else None for n, m in zip(marks.name, laid.misses, strict=True)
+        },
     }
+    if LOST * max(frames.pitch) < missed[worst] < np.inf:
+        what = f"landmark {marks.name[worst]} is missed by {missed[worst] * 1e3:.0f} mm"
+        raise InputError("", "--landmarks", what, "check places and points of the landmarks, the pitch and the unit")
     if missed[worst] > FAR * min(frames.pitch):
         where = f"{missed[worst] * 1e3:.1f} mm" if np.isfinite(missed[worst]) else "the edge of the scan"
         record.warn(f"landmark {marks.name[worst]} is missed by {where}")
@@ -139,7 +145,7 @@ def _mapped(surface: Surface, laid: Drape, frames: PressureFrames) -> MatMap:
 
 
 def _loads(record: Record, p: Placed, seen: Recording, o: MatOptions) -> Result:
-    origin = np.zeros(3) if o.point is None else np.array(quantities.centre(o.point, o.unit))
+    origin = np.zeros(3) if o.point is None else np.array(quantities.centre(o.point, o.unit, "--point"))
     whose = o.surface if p.registration is None else o.body or o.body_landmarks or o.surface
     frame = o.frame or f"of {whose.name}"
     touched = quantities.modulus(o.touched, "--touched")
@@ -155,8 +161,8 @@ def _loads(record: Record, p: Placed, seen: Recording, o: MatOptions) -> Result:
         "frames": len(seen.frames.time),
         "largest_force_N": round(float(whole.pressing[heaviest]), 6),
         "at_s": round(float(seen.frames.time[heaviest]), 6),
-        "perpendicular_N": round(float(whole.perpendicular[heaviest]), 6),
-        "interface_normal": whole.normal.tolist(),
+        "perpendicular_N": None if np.isnan(whole.normal[0]) else round(float(whole.perpendicular[heaviest]), 6),
+        "interface_normal": None if np.isnan(whole.normal[0]) else whole.normal.tolist(),
         "peak_Pa": float(whole.peak.max()),
         "below_zero_clipped_Pa": seen.clipped,
         "segments": list(parts),
@@ -178,9 +184,14 @@ def _segments(record: Record, p: Placed, o: MatOptions) -> dict[str, Bool[np.nda
             raise InputError("", "--segment", f"{text!r} has no name of its own", 'write for example "upper=y > 20"')
         faces = chosen_faces(record, "--segment", expression.strip(), p.surface, o.unit)
         inside = p.map.share.T @ np.asarray(faces, float)
-        found[name] = np.asarray(inside > 0.5)
+        found[name] = np.asarray(inside >= 0.5)
         if not found[name].any():
             raise InputError("", "--segment", f"no cell lies on {text!r}", "check the expression and the frame")
+    if found:
+        counted = np.sum(list(found.values()), axis=0)
+        for what, cells in (("in no segment", counted == 0), ("in more than one segment", counted > 1)):
+            if cells.any():
+                record.warn(f"{int(cells.sum())} cells are {what}: segments do not add up to the whole")
     return found
 
 

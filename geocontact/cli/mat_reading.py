@@ -18,7 +18,7 @@ from geocontact.io.mats.catalogue import read_mat
 from geocontact.io.mats.layout import read_layout
 from geocontact.loads.mat_offset import Unloaded, unloaded
 
-UNEVEN = 0.01  # of the median step: more, and a filter does not know what a frequency is
+UNEVEN = 0.6  # of a step that a frame may come early or late, as clocks are rounded; a lost frame is off by one
 RESTING = 0.05  # of the largest force; a mat that never reads less has an offset, or was never unloaded
 
 
@@ -86,12 +86,17 @@ def _zero(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOpti
 def _smooth(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOptions) -> Float[np.ndarray, "t r c"]:
     if o.cutoff == 0.0:
         return pressure
-    steps = np.diff(read.time)
-    if len(steps) and np.ptp(steps) > UNEVEN * np.median(steps):
-        what = f"frames are {steps.min():g} to {steps.max():g} s apart"
-        raise InputError("", "--cutoff", f"{what}: a filter needs even steps", "give --cutoff 0")
+    if len(read.time) < 2:
+        raise InputError("", "--cutoff", "one frame cannot be filtered", "give --cutoff 0")
+    even = np.linspace(read.time[0], read.time[-1], len(read.time))
+    step = float(even[1] - even[0])
+    late = np.abs(read.time - even)
+    if late.max() > UNEVEN * step:
+        at = float(read.time[int(np.argmax(late))])
+        what = f"frames are not evenly spaced (up to {late.max():.3g} s off a step of {step:.3g} s, near {at:g} s)"
+        raise InputError("", "--cutoff", what, "give --cutoff 0")
     try:
-        return zero_lag(pressure, float(np.median(steps)) if len(steps) else 1.0, o.cutoff)
+        return zero_lag(pressure, step, o.cutoff)
     except ValueError as error:
         raise InputError("", "--cutoff", str(error), "give a lower one, or 0 for none") from error
 

@@ -34,6 +34,10 @@ def registered(
             option = "--body" if o.body is not None else "--icp"
             raise InputError("", option, "needs landmarks to begin with", "give --body-landmarks")
         return scan, marks, None
+    if o.body is not None and not o.icp:
+        raise InputError("", "--body", "does nothing without --icp", "give --icp, or leave it out")
+    if o.body_unit is not None and o.body is None:
+        raise InputError("", "--body-unit", "does nothing without --body", "leave it out")
     names, on_scan, on_body = _pairs(o.body_landmarks)
     record.add_input("--body-landmarks", o.body_landmarks, landmarks=len(names))
     try:
@@ -47,6 +51,8 @@ def registered(
             _tell(record, "shape", found)
             if not found.converged:
                 record.warn("the registration by shape did not settle; look at registration.csv")
+    except InputError:
+        raise
     except ValueError as error:
         raise InputError(o.body_landmarks, "", str(error), "check landmarks, units and --body") from error
     moved = Surface(found.pose.apply(scan.vertices), scan.faces, scan.name)

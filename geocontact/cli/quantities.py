@@ -130,7 +130,7 @@ def directions(text: str, option: str) -> tuple[Vector, Vector]:
     return (first[0], first[1], first[2]), (second[0], second[1], second[2])
 
 
-def centre(text: str, unit: str) -> Vector:
+def centre(text: str, unit: str, option: str = "--centre") -> Vector:
     """ "x,y,z" in the mesh unit, or a fit.json of a sphere, to metres."""
     file = named_file(text)
     if file is not None:
@@ -138,8 +138,8 @@ def centre(text: str, unit: str) -> Vector:
         return _three([float(value) * 1e-3 for value in fit["point_mm"]])
     parts = text.split(",")
     if len(parts) != 3:
-        raise InputError("", "--centre", f"{text!r} is neither a fit.json nor three numbers", "write x,y,z")
-    return _three([number(part, "--centre", "x,y,z") * LENGTH[unit] for part in parts])
+        raise InputError("", option, f"{text!r} is neither a fit.json nor three numbers", "write x,y,z")
+    return _three([number(part, option, "x,y,z") * LENGTH[unit] for part in parts])
 
 
 def axis(text: str, unit: str) -> Axis:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -70,9 +70,10 @@ def agreement(
 def per_phase(
     model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], step: float, parts: int = 10
 ) -> list[Agreement]:
-    """The same over `parts` equal stretches of the recording."""
+    """The same over `parts` equal stretches of the recording, each too short to tell a lag: it is NaN there."""
     edges = np.round(np.linspace(0, len(model), parts + 1)).astype(int)
-    return [agreement(model[a:b], measured[a:b], step, 0.0) for a, b in pairwise(edges)]
+    found = [agreement(model[a:b], measured[a:b], step, 0.0) for a, b in pairwise(edges)]
+    return [replace(each, lag=NAN) for each in found]
 
 
 def lag_of(

@@ -8,7 +8,7 @@ from jaxtyping import Float
 ORDER = 2
 """Of the filter; run both ways it is of the fourth order (Winter, Biomechanics and Motor Control, 2009, sec. 3.4)."""
 TWICE = (2.0**0.5 - 1.0) ** 0.25
-"""Two passes of order two cut at their corner times this (Winter 2009, eq. 3.8)."""
+"""Tangent of the cut-off of two passes of order two over that of each (Winter 2009, sec. 3.4.4.2)."""
 
 
 def zero_lag(values: Float[np.ndarray, "t ..."], step: float, cutoff: float) -> Float[np.ndarray, "t ..."]:
@@ -18,10 +18,9 @@ def zero_lag(values: Float[np.ndarray, "t ..."], step: float, cutoff: float) -> 
     """
     from scipy.signal import butter, sosfiltfilt
 
-    corner = cutoff / TWICE
-    if not 0.0 < corner < 0.5 / step:
-        highest = 0.5 * TWICE / step
-        raise ValueError(f"a cut-off of {cutoff:g} Hz needs to lie between 0 and {highest:.3g} Hz at {1 / step:.4g} Hz")
+    if not 0.0 < cutoff < 0.5 / step:
+        raise ValueError(f"a cut-off of {cutoff:g} Hz needs to lie between 0 and {0.5 / step:.3g} Hz")
+    corner = float(np.arctan(np.tan(np.pi * cutoff * step) / TWICE)) / (np.pi * step)
     sections = butter(ORDER, corner, fs=1.0 / step, output="sos")
     try:
         return np.asarray(sosfiltfilt(sections, values, axis=0))

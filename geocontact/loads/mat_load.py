@@ -12,6 +12,7 @@ from geocontact.data.wrench import Wrench
 from geocontact.loads.mat_map import MatMap
 from geocontact.loads.weighted_centre import weighted_centre
 
+AROUND = 0.2  # of the area; cells whose normals add up to less have no side that they look to
 AT_ONCE = 500  # frames, for bounded memory
 TOUCHED = 1000.0
 """Pa; a cell under less carries its noise only."""
@@ -30,7 +31,7 @@ class MatLoad:
     perpendicular
         Part of the force along the inward mean normal of the interface [N].
     normal
-        That mean normal, outwards, unit length.
+        That mean normal, outwards, unit length; NaN, as `perpendicular` is then, where cells look all ways.
     area
         Of the cells under at least the touching pressure [m^2].
     peak, mean
@@ -85,8 +86,7 @@ def mat_load(
     on = pressure >= touched
     touched_area = (on * area).sum(axis=1)
     mean = np.divide((on * weight).sum(axis=1), touched_area, out=np.zeros(len(on)), where=touched_area > 0.0)
-    facing = -placed.force[use].sum(axis=0)
-    normal = facing / np.linalg.norm(facing)
+    normal = _facing(placed.force[use], area)
     at = np.broadcast_to(np.asarray(origin, float), force.shape)
     return MatLoad(
         Wrench(force, moment, at, frame),
@@ -98,6 +98,13 @@ def mat_load(
         mean,
         centre,
     )
+
+
+def _facing(force: Float[np.ndarray, "n 3"], area: Float[np.ndarray, " n"]) -> Float[np.ndarray, " 3"]:
+    """Mean outward normal; NaN where cells look all ways, as those of a belt do."""
+    facing = -force.sum(axis=0)
+    size = float(np.linalg.norm(facing))
+    return np.asarray(facing / size if size > AROUND * float(area.sum()) else np.full(3, np.nan))
 
 
 def _centres(

@@ -9,7 +9,6 @@ against the mean of its normals, which is shorter than 1 where the surface bends
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -58,12 +57,6 @@ class MatMap:
     def of(self, pressure: Float[np.ndarray, "t r c"]) -> Float[np.ndarray, "t n"]:
         """Pressures of these cells [Pa]."""
         return np.asarray(pressure[:, self.cell[:, 0], self.cell[:, 1]])
-
-    @cached_property
-    def normal(self) -> Float[np.ndarray, " 3"]:
-        """Mean outward normal of the interface, unit length: what `perpendicular` refers to."""
-        total = -self.force.sum(axis=0)
-        return np.asarray(total / np.linalg.norm(total))
 
     def face_pressure(
         self, pressure: Float[np.ndarray, "t n"], face_area: Float[np.ndarray, " f"]

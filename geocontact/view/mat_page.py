@@ -171,12 +171,14 @@ def _headline(s: MatStory) -> list[tuple[str, str]]:
 def _reservations(s: MatStory) -> list[str]:
     known = np.abs(s.laid.distortion[s.laid.covered])
     sd = np.sqrt(np.trace(s.covariance[s.heaviest][:3, :3]))
-    miss = np.nanmax(s.laid.misses, initial=0.0) * MM
+    met = s.laid.misses[np.isfinite(s.laid.misses)]
+    miss = f"{met.max() * MM:.1f} mm" if len(met) else "an unknown distance"
     return [
         "A mat measures what is perpendicular to its cells. Friction along the skin is in none of these forces.",
         f"Cells are up to {known.max():.1%} larger or smaller on the scan than flat; each keeps its own sensing area.",
-        f"Landmarks are missed by up to {miss:.1f} mm.",
-        f"Stated errors of cells and registration make the largest force uncertain by {sd:.1f} N (standard deviation).",
+        f"Landmarks are missed by up to {miss}.",
+        f"The errors that were stated make the largest force uncertain by {sd:.1f} N (standard deviation).",
+        "What was not stated (--gain, --registration) is not in that number.",
         "The scan is one shape: where soft tissue gives way under the load, pressures sit where it was before.",
     ]
 

@@ -77,3 +77,24 @@ def test_what_was_withheld_from_the_knee() -> None:
             assert near(printed, told[0]), (cells, told)
         for printed, true in zip(cells[5].split(), one["true_reduction"].values(), strict=True):
             assert near(printed, true), (cells, true)
+
+
+def test_mats() -> None:
+    page, told = "how-to/mat.md", results("mats")
+    for label, key in (
+        ("tree and neighbours", "tree and neighbours [s]"),
+        ("laying the mat", "laying [s]"),
+        ("mapping cells and faces", "mapping [s]"),
+        ("wrench of all frames", "wrench of all frames [s]"),
+        ("largest memory of the process", "memory at most [MB]"),
+    ):
+        assert near(row(page, label)[0].rpartition(" ")[0], told["speed"][key])
+    exact, off = told["registration"]["landmarks exact, largest"], told["registration"]["1 mm and 2 deg off"]
+    for label, key in (
+        ("force", "force [%]"),
+        ("moment, over force × 0.1 m", "moment [% of force x 0.1 m]"),
+        ("centre of pressure", "centre [mm]"),
+    ):
+        shown = [cell.rpartition(" ")[0] for cell in row(page, label)]
+        values = (exact[key], off[key]["mean"], off[key]["95 %"])
+        assert all(near(text, value) for text, value in zip(shown, values, strict=True))

@@ -188,6 +188,9 @@ def test_a_mat_that_hangs_over_leaves_its_cells_out(tmp_path: Path) -> None:
         (("--touched", "3mm"), "is not a pressure"),
         (("--sensor", "left"), "there is no mat 'left'"),
         (("--gate", "-1"), "is not a force"),
+        (("--point", "1,2"), "--point"),
+        (("--seen-from", "body"), "--seen-from"),
+        (("--body-unit", "mm", "--body-landmarks", "x.csv"), "does nothing without --body"),
     ],
 )
 def test_what_makes_no_sense_is_one_line(tmp_path: Path, options: tuple[str, str], said: str) -> None:
@@ -269,6 +272,8 @@ def test_results_are_in_the_frame_of_the_body_that_the_scan_is_registered_to(tmp
     k = int(truth["normal [N]"].argmax())
     names = [f"f{a} [N]" for a in "xyz"]
     assert np.linalg.norm(ours.loc[k, names] - truth.loc[k, names]) < 0.02 * truth.loc[k, "normal [N]"]
+    names = [f"cop_{a} [mm]" for a in "xyz"]
+    assert np.linalg.norm(ours.loc[k, names] - truth.loc[k, names]) < (2.0 if shape else 0.5)
     told = result.record()["results"][f"registration by {'shape' if shape else 'landmarks'}"]
     assert told["rms_mm"] < 0.5
     assert len(table(result, "registration.csv")) > 0

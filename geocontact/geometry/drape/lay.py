@@ -56,7 +56,11 @@ def between(nodes: Places, cells: Float[np.ndarray, "k 2"]) -> Float[np.ndarray,
     s, t = (cells - low).T[..., None]
     i, j = low.T
     p = nodes.point
-    with np.errstate(invalid="ignore"):
-        first = (1.0 - s) * p[i, j] + s * p[i + 1, j]
-        second = (1.0 - s) * p[i, j + 1] + s * p[i + 1, j + 1]
-    return np.asarray((1.0 - t) * first + t * second)
+    corners = (
+        (i, j, (1.0 - s) * (1.0 - t)),
+        (i + 1, j, s * (1.0 - t)),
+        (i, j + 1, (1.0 - s) * t),
+        (i + 1, j + 1, s * t),
+    )
+    parts = [np.where(weight > 0.0, weight * p[a, b], 0.0) for a, b, weight in corners]
+    return np.asarray(np.sum(parts, axis=0))

@@ -94,7 +94,7 @@ def frames_of(found: Recording, layout: MatLayout) -> PressureFrames:
     _clip_negative(pressure, unit, found)
     areas = np.full((rows, columns), math.prod(pitch) if area is None else area[0])
     if area is not None and len(area) > 1:
-        areas[row, column] = area
+        areas[row, column] = area if found.ids is None else [area[each] for each in found.ids]
     level = math.inf if saturation is None else saturation * _CLIPPED
     return PressureFrames(time, pressure, pitch, valid, areas, level, found.name)
 
