@@ -18,7 +18,7 @@ class PressureFrames:
     time
         Of each frame [s], strictly increasing.
     pressure
-        Of each cell [Pa], rows outermost; NaN where `valid` is False, never negative elsewhere.
+        Of each cell [Pa], rows outermost; NaN where `valid` is False. As recorded it may fall below 0, by an offset.
     pitch
         Distance between neighbouring rows and between neighbouring columns [m]; cells fill it.
     valid
@@ -45,8 +45,8 @@ class PressureFrames:
         if not min(self.pitch) > 0.0 or not (self.cell_area[self.valid] > 0.0).all():
             raise ValueError(f"{self.name}: pitch and cell area must be positive")
         seen = self.pressure[:, self.valid]
-        if not np.isfinite(seen).all() or (seen < 0.0).any():
-            raise ValueError(f"{self.name}: pressures of valid cells must be finite and not negative")
+        if not np.isfinite(seen).all():
+            raise ValueError(f"{self.name}: pressures of valid cells must be finite")
 
     @property
     def rows(self) -> int:

@@ -281,3 +281,11 @@ def test_results_are_in_the_frame_of_the_body_that_the_scan_is_registered_to(tmp
 
 def test_registration_by_shape_alone_is_refused(tmp_path: Path) -> None:
     refused(mat(tmp_path, uniform(), "--icp"), "needs landmarks to begin with")
+
+
+def test_an_offset_below_zero_is_taken_off_before_anything_is_cut_at_zero(tmp_path: Path) -> None:
+    pressure = np.zeros((200, ROWS, COLS))
+    pressure[60:140] = 20.0
+    result = done(mat(tmp_path, pressure - 2.0, *STILL, "--unloaded", "0:0.5,3.4:3.9"))
+    assert "pressures of 'mat' below 0" in result.err
+    assert table(result)["normal [N]"].iloc[100] == pytest.approx(20e3 * 12e-4, rel=1e-6)

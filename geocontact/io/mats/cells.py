@@ -75,7 +75,7 @@ class Recording:
 def frames_of(found: Recording, layout: MatLayout) -> PressureFrames:
     """Cells on the grid, in SI; what the file leaves open is taken from the layout, what they disagree on is refused.
 
-    Pressures below zero are the noise of an offset: they become zero, with one warning that counts them.
+    Pressures below zero are kept, with one warning that counts them: the noise of an offset that may be taken off yet.
     """
     rows = _needed(found, "rows", found.rows, layout.rows)
     columns = _needed(found, "columns", found.columns, layout.columns)
@@ -91,7 +91,7 @@ def frames_of(found: Recording, layout: MatLayout) -> PressureFrames:
         pressure *= unit
     valid = _valid(found, layout, pressure)
     pressure[:, ~valid] = np.nan
-    _clip_negative(pressure, unit, found)
+    _tell_negative(pressure, unit, found)
     areas = np.full((rows, columns), math.prod(pitch) if area is None else area[0])
     if area is not None and len(area) > 1:
         areas[row, column] = area if found.ids is None else [area[each] for each in found.ids]
@@ -235,8 +235,8 @@ def _first(marked: Bool[np.ndarray, "t r c"]) -> tuple[int, int, int]:
     return int(frame), int(row), int(column)
 
 
-def _clip_negative(pressure: Float[np.ndarray, "t r c"], unit: float, found: Recording) -> None:
-    """Set to zero in place what is below, and say so once; mostly negative pressures are refused."""
+def _tell_negative(pressure: Float[np.ndarray, "t r c"], unit: float, found: Recording) -> None:
+    """Say once how many are below zero; mostly negative pressures are refused."""
     below = pressure < 0.0
     if not below.any():
         return
@@ -246,7 +246,6 @@ def _clip_negative(pressure: Float[np.ndarray, "t r c"], unit: float, found: Rec
         raise InputError(found.file, "", what, "is their sign turned, or an offset taken off twice?")
     message = (
         f"{found.file}: {int(below.sum())} pressures of '{found.name}' below 0 (lowest {lowest / unit:g} "
-        f"of the file's unit) are taken as 0"
+        f"of the file's unit): an offset, or noise about it"
     )
     warnings.warn(InputWarning(message), stacklevel=4)
-    pressure[below] = 0.0

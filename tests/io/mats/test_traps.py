@@ -227,14 +227,14 @@ def test_a_layout_says_what_a_tekscan_file_leaves_out(tmp_path: Path) -> None:
     assert mat.saturated.sum() == 2
 
 
-def test_offset_noise_below_zero_becomes_zero_with_one_warning(tmp_path: Path) -> None:
+def test_readings_below_zero_are_kept_with_one_warning(tmp_path: Path) -> None:
     text = GRID.replace("0.5,1.0", "-0.5,-1.25")
     with pytest.warns(InputWarning) as caught:
         (mat,) = read_mat(write(tmp_path, text), layout(tmp_path, GRID_LAYOUT))
     assert [str(w.message).split(": ", 1)[1] for w in caught] == [
-        "2 pressures of 'mat' below 0 (lowest -1.25 of the file's unit) are taken as 0"
+        "2 pressures of 'mat' below 0 (lowest -1.25 of the file's unit): an offset, or noise about it"
     ]
-    np.testing.assert_allclose(mat.pressure[0], [[0, 0, 1500], [2000, 2500, 3000]], rtol=1e-15)
+    np.testing.assert_allclose(mat.pressure[0], [[-500, -1250, 1500], [2000, 2500, 3000]], rtol=1e-15)
 
 
 def test_pedar_that_ends_early_is_warned_of(tmp_path: Path) -> None:
