@@ -56,7 +56,7 @@ class MatMap:
 
     def of(self, pressure: Float[np.ndarray, "t r c"]) -> Float[np.ndarray, "t n"]:
         """Pressures of these cells [Pa]; what reads below zero presses with 0."""
-        return np.maximum(pressure[:, self.cell[:, 0], self.cell[:, 1]], 0.0)
+        return np.asarray(np.maximum(pressure[:, self.cell[:, 0], self.cell[:, 1]], 0.0))
 
     def face_pressure(
         self, pressure: Float[np.ndarray, "t n"], face_area: Float[np.ndarray, " f"]
