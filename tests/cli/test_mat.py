@@ -289,3 +289,22 @@ def test_an_offset_below_zero_is_taken_off_before_anything_is_cut_at_zero(tmp_pa
     result = done(mat(tmp_path, pressure - 2.0, *STILL, "--unloaded", "0:0.5,3.4:3.9"))
     assert "pressures of 'mat' below 0" in result.err
     assert table(result)["normal [N]"].iloc[100] == pytest.approx(20e3 * 12e-4, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("kind", "layout", "options", "off"),
+    [("quantised", "layout", (), 0.5), ("faulty", "layout_faulty", ("--unloaded", "0:0.3,2.8:3"), 5.0)],
+)
+def test_coarse_and_faulty_recordings_stay_near_the_truth(
+    tmp_path: Path, kind: str, layout: str, options: tuple[str, ...], off: float
+) -> None:
+    """Offset, drift, clipping at 26 of 30 kPa and two dead cells under the load, of 79 N."""
+    given = MESHES / "mat_thigh_16x8"
+    result = done(call(
+        "mat", given / f"frames_{kind}.csv", "--layout", given / f"{layout}.toml", "--surface", MESHES / "thigh.stl",
+        "--unit", "mm", "--landmarks", given / "landmarks.csv", "--out", tmp_path / "out", *STILL, *options,
+        folder=tmp_path / "out",
+    ))  # fmt: skip
+    truth = pd.read_csv(given / "truth.csv", comment="#", skipinitialspace=True)
+    assert np.abs(table(result)["normal [N]"] - truth["normal [N]"]).max() < off
+    assert ("cells clip at 26 kPa" in result.err) == (kind == "faulty")
