@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
 from collections.abc import Mapping
 from os import fspath
 from pathlib import Path
@@ -13,7 +12,8 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, FiniteFloat, PlainValidator, ValidationError
 
 from geocontact.data.errors import InputError
-from geocontact.io.csv_text import LONGEST_NAME, text_of
+from geocontact.io.csv_text import LONGEST_NAME
+from geocontact.io.toml_text import toml_of
 
 LARGEST_SETTINGS = 1_000_000
 """Bytes of case.toml."""
@@ -98,7 +98,7 @@ class CaseSettings(BaseModel):
 
 def read_settings(path: Path) -> CaseSettings:
     """Content of a case.toml of format 1; keys that are not known and values of another type are refused."""
-    given, file = _toml(path), fspath(path)
+    given, file = toml_of(path, LARGEST_SETTINGS), fspath(path)
     version = given.get("format", "missing")
     if type(version) is not int or version != 1:
         raise InputError(file, "format", f"is {version!r:.40}", "write format = 1, the one that is read here")
@@ -106,16 +106,6 @@ def read_settings(path: Path) -> CaseSettings:
         return CaseSettings.model_validate(_tables_gathered(given))
     except ValidationError as error:
         raise _refusal(error, file) from error
-
-
-def _toml(path: Path) -> dict[str, Any]:
-    text = text_of(path, LARGEST_SETTINGS, "a TOML file").decode("utf-8")
-    try:
-        return tomllib.loads(text.replace("\r\n", "\n"))
-    except RecursionError:
-        raise InputError(path, "", "is nested too deeply", "write it as in the description of the format") from None
-    except ValueError as error:  # of the syntax, and of numbers with thousands of digits
-        raise InputError(path, "", f"is not TOML: {error}", "check quotes, brackets and =") from error
 
 
 def _tables_gathered(given: Mapping[str, Any]) -> dict[str, Any]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from os import fspath
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -11,8 +10,8 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PlainValidator, ValidationError
 
 from geocontact.data.errors import InputError
-from geocontact.io.csv_text import text_of
 from geocontact.io.mats.units import pressure_unit
+from geocontact.io.toml_text import toml_of
 
 LARGEST_LAYOUT = 1_000_000
 """Bytes of layout.toml."""
@@ -125,7 +124,7 @@ class MatLayout(BaseModel):
 def read_layout(path: Path) -> MatLayout:
     """Content of a layout.toml; keys that are not known and values that cannot be right are refused."""
     file = fspath(path)
-    given = _toml(path)
+    given = toml_of(path, LARGEST_LAYOUT)
     if "file" in given:
         raise InputError(file, "file", "is not a key of a layout", "name the recording on the command line")
     try:
@@ -134,16 +133,6 @@ def read_layout(path: Path) -> MatLayout:
         raise _refusal(error, file) from error
     _require_consistent(layout)
     return layout
-
-
-def _toml(path: Path) -> dict[str, Any]:
-    text = text_of(path, LARGEST_LAYOUT, "a TOML file").decode("utf-8")
-    try:
-        return tomllib.loads(text.replace("\r\n", "\n"))
-    except RecursionError:
-        raise InputError(path, "", "is nested too deeply", "write it as in the description of the format") from None
-    except ValueError as error:  # of the syntax, and of numbers with thousands of digits
-        raise InputError(path, "", f"is not TOML: {error}", "check quotes, brackets and =") from error
 
 
 def _require_consistent(layout: MatLayout) -> None:
