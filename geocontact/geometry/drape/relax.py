@@ -51,20 +51,20 @@ def relaxed(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way | None = No
     if belt is not None:
         _goes_around(geodesics, mat, nodes, belt)
     damping = DAMPING
-    spread_to = flat.point
+    spread_to, hold = flat.point, STAYS if belt is None else 0.0  # a belt is held by closing on itself
     residual, joins = _residual(geodesics, springs, flat)
     for _ in range(ROUNDS):
         if not len(residual) or np.abs(residual / springs.rest).max() < EVEN:
             break
         axes = _axes(geodesics, flat)
         astray = np.nan_to_num(flat.point - spread_to)
-        shift = _step(springs, joins, residual, axes, astray, damping)
+        shift = _step(springs, joins, residual, axes, astray, hold, damping)
         size = float(np.linalg.norm(shift, axis=1).max())
         shift *= min(1.0, STRIDE * min(mat.pitch) / size) if size > 0.0 else 1.0
         trial = geodesics.moved(flat, shift)
         trial = Places(np.where(trial.on, trial.face, flat.face), np.where(trial.on[:, None], trial.point, flat.point))
         after, joins_after = _residual(geodesics, springs, trial)
-        before, now = _energy(residual, astray), _energy(after, np.nan_to_num(trial.point - spread_to))
+        before, now = _energy(residual, astray, hold), _energy(after, np.nan_to_num(trial.point - spread_to), hold)
         if not now < before:
             damping *= 10.0
             if damping > STIFF:
@@ -133,6 +133,7 @@ def _step(
     residual: Float[np.ndarray, " e"],
     axes: Float[np.ndarray, "n 2 3"],
     astray: Float[np.ndarray, "n 3"],
+    hold: float,
     damping: float,
 ) -> Float[np.ndarray, "n 3"]:
     """Damped Gauss-Newton move of every node [m]."""
@@ -143,15 +144,15 @@ def _step(
     column = np.concatenate([2 * springs.goal, 2 * springs.goal + 1, 2 * springs.start, 2 * springs.start + 1])
     value = np.concatenate([*ahead.T, *behind.T])
     jacobian = coo_array((value, (row, column)), shape=(len(e), 2 * len(axes))).tocsc()
-    held = STAYS**2 * np.einsum("nax,nx->na", axes, astray).ravel()
-    stiffness = (jacobian.T @ jacobian + (damping + STAYS**2) * eye_array(2 * len(axes), format="csc")).tocsc()
+    held = hold**2 * np.einsum("nax,nx->na", axes, astray).ravel()
+    stiffness = (jacobian.T @ jacobian + (damping + hold**2) * eye_array(2 * len(axes), format="csc")).tocsc()
     move = spsolve(stiffness, -(jacobian.T @ residual) - held).reshape(-1, 2)
     return np.asarray(np.einsum("na,nax->nx", move, axes))
 
 
-def _energy(residual: Float[np.ndarray, " e"], astray: Float[np.ndarray, "n 3"]) -> float:
+def _energy(residual: Float[np.ndarray, " e"], astray: Float[np.ndarray, "n 3"], hold: float) -> float:
     """Of all springs and of the holds [m^2]."""
-    return float(residual @ residual) + STAYS**2 * float((astray**2).sum())
+    return float(residual @ residual) + hold**2 * float((astray**2).sum())
 
 
 def _goes_around(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way) -> None:
