@@ -96,7 +96,8 @@ def test_a_belt_closes_around_a_tube(n):
     assert found.distortion == pytest.approx(both, abs=1e-7)
     assert found.covered.all() and not found.folded.any()
     girth = np.linalg.norm(np.diff(found.centre, axis=1, append=found.centre[:, :1]), axis=2).sum(axis=1)
-    assert girth == pytest.approx(np.full(8, 2 * np.pi * radius), rel=0.03)
+    chords = 1 - np.sinc(1 / 32)  # that a polygon through the 32 centres lacks; corners of the prism are cut once more
+    assert girth == pytest.approx(np.full(8, 2 * np.pi * radius), rel=2.5 * abs(short) + 1.5 * chords)
 
 
 def test_a_belt_of_rows_is_the_belt_of_columns_turned():
