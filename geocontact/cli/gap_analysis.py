@@ -13,6 +13,7 @@ from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings, diagnose
+from geocontact.io.case_cells import cells_file
 from geocontact.io.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 from geocontact.view.gap_words import verdict_sentences
@@ -59,5 +60,8 @@ def _add_inputs(record: Record, folder: Path, case: GapCase) -> None:
             record.add_input(side, folder / "trials" / f"{trial.name}.csv", samples=len(trial))
     for file in sorted(folder.glob("*.csv")):
         record.add_input("table", file)
+    for site, cells in case.cells.items():
+        for name in cells.trials:
+            record.add_input(f"cells {site}", cells_file(folder, name, site), cells=len(cells.ids))
     for name, one in case.meshes.items():
         record.add_input(f"mesh {name}", one.mesh.name, sha256=one.mesh.sha256, unit=one.mesh.unit)

@@ -31,6 +31,8 @@ def write_results(record: Record, case: GapCase, findings: Findings, folder: Pat
     write_table(ranking_table(findings), folder, parquet=False, name="ranking")
     if findings.trials:
         write_table(trials_table(findings), folder, parquet=False, name="trials")
+    if findings.surface:
+        write_table(surface_table(findings), folder, parquet=False, name="surface")
     trials = held_out(findings)
     write_table(held_out_table(findings, trials), folder, parquet=False, name="held_out")
     if not pictures:
@@ -99,6 +101,25 @@ def trials_table(findings: Findings) -> pd.DataFrame:
             "gain_left_out [nats]": [one.nats for one in findings.trials],
         }
     )
+
+
+def surface_table(findings: Findings) -> pd.DataFrame:
+    """A row per cell of a mat: where it lies in the scan's frame, its part in the load and in the channel's gap."""
+    parts = [
+        pd.DataFrame(
+            {
+                "site": one.site,
+                "channel": one.channel,
+                "id": one.ids,
+                **{f"{axis} [m]": one.place[:, k] for k, axis in enumerate("xyz")},
+                "load_share [-]": one.load,
+                "gap_share [-]": one.gap,
+                "holds_most": [name in one.holding for name in one.ids],
+            }
+        )
+        for one in findings.surface
+    ]
+    return pd.concat(parts, ignore_index=True)
 
 
 def held_out_table(findings: Findings, trials: Sequence[HeldOut]) -> pd.DataFrame:

@@ -10,6 +10,38 @@ Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
 
 
 @dataclass(frozen=True)
+class CellsHeld:
+    """The fewest cells of a pressure mat that hold 70 % of a channel's gap.
+
+    Parameters
+    ----------
+    ids
+        The fullest first.
+    count
+        Of all cells of the mat.
+    share, load
+        What they hold of the gap, and of the load that the base model expects.
+    p_value
+        That a gap spread over the mat as the load is would look as concentrated elsewhere, family-wise.
+    """
+
+    ids: tuple[str, ...]
+    count: int
+    share: float
+    load: float
+    p_value: float
+
+    def as_dict(self) -> dict[str, Any]:
+        """Keys of a `where` entry."""
+        return {
+            "cells": list(self.ids),
+            "cells_share": self.share,
+            "cells_load": self.load,
+            "cells_p_value": self.p_value,
+        }
+
+
+@dataclass(frozen=True)
 class Where:
     """One channel with a gap.
 
@@ -25,6 +57,8 @@ class Where:
         Of the most significant cell of the channel's gap map, family-wise.
     stage
         Where in the chain the named effect acts; "" when none is named.
+    cells
+        Where on the surface, of a channel that cells of a mat add up to.
     """
 
     channel: str
@@ -32,6 +66,7 @@ class Where:
     share: float
     p_value: float
     stage: str = ""
+    cells: CellsHeld | None = None
 
 
 @dataclass(frozen=True)
@@ -106,6 +141,7 @@ class Diagnosis:
             "where": [
                 {"channel": w.channel, "phase": list(w.phase), "share": w.share, "p_value": w.p_value}
                 | ({"stage": w.stage} if w.stage else {})
+                | ({} if w.cells is None else w.cells.as_dict())
                 for w in self.where
             ],
             "gap": {

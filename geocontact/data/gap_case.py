@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import pandas as pd
 
+from geocontact.data.cell_channels import CellChannels
 from geocontact.data.mesh import Mesh
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
@@ -56,6 +57,8 @@ class GapCase:
         Further tables by their key in case.toml ("spheres", "support"), units in the column names, SI.
     meshes
         Surfaces by their name in case.toml ("moving", "fixed").
+    cells
+        Cells of pressure mats by the site's name in case.toml ("thigh").
     """
 
     name: str
@@ -67,3 +70,4 @@ class GapCase:
     noise: Mapping[str, float] = field(default_factory=dict)
     tables: Mapping[str, pd.DataFrame] = field(default_factory=dict)
     meshes: Mapping[str, CaseMesh] = field(default_factory=dict)
+    cells: Mapping[str, CellChannels] = field(default_factory=dict)

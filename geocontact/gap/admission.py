@@ -30,6 +30,10 @@ def admitted(case: GapCase, system: System) -> GapCase:
                 what = f"{name} has {count} measured values in the {side} trials"
                 raise _refusal(case, side, what, f"at least {LEAST} are needed" if count else "choose other trials")
     _require_movement(case, system)
+    for site, cells in case.cells.items():
+        if cells.channel not in system.outputs:
+            what = f"the model does not predict {cells.channel}, which the cells of {site} add up to"
+            raise _refusal(case, f"layout.{site}", what, f"outputs are {', '.join(system.outputs)}")
     return replace(
         case,
         calibration=tuple(sorted(case.calibration, key=lambda trial: _content(trial, system))),

@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import ChannelGap, Diagnosis, Estimate, FaultFound, Where
+from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Estimate, FaultFound, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.absorbed import absorbed
@@ -19,6 +19,7 @@ from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.evidence import Judged, prior_spread
 from geocontact.gap.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.locate import Cell, gap_map, windows
+from geocontact.gap.on_surface import SurfaceGap, on_surface
 from geocontact.gap.refit import free
 from geocontact.gap.shrink import shrinkage
 from geocontact.gap.verdict import SURE
@@ -32,12 +33,14 @@ class Findings:
     """A diagnosis with all that it rests on, for figures and further questions.
 
     `trials` tells how much better each is predicted from all others with what was named; none where nothing was.
+    `surface` tells where on a mat the gaps lie of channels that have one, none where there are no cells.
     """
 
     diagnosis: Diagnosis
     attribution: Attribution
     cells: tuple[Cell, ...]
     trials: tuple[TrialGain, ...] = ()
+    surface: tuple[SurfaceGap, ...] = ()
 
 
 def diagnose(case: GapCase, system: System, version: str = "") -> Findings:
@@ -72,12 +75,15 @@ def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
     }
     stages = {one.name: one.stage for one in offered}
     stage = stages.get(said.effects[0], "") if said.effects else ""
+    after = chosen if named else None
+    surface = () if said.verdict == "no_gap" else on_surface(problem, after, found.fault, case.cells)
+    held = {one.channel: CellsHeld(one.holding, len(one.ids), *one.held, one.p_value) for one in surface}
     where = (
         ()
         if said.verdict == "no_gap"
         else tuple(
-            Where(w.channel, w.phase, w.share, w.p_value, stage)
-            for w in windows(problem, found.clean, found.base.judged, chosen if named else None, found.fault, cells)
+            Where(w.channel, w.phase, w.share, w.p_value, stage, held.get(w.channel))
+            for w in windows(problem, found.clean, found.base.judged, after, found.fault, cells)
         )
     )
     diagnosis = Diagnosis(
@@ -100,7 +106,7 @@ def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
         ),
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
-    return Findings(diagnosis, found, cells, trials)
+    return Findings(diagnosis, found, cells, trials, surface)
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:

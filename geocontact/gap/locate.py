@@ -90,14 +90,10 @@ def windows(
     count = len(problem.calibration.trials)
     phase = np.linspace(0.0, 1.0, GRID)
     curves = np.zeros((GRID, len(problem.system.outputs)))
-    before = problem.evaluation.residuals(problem.system, problem.plain.values)
+    gaps = missed(problem, after, fault)
     for i, (trial, there) in enumerate(zip(problem.evaluation.trials, problem.evaluation.present, strict=True)):
-        if after is None:
-            noise = noise_variance(clean.layouts[count + i], base.noise.levels)
-            square = before[i] ** 2 - noise
-        else:
-            left = put_back(fault, trial.name, problem.system.outputs, after.model.residuals[count + i])
-            square = (before[i] - left) ** 2
+        noise = 0.0 if after is not None else noise_variance(clean.layouts[count + i], base.noise.levels)
+        square = gaps[i] ** 2 - noise
         own = (trial.time - trial.time[0]) / (trial.time[-1] - trial.time[0])
         for c in range(curves.shape[1]):
             if there[:, c].any():
@@ -111,6 +107,18 @@ def windows(
         if parts[c] > 0.0
     ]
     return tuple(sorted(found, key=lambda window: -window.share))
+
+
+def missed(problem: Problem, after: Judged | None, fault: Fault | None) -> list[Float[np.ndarray, "_ c"]]:
+    """What the base model misses of each held-out trial: what `after` adds, or without it the whole residual."""
+    before = problem.evaluation.residuals(problem.system, problem.plain.values)
+    if after is None:
+        return before
+    count = len(problem.calibration.trials)
+    return [
+        own - put_back(fault, trial.name, problem.system.outputs, left)
+        for trial, own, left in zip(problem.evaluation.trials, before, after.model.residuals[count:], strict=True)
+    ]
 
 
 def shortest(curve: Float[np.ndarray, " g"]) -> tuple[float, float]:

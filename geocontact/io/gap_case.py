@@ -7,11 +7,10 @@ import warnings
 from os import PathLike
 from pathlib import Path
 
-import pandas as pd
-
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.gap_case import CaseMesh, GapCase
 from geocontact.data.trial import Trial
+from geocontact.io.case_cells import read_cells
 from geocontact.io.case_consistency import KNOWN_SYSTEMS, check_settings, parameters_of
 from geocontact.io.case_folder import SETTINGS, case_folder, check_trial_files, inside, trial_file
 from geocontact.io.case_settings import CaseSettings, read_settings
@@ -39,9 +38,8 @@ def read_gap_case(folder: str | PathLike[str], known_systems: tuple[str, ...] = 
     """Case in a folder, in SI units.
 
     Channels of all trials come in the order of the first calibration trial. Noise is converted like its channel, tables
-    like their headers say; parameters, constants and covariates are in SI units already. `tables` holds the layout of a
-    site of cells as "layout.<site>"; the cells themselves are not used, which is warned of, as are trial files that
-    case.toml does not list.
+    like their headers say; parameters, constants and covariates are in SI units already. Trial files that case.toml
+    does not list are warned of, and trials without the cells of a site.
 
     Parameters
     ----------
@@ -67,8 +65,9 @@ def read_gap_case(folder: str | PathLike[str], known_systems: tuple[str, ...] = 
         parameters=parameters,
         constants=dict(settings.constants),
         noise=noise,
-        tables=tables | _layouts(home, settings),
+        tables=tables,
         meshes=_meshes(home, settings),
+        cells=read_cells(home, settings, next(iter(trials.values())).signals.channels),
     )
 
 
@@ -88,16 +87,6 @@ def _told(noise: dict[str, float], file: Path) -> dict[str, float]:
             message = f"{file} [noise] {channel}: is 0; taken as not known"
             warnings.warn(InputWarning(message), stacklevel=3)
     return {channel: sd for channel, sd in noise.items() if sd > 0.0}
-
-
-def _layouts(home: Path, settings: CaseSettings) -> dict[str, pd.DataFrame]:
-    keyed = {f"layout.{site}": name for site, name in settings.layout.items()}
-    tables = {key: read_side_table(inside(home, name, key)) for key, name in keyed.items()}
-    if tables:
-        sites = ", ".join(settings.layout)
-        message = f"{home / SETTINGS} layout: cell channels are not used ({sites}); only the layout is read"
-        warnings.warn(InputWarning(message), stacklevel=3)
-    return tables
 
 
 def _meshes(home: Path, settings: CaseSettings) -> dict[str, CaseMesh]:

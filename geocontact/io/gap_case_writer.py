@@ -11,21 +11,22 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from geocontact.data.cell_channels import CellChannels
 from geocontact.data.gap_case import GapCase
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
+from geocontact.io.case_cells import AREA, PLACE, cells_file, channel_name
 from geocontact.io.case_folder import SETTINGS, TRIALS
 from geocontact.io.units import si_unit
 
 DIGITS = 9
-LAYOUT = "layout."
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def write_gap_case(
     case: GapCase, folder: str | PathLike[str], units: Mapping[str, str] | None = None, digits: int = DIGITS
 ) -> None:
-    """Write case.toml, trials/<id>.csv and the tables; nothing in them depends on the name of the case.
+    """Write case.toml, trials/<id>.csv, cells and tables; nothing in them depends on the name of the case.
 
     Parameters
     ----------
@@ -48,11 +49,29 @@ def write_gap_case(
         table.to_csv(file, index=False, float_format=f"%.{digits}g", lineterminator="\n")
     for key, table in case.tables.items():
         table.to_csv(home / _file_of(key), index=False, lineterminator="\n")
+    for site, cells in case.cells.items():
+        _write_cells(home, site, cells, digits)
     (home / SETTINGS).write_text("\n".join(_settings(case, wanted)) + "\n", encoding="utf-8", newline="\n")
 
 
 def _file_of(key: str) -> str:
-    return f"{key.replace('.', '_')}.csv"
+    return f"{key}.csv"
+
+
+def _write_cells(home: Path, site: str, cells: CellChannels, digits: int) -> None:
+    places = {name: cells.place[:, k] for k, name in enumerate(PLACE)}
+    layout = pd.DataFrame({"id": cells.ids, **places, AREA: cells.area})
+    layout.to_csv(home / _layout_file(site), index=False, lineterminator="\n")
+    names = [f"{channel_name(each)} [Pa]" for each in cells.ids]
+    for trial, own in cells.trials.items():
+        table = pd.DataFrame(own.pressure, columns=names)
+        table.insert(0, "time [s]", own.time)
+        file = cells_file(home, trial, site)
+        table.to_csv(file, index=False, float_format=f"%.{digits}g", lineterminator="\n")
+
+
+def _layout_file(site: str) -> str:
+    return f"{site}_layout.csv"
 
 
 def _trial_table(trial: Trial, units: Mapping[str, str]) -> pd.DataFrame:
@@ -78,10 +97,8 @@ def _settings(case: GapCase, units: Mapping[str, str]) -> Iterator[str]:
     yield f"calibration = {_words(case.calibration)}"
     yield f"evaluation = {_words(case.evaluation)}"
     for key in case.tables:
-        if not key.startswith(LAYOUT):
-            yield f"{_key(key)} = {_word(_file_of(key))}"
-    layouts = {key.removeprefix(LAYOUT): _word(_file_of(key)) for key in case.tables if key.startswith(LAYOUT)}
-    yield from _section("layout", layouts)
+        yield f"{_key(key)} = {_word(_file_of(key))}"
+    yield from _section("layout", {site: _word(_layout_file(site)) for site in case.cells})
     si = dict(zip(case.calibration[0].signals.channels, case.calibration[0].signals.units, strict=True))
     noise = {name: sd / _per_unit(name, si[name], units.get(name, si[name])) for name, sd in case.noise.items()}
     yield from _section("noise", {name: repr(float(sd)) for name, sd in noise.items()})

@@ -13,6 +13,7 @@ from geocontact.gap.diagnose import Findings
 from geocontact.view.curves.before_after import SIDE_BY_SIDE, before_after
 from geocontact.view.curves.gap_map import gap_map_figure
 from geocontact.view.curves.gap_residuals import PHASE, gap_residuals
+from geocontact.view.curves.gap_surface import gap_surface_figure
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.ranking import Ranked, ranking_figure
 from geocontact.view.gap_curves import HeldOut, resampled
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 GRID = np.linspace(0.0, 1.0, 401)
+SURFACE = "gap_surface_"
 PRINTED = {"N m": ("N m", 1.0), "N": ("N", 1.0), "m": ("mm", 1e3), "rad": ("°", 180.0 / np.pi)}
 
 
@@ -57,7 +59,7 @@ def ranking(findings: Findings) -> list[Ranked]:
 
 
 def gap_figures(findings: Findings, trials: Sequence[HeldOut]) -> dict[str, Figure]:
-    """Map, ranking, residuals, and before and after for each channel where something was named."""
+    """Map, ranking, residuals, cells of each mat, and before and after for each channel where something was named."""
     d = findings.diagnosis
     channels = findings.attribution.problem.system.outputs
     quantities = [quantity_of(findings, name) for name in channels]
@@ -72,6 +74,7 @@ def gap_figures(findings: Findings, trials: Sequence[HeldOut]) -> dict[str, Figu
             {name: g.noise_floor for name, g in d.gap.items()}, {w.channel: w.phase for w in d.where}, effect,
         ),
     }  # fmt: skip
+    found |= {f"{SURFACE}{_file_name(one.site, k)}": gap_surface_figure(one) for k, one in enumerate(findings.surface)}
     for c, quantity in enumerate(quantities):
         shown = [t for t in trials if np.isfinite(t.measured[:, c]).any()][:SIDE_BY_SIDE]
         if not named or not shown:

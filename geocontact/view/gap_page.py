@@ -19,7 +19,7 @@ from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.style import in_style
 from geocontact.view.curves.text import number
 from geocontact.view.gap_curves import HeldOut, resampled
-from geocontact.view.gap_figures import axis_units, quantity_of, ranking
+from geocontact.view.gap_figures import SURFACE, axis_units, quantity_of, ranking
 from geocontact.view.gap_words import names, percent, place, verdict_sentences
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
 from geocontact.view.page.write import write_page
@@ -40,6 +40,9 @@ RANKING = "Gain of evidence over the base model of every model that was tried, i
 RESIDUALS = (
     "Residuals of the held-out trials over the phase; the band is the noise floor, the grey window holds 70 % of the "
     "gap."
+)
+SURFACE_WORDS = (
+    "Part of each cell of the mat in the load that the base model expects, and in the gap on held-out trials."
 )
 CAPTIONS = {
     "gap_map": ("Where the gap is", MAP),
@@ -101,6 +104,11 @@ def gap_page(
     sections += [Words("Verdict", [f"{sentence[0].upper()}{sentence[1:]}." for sentence in _verdict(findings)])]
     sections += [
         Picture(*CAPTIONS[name], _svg(figures[name]), wide=name in WIDE) for name in CAPTIONS if name in figures
+    ]
+    sections += [
+        Picture("Where on the surface", SURFACE_WORDS, _svg(figure), wide=True)
+        for name, figure in figures.items()
+        if name.startswith(SURFACE)
     ]
     sections += [_gap_table(findings), _ranking_table(findings)]
     sections += [_trials_table(findings)] if findings.trials else []

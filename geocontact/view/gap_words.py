@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from geocontact.data.diagnosis import ChannelGap, Diagnosis, Where
+from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Where
 from geocontact.gap.locate import Cell
 
 SIGNIFICANT = 0.05  # family-wise
 TELLING = 0.35  # share of a channel's gap along one axis that a part of its range must hold to be named
 MISTAKES = ("unit_error", "sign_flip", "side_swap")  # of the data; nothing that a model could lack
+FEW = 4  # cells that are named one by one
 MOST = 0.1  # share of the whole gap from which a further channel is mentioned
 
 
@@ -22,8 +23,18 @@ def verdict_sentences(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
 def place(where: Where, cells: Sequence[Cell]) -> str:
     """Where one channel's gap is: "force (phase 42–61 %, fast part of beta)"."""
     low, high = (100.0 * edge for edge in where.phase)
-    parts = [f"phase {low:.0f}–{high:.0f} %", *states(where.channel, cells)]
+    parts = [f"phase {low:.0f}–{high:.0f} %", *states(where.channel, cells), *on_mat(where.cells)]
     return f"{where.channel} ({', '.join(parts)})"
+
+
+def on_mat(held: CellsHeld | None) -> list[str]:
+    """Which part of a mat holds most of a channel's gap."""
+    if held is None:
+        return []
+    if held.p_value > SIGNIFICANT:
+        return ["over the mat as the load is"]
+    few = f"{len(held.ids)} of {held.count} cells" + (f", {names(held.ids)}," if len(held.ids) <= FEW else "")
+    return [f"{few} that carry {percent(held.load)} % of the load hold {percent(held.share)} % of it"]
 
 
 def states(channel: str, cells: Sequence[Cell]) -> list[str]:

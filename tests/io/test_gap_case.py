@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -186,17 +187,67 @@ def test_files_that_are_not_listed_are_warned_of_once(tmp_path: Path) -> None:
     assert line == f"{home / 'trials'}: not listed in case.toml and not used: t08.csv, t09.csv"
 
 
-def test_cells_are_left_out_with_a_warning_and_their_layout_is_read(tmp_path: Path) -> None:
-    layout = "id,x [mm],y [mm],z [mm],area [cm^2]\n0,10,20,30,1.5\n1,11,21,31,1.5\n"
-    text = CASE["case.toml"].replace("spheres =", 'layout = {pelvis = "mats/pelvis.csv"}\nspheres =')
-    files = {"mats/pelvis.csv": layout, "trials/t01_pelvis_cells.csv": "time [s],c0 [Pa],c1 [Pa]\n0,1,2\n"}
-    with pytest.warns(InputWarning) as caught:
-        case = read_gap_case(case_in(tmp_path, files, case=text))
-    (line,) = [str(w.message) for w in caught]
-    assert line.endswith("case.toml layout: cell channels are not used (pelvis); only the layout is read")
-    table = case.tables["layout.pelvis"]
-    assert list(table) == ["id", "x [m]", "y [m]", "z [m]", "area [m^2]"] and list(table["id"]) == ["0", "1"]
-    np.testing.assert_allclose(table["area [m^2]"], 1.5e-4, rtol=1e-15)
+LAYOUT = "id,x [mm],y [mm],z [mm],area [cm^2]\n0,10,20,30,1.5\n1,11,21,31,1.5\n"
+CELLS = "time [s],c1 [kPa],c0 [Pa]\n0,1,2\n0.15,3,4\n0.2,,6\n"
+
+
+def cells_in(folder: Path, layout: str = LAYOUT, cells: str = CELLS, site: str = "cuff") -> Path:
+    """The case with a mat of two cells, in two of its three trials."""
+    text = CASE["case.toml"].replace("spheres =", f'layout = {{{site} = "mats/cuff.csv"}}\nspheres =')
+    files = {"mats/cuff.csv": layout, f"trials/t01_{site}_cells.csv": cells, f"trials/t03_{site}_cells.csv": cells}
+    return case_in(folder, files, case=text)
+
+
+def test_cells_come_in_si_units_in_the_order_of_the_layout(tmp_path: Path) -> None:
+    with pytest.warns(InputWarning, match=r"no t02_cuff_cells\.csv: cells of cuff are not looked at there"):
+        cells = read_gap_case(cells_in(tmp_path)).cells["cuff"]
+    assert (cells.channel, cells.ids) == ("force", ("0", "1")) and list(cells.trials) == ["t01", "t03"]
+    np.testing.assert_allclose(cells.place, [[0.01, 0.02, 0.03], [0.011, 0.021, 0.031]], rtol=1e-15)
+    np.testing.assert_allclose(cells.area, 1.5e-4, rtol=1e-15)
+    np.testing.assert_array_equal(cells.trials["t01"].time, [0.0, 0.15, 0.2])
+    np.testing.assert_array_equal(cells.trials["t01"].pressure, [[2.0, 1000.0], [4.0, 3000.0], [6.0, np.nan]])
+
+
+def test_forces_of_cells_are_straight_between_frames_and_none_beyond(tmp_path: Path) -> None:
+    with pytest.warns(InputWarning):
+        cells = read_gap_case(cells_in(tmp_path)).cells["cuff"]
+    force = cells.forces("t01", np.array([0.0, 0.075, 0.15, 0.3]))
+    expected = 1.5e-4 * np.array([[2.0, 1000.0], [3.0, 2000.0], [4.0, 3000.0], [np.nan, np.nan]])
+    np.testing.assert_allclose(force, expected, rtol=1e-12)
+
+
+def test_the_sites_own_channel_comes_before_force(tmp_path: Path) -> None:
+    with pytest.warns(InputWarning):
+        assert read_gap_case(cells_in(tmp_path, site="cop")).cells["cop"].channel == "cop"
+
+
+@pytest.mark.parametrize(
+    ("layout", "cells", "message"),
+    [
+        (LAYOUT.replace("area [cm^2]", "size [cm^2]"), CELLS, r"cuff\.csv line 1: no column area \[m\^2\]"),
+        (LAYOUT.replace("1,11", "0,11"), CELLS, r"cuff\.csv: cell 0 is listed 2 times"),
+        (LAYOUT.replace("30,1.5", "30,-1.5"), CELLS, r"cuff\.csv: the area of cell 0 is not positive"),
+        (LAYOUT, CELLS.replace("c1", "c2"), r"t01_cuff_cells\.csv line 1: no column c1"),
+        (LAYOUT + "2,12,22,32,1.5\n", CELLS, r"t01_cuff_cells\.csv line 1: no column c2"),
+        (LAYOUT.replace("1,11,21,31,1.5\n", ""), CELLS, r"line 1: the layout has no cell c1"),
+        (LAYOUT, CELLS.replace("[kPa]", "[N]"), r"t01_cuff_cells\.csv line 1: 'c1' is in N; cells are pressures"),
+        (LAYOUT, CELLS.replace("0.15", "0.25"), r"t01_cuff_cells\.csv line 4: time 0\.2 s does not follow 0\.25 s"),
+    ],
+)
+def test_cells_that_cannot_be_used_are_refused(tmp_path: Path, layout: str, cells: str, message: str) -> None:
+    with pytest.raises(InputError, match=message), warnings.catch_warnings(action="ignore"):
+        read_gap_case(cells_in(tmp_path, layout, cells))
+
+
+def test_cells_need_a_channel_that_they_add_up_to(tmp_path: Path) -> None:
+    trial = TRIAL.replace("force", "moment")
+    home = cells_in(tmp_path)
+    for name in ("t01", "t02", "t03"):
+        (home / "trials" / f"{name}.csv").write_text(trial, encoding="utf-8")
+    settings = (home / "case.toml").read_text("utf-8").replace("force = 0.2\n", "")
+    (home / "case.toml").write_text(settings, encoding="utf-8")
+    with pytest.raises(InputError, match=r"layout\.cuff: no trial has a channel cuff_force that the cells of cuff"):
+        read_gap_case(home)
 
 
 def test_tables_of_an_own_model(tmp_path: Path) -> None:

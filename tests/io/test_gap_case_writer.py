@@ -9,13 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from geocontact.data.cell_channels import CellChannels, CellTrial
 from geocontact.data.errors import InputWarning
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.benchmark.planted import plant
 from geocontact.io.gap_case import read_gap_case
 from geocontact.io.gap_case_writer import DIGITS, write_gap_case
-from tests.io.gap_case_files import TRIAL, case_in
+from tests.io.gap_case_files import case_in
 
 
 @cache
@@ -63,14 +64,18 @@ def test_every_part_of_a_case_survives(tmp_path: Path) -> None:
     alike(again(case, tmp_path, digits=17), case, 1e-15)
 
 
-def test_layouts_survive(tmp_path: Path) -> None:
-    settings = 'format = 1\nsystem = "elbow"\ncalibration = ["t01"]\nevaluation = ["t03"]\nlayout = {mat = "mat.csv"}\n'
-    home = case_in(tmp_path, {"mat.csv": "id,x [m]\na,0.5\n", "trials/t01.csv": TRIAL}, case=settings)
-    with pytest.warns(InputWarning):
-        case = read_gap_case(home)
-    write_gap_case(case, tmp_path / "new" / case.name)
-    with pytest.warns(InputWarning, match="cell channels"):
-        alike(read_gap_case(tmp_path / "new" / case.name), case, 1e-8)
+def test_cells_survive(tmp_path: Path) -> None:
+    case = planted("elbow")
+    rng = np.random.default_rng(1)
+    there = {t.name: CellTrial(t.time[::3], rng.uniform(0.0, 9e3, (len(t.time[::3]), 2))) for t in case.evaluation}
+    mat = CellChannels("force", ("c0", "c7"), rng.uniform(size=(2, 3)), np.array([1e-4, 2e-4]), there)
+    with pytest.warns(InputWarning, match="cells of cuff are not looked at there"):
+        found = again(replace(case, cells={"cuff": mat}), tmp_path).cells["cuff"]
+    assert (found.channel, found.ids, set(found.trials)) == (mat.channel, mat.ids, set(there))
+    np.testing.assert_array_equal([*found.place.T, found.area], [*mat.place.T, mat.area])
+    for name, own in there.items():
+        np.testing.assert_allclose(found.trials[name].time, own.time, rtol=1e-8)
+        np.testing.assert_allclose(found.trials[name].pressure, own.pressure, rtol=1e-8)
 
 
 def test_other_units_mean_the_same(tmp_path: Path) -> None:
