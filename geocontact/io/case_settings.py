@@ -98,7 +98,11 @@ class CaseSettings(BaseModel):
 
 def read_settings(path: Path) -> CaseSettings:
     """Content of a case.toml of format 1; keys that are not known and values of another type are refused."""
-    given, file = toml_of(path, LARGEST_SETTINGS), fspath(path)
+    return settings_of(toml_of(path, LARGEST_SETTINGS), fspath(path))
+
+
+def settings_of(given: Mapping[str, Any], file: str) -> CaseSettings:
+    """The same of what such a file holds."""
     version = given.get("format", "missing")
     if type(version) is not int or version != 1:
         raise InputError(file, "format", f"is {version!r:.40}", "write format = 1, the one that is read here")

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Mapping
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
+
+import pandas as pd
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.gap_case import CaseMesh, GapCase
@@ -52,22 +56,28 @@ def read_gap_case(folder: str | PathLike[str], known_systems: tuple[str, ...] = 
     file = home / SETTINGS
     settings = read_settings(file)
     check_settings(settings, file, known_systems)
-    parameters = parameters_of(settings, file)
+    parameters_of(settings, file)  # before the trials are read: a mistake there is told at once
     check_trial_files(home, settings)
     tables = {key: read_side_table(inside(home, name, key)) for key, name in settings.tables.items()}
     trials = alike({name: read_trial(trial_file(home, name)) for name in settings.trials})
-    noise = noise_in_si(_told(settings.noise, file), trials, file)
+    cells = read_cells(home, settings, next(iter(trials.values())).signals.channels)
+    name = Path(os.path.abspath(home)).name
+    return replace(case_of(settings, file, name, trials, tables), meshes=_meshes(home, settings), cells=cells)
+
+
+def case_of(
+    settings: CaseSettings, file: Path, name: str, trials: Mapping[str, TrialTable], tables: Mapping[str, pd.DataFrame]
+) -> GapCase:
+    """Case of that name without meshes and cells: settings that `file` holds, trials that are alike, and tables."""
     return GapCase(
-        name=Path(os.path.abspath(home)).name,
+        name=name,
         system=settings.system,
-        calibration=tuple(_trial(name, trials[name], settings) for name in settings.calibration),
-        evaluation=tuple(_trial(name, trials[name], settings) for name in settings.evaluation),
-        parameters=parameters,
+        calibration=tuple(_trial(each, trials[each], settings) for each in settings.calibration),
+        evaluation=tuple(_trial(each, trials[each], settings) for each in settings.evaluation),
+        parameters=parameters_of(settings, file),
         constants=dict(settings.constants),
-        noise=noise,
+        noise=noise_in_si(_told(settings.noise, file), trials, file),
         tables=tables,
-        meshes=_meshes(home, settings),
-        cells=read_cells(home, settings, next(iter(trials.values())).signals.channels),
     )
 
 

@@ -35,7 +35,7 @@ def gap_surface_figure(found: SurfaceGap) -> Figure:
     _map(right, at, found.gap, size, f"part of the gap of {found.channel} [–]")
     most = np.isin(found.ids, found.holding)
     for panel in (left, right):
-        panel.scatter(*at[most].T, s=1.6 * size, facecolors="none", edgecolors="black", linewidths=0.8)
+        panel.scatter(at[most, 0], at[most, 1], s=1.6 * size, facecolors="none", edgecolors="black", linewidths=0.8)
         panel.set_xlabel("along the mat [mm]")
         panel.set_aspect("equal")
     left.set_ylabel("across the mat [mm]")
@@ -60,6 +60,8 @@ def flattened(place: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
 def _map(panel: Axes, at: Float[np.ndarray, "n 2"], values: Float[np.ndarray, " n"], size: float, label: str) -> None:
     most = float(np.abs(values).max()) or 1.0
     colours = ("RdBu_r", -most) if (values < 0.0).any() else ("Blues", 0.0)
-    points = panel.scatter(*at.T, c=values, s=size, cmap=colours[0], vmin=colours[1], vmax=most, marker="s")
+    points = panel.scatter(
+        at[:, 0], at[:, 1], c=values, s=size, cmap=colours[0], vmin=colours[1], vmax=most, marker="s"
+    )
     bar = panel.figure.colorbar(points, ax=panel, shrink=0.85)
     bar.set_label(label)

@@ -1,0 +1,102 @@
+"""Mats and inputs of several trials brought together into a gap case: reads, matches cells, writes, says so."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from geocontact.cli.output import written_whole
+from geocontact.cli.record import Record
+from geocontact.data.cell_channels import CellChannels, CellTrial
+from geocontact.data.errors import InputError
+from geocontact.data.gap_case import GapCase
+from geocontact.io.csv_text import Column
+from geocontact.io.gap_case import case_of, read_gap_case
+from geocontact.io.gap_case_writer import write_gap_case
+from geocontact.io.gathering import Gathering, read_gathering
+from geocontact.io.mat_results import CELLS, FRAMES, MatResult, read_mat_result
+from geocontact.io.side_table import read_side_table
+from geocontact.io.trial_set import alike
+from geocontact.io.trial_table import TrialTable, read_trial
+
+SHARED = 0.5  # of a trial's samples that the mat must have been recorded at
+ELSEWHERE = 0.01  # m, that a cell may lie away from where it lies on average without a word
+
+
+def gathered(path: Path, out: Path) -> int:
+    """Run the whole gathering."""
+    record = Record("gap gather", {"settings": path, "out": out})
+    with record.catching_warnings(), written_whole(out) as draft:
+        plan = read_gathering(path)
+        record.add_input("settings", path)
+        case = _case(record, path, plan, out)
+        write_gap_case(case, draft)
+        read_gap_case(draft)
+        record.write(draft)
+    sites = ", ".join(f"{site} ({len(own.ids)} cells)" for site, own in case.cells.items())
+    record.say(f"{len(plan.settings.trials)} trials with {sites} in {out}; next: geocontact gap diagnose {out} --out …")
+    record.speak()
+    return 0
+
+
+def _case(record: Record, path: Path, plan: Gathering, out: Path) -> GapCase:
+    mats: dict[str, dict[str, MatResult]] = {site: {} for site in plan.sites}
+    trials = {}
+    for name, source in plan.sources.items():
+        table = read_trial(source.inputs)
+        record.add_input(name, source.inputs, samples=len(table.signals.time))
+        for site in plan.sites:
+            if site not in source.mats:
+                raise InputError(path, f"[from.{name}]", f"has no mat of {site}", "every trial needs every site")
+            mats[site][name] = own = read_mat_result(source.mats[site])
+            record.add_input(f"{name} {site}", own.folder / FRAMES, cells=len(own.cells))
+            table = _with_force(table, site, own)
+        trials[name] = table
+    tables = {key: read_side_table(path.parent / file) for key, file in plan.settings.tables.items()}
+    if plan.settings.mesh:
+        raise InputError(path, "mesh", "a case with meshes is not gathered", "add them to the case by hand")
+    case = case_of(plan.settings, path, out.name, alike(trials), tables)
+    return replace(case, cells={site: _cells(record, site, own) for site, own in mats.items()})
+
+
+def _with_force(table: TrialTable, site: str, mat: MatResult) -> TrialTable:
+    """The trial with the mat's force at its own times, nothing where the mat was not recorded."""
+    name, signals = f"{site}_force", table.signals
+    if name in signals.channels:
+        raise InputError(table.file, "line 1", f"has a column '{name}' already", "strike it, or leave the mat out")
+    force = np.interp(signals.time, mat.time, mat.force, np.nan, np.nan)
+    if np.isfinite(force).mean() < SHARED:
+        what = f"runs from {signals.time[0]:g} to {signals.time[-1]:g} s, the mat in {mat.folder.name}"
+        times = f"{mat.time[0]:g} to {mat.time[-1]:g} s"
+        raise InputError(table.file, "", f"{what} from {times}", "put both on one clock")
+    widened = replace(
+        signals,
+        values=np.column_stack([signals.values, force]),
+        channels=(*signals.channels, name),
+        units=(*signals.units, "N"),
+    )
+    return replace(table, signals=widened, columns=(*table.columns, Column(name, "N", "N", 1.0)))
+
+
+def _cells(record: Record, site: str, mats: Mapping[str, MatResult]) -> CellChannels:
+    """Cells that every trial has, where they lie on average."""
+    first, *others = mats.values()
+    common = [cell for cell in first.cells if all(cell in other.cells for other in others)]
+    if not common:
+        raise InputError(first.folder / CELLS, "", f"no cell of {site} is in every trial", "are these the same mat?")
+    order = {name: [own.cells.index(cell) for cell in common] for name, own in mats.items()}
+    for name, own in mats.items():
+        if len(own.cells) > len(common):
+            record.warn(f"{len(own.cells) - len(common)} cells of {site} in {name} are not in every trial and left out")
+    places = np.array([own.place[order[name]] for name, own in mats.items()])
+    area = np.mean([own.area[order[name]] for name, own in mats.items()], axis=0)
+    off = np.linalg.norm(places - places.mean(axis=0), axis=2).max(axis=1)
+    if off.max() > ELSEWHERE:
+        worst = list(mats)[int(np.argmax(off))]
+        record.warn(f"the mat of {site} lies up to {off.max() * 1e3:.0f} mm elsewhere in {worst}; places are averages")
+    ids = tuple(f"r{row}c{column}" for row, column in common)
+    trials = {name: CellTrial(own.time, own.pressure[:, order[name]]) for name, own in mats.items()}
+    return CellChannels(f"{site}_force", ids, places.mean(axis=0), area, trials)
