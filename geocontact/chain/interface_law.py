@@ -1,10 +1,11 @@
 """Law of a strapped-on interface: a spring that pulls and pushes, and every term that may stand beside it.
 
-From the outside in: the attachment may slip; what is left is taken up by play first; the spring carries the rest, with
-its stiffening and asymmetry, and a Maxwell branch follows the spring; the damper follows the rate beyond the play;
-stops and the strap's tension see the deflection after slip, dry friction the displacement itself. Terms that are absent
-have neutral numbers and cost next to nothing, and the order in which they were added does not matter. At a joint the
-deflection is an angle and the force a moment: N m and rad in the place of N and m throughout.
+From the outside in: the attachment may slip; a contact that is open closes its gap; what is left is taken up by play;
+the spring carries the rest, with its stiffening and asymmetry, and a Maxwell branch follows the spring; the dampers,
+the base's `b` and a further one, follow the rate beyond the play; stops and the strap's tension see the deflection after
+slip, dry friction the displacement itself; and a contact that cannot pull lets go of a sum that would. Terms that are
+absent have neutral numbers and cost next to nothing, and the order in which they were added does not matter. At a joint
+the deflection is an angle and the force a moment: N m and rad in the place of N and m throughout.
 
 The law remembers `MEMORY` numbers per deflection: it reads those of the last accepted sample and writes those of this
 one, so it serves along a recorded motion, in an implicit solve and inside an integrator alike.
@@ -12,11 +13,14 @@ one, so it serves along a recorded motion, in an implicit solve and inside an in
 
 from __future__ import annotations
 
+import math
+
 from jaxtyping import Float
 from numpy import ndarray
 
 from geocontact.chain.slots import Slots
 from geocontact.chain.terms.asymmetry import direction_factor
+from geocontact.chain.terms.contact_loss import closed_by, pushing
 from geocontact.chain.terms.damping import power_damping
 from geocontact.chain.terms.dead_zone import beyond_play
 from geocontact.chain.terms.dry_friction import friction_at_rate, friction_state
@@ -56,6 +60,10 @@ INTERFACE_LAW = Slots(
         "asymmetry.turning": 1.0,
         "end_stop.power": 1.0,
         "end_stop.reference": 1.0,
+        "b": 0.0,
+        "contact_loss.gap": -math.inf,
+        "contact_loss.rounding": 0.0,
+        "contact_loss.side": 1.0,
     }
 )
 """Numbers of the law in the order in which the kernel reads them, each at the value that means nothing."""
@@ -76,6 +84,37 @@ def spring_force(taut: float, speed: float, n: Float[ndarray, " slots"]) -> floa
 
 
 @kernel
+def closed(attached: float, speed: float, n: Float[ndarray, " slots"]) -> tuple[float, float]:
+    """Deflection beyond the gap of a contact that may be open, and its rate; all of it where the contact is glued."""
+    if n[28] == -math.inf:
+        return attached, speed
+    overlap, share = closed_by(n[30] * attached - n[28], n[29])
+    return n[30] * overlap, speed * share
+
+
+@kernel
+def dashpots(speed: float, n: Float[ndarray, " slots"]) -> float:
+    """Force against the rate, the base's linear one and a further one."""
+    force = n[27] * speed
+    if n[14] != 0.0:
+        force += power_damping(speed, n[14], n[15], n[16])
+    return float(force)
+
+
+@kernel
+def beside(attached: float, n: Float[ndarray, " slots"]) -> float:
+    """Force of stops and strap, which see the deflection whether the contact is closed or not."""
+    force = 0.0
+    if n[8] != 0.0:
+        force += stop_force(attached, n[8], n[9], 1.0, n[25], n[26])
+    if n[10] != 0.0:
+        force += stop_force(attached, n[10], n[11], -1.0, n[25], n[26])
+    if n[19] != 0.0:
+        force += strap_tension(attached, n[19], n[20])
+    return force
+
+
+@kernel
 def interface_force(
     u: float,
     rate: float,
@@ -91,28 +130,24 @@ def interface_force(
     slip = slipped(old[SLIP], old[DEFLECTION], u, h, n[0], n[1], n[2])
     attached = u - slip
     speed = rate - (slip - old[SLIP]) / h if h > 0.0 else rate
-    taut = beyond_play(attached, n[3], n[4])
+    pressed, speed = closed(attached, speed, n)
+    taut = beyond_play(pressed, n[3], n[4])
     if n[3] > 0.0 and taut == 0.0:
         speed = 0.0
-    force = elastic = spring_force(taut, speed, n)
-    if n[8] != 0.0:
-        force += stop_force(attached, n[8], n[9], 1.0, n[25], n[26])
-    if n[10] != 0.0:
-        force += stop_force(attached, n[10], n[11], -1.0, n[25], n[26])
+    elastic = spring_force(taut, speed, n)
+    force = elastic + dashpots(speed, n) + beside(attached, n)
     branch = 0.0
     if n[12] != 0.0:
         branch = branch_force(old[BRANCH], elastic - old[ELASTIC], h, n[12], n[13])
         force += branch
-    if n[14] != 0.0:
-        force += power_damping(speed, n[14], n[15], n[16])
     friction = 0.0
     if n[17] != 0.0:
         friction = friction_state(old[FRICTION], u - old[DEFLECTION], n[18]) if h > 0.0 else 0.0
         force += n[17] * friction
-    if n[19] != 0.0:
-        force += strap_tension(attached, n[19], n[20])
     if n[21] != 0.0:
         force += n[21] * friction_at_rate(rate, n[22])
+    if n[28] != -math.inf:
+        force = pushing(force, n[30])
     new[DEFLECTION] = u
     new[SLIP] = slip
     new[FRICTION] = friction

@@ -6,6 +6,7 @@ from geocontact.chain.candidate import Candidate, Effect
 from geocontact.chain.system import System
 from geocontact.effects.asymmetry import ASYMMETRY
 from geocontact.effects.axis_migration import AXIS_MIGRATION
+from geocontact.effects.contact_loss import CONTACT_LOSS
 from geocontact.effects.crosstalk import CROSSTALK
 from geocontact.effects.damping import DAMPING
 from geocontact.effects.dead_zone import DEAD_ZONE
@@ -43,6 +44,7 @@ EFFECTS: tuple[Effect, ...] = (
     END_STOP,
     PRELOAD,
     SLIP,
+    CONTACT_LOSS,
     ASYMMETRY,
     GRAVITY_LOAD,
     INERTIA_LOAD,

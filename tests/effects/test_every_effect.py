@@ -21,8 +21,8 @@ VOCABULARY = {
     "knee": "time_shift filter_lag motion_offset axis_migration relaxation asymmetry sensor_gain sensor_offset "
     "sensor_drift saturation crosstalk unit_error sign_flip side_swap",
     "joint": "time_shift filter_lag motion_offset series_compliance stiffening damping relaxation dry_friction "
-    "dead_zone end_stop preload slip asymmetry gravity_load inertia_load sensor_gain sensor_offset sensor_drift "
-    "saturation unit_error sign_flip",
+    "dead_zone end_stop preload slip contact_loss asymmetry gravity_load inertia_load sensor_gain sensor_offset "
+    "sensor_drift saturation unit_error sign_flip",
 }
 STAGES = {"timing", "kinematics", "geometry", "constitutive", "load", "sensor", "data"}
 
