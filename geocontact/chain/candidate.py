@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from geocontact.chain.places import placed
 from geocontact.chain.system import System
 from geocontact.data.gap_case import LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter
@@ -98,6 +99,8 @@ class Effect:
         Where the formula is from.
     needs
         Numbers of the law or the geometry that it sets; a system that is not listed gets it where these are free.
+    together
+        Whether, of several places of contact, all may have it alike; what depends on where a place is may not.
     """
 
     name: str
@@ -106,6 +109,7 @@ class Effect:
     offer: Callable[[System], tuple[Candidate, ...]]
     source: str
     needs: tuple[str, ...] = ()
+    together: bool = True
 
     def applies(self, system: System) -> bool:
         """Whether the vocabulary, or else the links of the system, admit it."""
@@ -116,4 +120,8 @@ class Effect:
 
     def candidates(self, system: System) -> tuple[Candidate, ...]:
         """Candidates for a system, with bounds from its scale; none where the effect does not apply."""
-        return self.offer(system) if self.applies(system) else ()
+        if not self.applies(system):
+            return ()
+        return (
+            placed(self.offer, system, together=self.together) if self.needs and system.places else self.offer(system)
+        )

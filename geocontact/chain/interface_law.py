@@ -2,7 +2,7 @@
 
 From the outside in: the attachment may slip; a contact that is open closes its gap; what is left is taken up by play;
 the spring carries the rest, with its stiffening and asymmetry, and a Maxwell branch follows the spring; the dampers,
-the base's `b` and a further one, follow the rate beyond the play; stops and the strap's tension see the deflection after
+the base's and a further one, follow the rate beyond the play; stops and the strap's tension see the deflection after
 slip, dry friction the displacement itself; and a contact that cannot pull lets go of a sum that would. Terms that are
 absent have neutral numbers and cost next to nothing, and the order in which they were added does not matter. At a joint
 the deflection is an angle and the force a moment: N m and rad in the place of N and m throughout.

@@ -130,6 +130,14 @@ class Geometry(Protocol):
         """Deflections and their rates without any load, for scales."""
 
 
+@runtime_checkable
+class Places(Geometry, Protocol):
+    """A geometry of several places of contact that do not feel each other; numbers of each are called "thigh.rho"."""
+
+    def at(self, place: str) -> Geometry:
+        """The geometry of one place, its numbers named as if there were no other."""
+
+
 @dataclass(frozen=True)
 class Law:
     """Load of a deflection and of its history; which law it is, the geometry that drives it knows.

@@ -28,6 +28,8 @@ class Scale:
         Largest magnitude of each measured channel.
     centre, span
         Middle and half-range of each input.
+    places
+        The same for each place of a system that has several.
     """
 
     deflection: float = 1.0
@@ -39,6 +41,7 @@ class Scale:
     output: Mapping[str, float] = field(default_factory=dict)
     centre: Mapping[str, float] = field(default_factory=dict)
     span: Mapping[str, float] = field(default_factory=dict)
+    places: Mapping[str, Scale] = field(default_factory=dict)
 
     def of(self, channel: str) -> float:
         """Magnitude of a channel, 1 when it is not known."""

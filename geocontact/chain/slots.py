@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
@@ -45,6 +45,17 @@ class Slots:
             if name in self.sources:
                 raise ValueError(f"{name} is set already, by {self.sources[name]}")
         return replace(self, sources={**self.sources, **sources})
+
+    def apart(self, places: Sequence[str]) -> Slots:
+        """The same numbers once for every place, "thigh.k"; those of the first place come first."""
+        neutral = {f"{place}.{name}": value for place in places for name, value in self.neutral.items()}
+        return Slots(neutral, {f"{place}.{name}": s for place in places for name, s in self.sources.items()})
+
+    def at(self, place: str) -> Slots:
+        """The numbers of one place, named as if there were no other."""
+        here = f"{place}."
+        neutral = {name.removeprefix(here): v for name, v in self.neutral.items() if name.startswith(here)}
+        return Slots(neutral, {name.removeprefix(here): s for name, s in self.sources.items() if name.startswith(here)})
 
     def numbers(self, values: Mapping[str, float]) -> Float[np.ndarray, " slots"]:
         """All numbers in order; KeyError for a name that has no value."""

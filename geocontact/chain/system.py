@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.implicit import NotConverged
-from geocontact.chain.links import Balance, Geometry, Law, Motion, Sensor
+from geocontact.chain.links import Balance, Geometry, Law, Motion, Places, Sensor
 from geocontact.chain.scale import Scale, scale_of
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
@@ -54,6 +54,9 @@ class System:
         Inputs that the base does not use; effects may.
     bias
         Largest constant error of an input that is plausible, where the model knows more of it than its unit says.
+    places
+        Where it makes contact, if there are several places that do not feel each other; the names of their channels and
+        the numbers of their law and geometry begin with theirs ("thigh_force", "thigh.k").
     """
 
     name: str
@@ -70,6 +73,7 @@ class System:
     own: tuple[Offering, ...] = ()
     spare: tuple[str, ...] = ()
     bias: Mapping[str, float] = field(default_factory=dict)
+    places: tuple[str, ...] = ()
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -132,4 +136,27 @@ class System:
         """
         numbers = [{**trial.covariates, **self.known, **self.start, **(values or {})} for trial in trials]
         movements = [self.motion.seen(trial, known) for trial, known in zip(trials, numbers, strict=True)]
-        return replace(self, scale=scale_of(self.geometry, self.outputs, trials, movements, numbers))
+
+        def of(one: System) -> Scale:
+            return scale_of(one.geometry, one.outputs, trials, movements, numbers)
+
+        return replace(self, scale=replace(of(self), places={place: of(self.at(place)) for place in self.places}))
+
+    def at(self, place: str) -> System:
+        """The base as if it made contact at one place only; ValueError when it has no such place."""
+        if place not in self.places or not isinstance(self.geometry, Places):
+            raise ValueError(f"{self.name}: no place {place}; it has {', '.join(self.places) or 'none'}")
+        inputs, outputs = (
+            tuple(name for name in names if name.startswith(f"{place}_")) for names in (self.inputs, self.outputs)
+        )
+        return replace(
+            self,
+            motion=Motion(inputs, reach=self.motion.reach),
+            geometry=self.geometry.at(place),
+            law=replace(self.law, slots=self.law.slots.at(place)),
+            balance=Balance(outputs, self.balance.total),
+            sensor=Sensor(outputs),
+            scale=self.scale.places.get(place, self.scale),
+            spare=tuple(name for name in self.spare if name in inputs),
+            places=(),
+        )

@@ -1,7 +1,8 @@
-"""A length of the joint changes with its angle: x of the elbow, whose axis wanders; R of the knee.
+"""A length of the joint changes with its angle: x of the elbow, whose axis wanders; R of the knee; ρ of a site.
 
 x → x + a φ + c φ², φ = β - the middle of the measured range, so that x keeps its meaning there. a of either sign, a few
-centimetres per radian; the curvature c is the shape. Its rate moves the deflection as well.
+centimetres per radian; the curvature c is the shape. Its rate moves the deflection as well. The lever ρ of a
+strapped-on site changes with the site's own rotation, which is small: by `LEVER` over half its range at most.
 """
 
 from __future__ import annotations
@@ -11,12 +12,20 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_geometry
 
+LEVER = 0.15
+"""Largest plausible change of the lever of a site [m], as far as an attachment reaches."""
+
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude a, shape c."""
-    a = Parameter("axis_migration.slope", "m/rad", 0.005, -0.05, 0.05)
-    c = Parameter("axis_migration.curvature", "m/rad^2", 0.0, -0.03, 0.03)
-    centre = system.scale.centre.get(system.geometry.yields, 0.0)
+    angle = next((name for name in system.inputs if system.unit(name) == "rad"), system.geometry.yields)
+    most, bend = 0.05, 0.03
+    if system.name == "sit_to_stand":
+        half = system.scale.span.get(angle, 1.0)
+        most, bend = LEVER / half, LEVER / half**2
+    a = Parameter("axis_migration.slope", "m/rad", 0.1 * most, -most, most)
+    c = Parameter("axis_migration.curvature", "m/rad^2", 0.0, -bend, bend)
+    centre = system.scale.centre.get(angle, 0.0)
     link = with_geometry({a.name: a.name, c.name: c.name, "axis_migration.centre": centre})
     neutral = {a.name: 0.0, c.name: 0.0}
     return (Candidate("axis_migration", "", "geometry", (a, c), link, neutral, ({a.name: -a.start},)),)
@@ -25,7 +34,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
 AXIS_MIGRATION = Effect(
     "axis_migration",
     "geometry",
-    ("elbow", "knee"),
+    ("elbow", "knee", "sit_to_stand"),
     offer,
     "instantaneous axis of the elbow: Bottlang et al. (2000) J. Orthop. Res. 18:821; R(φ) of a knee: `geocontact fit`",
     ("axis_migration.slope", "axis_migration.curvature", "axis_migration.centre"),

@@ -33,5 +33,9 @@ def offer(system: System) -> tuple[Candidate, ...]:
 
 
 FILTER_LAG = Effect(
-    "filter_lag", "sensor", ("elbow", "foot", "knee"), offer, "anti-alias and smoothing filters of amplifiers"
+    "filter_lag",
+    "sensor",
+    ("elbow", "foot", "knee", "sit_to_stand"),
+    offer,
+    "anti-alias and smoothing filters of amplifiers",
 )

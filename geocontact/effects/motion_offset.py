@@ -1,6 +1,7 @@
 """Constant bias of one input that the model uses: angle, marker height, pitch, contact area.
 
 input → input + offset, of either sign. The foot's x is not offered: only its rate enters, so a bias of it is invisible.
+Of a strapped-on site the normal displacement is: a bias of its rotation is one of that, ρ times as large.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ USED = {
     "elbow": (("beta", "rad", 0.35),),
     "foot": (("y", "m", 0.01), ("pitch", "rad", 0.15)),
     "knee": (("area_medial", "m^2", 1e-4), ("area_lateral", "m^2", 1e-4)),
+    "sit_to_stand": tuple((f"{site}_normal", "m", 0.01) for site in ("pelvis", "thigh", "shank")),
 }
 """Inputs by system, with their unit and the largest bias; of other systems every angle and length (`System.bias`)."""
 
@@ -46,13 +48,14 @@ def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate per input that matters."""
     units = ((name, system.unit(name)) for name in system.inputs)
     measured = tuple((name, unit, system.bias.get(name, PLAUSIBLE[unit])) for name, unit in units if unit in PLAUSIBLE)
-    return tuple(biased(system, name, unit, most) for name, unit, most in USED.get(system.name, measured))
+    used = USED.get(system.name, measured)
+    return tuple(biased(system, name, unit, most) for name, unit, most in used if name in system.inputs)
 
 
 MOTION_OFFSET = Effect(
     "motion_offset",
     "kinematics",
-    ("elbow", "foot", "knee"),
+    ("elbow", "foot", "knee", "sit_to_stand"),
     offer,
     "marker placement and alignment errors: Della Croce et al. (2005) Gait Posture 21:226",
 )

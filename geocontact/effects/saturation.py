@@ -53,4 +53,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
     return tuple(saturated(system, name) for name in system.outputs)
 
 
-SATURATION = Effect("saturation", "sensor", ("elbow", "foot", "knee"), offer, "range of an amplifier or converter")
+SATURATION = Effect(
+    "saturation", "sensor", ("elbow", "foot", "knee", "sit_to_stand"), offer, "range of an amplifier or converter"
+)

@@ -49,5 +49,5 @@ def offer(system: System) -> tuple[Candidate, ...]:
 
 
 SENSOR_DRIFT = Effect(
-    "sensor_drift", "sensor", ("elbow", "foot", "knee"), offer, "warm-up drift of strain-gauge sensors"
+    "sensor_drift", "sensor", ("elbow", "foot", "knee", "sit_to_stand"), offer, "warm-up drift of strain-gauge sensors"
 )

@@ -39,4 +39,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
     return (*single, scaled(system, "forces", forces)) if len(forces) > 1 else single
 
 
-SENSOR_GAIN = Effect("sensor_gain", "sensor", ("elbow", "foot", "knee"), offer, "calibration error of a linear sensor")
+SENSOR_GAIN = Effect(
+    "sensor_gain", "sensor", ("elbow", "foot", "knee", "sit_to_stand"), offer, "calibration error of a linear sensor"
+)

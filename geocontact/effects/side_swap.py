@@ -33,4 +33,6 @@ def swapped(system: System, a: str, b: str) -> Candidate:
     return output_fault("side_swap", f"{a}_{b}", SWAP, change)
 
 
-SIDE_SWAP = Effect("side_swap", "data", ("foot", "knee"), offer, "cables of two channels of one device exchanged")
+SIDE_SWAP = Effect(
+    "side_swap", "data", ("foot", "knee", "sit_to_stand"), offer, "cables of two channels of one device exchanged"
+)

@@ -24,4 +24,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
     return (*outputs, *inputs)
 
 
-SIGN_FLIP = Effect("sign_flip", "data", ("elbow", "foot", "knee"), offer, "sense of axes that two devices do not share")
+SIGN_FLIP = Effect(
+    "sign_flip", "data", ("elbow", "foot", "knee", "sit_to_stand"), offer, "sense of axes that two devices do not share"
+)

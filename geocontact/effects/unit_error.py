@@ -80,4 +80,6 @@ def offer(system: System) -> tuple[Candidate, ...]:
     return tuple(found)
 
 
-UNIT_ERROR = Effect("unit_error", "data", ("elbow", "foot", "knee"), offer, "NIST SP 811, conversion factors")
+UNIT_ERROR = Effect(
+    "unit_error", "data", ("elbow", "foot", "knee", "sit_to_stand"), offer, "NIST SP 811, conversion factors"
+)

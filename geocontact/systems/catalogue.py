@@ -9,9 +9,10 @@ from geocontact.systems.elbow_exoskeleton import ELBOW
 from geocontact.systems.knee_implant import KNEE
 from geocontact.systems.own import own_system
 from geocontact.systems.prosthetic_foot import FOOT
+from geocontact.systems.sit_to_stand import SIT_TO_STAND
 from geocontact.systems.tried import refusal, tried
 
-SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT, KNEE)
+SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT, KNEE, SIT_TO_STAND)
 
 
 def system_of(case: GapCase) -> System:
