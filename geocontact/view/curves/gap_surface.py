@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 HEIGHT = 0.070  # [m]
 MM = 1e3
+FAINT = 0.1  # of the largest part, below which a negative one is not drawn as such
 CELL = 110.0  # pt, that all cells of a square mat side by side are drawn as wide
 
 
@@ -59,7 +60,7 @@ def flattened(place: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
 
 def _map(panel: Axes, at: Float[np.ndarray, "n 2"], values: Float[np.ndarray, " n"], size: float, label: str) -> None:
     most = float(np.abs(values).max()) or 1.0
-    colours = ("RdBu_r", -most) if (values < 0.0).any() else ("Blues", 0.0)
+    colours = ("RdBu_r", -most) if values.min() < -FAINT * most else ("Blues", 0.0)
     points = panel.scatter(
         at[:, 0], at[:, 1], c=values, s=size, cmap=colours[0], vmin=colours[1], vmax=most, marker="s"
     )
