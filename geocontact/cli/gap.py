@@ -10,4 +10,5 @@ gap = App(
 )
 gap.command("geocontact.cli.gap_diagnose:diagnose", name="diagnose")
 gap.command("geocontact.cli.gap_gather:gather", name="gather")
+gap.command("geocontact.cli.gap_plant:plant", name="plant")
 gap.command("geocontact.cli.gap_benchmark:benchmark", name="benchmark")

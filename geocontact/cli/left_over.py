@@ -34,14 +34,19 @@ MODULUS = (
 )  # fmt: skip
 GAP = (
     "diagnosis.json",
-    *(f"{name}.csv" for name in ("gap_map", "ranking", "held_out", "trials", "summary")),
+    *(f"{name}.csv" for name in ("gap_map", "ranking", "held_out", "trials", "surface", "summary")),
     "report.html",
 )
+TABLES = ("wrench", "uncertainty", "cells", "frames_cells", "segments", "registration", "agreement")
+MAT = (
+    *(f"{name}.{ending}" for name in TABLES for ending in ("csv", "parquet")),
+    "mat.png", "mat.svg", "mat_on_surface.vtp", "report.html",
+)  # fmt: skip
 BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
-NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *MODULUS, *GAP, *BENCHMARK, RUN})
+NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *MODULUS, *MAT, *GAP, *BENCHMARK, RUN})
 PARAVIEW = "paraview"
 PICTURES = re.compile(
-    r"(gap_map|ranking|gap_residuals|before_after_\w+)\.(png|svg)"
+    r"(gap_map|ranking|gap_residuals|before_after_\w+|gap_surface_\w+)\.(png|svg)"
     r"|still_[a-z_0-9.,−-]+\.png|paraview/(both|fixed|moving)\.pvd|paraview/frames/(fixed|moving)_\d+\.vtp"
 )
 """The only files that are ever removed: those that a run writes, and only where its run.json lists them."""

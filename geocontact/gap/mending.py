@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.chain.candidate import Candidate
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.faults import Fault
@@ -26,14 +27,22 @@ def mended(case: GapCase, fault: Fault) -> GapCase:
     )
 
 
+def mistaken(trial: Trial, one: Candidate) -> Trial:
+    """A trial with a mistake in its data made."""
+    return _times(trial, one, one.factor)
+
+
 def _mended(trial: Trial, fault: Fault) -> Trial:
-    if trial.name not in fault.trials:
-        return trial
+    one = fault.candidate
+    return _times(trial, one, 1.0 / one.factor) if trial.name in fault.trials else trial
+
+
+def _times(trial: Trial, one: Candidate, factor: float) -> Trial:
+    """The channel of the mistake times a factor, or its two channels exchanged."""
     channels = trial.signals.channels
     values = trial.signals.values.copy()
-    one = fault.candidate
     if one.channel:
-        values[:, channels.index(one.channel)] /= one.factor
+        values[:, channels.index(one.channel)] *= factor
     else:
         a, b = exchanged(one.variant, channels)
         values[:, [a, b]] = values[:, [b, a]]

@@ -42,16 +42,21 @@ def write_gap_case(
     if case.meshes:
         raise ValueError("a case with meshes is not written: its surfaces belong to files, which it does not know")
     home, wanted = Path(folder), units or {}
-    (home / TRIALS).mkdir(parents=True, exist_ok=True)
-    for trial in (*case.calibration, *case.evaluation):
-        table = _trial_table(trial, wanted)
-        file = home / TRIALS / f"{trial.name}.csv"
-        table.to_csv(file, index=False, float_format=f"%.{digits}g", lineterminator="\n")
+    write_trials(case, home, wanted, digits)
     for key, table in case.tables.items():
         table.to_csv(home / _file_of(key), index=False, lineterminator="\n")
     for site, cells in case.cells.items():
         _write_cells(home, site, cells, digits)
     (home / SETTINGS).write_text("\n".join(_settings(case, wanted)) + "\n", encoding="utf-8", newline="\n")
+
+
+def write_trials(case: GapCase, home: Path, units: Mapping[str, str] | None = None, digits: int = DIGITS) -> None:
+    """Write trials/<id>.csv only, over those that are there."""
+    (home / TRIALS).mkdir(parents=True, exist_ok=True)
+    for trial in (*case.calibration, *case.evaluation):
+        table = _trial_table(trial, units or {})
+        file = home / TRIALS / f"{trial.name}.csv"
+        table.to_csv(file, index=False, float_format=f"%.{digits}g", lineterminator="\n")
 
 
 def _file_of(key: str) -> str:

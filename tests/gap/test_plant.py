@@ -1,0 +1,82 @@
+"""A known effect in measured trials: what is changed, what stays, how large the gap is."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from geocontact.data.gap_case import GapCase
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.plant import chosen, plant, visible
+from geocontact.gap.problem import Problem, problem_of
+from geocontact.systems.catalogue import system_of
+from tests.elsewhere import Elsewhere
+from tests.gap.cases import elbow_case
+
+
+def made_ready() -> tuple[GapCase, Problem]:
+    case = elbow_case(seed=6)
+    return case, problem_of(case, system_of(case))
+
+
+def sizes(label: str, wanted: float) -> tuple[float, float, dict[str, float]]:
+    """Size that was said, the gap that a refit of the base leaves on trials without noise, and the values."""
+    case, problem = made_ready()
+    one = chosen(candidates(problem.system), label)
+    made = plant(case, problem, one, {}, wanted)
+    return made.size, visible(problem, one.apply(problem.system), made.values), dict(made.values)
+
+
+def changes(label: str, values: dict[str, float]) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Of every trial: time, force before, force with the effect."""
+    case, problem = made_ready()
+    made = plant(case, problem, chosen(candidates(problem.system), label), values, 1.0).case
+    pairs = zip((*case.calibration, *case.evaluation), (*made.calibration, *made.evaluation), strict=True)
+    return [(a.time, a.column("force"), b.column("force")) for a, b in pairs]
+
+
+@pytest.mark.parametrize("wanted", [0.5, 3.0])
+def test_the_amplitude_makes_the_gap_that_is_asked_for(elsewhere: Elsewhere, wanted: float) -> None:
+    said, there, values = elsewhere(sizes, "damping", wanted)
+    assert said == pytest.approx(wanted, rel=1e-3) and there == said
+    assert values["damping.b"] > 0.0
+
+
+def test_what_base_parameters_imitate_stops_at_a_bound(elsewhere: Elsewhere) -> None:
+    said, _, values = elsewhere(sizes, "sensor_gain.force", 1.0)
+    assert said < 1e-3 and values["sensor_gain.force.gain"] in (-0.8, 2.0)
+
+
+def test_a_sensors_effect_acts_on_what_was_measured(elsewhere: Elsewhere) -> None:
+    """Noise is amplified and clipped with the signal."""
+    for _, before, after in elsewhere(changes, "sensor_gain.force", {"sensor_gain.force.gain": 1.5}):
+        np.testing.assert_allclose(after, 2.5 * before, rtol=1e-12)
+    sharp = {"saturation.force.level": 3.0, "saturation.force.softness": 0.0}
+    for _, before, after in elsewhere(changes, "saturation.force", sharp):
+        np.testing.assert_allclose(after, np.minimum(before, 3.0), atol=1e-9)
+        assert (before > 3.5).any()
+
+
+def test_other_effects_add_what_the_model_says(elsewhere: Elsewhere) -> None:
+    """A preload of 4 N is 4 N more, on top of every bit of noise."""
+    for _, before, after in elsewhere(changes, "preload", {"preload.tension": 4.0, "preload.slackening": 0.0}):
+        np.testing.assert_allclose(after - before, 4.0, rtol=1e-9)
+
+
+def test_a_mistake_is_made_in_the_trials_that_are_named() -> None:
+    case, problem = made_ready()
+    one = chosen(candidates(problem.system), "sign_flip.beta")
+    made = plant(case, problem, one, {}, 1.0, frozenset({"t02"})).case
+    for a, b in zip((*case.calibration, *case.evaluation), (*made.calibration, *made.evaluation), strict=True):
+        np.testing.assert_array_equal(b.column("beta"), -a.column("beta") if a.name == "t02" else a.column("beta"))
+        np.testing.assert_array_equal(b.column("force"), a.column("force"))
+
+
+def test_names_are_those_of_candidates() -> None:
+    _, problem = made_ready()
+    offered = candidates(problem.system)
+    assert chosen(offered, "damping").name == "damping"
+    with pytest.raises(ValueError, match=r"unit_error has variants; choose one of unit_error\.force"):
+        chosen(offered, "unit_error")
+    with pytest.raises(ValueError, match=r"'rust' is no effect of this system; there are time_shift, filter_lag"):
+        chosen(offered, "rust")
