@@ -190,9 +190,9 @@ def _places(
         column = np.where(row % 2, columns - 1 - column, column)
     elif layout.serpentine:
         row = np.where(column % 2, rows - 1 - row, row)
-    row = rows - 1 - row if layout.origin.startswith("bottom") else row
-    turned = layout.origin.endswith("right") != bool(layout.mirrored)
-    return row, columns - 1 - column if turned else column
+    below = layout.origin.startswith("bottom") != layout.columns_turned
+    aside = layout.origin.endswith("right") != layout.rows_turned
+    return rows - 1 - row if below else row, columns - 1 - column if aside else column
 
 
 def _within(

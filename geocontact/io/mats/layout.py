@@ -52,11 +52,23 @@ def _cells(value: object) -> tuple[tuple[int, int], ...]:
     return cells
 
 
+def _mirrored(value: object) -> bool | Turned | None:
+    if value is None or isinstance(value, bool):
+        return value
+    known: dict[object, Turned] = {"rows": "rows", "columns": "columns", "both": "both"}
+    if isinstance(value, str) and value in known:
+        return known[value]
+    raise ValueError('input should be a valid boolean, or "rows", "columns" or "both"')
+
+
 def _unit(text: str) -> str:
     if pressure_unit(text) is None:
         raise ValueError("expected a unit of pressure: Pa, kPa, mmHg, psi, N/cm2, bar, kg/cm2")
     return text
 
+
+Turned = Literal["rows", "columns", "both"]
+"""What runs backwards: each row, each column, or each of both."""
 
 Count = Annotated[int, Field(ge=1, le=MOST_LINES)]
 Positive = Annotated[float, PlainValidator(_positive)]
@@ -79,7 +91,9 @@ class MatLayout(BaseModel):
     origin
         Corner at which the file's own drawing of the mat has its first value; "top-left" where nothing is said.
     mirrored
-        The file shows the mat from behind, so that each row runs the wrong way; rows are turned back.
+        The file shows the mat from behind, so that each row runs the wrong way; rows are turned back. "rows",
+        "columns" or "both" say which run the wrong way. A Tekscan file names them itself (MIRROR_ROW, MIRROR_COL):
+        true turns back what it names.
     masked, dead
         Cells that are not there and cells that do not work, as [row, column] from 0 in the returned grid.
     sensors
@@ -99,7 +113,7 @@ class MatLayout(BaseModel):
     serpentine: bool = False
     first_id: Literal[0, 1] = 1
     origin: Literal["top-left", "top-right", "bottom-left", "bottom-right"] = "top-left"
-    mirrored: bool | None = None
+    mirrored: Annotated[bool | Turned | None, PlainValidator(_mirrored)] = None
     masked: Cells = ()
     dead: Cells = ()
     sensors: dict[str, Cells] = {}
@@ -109,6 +123,16 @@ class MatLayout(BaseModel):
     delimiter: Literal[",", ";", "tab"] | None = None
     decimal: Literal[".", ","] | None = None
     file: str = ""
+
+    @property
+    def rows_turned(self) -> bool:
+        """Whether each row runs backwards in the file."""
+        return self.mirrored in (True, "rows", "both")
+
+    @property
+    def columns_turned(self) -> bool:
+        """Whether each column runs backwards in the file."""
+        return self.mirrored in ("columns", "both")
 
     @property
     def pitch(self) -> tuple[float, float] | None:

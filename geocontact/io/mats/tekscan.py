@@ -16,13 +16,16 @@ from itertools import dropwhile, islice
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import Recording, frames_of
-from geocontact.io.mats.layout import LARGEST, MOST_LINES, SMALLEST, MatLayout
+from geocontact.io.mats.layout import LARGEST, MOST_LINES, SMALLEST, MatLayout, Turned
 from geocontact.io.mats.text import MatText, Notation, notation_of, shown
 from geocontact.io.mats.units import area_unit, length_unit, pressure_unit
 
 KIND = "tekscan"
 
 NO_SENSEL = "B"
+
+MIRRORS: dict[str, Turned] = {"MIRROR_ROW": "rows", "MIRROR_COL": "columns"}
+"""Keys that name what runs backwards."""
 
 _DATA = re.compile(r"ASCII_DATA\b")
 _FRAME = re.compile(r"Frame\s+(?P<number>\d{1,9})\b", re.IGNORECASE)
@@ -43,7 +46,7 @@ def read_tekscan(text: MatText, layout: MatLayout | None) -> tuple[PressureFrame
     layout = layout or MatLayout()
     rows = text.lines()
     keys = _keys(rows, text.file)
-    _require_known_side(keys, layout, text.file)
+    layout = _seen_from_front(keys, layout, text.file)
     size = _count(keys, "ROWS", layout.rows, text.file), _count(keys, "COLS", layout.columns, text.file)
     numbers, lines, values = _frames(rows, size, _notation(text, layout), text.file)
     _check_count(keys, numbers, text.file)
@@ -138,13 +141,26 @@ def _check_count(keys: Keys, numbers: list[int], file: str) -> None:
         raise InputError(file, f"line {line}", what, "is the file cut off?")
 
 
-def _require_known_side(keys: Keys, layout: MatLayout, file: str) -> None:
-    """A mirrored export may or may not have its values mirrored: only who made it knows."""
-    for key in ("MIRROR_ROW", "MIRROR_COL"):
+def _seen_from_front(keys: Keys, layout: MatLayout, file: str) -> MatLayout:
+    """The layout, its `mirrored = true` made to mean what the file says of it.
+
+    MIRROR_ROW is taken to say that each row runs backwards, MIRROR_COL that each column does. Whether the values of
+    the export run so too, or only its picture on the screen, Tekscan does not publish: who made it knows.
+    """
+    named: list[Turned] = []
+    for key, turned in MIRRORS.items():
         line, text = keys.get(key, (0, "0"))
-        if text not in ("0", "") and layout.mirrored is None:
-            what = f"{key} is {shown(text)}: rows may run as seen from behind the mat"
-            raise InputError(file, f"line {line}", what, "say mirrored = true (turn rows back) or false in the layout")
+        if text in ("0", ""):
+            continue
+        named.append(turned)
+        if layout.mirrored is None:
+            what = f"{key} is {shown(text)}: {turned} may run as seen from behind the mat"
+            raise InputError(
+                file, f"line {line}", what, f"say mirrored = true (turn {turned} back) or false in the layout"
+            )
+    if layout.mirrored is not True or not named:
+        return layout
+    return layout.model_copy(update={"mirrored": "both" if len(named) > 1 else named[0]})
 
 
 def _count(keys: Keys, key: str, declared: int | None, file: str) -> int:

@@ -9,16 +9,17 @@ from __future__ import annotations
 
 import re
 from array import array
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.csv_text import LONGEST_NAME
 from geocontact.io.mats.cells import Recording, frames_of
-from geocontact.io.mats.layout import LARGEST, MOST_LINES, SMALLEST, MatLayout
+from geocontact.io.mats.layout import MOST_LINES, MatLayout
 from geocontact.io.mats.text import MatText, Notation, notation_of, shown
-from geocontact.io.mats.units import area_unit, length_unit, pressure_unit
+from geocontact.io.mats.units import area_unit, length_unit
+from geocontact.io.mats.xsensor_units import SIZES, Keys, in_one_unit, pascals, require_same_size, size_of
 
 KIND = "xsensor"
 
@@ -31,9 +32,6 @@ _CLOCK = re.compile(
 )
 _DAY = 86400.0
 _NEEDED = frozenset({"rows", "columns"})
-
-Keys = dict[str, tuple[int, str, str]]
-"""Line, unit in brackets and value of each key, in lower case."""
 
 Rows = list[tuple[int, str]]
 """Line and text of each row of a frame."""
@@ -48,6 +46,7 @@ class _Sensor:
     lines: list[int] = field(default_factory=list)
     frames: list[int | None] = field(default_factory=list)
     clock: list[float | None] = field(default_factory=list)
+    units: list[tuple[int, str, str] | None] = field(default_factory=list)
     values: array[float] = field(default_factory=lambda: array("d"))
 
 
@@ -145,12 +144,14 @@ def _new(keys: Keys, known: int, layout: MatLayout, line: int, file: str) -> _Se
 
 
 def _begin(sensor: _Sensor, keys: Keys, block: Keys, line: int, file: str) -> None:
-    """A frame of a sensor; its size may not differ from the sensor's first frame."""
+    """A frame of a sensor; its size and that of its cells may not differ from the sensor's first frame."""
     own = {key: block.get(key, sensor.keys.get(key)) for key in _NEEDED}
     for key, size in zip(("rows", "columns"), sensor.size, strict=True):
         if (said := own[key]) is not None and said[2] != str(size):
             what = f"{key.capitalize()} is {shown(said[2])} where the sensor's first frame has {size}"
             raise InputError(file, f"line {said[0]}", what, "export one size of frame")
+    require_same_size(sensor.keys, block, file)
+    sensor.units.append(block.get("units"))
     sensor.lines.append(line)
     number = keys.get("frame", (0, "", ""))[2].replace(",", "").replace(".", "")
     sensor.frames.append(int(number[:9]) if number.isdecimal() else None)
@@ -181,19 +182,19 @@ def _seconds(said: tuple[int, str, str], file: str) -> float:
 
 def _recording(name: str, sensor: _Sensor, start: tuple[float, int], layout: MatLayout, file: str) -> Recording:
     keys = sensor.keys
-    width = _size(keys, "sensel width", length_unit, file)
-    height = _size(keys, "sensel height", length_unit, file)
+    width, height = (size_of(keys, key, length_unit, file) for key in SIZES[:2])
+    unit = pascals(keys.get("units"), file)
     return Recording(
         file,
         name,
         _times(sensor, start, layout),
         sensor.lines,
-        sensor.values,
-        _unit(keys, file),
+        in_one_unit(sensor.values, sensor.units, unit, file),
+        unit,
         rows=sensor.size[0],
         columns=sensor.size[1],
         pitch=None if height is None or width is None else (height, width),
-        cell_area=_size(keys, "sensel area", area_unit, file),
+        cell_area=size_of(keys, SIZES[2], area_unit, file),
     )
 
 
@@ -215,30 +216,3 @@ def _since(start: float, clock: list[float]) -> list[float]:
         seconds.append(now + days - start)
         before = now
     return seconds
-
-
-def _size(keys: Keys, key: str, unit_of: Callable[[str], float | None], file: str) -> float | None:
-    """A positive length or area in SI; None without the key."""
-    if key not in keys:
-        return None
-    line, unit, text = keys[key]
-    factor = unit_of(unit)
-    if factor is None:
-        what = f"{key.title()} is in '{shown(unit)}', which is not a unit known here"
-        raise InputError(file, f"line {line}", what, "export it in cm or in")
-    try:
-        number = float(text.replace(",", "."))
-    except ValueError:
-        number = 0.0
-    if not SMALLEST <= number <= LARGEST:
-        raise InputError(file, f"line {line}", f"{key.title()} is '{shown(text)}'", "expected a positive number")
-    return number * factor
-
-
-def _unit(keys: Keys, file: str) -> float | None:
-    line, _, text = keys.get("units", (0, "", ""))
-    factor = pressure_unit(text) if line else None
-    if line and factor is None:
-        what = f"Units is '{shown(text)}', which is not a unit of pressure known here"
-        raise InputError(file, f"line {line}", what, "export pressures, calibrated, in kPa")
-    return factor

@@ -24,6 +24,11 @@ DRAWN = {
     'origin = "bottom-left"': [[4, 5, 6], [1, 2, 3]],
     'origin = "bottom-right"': [[6, 5, 4], [3, 2, 1]],
     "mirrored = true": [[3, 2, 1], [6, 5, 4]],
+    'mirrored = "rows"': [[3, 2, 1], [6, 5, 4]],
+    'mirrored = "columns"': [[4, 5, 6], [1, 2, 3]],
+    'mirrored = "both"': [[6, 5, 4], [3, 2, 1]],
+    'origin = "bottom-left"\nmirrored = "columns"': [[1, 2, 3], [4, 5, 6]],
+    'order = "column"\nmirrored = "columns"': [[2, 4, 6], [1, 3, 5]],
     'origin = "top-right"\nmirrored = true': [[1, 2, 3], [4, 5, 6]],
     'origin = "bottom-left"\nserpentine = true': [[6, 5, 4], [1, 2, 3]],
     'order = "column"\norigin = "bottom-right"': [[6, 4, 2], [5, 3, 1]],
@@ -122,6 +127,25 @@ def test_mirrored_rows_of_tekscan_are_turned_back_when_the_layout_says_so(tmp_pa
     (turned,) = read_mat(mirrored, layout(tmp_path, "mirrored = true"))
     np.testing.assert_array_equal(kept.pressure, plain.pressure)
     np.testing.assert_array_equal(turned.pressure, plain.pressure[:, :, ::-1])
+
+
+@pytest.mark.parametrize(
+    ("named", "turned"),
+    [(("ROW",), np.s_[:, :, ::-1]), (("COL",), np.s_[:, ::-1]), (("ROW", "COL"), np.s_[:, ::-1, ::-1])],
+)
+def test_tekscan_turns_back_what_its_file_names(tmp_path: Path, named: tuple[str, ...], turned: object) -> None:
+    text = TEKSCAN
+    for axis in named:
+        text = text.replace(f"MIRROR_{axis} 0", f"MIRROR_{axis} 1")
+    mirrored = write(tmp_path, text, "m.asf")
+    (plain,) = read_mat(write(tmp_path, TEKSCAN, "seat.asf"))
+    (kept,) = read_mat(mirrored, layout(tmp_path, "mirrored = false"))
+    (back,) = read_mat(mirrored, layout(tmp_path, "mirrored = true"))
+    (both,) = read_mat(mirrored, layout(tmp_path, 'mirrored = "both"'))
+    np.testing.assert_array_equal(kept.pressure, plain.pressure)
+    np.testing.assert_array_equal(back.pressure, plain.pressure[turned])
+    np.testing.assert_array_equal(both.pressure, plain.pressure[:, ::-1, ::-1], "what the layout names goes first")
+    assert not back.valid[0 if "COL" not in named else -1, 0]
 
 
 BAD = {

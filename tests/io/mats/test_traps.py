@@ -100,6 +100,12 @@ EDITS = {
     "tekscan spacing": ("tekscan", "10.16 mm", "0 mm", "line 7: ROW_SPACING is '0 mm'"),
     "tekscan spacing unit": ("tekscan", "10.16 mm", "10.16 cubits", "line 7: ROW_SPACING is in 'cubits'"),
     "tekscan mirrored": ("tekscan", "MIRROR_ROW 0", "MIRROR_ROW 1", "line 19: MIRROR_ROW is 1: rows may run as seen"),
+    "tekscan columns mirrored": (
+        "tekscan",
+        "MIRROR_COL 0",
+        "MIRROR_COL 1",
+        "line 20: MIRROR_COL is 1: columns may run as seen from behind the mat; say mirrored = true (turn columns back)",
+    ),
     "tekscan cut": ("tekscan", TEKSCAN[TEKSCAN.index("13,14") :], "", "line 28: frame 7 has 1 of 3 rows"),
     "tekscan cut inside a row": ("tekscan", TEKSCAN[TEKSCAN.index(",15,16") :], "", "line 30: 2 cells where COLS is 4"),
     "tekscan frame missing": (
@@ -154,6 +160,18 @@ EDITS = {
     "xsensor time": ("xsensor", "00:00:00,000", "noon", "line 28: Time is 'noon'"),
     "xsensor time stands": ("xsensor", "00:00:00,000", "23:59:59,900", "line 30: time 0 s does not follow 0 s"),
     "xsensor unit": ("xsensor", '"psi"', '"counts"', "line 24: Units is 'counts'"),
+    "xsensor other number of columns": (
+        "xsensor",
+        '"2"\nTime',
+        '"2"\nColumns:,"2"\nTime',
+        "line 28: Columns is 2 where the sensor's first frame has 3",
+    ),
+    "xsensor other cell": (
+        "xsensor",
+        '"2"\nTime',
+        '"2"\nSensel Width (cm):,"1,0"\nTime',
+        "line 28: Sensel Width is 1,0 where the sensor's first frame has 0,5; export one size of cell",
+    ),
     "xsensor width": ("xsensor", 'Width (in):,"0,5"', 'Width (px):,"0,5"', "line 7: Sensel Width is in 'px'"),
     "xsensor rows": ("xsensor", 'Rows:,"2"', 'Rows:,"two"', "line 5: Rows is 'two'"),
 }
@@ -262,6 +280,48 @@ def test_xsensor_without_quotes_and_with_points(tmp_path: Path) -> None:
     (quoted, _) = read_mat(write(tmp_path, XSENSOR))
     np.testing.assert_array_equal(seat.pressure, quoted.pressure[:1])
     assert seat.pitch == quoted.pitch
+
+
+def test_xsensor_that_names_its_unit_above_every_frame_may_change_it(tmp_path: Path) -> None:
+    """1 psi is 51.7149 mmHg; the second frame holds the same pressures in psi."""
+    names = 'Sensor:,"Seat"\n"10,00","11,25","12,50"\n"13,75","15,00","16,25"'
+    in_psi = 'Sensor:,"Seat"\nUnits:,"psi"\n"0,1","0,2","0,3"\n"0,4","0,5","0,6"'
+    assert names in XSENSOR
+    seat, back = read_mat(write(tmp_path, XSENSOR.replace(names, in_psi)))
+    np.testing.assert_allclose(
+        seat.pressure[1], 6894.757293168361 * np.array([[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]]), rtol=1e-12
+    )
+    np.testing.assert_allclose(seat.pressure[0, 1], 133.322387415 * np.array([3.75, 5.0, 6.25]), rtol=1e-12)
+    np.testing.assert_allclose(back.pressure[1], 6894.757293168361 * np.array([[2.5, 3.5]]), rtol=1e-12)
+
+
+ONE_FRAME = '"1","1","1"\n"1","1","1"\n'
+SEAT = XSENSOR.split("\n\nSensor:", 1)[0]
+
+
+@pytest.mark.parametrize(
+    ("first", "later", "declared", "expected"),
+    [
+        ("mmHg", ("psi", None), "", "line 19: Units is psi and was not before, and 1 frames of the sensor name none"),
+        (None, ("psi", "psi"), 'unit = "mmHg"', "line 18: Units is psi and was not before, and 1 frames of the"),
+        ("mmHg", ("psi", "counts"), "", "line 24: Units is 'counts', which is not a unit of pressure"),
+    ],
+)
+def test_xsensor_whose_unit_changes_where_frames_name_none_is_refused(
+    tmp_path: Path, first: str | None, later: tuple[str | None, ...], declared: str, expected: str
+) -> None:
+    text = SEAT if first else SEAT.replace('Units:,"mmHg"\n', "")
+    for k, unit in enumerate(later):
+        text += f'\nTime:,"00:00:0{k},500"\n' + (f'Units:,"{unit}"\n' if unit else "") + ONE_FRAME
+    line = refusal(tmp_path, text, declared)
+    assert line.startswith(expected), line
+
+
+def test_xsensor_may_say_the_same_again_in_other_words(tmp_path: Path) -> None:
+    text = XSENSOR.replace('"2"\nTime', '"2"\nUnits:,"MMHG"\nSensel Width (cm):,"1,27"\nTime')
+    assert text != XSENSOR
+    for one, other in zip(read_mat(write(tmp_path, text)), read_mat(write(tmp_path, XSENSOR)), strict=True):
+        np.testing.assert_array_equal(one.pressure, other.pressure)
 
 
 def test_clock_of_twelve_hours(tmp_path: Path) -> None:
