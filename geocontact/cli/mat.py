@@ -47,6 +47,9 @@ class MatOptions:
         Zero-lag Butterworth low-pass [Hz]; 0 for none.
     unloaded
         Times without load [s], for offset, and drift where there are two: 0:0.5,9:9.5
+    dead
+        Cells that never change while those around them are pressed are told. warn: and used as they read. mask: and
+        left out. fill: and filled from their neighbours, as those are that the layout lists as dead.
     touched
         Pressure from which a cell counts as touched: 1kPa unless given.
     gate
@@ -87,6 +90,7 @@ class MatOptions:
     frame: str | None = None
     cutoff: float = 6.0
     unloaded: Annotated[str | None, Dashed] = None
+    dead: Literal["warn", "mask", "fill"] = "warn"
     touched: str = "1kPa"
     gate: float = 5.0
     body_landmarks: Path | None = None

@@ -30,6 +30,7 @@ from geocontact.geometry.surface import Surface
 from geocontact.io.mat_landmarks import MatLandmarks, read_mat_landmarks
 from geocontact.io.units import LENGTH
 from geocontact.loads.mat_errors import MatErrors, wrench_covariance
+from geocontact.loads.mat_fill import filling_covariance
 from geocontact.loads.mat_load import mat_load, segment_loads
 from geocontact.loads.mat_map import MatMap, mat_map
 
@@ -154,6 +155,7 @@ def _loads(record: Record, p: Placed, seen: Recording, o: MatOptions) -> Result:
     parts = segment_loads(p.map, pressure, origin, frame, _segments(record, p, o), o.gate, touched)
     errors = _errors(o)
     spread = wrench_covariance(p.map, pressure, whole.wrench, errors)
+    spread += filling_covariance(p.map, pressure, whole.wrench, seen.gaps)
     heaviest = int(np.argmax(whole.pressing))
     record.results["load"] = {
         "frame": frame,

@@ -6,16 +6,18 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from geocontact.cli import quantities
 from geocontact.cli.mat import MatOptions
+from geocontact.cli.mat_dead import treated
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.identify.zero_lag import zero_lag
 from geocontact.io.mats.catalogue import read_mat
 from geocontact.io.mats.layout import read_layout
+from geocontact.loads.mat_fill import Hole
 from geocontact.loads.mat_offset import Unloaded, unloaded
 
 UNEVEN = 0.6  # of a step that a frame may come early or late, as clocks are rounded; a lost frame is off by one
@@ -34,11 +36,17 @@ class Recording:
         As they were read.
     clipped
         Largest pressure below zero that was set to 0 [Pa].
+    gaps
+        Dead cells that were filled.
+    saturated
+        Cells that count and clip, as they were read; filled ones do not.
     """
 
     frames: PressureFrames
     read: PressureFrames
     clipped: float
+    gaps: tuple[Hole, ...]
+    saturated: Bool[np.ndarray, "t r c"]
 
 
 def recording(record: Record, path: Path, o: MatOptions) -> Recording:
@@ -55,12 +63,14 @@ def recording(record: Record, path: Path, o: MatOptions) -> Recording:
     pressure = np.where(read.valid, read.pressure, 0.0)
     if o.unloaded is not None:
         pressure = pressure - _zero(read, pressure, o).at(read.time)
-    pressure = _smooth(read, pressure, o)
+    sound = treated(record, read, pressure, layout.dead if layout else (), o.dead)
+    pressure, valid = _smooth(read, sound.pressure, o), sound.valid
     low = float(min(pressure.min(initial=0.0), 0.0))
-    pressure = np.where(read.valid, np.maximum(pressure, 0.0), np.nan)
-    frames = replace(read, pressure=pressure)
-    _say_what_is_odd(record, read, frames, o)
-    return Recording(frames, read, -low)
+    pressure = np.where(valid, np.maximum(pressure, 0.0), np.nan)
+    frames = replace(read, pressure=pressure, valid=valid)
+    saturated = read.saturated & valid & ~sound.guessed
+    _say_what_is_odd(record, frames, saturated, o)
+    return Recording(frames, read, -low, sound.gaps, saturated)
 
 
 def _chosen(mats: tuple[PressureFrames, ...], o: MatOptions) -> PressureFrames:
@@ -101,17 +111,18 @@ def _smooth(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOp
         raise InputError("", "--cutoff", str(error), "give a lower one, or 0 for none") from error
 
 
-def _say_what_is_odd(record: Record, read: PressureFrames, frames: PressureFrames, o: MatOptions) -> None:
-    clipping = read.saturated & read.valid
+def _say_what_is_odd(
+    record: Record, frames: PressureFrames, clipping: Bool[np.ndarray, "t r c"], o: MatOptions
+) -> None:
     if clipping.any():
         cells, share = int(clipping.any(axis=0).sum()), clipping.any(axis=(1, 2)).mean()
         record.warn(
-            f"{cells} cells clip at {read.saturation * 1e-3:g} kPa, in {share:.0%} of the frames: forces are too low"
+            f"{cells} cells clip at {frames.saturation * 1e-3:g} kPa, in {share:.0%} of the frames: forces are too low"
         )
-    dead = int((~read.valid).sum())
+    dead = int((~frames.valid).sum())
     if dead:
-        record.say(f"{dead} of {read.valid.size} places of the grid have no working cell")
-    silent = read.valid & ~(frames.pressure > 0.0).any(axis=0)
+        record.say(f"{dead} of {frames.valid.size} places of the grid have no working cell")
+    silent = frames.valid & ~(frames.pressure > 0.0).any(axis=0)
     if silent.any() and not silent.all():
         record.results["silent_cells"] = np.argwhere(silent).tolist()
     force = frames.force

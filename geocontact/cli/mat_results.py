@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact import __version__
 from geocontact.cli.figures import save_both
@@ -62,7 +62,7 @@ class Result:
 def write_results(record: Record, r: Result, agreed: pd.DataFrame | None, o: MatOptions, folder: Path) -> None:
     """Tables with point and frame in their first lines, the surface for ParaView, figure and page."""
     time = r.seen.frames.time
-    _write(load_table(r.whole, time), folder, "wrench", r, o)
+    _write(load_table(r.whole, time).assign(**_saturated(r)), folder, "wrench", r, o)
     _write(uncertainty_table(r), folder, "uncertainty", r, o)
     write_table(cell_table(r), folder, o.parquet, "cells")
     write_table(frames_table(r), folder, o.parquet, "frames_cells")
@@ -134,7 +134,7 @@ def cell_table(r: Result) -> pd.DataFrame:
             "area [m^2]": r.map.area,
             "distortion [-]": r.laid.distortion[row, column],
             "peak [Pa]": r.pressure.max(axis=0, initial=0.0),
-            "saturated_frames": r.seen.read.saturated[:, row, column].sum(axis=0),
+            "saturated_frames": r.seen.saturated[:, row, column].sum(axis=0),
         }
     )
 
@@ -143,6 +143,12 @@ def frames_table(r: Result) -> pd.DataFrame:
     """Pressure of each cell over time, as gap cases hold cell channels."""
     columns = {f"c{k} [Pa]": r.pressure[:, k] for k in range(r.pressure.shape[1])}
     return pd.DataFrame({"time [s]": r.seen.frames.time, **columns})
+
+
+def _saturated(r: Result) -> dict[str, Int[np.ndarray, " t"]]:
+    """How many cells clip in each frame: forces are too low then."""
+    row, column = r.map.cell.T
+    return {"saturated [-]": r.seen.saturated[:, row, column].sum(axis=1)}
 
 
 def _write(table: pd.DataFrame, folder: Path, name: str, r: Result, o: MatOptions) -> None:

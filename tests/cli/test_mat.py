@@ -15,6 +15,7 @@ from tests.cli.calls import MESHES, Call, call, done, written
 COLUMNS = [
     "time [s]", "fx [N]", "fy [N]", "fz [N]", "mx [N m]", "my [N m]", "mz [N m]", "normal [N]", "perpendicular [N]",
     "area [mm^2]", "peak [Pa]", "mean [Pa]", "cop_x [mm]", "cop_y [mm]", "cop_z [mm]",
+    "saturated [-]",
 ]  # fmt: skip
 FILES = {
     "wrench.csv", "uncertainty.csv", "cells.csv", "frames_cells.csv", "mat_on_surface.vtp", "mat.png", "mat.svg",

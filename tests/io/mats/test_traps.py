@@ -104,7 +104,7 @@ EDITS = {
         "tekscan",
         "MIRROR_COL 0",
         "MIRROR_COL 1",
-        "line 20: MIRROR_COL is 1: columns may run as seen from behind the mat; say mirrored = true (turn columns back)",
+        "line 20: MIRROR_COL is 1: columns may run as seen from behind the mat; say mirrored = true (turn columns",
     ),
     "tekscan cut": ("tekscan", TEKSCAN[TEKSCAN.index("13,14") :], "", "line 28: frame 7 has 1 of 3 rows"),
     "tekscan cut inside a row": ("tekscan", TEKSCAN[TEKSCAN.index(",15,16") :], "", "line 30: 2 cells where COLS is 4"),
