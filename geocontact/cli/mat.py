@@ -72,7 +72,11 @@ class MatOptions:
     registration
         How far the mat may lie elsewhere, along and about each axis: 1mm,2deg
     compare
-        Forces of a model (or of a plate) over time, columns as in wrench.csv: agreement in agreement.csv.
+        Forces of a model (or of a plate) over time, columns as in wrench.csv: agreement in agreement.csv. Lines
+        `# point_mm = ...` and `# frame = ...` above it are heeded.
+    phases
+        Phases of the recording for --compare: name, start [s], end [s]; a name may come back in every cycle. Tenths of
+        the recording without.
     parquet
         Also write the tables as .parquet.
     """
@@ -102,6 +106,7 @@ class MatOptions:
     gain: str | None = None
     registration: str | None = None
     compare: Path | None = None
+    phases: Path | None = None
     parquet: Annotated[bool, Flag] = False
 
 

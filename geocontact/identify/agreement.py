@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -10,6 +11,10 @@ from jaxtyping import Float
 
 FEWEST = 3  # samples that both have
 NAN = float("nan")
+LONGEST = 0.5  # s, of the lags that are looked at
+LONG_ENOUGH = 20  # samples of a stretch that tells a lag
+RANGE = 0.25  # of the shortest stretch: the lags that are looked at in it
+SHARP = 0.02  # that the correlation falls on both sides of a lag that is told
 OVERLAP = 0.5  # of the samples that a lag must leave to both
 
 
@@ -42,7 +47,7 @@ class Agreement:
 
 
 def agreement(
-    model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], step: float, longest: float = 0.5
+    model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], step: float, longest: float = LONGEST
 ) -> Agreement:
     """Curves on the same evenly spaced times, `step` [s] apart; samples that are NaN in either do not count.
 
@@ -76,12 +81,46 @@ def per_phase(
     return [replace(each, lag=NAN) for each in found]
 
 
+def over_stretches(
+    model: Float[np.ndarray, " t"],
+    measured: Float[np.ndarray, " t"],
+    step: float,
+    stretches: Sequence[tuple[int, int]],
+) -> Agreement:
+    """The same over several stretches taken together, as a phase that comes back in every cycle.
+
+    A lag is told where the stretches are long enough: each has at least `LONG_ENOUGH` samples; lags up to `RANGE` of
+    the shortest are looked at; and the correlation, of pairs inside the stretches only, is largest within that range
+    and `SHARP` above both of its ends. A phase in which the load only rises or only falls steadily tells none: it is
+    NaN then, and the correlation is that without lag.
+
+    Parameters
+    ----------
+    stretches
+        First sample of each, and the one after its last.
+    """
+    shortest = min(b - a for a, b in stretches)
+    most = min(round(LONGEST / step), int(RANGE * shortest)) if shortest >= LONG_ENOUGH else 0
+    apart = np.full(most, np.nan)
+    one, other = (
+        np.concatenate([part for a, b in stretches for part in (curve[a:b], apart)]) for curve in (model, measured)
+    )
+    plain = replace(agreement(one, other, step, 0.0), lag=NAN)
+    around = _correlations(one, other, most)
+    at = int(np.nanargmax(around)) if np.isfinite(around).any() else 0
+    ends = float(np.max(around[[0, -1]]))
+    if not (0 < at < 2 * most and around[at] - ends >= SHARP):
+        return plain
+    lag, correlation = lag_of(one, other, step, most * step)
+    return replace(plain, lag=lag, correlation=correlation)
+
+
 def lag_of(
     model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], step: float, longest: float
 ) -> tuple[float, float]:
     """Lag [s] of the largest correlation, a parabola through it and its neighbours, and that correlation."""
     most = min(round(longest / step), int((1.0 - OVERLAP) * len(model)))
-    found = np.array([_correlation(model, measured, k) for k in range(-most, most + 1)])
+    found = _correlations(model, measured, most)
     if not np.isfinite(found).any():
         return NAN, NAN
     at = int(np.nanargmax(found))
@@ -91,6 +130,13 @@ def lag_of(
         bend = left - 2.0 * middle + right
         shift = 0.5 * float(left - right) / float(bend) if bend < 0.0 else 0.0
     return float((at - most + shift) * step), float(found[at])
+
+
+def _correlations(
+    model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], most: int
+) -> Float[np.ndarray, " lags"]:
+    """Of the model from `most` samples early to as many late."""
+    return np.array([_correlation(model, measured, k) for k in range(-most, most + 1)])
 
 
 def _correlation(model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], late: int) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.identify.agreement import agreement, per_phase
+from geocontact.identify.agreement import agreement, over_stretches, per_phase
 from geocontact.identify.zero_lag import zero_lag
 
 STEP = 0.02
@@ -63,3 +63,54 @@ def test_a_cut_off_beyond_the_sampling_is_refused() -> None:
         zero_lag(np.zeros(100), 0.1, 6.0)
     with pytest.raises(ValueError, match="too few"):
         zero_lag(np.zeros(4), 0.005, 6.0)
+
+
+def cycles(late: float) -> tuple[np.ndarray, list[tuple[int, int]]]:
+    """A bump in each of three cycles, in a phase of 60 samples; what lies between is another curve."""
+    at = np.full(len(TIME), 5.0)
+    stretches = [(20, 80), (150, 210), (300, 360)]
+    for first, last in stretches:
+        middle = 0.5 * (TIME[first] + TIME[last - 1])
+        at[first:last] = np.exp(-(((TIME[first:last] - middle - late) / 0.15) ** 2))
+    return at, stretches
+
+
+@pytest.mark.parametrize("late", [-0.11, 0.0, 0.07])
+def test_a_phase_that_comes_back_is_pooled_and_tells_its_lag(late: float) -> None:
+    model, stretches = cycles(late)
+    measured, _ = cycles(0.0)
+    found = over_stretches(model, measured, STEP, stretches)
+    inside = np.concatenate([np.arange(a, b) for a, b in stretches])
+    assert found.samples == 180
+    assert found.rmsd == pytest.approx(np.sqrt(np.mean((model - measured)[inside] ** 2)))
+    assert found.lag == pytest.approx(late, abs=0.004) and found.correlation > 0.995
+
+
+def test_pairs_of_samples_never_reach_into_the_next_stretch() -> None:
+    """What lies outside, and how stretches follow one another, does not matter."""
+    model, stretches = cycles(0.07)
+    measured, _ = cycles(0.0)
+    outside = np.ones(len(TIME), bool)
+    for a, b in stretches:
+        outside[a:b] = False
+    plain = over_stretches(model, measured, STEP, stretches)
+    assert over_stretches(np.where(outside, -90.0, model), measured, STEP, stretches) == plain
+    turned = over_stretches(model, measured, STEP, stretches[::-1])
+    assert (turned.lag, turned.rmsd) == pytest.approx((plain.lag, plain.rmsd), rel=1e-12)
+
+
+@pytest.mark.parametrize("stretches", [[(0, 200), (200, 219)], [(0, 12)]])
+def test_a_short_stretch_tells_no_lag(stretches: list[tuple[int, int]]) -> None:
+    found = over_stretches(curve(0.1), curve(), STEP, stretches)
+    assert np.isnan(found.lag) and found.rmsd > 0.0
+    a, b = np.concatenate([np.arange(*each) for each in stretches])[[0, -1]]
+    assert found.correlation == pytest.approx(np.corrcoef(curve(0.1)[a : b + 1], curve()[a : b + 1])[0, 1])
+
+
+def test_a_steady_rise_tells_no_lag() -> None:
+    """Every shift of a straight line is a straight line; so is nearly every one of the rise to a plateau's foot."""
+    ramp = over_stretches(TIME + 0.2, TIME, STEP, [(50, 150)])
+    assert np.isnan(ramp.lag) and ramp.correlation == pytest.approx(1.0)
+    assert np.isnan(over_stretches(np.ones(400), curve(), STEP, [(50, 150)]).lag)
+    late = over_stretches(curve(0.9), curve(), STEP, [(50, 150)])
+    assert np.isnan(late.lag), "a lag beyond the range that is looked at is not one at its end"

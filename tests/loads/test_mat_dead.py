@@ -91,6 +91,21 @@ def test_on_a_mat_with_noise_whatever_stands_still_is_dead() -> None:
     assert found(mat_of(np.round(pressure, -4))) == [], "noise below the last digit"
 
 
+def beside_the_load(still: bool) -> np.ndarray:
+    """All cells give a little under the heaviest load; one at the edge of the patch does not."""
+    pressure = bump(6.0, 3.0, 3.5)
+    lift = np.maximum(np.sin(np.linspace(0.0, np.pi, 60)) - 0.8, 0.0)[:, None, None]
+    pressure = pressure + 2e3 * lift
+    pressure[:, 6, 7 if still else 4] = 0.0
+    return pressure
+
+
+def test_a_cell_at_the_edge_of_the_patch_may_stand_still() -> None:
+    """Three of its neighbours are pressed, five are not."""
+    assert found(mat_of(beside_the_load(still=True))) == []
+    assert found(mat_of(beside_the_load(still=False))) == [[6, 4]]
+
+
 def two_thighs(gap: int) -> np.ndarray:
     pressure = bump(6.0, 2.0, 12.0) + bump(6.0, 7.0, 12.0)
     pressure[:, :, 4 : 4 + gap] = 0.0
