@@ -11,6 +11,7 @@ from jaxtyping import Bool
 from geocontact.cli import quantities
 from geocontact.cli.bodies import chosen_faces, read_surface
 from geocontact.cli.mat import MatOptions
+from geocontact.cli.mat_beside import projection_beside
 from geocontact.cli.mat_comparison import compared
 from geocontact.cli.mat_reading import Recording, recording
 from geocontact.cli.mat_registration import registered
@@ -56,7 +57,7 @@ def analyse(path: Path, o: MatOptions) -> int:
             placed = _mapped(surface, laid, seen.frames)
         result = _loads(record, Placed(surface, laid, placed, marks, found), seen, o)
         agreed = compared(record, result, o)
-        write_results(record, result, agreed, o, draft)
+        write_results(record, result, agreed, projection_beside(record, result, o), o, draft)
         record.write(draft)
         written = sorted(file.name for file in draft.iterdir())
     record.say(f"results in {o.out}: {', '.join(written)}")

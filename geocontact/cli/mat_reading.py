@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -38,15 +39,20 @@ class Recording:
         Largest pressure below zero that was set to 0 [Pa].
     gaps
         Dead cells that were filled.
-    saturated
-        Cells that count and clip, as they were read; filled ones do not.
     """
 
     frames: PressureFrames
     read: PressureFrames
     clipped: float
     gaps: tuple[Hole, ...]
-    saturated: Bool[np.ndarray, "t r c"]
+
+    @cached_property
+    def saturated(self) -> Bool[np.ndarray, "t r c"]:
+        """Cells that count and clip, as they were read; filled ones do not."""
+        clipping = self.read.saturated & self.frames.valid
+        for hole in self.gaps:
+            clipping[:, hole.cell[:, 0], hole.cell[:, 1]] = False
+        return np.asarray(clipping)
 
 
 def recording(record: Record, path: Path, o: MatOptions) -> Recording:
@@ -68,9 +74,9 @@ def recording(record: Record, path: Path, o: MatOptions) -> Recording:
     low = float(min(pressure.min(initial=0.0), 0.0))
     pressure = np.where(valid, np.maximum(pressure, 0.0), np.nan)
     frames = replace(read, pressure=pressure, valid=valid)
-    saturated = read.saturated & valid & ~sound.guessed
-    _say_what_is_odd(record, frames, saturated, o)
-    return Recording(frames, read, -low, sound.gaps, saturated)
+    found = Recording(frames, read, -low, sound.gaps)
+    _say_what_is_odd(record, found, o)
+    return found
 
 
 def _chosen(mats: tuple[PressureFrames, ...], o: MatOptions) -> PressureFrames:
@@ -111,9 +117,8 @@ def _smooth(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOp
         raise InputError("", "--cutoff", str(error), "give a lower one, or 0 for none") from error
 
 
-def _say_what_is_odd(
-    record: Record, frames: PressureFrames, clipping: Bool[np.ndarray, "t r c"], o: MatOptions
-) -> None:
+def _say_what_is_odd(record: Record, seen: Recording, o: MatOptions) -> None:
+    frames, clipping = seen.frames, seen.saturated
     if clipping.any():
         cells, share = int(clipping.any(axis=0).sum()), clipping.any(axis=(1, 2)).mean()
         record.warn(

@@ -28,6 +28,7 @@ from geocontact.loads.mat_load import MatLoad
 from geocontact.loads.mat_map import MatMap
 from geocontact.view.mat_figure import mat_figure
 from geocontact.view.mat_page import MatStory, write_mat_report
+from geocontact.view.page.content import Table
 from geocontact.view.surfaces.mat_vtp import write_mat_vtp
 
 MM, MM2 = 1e3, 1e6
@@ -59,12 +60,30 @@ class Result:
     registration: Registration | None
 
 
-def write_results(record: Record, r: Result, agreed: pd.DataFrame | None, o: MatOptions, folder: Path) -> None:
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """The same mat as the closest points would have laid it.
+
+    Parameters
+    ----------
+    distortion
+        Area of each cell of the grid over that of the flat cell, minus 1; NaN where it is not covered.
+    table
+        The two ways beside each other, for the page.
+    """
+
+    distortion: Float[np.ndarray, "r c"]
+    table: Table
+
+
+def write_results(
+    record: Record, r: Result, agreed: pd.DataFrame | None, beside: Beside | None, o: MatOptions, folder: Path
+) -> None:
     """Tables with point and frame in their first lines, the surface for ParaView, figure and page."""
     time = r.seen.frames.time
     _write(load_table(r.whole, time).assign(**_saturated(r)), folder, "wrench", r, o)
     _write(uncertainty_table(r), folder, "uncertainty", r, o)
-    write_table(cell_table(r), folder, o.parquet, "cells")
+    write_table(cell_table(r, beside), folder, o.parquet, "cells")
     write_table(frames_table(r), folder, o.parquet, "frames_cells")
     if r.parts:
         tables = [load_table(part, time).assign(segment=name) for name, part in r.parts.items()]
@@ -90,7 +109,7 @@ def write_results(record: Record, r: Result, agreed: pd.DataFrame | None, o: Mat
         folder / "report.html",
         f"{r.seen.frames.name} on {r.surface.name}",
         story,
-        (options_table(record),),
+        (*(() if beside is None else (beside.table,)), options_table(record)),
         record.warnings,
     )
 
@@ -120,7 +139,7 @@ def uncertainty_table(r: Result) -> pd.DataFrame:
     return pd.DataFrame({"time [s]": r.seen.frames.time, **{name: sd[:, k] for k, name in enumerate(names)}})
 
 
-def cell_table(r: Result) -> pd.DataFrame:
+def cell_table(r: Result, beside: Beside | None) -> pd.DataFrame:
     """Where each cell lies, which way it looks, how its area changed: in the form that gap cases name a layout."""
     row, column = r.map.cell.T
     normal = r.laid.normal[row, column]
@@ -133,6 +152,7 @@ def cell_table(r: Result) -> pd.DataFrame:
             **{f"n{axis} [-]": normal[:, k] for k, axis in enumerate(AXES)},
             "area [m^2]": r.map.area,
             "distortion [-]": r.laid.distortion[row, column],
+            **({} if beside is None else {"distortion_projected [-]": beside.distortion[row, column]}),
             "peak [Pa]": r.pressure.max(axis=0, initial=0.0),
             "saturated_frames": r.seen.saturated[:, row, column].sum(axis=0),
         }
