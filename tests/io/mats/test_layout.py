@@ -48,6 +48,19 @@ def test_columns_are_found_by_their_ids(tmp_path: Path) -> None:
     np.testing.assert_allclose(mat.pressure[0], 6894.757293168361 * np.array([[1.5, 2.5, 3.5], [4.5, 5.5, 6.5]]))
 
 
+def test_the_layout_says_how_cells_are_written_where_the_file_leaves_it_in_doubt(tmp_path: Path) -> None:
+    """Semicolons, and commas that may be decimal or may part thousands."""
+    text = write(tmp_path, "time [s];1;2;3;4;5;6\n0;1,5;2;3;4;5;6\n")
+    (plain,) = read_mat(text, layout(tmp_path, GRID_LAYOUT))
+    (said,) = read_mat(text, layout(tmp_path, GRID_LAYOUT + 'delimiter = ";"\ndecimal = ","'))
+    np.testing.assert_array_equal(said.pressure, plain.pressure)
+    assert said.pressure[0, 0, 0] == pytest.approx(1500.0)
+    with pytest.raises(InputError, match="'1,5' in cell 1 is not a number with a decimal point"):
+        read_mat(text, layout(tmp_path, GRID_LAYOUT + 'decimal = "."'))
+    with pytest.raises(InputError):
+        read_mat(text, layout(tmp_path, GRID_LAYOUT + 'delimiter = "tab"'))
+
+
 def test_cells_that_are_not_in_the_file_are_absent(tmp_path: Path) -> None:
     text = "time [s]\t0\t2\t5\n0,5\t1,5\t2\t3\n1,5\t4\t5,25\t6\n"
     with pytest.warns(InputWarning, match="3 of 6 cells of 'mat' are not in the file; taken as absent"):
@@ -103,6 +116,8 @@ def test_factors_of_units_are_exact() -> None:
         "MPA": 1e6,
         "Pa": 1.0,
         "bar": 1e5,
+        "mbar": 1e2,
+        "hPa": 1e2,
         "PSI": pound_force / inch**2,
         "mmHg": 13595.1 * 9.80665e-3,
         "N/cm2": 1e4,
