@@ -50,7 +50,7 @@ def projection_beside(record: Record, r: Result, o: MatOptions) -> Beside | None
         if np.isfinite(centre).any()
         else None,
     }
-    return Beside(flat.distortion, _table(r, flat, draped, projected, at))
+    return Beside(np.where(flat.covered, flat.distortion, -1.0), _table(r, flat, draped, projected, at))
 
 
 def _load(r: Result, placed: MatMap, o: MatOptions) -> MatLoad:

@@ -67,7 +67,7 @@ class Beside:
     Parameters
     ----------
     distortion
-        Area of each cell of the grid over that of the flat cell, minus 1; NaN where it is not covered.
+        Area of each cell of the grid over that of the flat cell, minus 1; so -1 where it is not on the scan.
     table
         The two ways beside each other, for the page.
     """

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from geocontact.io.mat_results import read_mat_result
 from tests.cli.calls import MESHES, Call, call, done, written
 from tests.cli.test_mat import LAYOUT, STILL, frames, mat, scan, table, uniform
 
@@ -58,6 +59,37 @@ def test_nothing_pressed_has_no_centre_to_compare(tmp_path: Path) -> None:
     told = done(mat(tmp_path, uniform(40, 0.0), *STILL)).record()["results"]["closest_point_projection"]
     assert told["centre_of_pressure_differs_mm"] is None and told["centre_of_pressure_differs_at_most_mm"] is None
     assert told["force_differs_N"] == 0.0
+
+
+def waves(x: np.ndarray) -> np.ndarray:
+    """Folds of skin, 6 mm up and down every 40 mm [mm]."""
+    return 6.0 * np.sin(2.0 * np.pi * x / 40.0)
+
+
+def test_cells_that_a_flat_mat_leaves_beside_the_scan(tmp_path: Path) -> None:
+    """On 112 mm of folded skin a mat of 120 mm lies when it follows the folds; flat, it ends beside the scan."""
+    x, y = np.linspace(-2.0, 110.0, 113), np.arange(0.0, 61.0, 6.0)
+    lines = [f"v {a} {b} {waves(a):.9g}" for a in x for b in y]
+    for k in (len(y) * i + j + 1 for i in range(len(x) - 1) for j in range(len(y) - 1)):
+        lines += [f"f {k} {k + len(y)} {k + len(y) + 1}", f"f {k} {k + len(y) + 1} {k + 1}"]
+    fine = np.linspace(0.0, 40.0, 4001)
+    period = float(np.hypot(np.diff(fine), np.diff(waves(fine))).sum()) / 10.0  # in rows
+    rows = [f"m{r}{c},{r * period:.6f},{c},{40 * r},{10 + 10 * c},0" for r in (0, 1, 2) for c in (0, 3)]
+    marks = written(tmp_path / "marks.csv", "\n".join(["id, row, column, x [mm], y [mm], z [mm]", *rows]) + "\n")
+    names = [f"r{r}c{c}" for r in range(12) for c in range(3)]
+    readings = [",".join(["time [s]", *names]), *(",".join([f"{0.02 * k:g}", *["10"] * 36]) for k in range(20))]
+    result = done(call(
+        "mat", written(tmp_path / "frames.csv", "\n".join(readings) + "\n"), "--layout",
+        written(tmp_path / "layout.toml", 'rows = 12\ncolumns = 3\npitch_mm = 10\nunit = "kPa"\n'), "--surface",
+        written(tmp_path / "folds.obj", "\n".join(lines) + "\n"), "--unit", "mm", "--landmarks", marks, "--out",
+        tmp_path / "out", *STILL, folder=tmp_path / "out",
+    ))  # fmt: skip
+    told = result.record()["results"]["closest_point_projection"]
+    cells = table(result, "cells.csv")
+    lost = cells["distortion_projected [-]"] == -1.0
+    assert len(cells) == 36 and cells.notna().all(axis=None)
+    assert told["uncovered_cells"] == lost.sum() and set(cells.loc[lost, "row"]) == {0, 11}
+    assert read_mat_result(tmp_path / "out").pressure.shape == (20, 36), "gap cases are made of this table"
 
 
 def test_two_landmarks_place_no_flat_mat_and_that_is_told(tmp_path: Path) -> None:
