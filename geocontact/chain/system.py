@@ -109,16 +109,20 @@ class System:
 
         NaN only where the model has no value, as for a centre of pressure without force; finite for any finite values
         of the parameters, so that a search may try them: where a spring in series has no solution, every output of the
-        trial is `FAR` (and `geometry.loads` raises, saying why). Values of free parameters must be given, those of
+        trial is `FAR` (and `demand` raises, saying why). Values of free parameters must be given, those of
         constants and fixed parameters may be. Covariates of the trial are known by name as well, unless a parameter or
         constant has that name.
         """
-        numbers = {**trial.covariates, **self.known, **values}
-        movement = self.motion.seen(trial, numbers)
         try:
-            loads = self.geometry.loads(movement, self.law, numbers)
+            return self.demand(trial, values)
         except NotConverged:
             return np.full((len(trial), len(self.outputs)), FAR)
+
+    def demand(self, trial: Trial, values: Mapping[str, float]) -> Float[np.ndarray, "t c"]:
+        """The same; NotConverged, saying why, where there is no solution."""
+        numbers = {**trial.covariates, **self.known, **values}
+        movement = self.motion.seen(trial, numbers)
+        loads = self.geometry.loads(movement, self.law, numbers)
         return self.sensor.read(self.balance.read(loads, movement, numbers), movement, numbers)
 
     def as_measured(self) -> System:

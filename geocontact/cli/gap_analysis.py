@@ -38,7 +38,7 @@ def diagnose_one(folder: Path, o: DiagnoseOptions) -> int:
 
 def diagnosed(record: Record, folder: Path, draft: Path, o: DiagnoseOptions) -> Findings:
     """Diagnosis of the case in a folder, its results in `draft`."""
-    case = read_gap_case(folder)
+    case = read_gap_case(folder, run_programs=o.run_simulator)
     system = system_of(case)
     _add_inputs(record, folder, case)
     findings = diagnose(case, system, __version__)

@@ -26,12 +26,15 @@ class DiagnoseOptions:
         Write tables, diagnosis.json and run.json only: no page, no figures.
     workers
         Processes with --many; as many as there are cores by default. Results do not depend on it.
+    run_simulator
+        Allow a case of the system "command" to run the program that it names.
     """
 
     out: Path
     many: Annotated[bool, Flag] = False
     bare: Annotated[bool, Flag] = False
     workers: int | None = None
+    run_simulator: Annotated[bool, Flag] = False
 
 
 def diagnose(case: Path, /, *, options: DiagnoseOptions) -> int:

@@ -31,6 +31,8 @@ class PlantOptions:
         For a mistake in the data: a trial that has it, as often as there are; all of them by default.
     bare
         Write no page and no figures.
+    run_simulator
+        Allow a case of the system "command" to run the program that it names.
     """
 
     effect: str
@@ -39,6 +41,7 @@ class PlantOptions:
     size: float = 1.0
     trial: tuple[str, ...] = ()
     bare: Annotated[bool, Flag] = False
+    run_simulator: Annotated[bool, Flag] = False
 
 
 def plant(case: Path, /, *, options: PlantOptions) -> int:

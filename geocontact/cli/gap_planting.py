@@ -39,7 +39,7 @@ def planted(folder: Path, o: PlantOptions) -> int:
     if not (np.isfinite(o.size) and o.size > 0.0):
         raise InputError("", "--size", f"{o.size:g} is not a gap above 0", "give for example 1")
     with record.catching_warnings(), written_whole(o.out) as draft:
-        case = read_gap_case(folder)
+        case = read_gap_case(folder, run_programs=o.run_simulator)
         record.add_input("case", folder / "case.toml", system=case.system)
         one, made = _planted(case, o)
         home = draft / "case"
@@ -48,7 +48,12 @@ def planted(folder: Path, o: PlantOptions) -> int:
         (draft / "diagnosis").mkdir()
         own = Record("gap diagnose", {"case": home, "out": o.out / "diagnosis", "bare": o.bare})
         with own.catching_warnings():
-            found = diagnosed(own, home, draft / "diagnosis", DiagnoseOptions(out=draft / "diagnosis", bare=o.bare))
+            found = diagnosed(
+                own,
+                home,
+                draft / "diagnosis",
+                DiagnoseOptions(out=draft / "diagnosis", bare=o.bare, run_simulator=o.run_simulator),
+            )
         said = _said(one, made, found.diagnosis)
         (draft / "planted.json").write_text(json.dumps(plain(said), indent=2) + "\n", encoding="utf-8")
         record.results["planted"] = said

@@ -10,10 +10,14 @@ import pandas as pd
 from geocontact.data.cell_channels import CellChannels
 from geocontact.data.mesh import Mesh
 from geocontact.data.parameter import Parameter
+from geocontact.data.simulator import Simulator
 from geocontact.data.trial import Trial
 
 LISTED_SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
 """Names that `system` may have besides "package.module:OBJECT"; the vocabulary of effects is stated for these."""
+
+COMMAND = "command"
+"""The name of a system that a program simulates."""
 
 
 @dataclass(frozen=True)
@@ -59,6 +63,8 @@ class GapCase:
         Surfaces by their name in case.toml ("moving", "fixed").
     cells
         Cells of pressure mats by the site's name in case.toml ("thigh").
+    simulator
+        Where the system is "command": the program that simulates it.
     """
 
     name: str
@@ -71,3 +77,4 @@ class GapCase:
     tables: Mapping[str, pd.DataFrame] = field(default_factory=dict)
     meshes: Mapping[str, CaseMesh] = field(default_factory=dict)
     cells: Mapping[str, CellChannels] = field(default_factory=dict)
+    simulator: Simulator | None = None

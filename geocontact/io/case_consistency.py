@@ -8,7 +8,7 @@ from os import fspath
 from pathlib import Path
 
 from geocontact.data.errors import InputError
-from geocontact.data.gap_case import LISTED_SYSTEMS
+from geocontact.data.gap_case import COMMAND, LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter
 from geocontact.io.case_settings import CaseSettings, ParameterSettings
 
@@ -26,6 +26,7 @@ def check_settings(settings: CaseSettings, path: Path, known_systems: tuple[str,
     """
     file = fspath(path)
     _check_system(settings.system, known_systems, file)
+    _check_program(settings, file)
     _check_trials(settings, file)
     _check_names(settings, file)
 
@@ -50,9 +51,23 @@ def _parameter(name: str, given: ParameterSettings, file: str) -> Parameter:
 
 
 def _check_system(system: str, known: tuple[str, ...], file: str) -> None:
-    if system not in known and not _OBJECT.fullmatch(system):
-        remedy = f'known are {", ".join(known)}, and "package.module:OBJECT" for a system of your own'
+    if system not in (*known, COMMAND) and not _OBJECT.fullmatch(system):
+        own = '"package.module:OBJECT" for a system of your own, "command" for a program'
+        remedy = f"known are {', '.join(known)}, and {own}"
         raise InputError(file, "system", f"{system[:80]!r} is unknown", remedy)
+
+
+def _check_program(settings: CaseSettings, file: str) -> None:
+    """simulate, inputs and outputs go with system = "command", and with nothing else."""
+    for key in ("simulate", "inputs", "outputs"):
+        given = getattr(settings, key)
+        if settings.system == COMMAND and not given:
+            example = 'simulate = "prog {params} {trial} {out}", inputs = ["angle"], outputs = ["torque"]'
+            raise InputError(file, "", f"system command needs the key '{key}'", f"write {example}")
+        if settings.system != COMMAND and given:
+            raise InputError(file, key, f"does nothing for the system {settings.system}", "leave it out")
+    if both := [name for name in settings.inputs if name in settings.outputs]:
+        raise InputError(file, "outputs", f"{both[0]} is among the inputs too", "a channel is one or the other")
 
 
 def _check_trials(settings: CaseSettings, file: str) -> None:

@@ -87,6 +87,9 @@ class CaseSettings(BaseModel):
     parameters: dict[Name, ParameterSettings] = {}
     trial: dict[FileName, dict[Name, Covariate]] = {}
     layout: dict[FileName, str] = {}
+    simulate: str = ""
+    inputs: Annotated[tuple[Name, ...], Field(strict=False)] = ()
+    outputs: Annotated[tuple[Name, ...], Field(strict=False)] = ()
     mesh: dict[Name, MeshSettings] = {}
     tables: dict[Name, str] = {}
 

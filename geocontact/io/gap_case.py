@@ -19,6 +19,7 @@ from geocontact.io.case_consistency import KNOWN_SYSTEMS, check_settings, parame
 from geocontact.io.case_folder import SETTINGS, case_folder, check_trial_files, inside, trial_file
 from geocontact.io.case_settings import CaseSettings, read_settings
 from geocontact.io.meshes import READERS, read_mesh
+from geocontact.io.program import Program, program
 from geocontact.io.side_table import read_side_table
 from geocontact.io.trial_set import alike, noise_in_si
 from geocontact.io.trial_table import TrialTable, read_trial
@@ -38,7 +39,9 @@ def gap_case_folders(folder: str | PathLike[str]) -> list[Path]:
     return found
 
 
-def read_gap_case(folder: str | PathLike[str], known_systems: tuple[str, ...] = KNOWN_SYSTEMS) -> GapCase:
+def read_gap_case(
+    folder: str | PathLike[str], known_systems: tuple[str, ...] = KNOWN_SYSTEMS, run_programs: bool = False
+) -> GapCase:
     """Case in a folder, in SI units.
 
     Channels of all trials come in the order of the first calibration trial. Noise is converted like its channel, tables
@@ -51,6 +54,8 @@ def read_gap_case(folder: str | PathLike[str], known_systems: tuple[str, ...] = 
         Holds case.toml, trials/<id>.csv and the tables that case.toml names.
     known_systems
         Names that `system` may have besides "package.module:OBJECT".
+    run_programs
+        Whether a program that the case names as its simulator may be run: a case may come from somebody else.
     """
     home = case_folder(folder)
     file = home / SETTINGS
@@ -62,7 +67,9 @@ def read_gap_case(folder: str | PathLike[str], known_systems: tuple[str, ...] = 
     trials = alike({name: read_trial(trial_file(home, name)) for name in settings.trials})
     cells = read_cells(home, settings, next(iter(trials.values())).signals.channels)
     name = Path(os.path.abspath(home)).name
-    return replace(case_of(settings, file, name, trials, tables), meshes=_meshes(home, settings), cells=cells)
+    simulator = _simulator(settings, file, next(iter(trials.values())), run_programs)
+    case = case_of(settings, file, name, trials, tables)
+    return replace(case, meshes=_meshes(home, settings), cells=cells, simulator=simulator)
 
 
 def case_of(
@@ -97,6 +104,24 @@ def _told(noise: dict[str, float], file: Path) -> dict[str, float]:
             message = f"{file} [noise] {channel}: is 0; taken as not known"
             warnings.warn(InputWarning(message), stacklevel=3)
     return {channel: sd for channel, sd in noise.items() if sd > 0.0}
+
+
+def _simulator(settings: CaseSettings, file: Path, trial: TrialTable, allowed: bool) -> Program | None:
+    """The program that simulates the case, None where one of our models does."""
+    if not settings.simulate:
+        return None
+    if not allowed:
+        what = f"would run {settings.simulate[:80]!r}, which a case does not do unasked"
+        raise InputError(file, "simulate", what, "pass --run-simulator if you trust it")
+    units = dict(zip(trial.signals.channels, trial.signals.units, strict=True))
+    channels = (*settings.inputs, *settings.outputs)
+    if missing := [name for name in channels if name not in units]:
+        remedy = f"channels are {', '.join(trial.signals.channels)}"
+        raise InputError(trial.file, "line 1", f"no column '{missing[0]}', which case.toml names", remedy)
+    try:
+        return program(settings.simulate, settings.inputs, settings.outputs, {name: units[name] for name in channels})
+    except ValueError as error:
+        raise InputError(file, "simulate", str(error), "the program gets the paths of three files") from error
 
 
 def _meshes(home: Path, settings: CaseSettings) -> dict[str, CaseMesh]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from geocontact.chain.system import System
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_case import COMMAND, GapCase
 from geocontact.systems.base import Base
+from geocontact.systems.command import command_system
 from geocontact.systems.elbow_exoskeleton import ELBOW
 from geocontact.systems.knee_implant import KNEE
 from geocontact.systems.own import own_system
@@ -23,6 +24,8 @@ def system_of(case: GapCase) -> System:
     """
     if ":" in case.system:
         return own_system(case).scaled(case.calibration)
+    if case.system == COMMAND:
+        return tried(command_system(case), case).scaled(case.calibration)
     base = next((one for one in SYSTEMS if one.name == case.system), None)
     if base is None:
         known = ", ".join(one.name for one in SYSTEMS)

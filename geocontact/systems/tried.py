@@ -34,7 +34,7 @@ def _require_channels(system: System, trial: Trial, case: GapCase) -> None:
 def _try_out(system: System, trial: Trial, case: GapCase) -> None:
     """One simulation at the starting values: what is missing or of a wrong shape shows here."""
     try:
-        outputs = system.simulate(trial, system.start)
+        outputs = system.demand(trial, system.start)
     except KeyError as error:
         remedy = f"give it under [constants], [parameters.{error.args[0]}] or [trial.{trial.name}]"
         raise refusal(case, f"needs the number {error.args[0]} in trial {trial.name}", remedy) from error

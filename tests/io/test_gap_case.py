@@ -301,3 +301,37 @@ def test_folders_without_cases(tmp_path: Path, folder: str, message: str) -> Non
     case_in(tmp_path)
     with pytest.raises(InputError, match=message):
         gap_case_folders(tmp_path / folder)
+
+
+PROGRAM = 'simulate = "wrist {params} {trial} {out}"\ninputs = ["beta"]\noutputs = ["force"]\nspheres ='
+
+
+def simulated(folder: Path, program: str = PROGRAM, system: str = "command") -> Path:
+    text = CASE["case.toml"].replace('"elbow"', f'"{system}"').replace("spheres =", program)
+    return case_in(folder, case=text)
+
+
+def test_a_program_is_not_run_unasked(tmp_path: Path) -> None:
+    home = simulated(tmp_path)
+    with pytest.raises(InputError, match=r"case\.toml simulate: would run 'wrist \{params\} \{trial\} \{out\}', which"):
+        read_gap_case(home)
+    own = read_gap_case(home, run_programs=True).simulator
+    assert own is not None
+    assert (own.inputs, own.outputs, own.units) == (("beta",), ("force",), {"beta": "rad", "force": "N"})
+
+
+@pytest.mark.parametrize(
+    ("program", "system", "message"),
+    [
+        ("spheres =", "command", "system command needs the key 'simulate'"),
+        (PROGRAM.replace('inputs = ["beta"]\n', ""), "command", "system command needs the key 'inputs'"),
+        (PROGRAM, "elbow", "simulate: does nothing for the system elbow"),
+        (PROGRAM.replace('["force"]', '["beta"]'), "command", "outputs: beta is among the inputs too"),
+        (PROGRAM.replace('["force"]', '["moment"]'), "command", r"no column 'moment', which case\.toml names"),
+        (PROGRAM.replace(" {trial}", ""), "command", r"simulate: has no \{trial\}; write for example"),
+        (PROGRAM.replace("wrist {", "'wrist {"), "command", "simulate: No closing quotation"),
+    ],
+)
+def test_a_program_that_cannot_be_used_is_refused(tmp_path: Path, program: str, system: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        read_gap_case(simulated(tmp_path, program, system), run_programs=True)
