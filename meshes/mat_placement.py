@@ -15,7 +15,7 @@ from functools import cache
 import numpy as np
 
 from meshes.geodesics import STEP, along, heading, velocity
-from meshes.segments import THIGH, TORSO, Segment
+from meshes.segments import SHANK, THIGH, TORSO, UPPER_ARM, Segment
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Mat:
         rows, columns = (0.0, self.rows / 2, self.rows), (0.0, self.columns / 2, self.columns)
         return np.array([(u, v) for u in rows for v in columns])
 
-    @cache  # noqa: B019 - two mats, made once
+    @cache  # noqa: B019 - four mats, made once
     def landmark_points(self) -> np.ndarray:
         """The skin under the landmarks (l, 3) [mm]."""
         u, v = (np.unique(c) for c in self.landmarks.T)
@@ -79,3 +79,6 @@ class Mat:
 THIGH_MAT = Mat("mat_thigh_16x8", THIGH, 16, 8, theta=0.0, y=20.0, turn=0.0)
 TORSO_MAT = Mat("mat_torso_32x8", TORSO, 32, 8, theta=0.0, y=-40.0, turn=np.radians(86.0))
 """On the front of the thigh, down its mirror plane; around the front of the waist, 4 deg off level."""
+SHANK_MAT = Mat("mat_shank_16x8", SHANK, 16, 8, theta=0.0, y=0.0, turn=0.0)
+UPPER_ARM_MAT = Mat("mat_upper_arm_16x8", UPPER_ARM, 16, 8, theta=np.pi / 2, y=0.0, turn=np.radians(3.0))
+"""Down the shin; down the outer side of the upper arm, 3 deg off its axis."""

@@ -1,4 +1,5 @@
-"""Synthetic recordings of pressure mats: sit-to-stand with a cuff on the thigh, leaning into a belt around the waist.
+"""Synthetic recordings of pressure mats: sit-to-stand with a cuff on the thigh, leaning into a belt around the waist, a
+shin pressed into a cuff, an upper arm held by two pads of a shell.
 
 A cell reads the mean of the closed-form pressure over itself, the cell laid as `meshes.mat_placement` says; the truth
 comes from the smooth skin (`meshes.moving_pressure`), not from cells. Nothing presses in the first and last 0.3 s.
@@ -12,7 +13,7 @@ from functools import reduce
 
 import numpy as np
 
-from meshes.mat_placement import THIGH_MAT, TORSO_MAT, Mat
+from meshes.mat_placement import SHANK_MAT, THIGH_MAT, TORSO_MAT, UPPER_ARM_MAT, Mat
 from meshes.moving_pressure import Footprint, Resultant, resultant
 
 RATE = 50.0
@@ -85,7 +86,27 @@ def leaning() -> Recording:
     return Recording(TORSO_MAT, time, (left, right), 15.0, ((9, 4), (23, 5)))
 
 
+def kneeling() -> Recording:
+    """The shin is pressed into a cuff, which rolls 20 mm along it and lets go again."""
+    time = np.arange(76) / RATE
+    peak = 28.0 * rise(time, 0.3, 0.6) * (1 - rise(time, 0.9, 1.2))
+    middle = np.column_stack([np.zeros_like(time), -10.0 + 20.0 * rise(time, 0.4, 1.1)])
+    return Recording(SHANK_MAT, time, (Footprint(peak, middle, 56.0, 34.0, SOFT),), 22.0, ((6, 3), (9, 4)))
+
+
+def lifting() -> Recording:
+    """Two pads of a shell on the upper arm; the load goes from the lower one to the upper one."""
+    time = np.arange(76) / RATE
+    loaded, shift = rise(time, 0.3, 0.6) * (1 - rise(time, 0.9, 1.2)), rise(time, 0.4, 1.1)
+    low, high = (np.column_stack([np.full_like(time, np.pi / 2), np.full_like(time, y)]) for y in (-52.0, 46.0))
+    lower = Footprint(loaded * (28.0 - 16.0 * shift), low, 42.0, 36.0, SOFT)
+    upper = Footprint(loaded * (10.0 + 16.0 * shift), high, 42.0, 36.0, SOFT)
+    return Recording(UPPER_ARM_MAT, time, (lower, upper), 17.0, ((4, 4), (11, 3)))
+
+
 def recordings() -> Iterator[Recording]:
     """Those that are shipped."""
     yield sit_to_stand()
     yield leaning()
+    yield kneeling()
+    yield lifting()

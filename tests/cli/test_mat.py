@@ -219,10 +219,18 @@ def test_landmarks_that_cannot_be_are_one_line(tmp_path: Path, rows: tuple[str, 
     refused(result, said)
 
 
-@pytest.mark.parametrize(("folder", "surface"), [("mat_thigh_16x8", "thigh"), ("mat_torso_32x8", "torso")])
+@pytest.mark.parametrize(
+    ("folder", "surface", "largest", "arm"),
+    [
+        ("mat_thigh_16x8", "thigh", 0.006, 1.0), ("mat_torso_32x8", "torso", 0.006, 1.0),
+        ("mat_shank_16x8", "shank", 0.012, 1.0), ("mat_upper_arm_16x8", "upper_arm", 0.023, 1.5),
+    ],
+)  # fmt: skip
 def test_the_shipped_recordings_give_the_wrench_of_their_closed_forms(
-    tmp_path: Path, folder: str, surface: str
+    tmp_path: Path, folder: str, surface: str, largest: float, arm: float
 ) -> None:
+    """Share of the force and arm [mm]: shank and upper arm are so round that an evened-out mat lies up to 2 mm elsewhere
+    than the ribs of the recording, and that the skin under a cell is 1 % larger than the cell."""
     given = MESHES / folder
     result = done(call(
         "mat", given / "frames.csv", "--layout", given / "layout.toml", "--surface", MESHES / f"{surface}.stl",
@@ -234,14 +242,14 @@ def test_the_shipped_recordings_give_the_wrench_of_their_closed_forms(
     pressed = truth["normal [N]"] > 0.25 * truth["normal [N]"].max()
     force, exact = (each.loc[pressed, [f"f{a} [N]" for a in "xyz"]].to_numpy() for each in (ours, truth))
     off = np.linalg.norm(force - exact, axis=1) / np.linalg.norm(exact, axis=1)
-    assert off.max() < 0.006
+    assert off.max() < largest
     names = [f"cop_{a} [mm]" for a in "xyz"]
     assert (
-        np.linalg.norm(ours.loc[pressed, names].to_numpy() - truth.loc[pressed, names].to_numpy(), axis=1).max() < 1.0
+        np.linalg.norm(ours.loc[pressed, names].to_numpy() - truth.loc[pressed, names].to_numpy(), axis=1).max() < arm
     )
     names = [f"m{a} [N m]" for a in "xyz"]
     moment = np.linalg.norm(ours.loc[pressed, names].to_numpy() - truth.loc[pressed, names].to_numpy(), axis=1)
-    assert (moment < 1e-3 * np.linalg.norm(exact, axis=1)).all(), "an arm of less than 1 mm"
+    assert (moment < 1e-3 * arm * np.linalg.norm(exact, axis=1)).all()
 
 
 @pytest.mark.parametrize("shape", [False, True])

@@ -14,6 +14,8 @@ from meshes.segments import THIGH, Oval, Segment
 
 FOLDER = Path(__file__).parents[2] / "meshes"
 RECORDINGS = list(recordings())
+STRETCH = {"mat_shank_16x8": (0.965, 1.018), "mat_upper_arm_16x8": (0.96, 1.03)}
+"""Least and largest area of the skin under a flat one, on the segments that curve more than thigh and torso."""
 each_recording = pytest.mark.parametrize("recording", RECORDINGS, ids=lambda r: r.mat.name)
 
 
@@ -129,7 +131,8 @@ def test_cells_laid_out_carry_the_exact_force(recording):
     exact = recording.truth()
     assert force == pytest.approx(exact.force[frame], abs=1e-5 * exact.normal[frame])
     stretch = np.linalg.norm(skin, axis=-1) / mat.pitch**2
-    assert 0.97 < stretch.min() < stretch.max() < 1.012, "the figures in meshes/README.md"
+    least, most = STRETCH.get(mat.name, (0.97, 1.012))
+    assert least < stretch.min() < stretch.max() < most, "the figures in meshes/README.md"
 
 
 @each_recording
@@ -225,7 +228,7 @@ def test_the_thigh_is_pressed_on_its_front_and_pushed_back():
 
 def test_generator_reproduces_segments_and_recordings():
     files = mat_files()
-    assert len(files) == 4 + 2 * 7
+    assert len(files) == 4 + 4 * 7
     assert differing(files, FOLDER) == []
     assert max(len(data) for name, data in files.items() if name.endswith(".stl")) < 400_000
     assert sum(len(data) for name, data in files.items() if "/" in name) < 1_000_000
