@@ -39,6 +39,22 @@ class MatOptions:
         are drawn.
     lay
         geodesic: along the surface, every cell keeps its pitch. closest: a flat mat pushed down along the shortest way.
+    belt
+        The mat goes once around the body and its last rows (or columns) meet its first: rows or columns.
+    motion
+        Pose of the segment over time (.csv .mot .sto); forces, moments and centres are in the frame it leads to then.
+    osim
+        OpenSim model whose joint turns the motion's coordinates into poses: the segment is the joint's child body.
+    joint
+        Name of that joint.
+    moving_body
+        parent: the segment is the joint's parent body; child unless given.
+    map
+        Columns of the motion instead of a model: rz=knee_flexion,rx=knee_adduction,tx=knee_tx
+    order
+        Order of the motion's intrinsic rotations: XYZ is R = Rx Ry Rz.
+    angles
+        Unit of the motion's angles where the file does not say.
     point
         Point that moments refer to, x,y,z in the scan's unit and the frame of the results; 0,0,0 unless given.
     frame
@@ -90,6 +106,14 @@ class MatOptions:
     sensor: str | None = None
     seen_from: Literal["outside", "body"] = "outside"
     lay: Literal["geodesic", "closest"] = "geodesic"
+    belt: Literal["rows", "columns"] | None = None
+    motion: Path | None = None
+    osim: Path | None = None
+    joint: str | None = None
+    moving_body: Annotated[Literal["child", "parent"] | None, Parameter(name="--moving")] = None
+    map: Annotated[str | None, Dashed] = None
+    order: str | None = None
+    angles: Literal["deg", "rad"] | None = None
     point: Annotated[str | None, Dashed] = None
     frame: str | None = None
     cutoff: float = 6.0

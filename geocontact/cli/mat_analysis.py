@@ -11,8 +11,10 @@ from jaxtyping import Bool
 from geocontact.cli import quantities
 from geocontact.cli.bodies import chosen_faces, read_surface
 from geocontact.cli.mat import MatOptions
+from geocontact.cli.mat_belt import open_belt, refuse_belt, say_how_it_closes
 from geocontact.cli.mat_beside import projection_beside
 from geocontact.cli.mat_comparison import compared
+from geocontact.cli.mat_moving import Travel, followed, refuse_idle_motion
 from geocontact.cli.mat_reading import Recording, recording
 from geocontact.cli.mat_registration import registered
 from geocontact.cli.mat_results import Result, write_results
@@ -21,6 +23,7 @@ from geocontact.cli.patience import preparing
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
+from geocontact.geometry.drape.belt import NotAroundError
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.drape.closest_point import project
 from geocontact.geometry.drape.geodesics import Geodesics
@@ -46,7 +49,7 @@ def analyse(path: Path, o: MatOptions) -> int:
     record = Record("mat", {"frames": path, **asdict(o)})
     _refuse_idle(o)
     with record.catching_warnings(), written_whole(o.out) as draft:
-        seen = recording(record, path, o)
+        seen, travel = followed(record, recording(record, path, o), o)
         surface = read_surface(record, "surface", o.surface, o.unit, None)
         _guard(surface, seen.frames, o)
         marks = read_mat_landmarks(o.landmarks, seen.frames.rows, seen.frames.columns)
@@ -55,7 +58,7 @@ def analyse(path: Path, o: MatOptions) -> int:
             surface, marks, found = registered(record, surface, marks, o)
             laid = _laid(record, surface, seen.frames, marks, o)
             placed = _mapped(surface, laid, seen.frames)
-        result = _loads(record, Placed(surface, laid, placed, marks, found), seen, o)
+        result = _loads(record, Placed(surface, laid, placed, marks, found), seen, travel, o)
         agreed = compared(record, result, o)
         write_results(record, result, agreed, projection_beside(record, result, o), o, draft)
         record.write(draft)
@@ -84,6 +87,8 @@ def _refuse_idle(o: MatOptions) -> None:
     for wrong, option, what, remedy in rows:
         if wrong:
             raise InputError("", option, what, remedy)
+    refuse_belt(o)
+    refuse_idle_motion(o)
 
 
 def _guard(surface: Surface, frames: PressureFrames, o: MatOptions) -> None:
@@ -103,10 +108,13 @@ def _laid(record: Record, surface: Surface, frames: PressureFrames, marks: MatLa
     at = Marks(marks.place, marks.point, marks.name)
     geodesics = Geodesics(surface)
     try:
-        laid = lay(geodesics, mat, at) if o.lay == "geodesic" else project(geodesics, mat, at)
+        laid = lay(geodesics, mat, at, o.belt) if o.lay == "geodesic" else project(geodesics, mat, at)
+    except NotAroundError as error:
+        raise open_belt(o, error) from error
     except ValueError as error:
         raise InputError(o.landmarks, "", str(error), "check landmarks, unit and --seen-from") from error
     _say_how_it_lies(record, laid, frames, marks)
+    say_how_it_closes(record, mat, laid, o)
     return laid
 
 
@@ -146,10 +154,11 @@ def _mapped(surface: Surface, laid: Drape, frames: PressureFrames) -> MatMap:
         raise InputError("", "--landmarks", str(error), "check the landmarks and the unit of the scan") from error
 
 
-def _loads(record: Record, p: Placed, seen: Recording, o: MatOptions) -> Result:
-    origin = np.zeros(3) if o.point is None else np.array(quantities.centre(o.point, o.unit, "--point"))
+def _loads(record: Record, p: Placed, seen: Recording, travel: Travel | None, o: MatOptions) -> Result:
+    point = np.zeros(3) if o.point is None else np.array(quantities.centre(o.point, o.unit, "--point"))
     whose = o.surface if p.registration is None else o.body or o.body_landmarks or o.surface
     frame = o.frame or f"of {whose.name}"
+    origin = point if travel is None else np.zeros(3)  # of the segment
     touched = quantities.modulus(o.touched, "--touched")
     pressure = p.map.of(seen.frames.pressure)
     whole = mat_load(p.map, pressure, origin, frame, o.gate, touched)
@@ -157,10 +166,12 @@ def _loads(record: Record, p: Placed, seen: Recording, o: MatOptions) -> Result:
     errors = _errors(o)
     spread = wrench_covariance(p.map, pressure, whole.wrench, errors)
     spread += filling_covariance(p.map, pressure, whole.wrench, seen.gaps)
+    if travel is not None:
+        whole, parts, spread = travel.carried(whole, parts, spread, point)
     heaviest = int(np.argmax(whole.pressing))
     record.results["load"] = {
-        "frame": frame,
-        "point_mm": (origin * 1e3).tolist(),
+        "frame": whole.wrench.frame,
+        "point_mm": (point * 1e3).tolist(),
         "frames": len(seen.frames.time),
         "largest_force_N": round(float(whole.pressing[heaviest]), 6),
         "at_s": round(float(seen.frames.time[heaviest]), 6),
@@ -174,7 +185,9 @@ def _loads(record: Record, p: Placed, seen: Recording, o: MatOptions) -> Result:
         f"force up to {whole.pressing[heaviest]:.1f} N at {seen.frames.time[heaviest]:g} s, pressure up to "
         f"{whole.peak.max() * 1e-3:.1f} kPa, area up to {whole.area.max() * 1e4:.0f} cm²"
     )
-    return Result(p.surface, p.laid, p.map, p.marks, seen, pressure, whole, parts, spread, errors, p.registration)
+    return Result(
+        p.surface, p.laid, p.map, p.marks, seen, pressure, whole, parts, spread, errors, p.registration, frame
+    )
 
 
 def _segments(record: Record, p: Placed, o: MatOptions) -> dict[str, Bool[np.ndarray, " n"]]:

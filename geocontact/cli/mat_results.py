@@ -45,6 +45,8 @@ class Result:
         Of the cells of the map [Pa].
     covariance
         Of force and moment, frame by frame.
+    home
+        Name of the frame that surface, cells and pictures are in; with --motion the loads are in another.
     """
 
     surface: Surface
@@ -58,6 +60,7 @@ class Result:
     covariance: Float[np.ndarray, "t six six"]
     errors: MatErrors
     registration: Registration | None
+    home: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +107,9 @@ def write_results(
     except InputError as error:
         record.warn(str(error))
     drawing = save_both(mat_figure(time, r.whole, r.laid, r.pressure, r.map), folder, "mat")
-    story = MatStory(r.surface, r.seen.frames, r.map, r.laid, r.pressure, r.whole, r.parts, r.covariance, drawing)
+    story = MatStory(
+        r.surface, r.seen.frames, r.map, r.laid, r.pressure, r.whole, r.parts, r.covariance, drawing, r.home
+    )
     write_mat_report(
         folder / "report.html",
         f"{r.seen.frames.name} on {r.surface.name}",

@@ -45,7 +45,10 @@ AXES: Mapping[str, Sequence[float]] = {
 
 @dataclass(frozen=True, eq=False)
 class MatStory:
-    """What the page tells; `pressure` is that of the cells of the map, `drawing` the static figure."""
+    """What the page tells; `pressure` is that of the cells of the map, `drawing` the static figure.
+
+    `home` names the frame that the scene is in, which is not that of the loads where the segment moves.
+    """
 
     surface: Surface
     frames: PressureFrames
@@ -56,6 +59,7 @@ class MatStory:
     parts: Mapping[str, MatLoad]
     covariance: Float[np.ndarray, "t six six"]
     drawing: bytes
+    home: str = ""
 
     @property
     def heaviest(self) -> int:
@@ -109,9 +113,17 @@ def _scene(s: MatStory, shown: Int[np.ndarray, " k"]) -> Scene:
         span=(0.0, NEAR),
         value_name="",
         directions=AXES,
-        view=tuple(s.whole.normal.tolist()),
+        view=tuple(_facing(s).tolist()),
         maps=(FaceMap("pressure on each face", "kPa", 0, values),),
     )
+
+
+def _facing(s: MatStory) -> Float[np.ndarray, " 3"]:
+    """Where the mat is seen from: against its mean normal; a belt has none, and is seen at the cell pressed most."""
+    if np.isfinite(s.whole.normal).all():
+        return s.whole.normal
+    row, column = s.map.cell[int(np.argmax(s.pressure[s.heaviest]))]
+    return np.asarray(s.laid.normal[row, column])
 
 
 def _rows(s: MatStory, shown: Int[np.ndarray, " k"]) -> list[Row]:
@@ -154,10 +166,11 @@ def _curves(s: MatStory, shown: Int[np.ndarray, " k"]) -> list[Curves]:
 def _headline(s: MatStory) -> list[tuple[str, str]]:
     k, w = s.heaviest, s.whole
     peak = int(np.argmax(w.peak))
+    along = "" if np.isnan(w.perpendicular[k]) else f" ({w.perpendicular[k]:.0f} N perpendicular)"
     lines = [
         (
             "Largest force",
-            f"{w.pressing[k]:.0f} N at {s.frames.time[k]:.2f} s ({w.perpendicular[k]:.0f} N perpendicular)",
+            f"{w.pressing[k]:.0f} N at {s.frames.time[k]:.2f} s{along}",
         ),
         ("Largest pressure", f"{w.peak[peak] * KPA:.1f} kPa at {s.frames.time[peak]:.2f} s"),
         ("Area under the largest force", f"{w.area[k] * CM2:.0f} cm²"),
@@ -173,7 +186,10 @@ def _reservations(s: MatStory) -> list[str]:
     sd = np.sqrt(np.trace(s.covariance[s.heaviest][:3, :3]))
     met = s.laid.misses[np.isfinite(s.laid.misses)]
     miss = f"{met.max() * MM:.1f} mm" if len(met) else "an unknown distance"
+    frame = s.whole.wrench.frame
+    still = "" if frame == s.home else f" The picture stands still in the frame {s.home}, with which the segment moves."
     return [
+        f"Forces, moments and centres of pressure are in the frame {frame}.{still}",
         "A mat measures what is perpendicular to its cells. Friction along the skin is in none of these forces.",
         f"Cells are up to {known.max():.1%} larger or smaller on the scan than flat; each keeps its own sensing area.",
         f"Landmarks are missed by up to {miss}.",

@@ -223,14 +223,14 @@ def test_landmarks_that_cannot_be_are_one_line(tmp_path: Path, rows: tuple[str, 
     ("folder", "surface", "largest", "arm"),
     [
         ("mat_thigh_16x8", "thigh", 0.006, 1.0), ("mat_torso_32x8", "torso", 0.006, 1.0),
-        ("mat_shank_16x8", "shank", 0.012, 1.0), ("mat_upper_arm_16x8", "upper_arm", 0.023, 1.5),
+        ("mat_shank_16x8", "shank", 0.012, 1.2), ("mat_upper_arm_16x8", "upper_arm", 0.023, 1.5),
     ],
 )  # fmt: skip
 def test_the_shipped_recordings_give_the_wrench_of_their_closed_forms(
     tmp_path: Path, folder: str, surface: str, largest: float, arm: float
 ) -> None:
-    """Share of the force and arm [mm]: shank and upper arm are so round that an evened-out mat lies up to 2 mm elsewhere
-    than the ribs of the recording, and that the skin under a cell is 1 % larger than the cell."""
+    """Share of the force and arm [mm]: shank and upper arm are so round that an evened-out mat lies 2 mm
+    away from the ribs of the recording, and that the skin under a cell is 1 % larger than the cell."""
     given = MESHES / folder
     result = done(call(
         "mat", given / "frames.csv", "--layout", given / "layout.toml", "--surface", MESHES / f"{surface}.stl",

@@ -9,6 +9,7 @@ from jaxtyping import Float, Int
 from scipy.sparse import coo_array, eye_array
 from scipy.sparse.linalg import spsolve
 
+from geocontact.geometry.drape.belt import closed
 from geocontact.geometry.drape.geodesics import Geodesics, Joins, Places
 from geocontact.geometry.drape.mat import Mat
 from geocontact.geometry.drape.spread import Way
@@ -22,7 +23,6 @@ GAIN = 1e-3  # of the sum of squares: less is not worth another round
 DAMPING = 1e-6
 STIFF = 1e6  # damping at which there is nothing more to gain
 STRIDE = 0.25  # of the pitch, largest move
-AROUND = 0.1  # a belt may be this much longer or shorter than the way around the body
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,13 +45,13 @@ def relaxed(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way | None = No
     returned as it is. Weak springs hold every corner where it was spread: a mat that marks put somewhere shall not
     slide to where it would fit better.
     """
+    if belt is not None:
+        nodes = closed(geodesics, mat, nodes, belt)
     flat = Places(nodes.face.ravel(), nodes.point.reshape(-1, 3))
     owner = _owner(nodes.face.shape, belt)
     springs = _springs(mat, nodes.face.shape, flat, owner)
-    if belt is not None:
-        _goes_around(geodesics, mat, nodes, belt)
     damping = DAMPING
-    spread_to, hold = flat.point, STAYS if belt is None else 0.0  # a belt is held by closing on itself
+    spread_to, hold = flat.point, STAYS
     residual, joins = _residual(geodesics, springs, flat)
     for _ in range(ROUNDS):
         if not len(residual) or np.abs(residual / springs.rest).max() < EVEN:
@@ -153,17 +153,3 @@ def _step(
 def _energy(residual: Float[np.ndarray, " e"], astray: Float[np.ndarray, "n 3"], hold: float) -> float:
     """Of all springs and of the holds [m^2]."""
     return float(residual @ residual) + hold**2 * float((astray**2).sum())
-
-
-def _goes_around(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way) -> None:
-    """Refuse a belt whose ends are far apart, or far past each other, on the body."""
-    ends = (nodes.point[0], nodes.point[-1]) if belt == "rows" else (nodes.point[:, 0], nodes.point[:, -1])
-    if not (np.isfinite(ends[0]).all() and np.isfinite(ends[1]).all()):
-        raise ValueError(f"the belt runs off {geodesics.surface.name}, which does not go all the way around")
-    length = (mat.rows if belt == "rows" else mat.columns) * mat.pitch[0 if belt == "rows" else 1]
-    gap = float(np.linalg.norm(ends[1] - ends[0], axis=1).mean())
-    if gap > AROUND * length:
-        raise ValueError(
-            f"the belt is {length:.3f} m long and its ends lie {gap:.3f} m apart on {geodesics.surface.name}; it does "
-            "not go once around there"
-        )
