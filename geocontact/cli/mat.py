@@ -79,6 +79,8 @@ class MatOptions:
         Its unit; that of the scan unless given.
     icp
         Fit the scan to the body's surface by shape, beginning where the landmarks put it.
+    icp_engine
+        own: our own search by shape. open3d: that of open3d, where it is installed; own unless given.
     segment
         Part of the surface with a name, as often as there are parts: "upper=y > 20" (x y z nx ny nz, the scan's unit).
     accuracy
@@ -86,7 +88,8 @@ class MatOptions:
     gain
         How far all cells are off together.
     registration
-        How far the mat may lie elsewhere, along and about each axis: 1mm,2deg
+        How far the mat may lie elsewhere, along and about each axis: 1mm,2deg; unless given, what the residual of
+        --body-landmarks or --icp tells.
     compare
         Forces of a model (or of a plate) over time, columns as in wrench.csv: agreement in agreement.csv. Lines
         `# point_mm = ...` and `# frame = ...` above it are heeded.
@@ -125,6 +128,7 @@ class MatOptions:
     body: Path | None = None
     body_unit: Literal["m", "cm", "mm", "in"] | None = None
     icp: Annotated[bool, Flag] = False
+    icp_engine: Literal["own", "open3d"] | None = None
     segment: tuple[str, ...] = ()
     accuracy: str = "10%"
     gain: str | None = None

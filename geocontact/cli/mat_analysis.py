@@ -14,6 +14,7 @@ from geocontact.cli.mat import MatOptions
 from geocontact.cli.mat_belt import open_belt, refuse_belt, say_how_it_closes
 from geocontact.cli.mat_beside import projection_beside
 from geocontact.cli.mat_comparison import compared
+from geocontact.cli.mat_errors import stated_errors
 from geocontact.cli.mat_moving import Travel, followed, refuse_idle_motion
 from geocontact.cli.mat_reading import Recording, recording
 from geocontact.cli.mat_registration import registered
@@ -33,7 +34,7 @@ from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
 from geocontact.io.mat_landmarks import MatLandmarks, read_mat_landmarks
 from geocontact.io.units import LENGTH
-from geocontact.loads.mat_errors import MatErrors, wrench_covariance
+from geocontact.loads.mat_errors import wrench_covariance
 from geocontact.loads.mat_fill import filling_covariance
 from geocontact.loads.mat_load import mat_load, segment_loads
 from geocontact.loads.mat_map import MatMap, mat_map
@@ -163,7 +164,7 @@ def _loads(record: Record, p: Placed, seen: Recording, travel: Travel | None, o:
     pressure = p.map.of(seen.frames.pressure)
     whole = mat_load(p.map, pressure, origin, frame, o.gate, touched)
     parts = segment_loads(p.map, pressure, origin, frame, _segments(record, p, o), o.gate, touched)
-    errors = _errors(o)
+    errors = stated_errors(record, p.map, p.registration, o)
     spread = wrench_covariance(p.map, pressure, whole.wrench, errors)
     spread += filling_covariance(p.map, pressure, whole.wrench, seen.gaps)
     if travel is not None:
@@ -209,9 +210,3 @@ def _segments(record: Record, p: Placed, o: MatOptions) -> dict[str, Bool[np.nda
             if cells.any():
                 record.warn(f"{int(cells.sum())} cells are {what}: segments do not add up to the whole")
     return found
-
-
-def _errors(o: MatOptions) -> MatErrors:
-    shift, turn = (0.0, 0.0) if o.registration is None else quantities.registration(o.registration)
-    gain = 0.0 if o.gain is None else quantities.fraction(o.gain, "--gain")
-    return MatErrors(quantities.fraction(o.accuracy, "--accuracy"), gain, shift, turn)

@@ -10,6 +10,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.cli.bodies import read_surface
+from geocontact.cli.idle import refuse
 from geocontact.cli.mat import MatOptions
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
@@ -17,6 +18,7 @@ from geocontact.geometry.register.icp import icp
 from geocontact.geometry.register.landmarks import fit_landmarks
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.scale_guard import compare_landmarks
+from geocontact.geometry.register.shape_covariance import shape_covariance
 from geocontact.geometry.surface import Surface
 from geocontact.io.mat_landmarks import MatLandmarks
 from geocontact.io.side_table import read_side_table
@@ -29,15 +31,9 @@ def registered(
     record: Record, scan: Surface, marks: MatLandmarks, o: MatOptions
 ) -> tuple[Surface, MatLandmarks, Registration | None]:
     """Scan and marks of the mat in the body's frame, and how well they fit; as they are without --body-landmarks."""
+    _refuse_idle(o)
     if o.body_landmarks is None:
-        if o.body is not None or o.icp:
-            option = "--body" if o.body is not None else "--icp"
-            raise InputError("", option, "needs landmarks to begin with", "give --body-landmarks")
         return scan, marks, None
-    if o.body is not None and not o.icp:
-        raise InputError("", "--body", "does nothing without --icp", "give --icp, or leave it out")
-    if o.body_unit is not None and o.body is None:
-        raise InputError("", "--body-unit", "does nothing without --body", "leave it out")
     names, on_scan, on_body = _pairs(o.body_landmarks)
     record.add_input("--body-landmarks", o.body_landmarks, landmarks=len(names))
     try:
@@ -47,7 +43,7 @@ def registered(
             record.warn(guard.warning)
         _tell(record, "landmarks", found)
         if o.icp:
-            found = icp(scan, _body(record, o), found.pose)
+            found = _by_shape(scan, _body(record, o), found, o)
             _tell(record, "shape", found)
             if not found.converged:
                 record.warn("the registration by shape did not settle; look at registration.csv")
@@ -57,6 +53,35 @@ def registered(
         raise InputError(o.body_landmarks, "", str(error), "check landmarks, units and --body") from error
     moved = Surface(found.pose.apply(scan.vertices), scan.faces, scan.name)
     return moved, replace(marks, point=found.pose.apply(marks.point)), found
+
+
+def _refuse_idle(o: MatOptions) -> None:
+    """Refuse options of a registration that is not made."""
+    none = o.body_landmarks is None
+    refuse(
+        (o.icp_engine is not None and not o.icp, "--icp-engine", "does nothing without --icp",
+         "give --icp, or leave it out"),
+        (none and o.body is not None, "--body", "needs landmarks to begin with", "give --body-landmarks"),
+        (none and o.icp, "--icp", "needs landmarks to begin with", "give --body-landmarks"),
+        (not none and o.body is not None and not o.icp, "--body", "does nothing without --icp",
+         "give --icp, or leave it out"),
+        (not none and o.body_unit is not None and o.body is None, "--body-unit", "does nothing without --body",
+         "leave it out"),
+    )  # fmt: skip
+
+
+def _by_shape(scan: Surface, body: Surface, start: Registration, o: MatOptions) -> Registration:
+    """The scan brought onto the body from where the landmarks put it, by the engine that was chosen."""
+    if o.icp_engine == "open3d":
+        from geocontact.geometry.register.open3d_icp import open3d_icp  # heavy
+
+        try:
+            found = open3d_icp(scan, body, start.pose)
+        except ImportError as error:
+            raise InputError("", "--icp-engine", str(error), "or leave it out") from error
+    else:
+        found = icp(scan, body, start.pose)
+    return replace(found, covariance=shape_covariance(scan, body, found.pose, start=start.covariance))
 
 
 def registration_table(found: Registration) -> pd.DataFrame:

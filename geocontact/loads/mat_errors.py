@@ -5,7 +5,8 @@ To first order, for cells with pressures p, areas A and unit forces u (m^2, agai
 - each cell by itself off by the share e: covariance e^2 sum p^2 (u, x × u)(u, x × u)^T;
 - all cells off by the same share g: g^2 (F, M)(F, M)^T;
 - the mat moved by d and turned by θ about its middle c: F changes by θ × F, the moment about o by
-  θ × M_c + (c - o) × (θ × F) + d × F, with M_c the moment about c. Components of d and of θ are independent.
+  θ × M_c + (c - o) × (θ × F) + d × F, with M_c the moment about c. Components of d and of θ are independent where only
+  their size is stated; where a registration tells their covariance, that is used.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.wrench import Wrench
+from geocontact.geometry.register.uncertainty import PoseCovariance
 from geocontact.loads.mat_map import MatMap
 
 
@@ -33,12 +35,15 @@ class MatErrors:
         Of where the mat lies, along each axis [m].
     turn
         Of how it is turned, about each axis [rad].
+    pose
+        Of where the body lies that carries the mat, as its registration tells it.
     """
 
     cell: float = 0.0
     gain: float = 0.0
     shift: float = 0.0
     turn: float = 0.0
+    pose: PoseCovariance | None = None
 
 
 def wrench_covariance(
@@ -57,6 +62,9 @@ def wrench_covariance(
     moved = np.concatenate([np.zeros((len(whole), 3, 3)), -_crossing(wrench.force)], axis=1)
     for by, jacobian in ((errors.turn, turned), (errors.shift, moved)):
         total += by**2 * jacobian @ jacobian.transpose(0, 2, 1)
+    if errors.pose is not None:
+        both = np.concatenate([moved, turned], axis=2)
+        total += both @ errors.pose.at(middle) @ both.transpose(0, 2, 1)
     return np.asarray(total)
 
 

@@ -194,7 +194,7 @@ def _reservations(s: MatStory) -> list[str]:
         f"Cells are up to {known.max():.1%} larger or smaller on the scan than flat; each keeps its own sensing area.",
         f"Landmarks are missed by up to {miss}.",
         f"The errors that were stated make the largest force uncertain by {sd:.1f} N (standard deviation).",
-        "What was not stated (--gain, --registration) is not in that number.",
+        "What was neither stated (--gain, --registration) nor told by a registration is not in that number.",
         "The scan is one shape: where soft tissue gives way under the load, pressures sit where it was before.",
     ]
 

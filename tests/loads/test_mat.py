@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.geometry.register.uncertainty import PoseCovariance
 from geocontact.geometry.surface import Surface
 from geocontact.loads.mat_errors import MatErrors, wrench_covariance
 from geocontact.loads.mat_load import mat_load, segment_loads
@@ -233,3 +234,31 @@ def test_offset_and_drift_are_taken_off() -> None:
     assert (one.drift == 0.0).all()
     with pytest.raises(ValueError, match="holds 0 frames"):
         unloaded(time, pressure, [(9.0, 10.0)])
+
+
+def test_covariance_of_a_registration_is_carried_to_the_wrench() -> None:
+    """Alike in all directions about the mat's middle it is the one that was stated; else that of drawn motions."""
+    surface, nodes, (valid, area) = cylinder(30), nodes_on_cylinder(8, 6), everywhere(8, 6, 2e-4)
+    placed, origin = mat_map(surface, nodes, valid, area), np.array([0.05, 0.03, -0.1])
+    pressure = np.random.default_rng(4).uniform(0.0, 2e4, (1, 48))
+    load = mat_load(placed, pressure, origin, "a")
+    middle = (placed.area @ placed.centre) / placed.area.sum()
+    alike = PoseCovariance(middle, np.diag([1e-3] * 3 + [0.03] * 3) ** 2, 6.0)
+    told, stated = (
+        wrench_covariance(placed, pressure, load.wrench, errors)
+        for errors in (MatErrors(pose=alike), MatErrors(shift=1e-3, turn=0.03))
+    )
+    np.testing.assert_allclose(told, stated, rtol=1e-12)
+    rng, about = np.random.default_rng(5), np.array([0.3, -0.2, 0.1])
+    root = np.diag([1e-3, 2e-3, 0.5e-3, 0.01, 0.02, 0.005]) @ (np.eye(6) + 0.3 * rng.standard_normal((6, 6)))
+    told = wrench_covariance(placed, pressure, load.wrench, MatErrors(pose=PoseCovariance(about, root @ root.T, 6.0)))
+    drawn = []
+    for _ in range(6000):
+        motion = root @ rng.standard_normal(6)
+        turn = Rotation.from_rotvec(motion[3:])
+        force = turn.apply(load.wrench.force[0])
+        point = about + motion[:3] + turn.apply(origin - about)
+        drawn.append(np.concatenate([force, turn.apply(load.wrench.moment[0]) + np.cross(point - origin, force)]))
+    seen = np.cov(np.array(drawn).T)
+    scale = np.repeat([np.sqrt(np.diag(seen)[:3].max()), np.sqrt(np.diag(seen)[3:].max())], 3)
+    np.testing.assert_allclose(told[0] / np.outer(scale, scale), seen / np.outer(scale, scale), atol=0.06)

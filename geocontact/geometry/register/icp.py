@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.geometry.register.quality import Registration
@@ -47,8 +47,12 @@ class Search:
 
 @dataclass(frozen=True, eq=False)
 class Partners:
-    """Points of A in B with partners on B: signed heights above the partners' planes [m], the planes' normals."""
+    """Points of A in B with partners on B: signed heights above the partners' planes [m], the planes' normals.
 
+    `number` counts them among all points.
+    """
+
+    number: Int[np.ndarray, " n"]
     points: Float[np.ndarray, "n 3"]
     normal: Float[np.ndarray, "n 3"]
     height: Float[np.ndarray, " n"]
@@ -69,7 +73,7 @@ def icp(moving: Surface, fixed: Surface, start: RigidTransform, search: Search |
     converged, rounds = False, 0
     while rounds < search.rounds and not converged:
         rounds += 1
-        partners = _partners(fixed, pose.apply(points), pose.rotation.apply(normals), search)
+        partners = partners_on(fixed, pose.apply(points), pose.rotation.apply(normals), search)
         step, size = _motion(partners)
         pose = step * pose
         converged = size < search.settled
@@ -88,16 +92,17 @@ def judged(
     """A pose X_BA with its residual map: distances of the points of A from B, and how firmly the shapes hold it."""
     there = pose.apply(points)
     residual = np.abs(fixed.proximity(there).distance)
-    partners = _partners(fixed, there, pose.rotation.apply(normals), search)
-    rows, weight, _, _ = _system(partners)
+    partners = partners_on(fixed, there, pose.rotation.apply(normals), search)
+    rows, weight, _, _ = system(partners)
     spectrum = np.linalg.eigvalsh((rows * weight[:, None]).T @ rows / weight.sum())
     hold = float(np.sqrt(max(float(spectrum[0]), 0.0)))
     return Registration(pose, there, residual, search.tolerance, (), converged, rounds, hold)
 
 
-def _partners(
+def partners_on(
     fixed: Surface, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], search: Search
 ) -> Partners:
+    """Partners on B of points of A with their outward normals; refused where there are too few."""
     found = fixed.proximity(points, search.reach)
     near = np.flatnonzero(found.face >= 0)
     face, closest = found.face[near], found.closest[near]
@@ -110,10 +115,10 @@ def _partners(
             "the same way; begin nearer, by landmarks"
         )
     height = np.einsum("ij,ij->i", points[near] - closest, plane)
-    return Partners(points[near][kept], plane[kept], height[kept])
+    return Partners(near[kept], points[near][kept], plane[kept], height[kept])
 
 
-def _system(
+def system(
     partners: Partners,
 ) -> tuple[Float[np.ndarray, "n 6"], Float[np.ndarray, " n"], Float[np.ndarray, " 3"], float]:
     """Change of every height with a shift and a turn about the points' middle (over their spread), and weights."""
@@ -127,7 +132,7 @@ def _system(
 
 def _motion(partners: Partners) -> tuple[RigidTransform, float]:
     """The motion of one round and its size at the points [m]."""
-    rows, weight, middle, spread = _system(partners)
+    rows, weight, middle, spread = system(partners)
     root = np.sqrt(weight)
     x = np.linalg.lstsq(rows * root[:, None], -partners.height * root, rcond=1e-4)[0]
     turn = Rotation.from_rotvec(x[3:] / spread)

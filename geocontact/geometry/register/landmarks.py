@@ -9,6 +9,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.geometry.register.quality import Registration
+from geocontact.geometry.register.uncertainty import landmark_covariance
 
 FLAT = 1e-3  # spread across the line of the landmarks over that along it, below which they leave a turn open
 TOLERANCE = 5e-3  # m; hand-placed landmarks on skin
@@ -54,7 +55,10 @@ def fit_landmarks(
     R_BA, _ = Rotation.align_vectors(fixed - from_B, moving - from_A, weights=share)
     pose = RigidTransform.from_components(from_B - R_BA.apply(from_A), R_BA)
     points = pose.apply(moving)
-    return Registration(pose, points, np.linalg.norm(points - fixed, axis=1), tolerance, names)
+    residual = np.linalg.norm(points - fixed, axis=1)
+    return Registration(
+        pose, points, residual, tolerance, names, covariance=landmark_covariance(points, residual, weight)
+    )
 
 
 def _first_not_finite(moving: Float[np.ndarray, "n 3"], fixed: Float[np.ndarray, "n 3"], names: tuple[str, ...]) -> str:

@@ -14,13 +14,16 @@ from geocontact.geometry.surface import Surface
 
 DENSE = 200_000  # points that stand for the fixed surface, which open3d takes as a cloud
 FINE = 1e-4  # m; scale of the residuals in the last search
+AGAIN = 30  # rounds of a search begun again from the result
+STANDS = 2e-6  # m, motion at the points in these, below which the result stands
 
 
 def open3d_icp(moving: Surface, fixed: Surface, start: RigidTransform, search: Search | None = None) -> Registration:
     """The pose X_BA of `icp`, found by open3d's point-to-plane search with Tukey's weights.
 
     B is a dense cloud to it, so partners on the rim cannot be dropped: pairs are bounded by the reach first, and by
-    ever less of it afterwards. Its residual map is made by the same distances as that of `icp`.
+    ever less of it afterwards. Its residual map is made by the same distances as that of `icp`. It does not say whether
+    it converged: a search begun again from the result must not move it.
     """
     o3d: Any = _open3d()
     search = search or Search()
@@ -38,11 +41,15 @@ def open3d_icp(moving: Surface, fixed: Surface, start: RigidTransform, search: S
             registration.TukeyLoss(BIWEIGHT * max(0.1 * reach, FINE))
         )
         found = registration.registration_icp(*clouds, reach, matrix, plane, ends)
-        matrix, rounds = np.asarray(found.transformation), rounds + 1
+        matrix, rounds = np.array(found.transformation), rounds + 1
         if reach <= search.tolerance:
             break
         reach = max(0.5 * reach, search.tolerance)
-    return judged(fixed, points, normals, RigidTransform.from_matrix(matrix), search, True, rounds)
+    once_more = registration.ICPConvergenceCriteria(1e-12, 1e-12, AGAIN)
+    again = registration.registration_icp(*clouds, reach, matrix, plane, once_more)
+    pose, other = (RigidTransform.from_matrix(each) for each in (matrix, np.array(again.transformation)))
+    stands = float(np.linalg.norm(other.apply(points) - pose.apply(points), axis=1).max()) < STANDS
+    return judged(fixed, points, normals, pose, search, stands, rounds)
 
 
 def _open3d() -> Any:

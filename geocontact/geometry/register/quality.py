@@ -8,6 +8,8 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.geometry.register.uncertainty import PoseCovariance
+
 
 @dataclass(frozen=True, eq=False)
 class Registration:
@@ -33,6 +35,8 @@ class Registration:
         How firmly the shapes hold each other: root mean square change [m] of the distances that fit, for 1 m (or 1 m
         over the points' spread, in rad) of the motion that changes them least. 0: they slide freely (a cylinder in a
         tube); 1: as firmly as a wall. NaN where shapes played no part.
+    covariance
+        Of the pose, from the residual; None where it was not asked for.
     """
 
     pose: RigidTransform
@@ -43,6 +47,7 @@ class Registration:
     converged: bool = True
     rounds: int = 0
     hold: float = float("nan")
+    covariance: PoseCovariance | None = None
 
     @property
     def rms(self) -> float:

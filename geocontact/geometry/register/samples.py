@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.geometry.surface import Surface
 
@@ -13,6 +13,12 @@ GOLDEN = 0.7548776662466927, 0.5698402909980532
 
 def samples(surface: Surface, number: int) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
     """Points [m] and outward face normals there, one per equal share of the area; faces that repeat count once."""
+    face, weights = sampled(surface, number)
+    return np.einsum("nk,nki->ni", weights, surface.vertices[surface.faces[face]]), surface.face_normal[face]
+
+
+def sampled(surface: Surface, number: int) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
+    """The same points as faces and shares of their corners."""
     area = np.where(surface.repeated, 0.0, surface.face_area)
     total = np.cumsum(area)
     if not total[-1] > 0.0:
@@ -22,5 +28,4 @@ def samples(surface: Surface, number: int) -> tuple[Float[np.ndarray, "n 3"], Fl
     s, t = (np.mod(0.5 + g * k, 1.0) for g in GOLDEN)
     over = s + t > 1.0
     s, t = np.where(over, 1.0 - s, s), np.where(over, 1.0 - t, t)
-    a, b, c = (surface.vertices[surface.faces[face, m]] for m in range(3))
-    return a + s[:, None] * (b - a) + t[:, None] * (c - a), surface.face_normal[face]
+    return face, np.column_stack([1.0 - s - t, s, t])

@@ -146,3 +146,14 @@ def test_open3d_finds_the_same():
     assert np.abs(ours.pose.translation - theirs.pose.translation).max() < 1e-4
     assert np.degrees((ours.pose.rotation.inv() * theirs.pose.rotation).magnitude()) < 0.05
     assert theirs.overlap == pytest.approx(ours.overlap, abs=0.01)
+    assert theirs.converged
+
+
+@pytest.mark.filterwarnings("ignore")  # its own imports warn
+def test_open3d_that_was_stopped_early_has_not_converged():
+    pytest.importorskip("open3d", reason="open3d is not installed, or lacks its system libraries", exc_type=ImportError)
+    from geocontact.geometry.register.open3d_icp import open3d_icp
+
+    found = open3d_icp(PARTLY, FIXED, off(), Search(points=8000, rounds=1, tolerance=0.02))
+    assert apart(found.pose, RigidTransform.identity()) > 1e-4
+    assert not found.converged
