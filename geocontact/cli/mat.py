@@ -26,6 +26,12 @@ class MatOptions:
     landmarks
         Places of the mat and the points of the scan that they lie on: id, row, column, x [mm], y [mm], z [mm], in the
         scan's frame; row and column count cells from the corner of the first one.
+    scan_with_mat
+        Instead of landmarks: a second scan of the same body with the mat on, in the same unit; the mat is found there.
+    first_corner
+        Place x,y,z of --surface near the mat's corner at its first cell, in the scan's unit; needed by --scan-with-mat.
+    mat_edge
+        Width of the mat's border without cells, for --scan-with-mat: 5mm; none unless given.
     out
         Folder for the results.
     layout
@@ -102,7 +108,10 @@ class MatOptions:
 
     surface: Path
     unit: Literal["m", "cm", "mm", "in"]
-    landmarks: Path
+    landmarks: Path | None = None
+    scan_with_mat: Path | None = None
+    first_corner: Annotated[str | None, Dashed] = None
+    mat_edge: str | None = None
     out: Path
     layout: Path | None = None
     kind: Literal["grid", "pedar", "tekscan", "xsensor"] | None = None

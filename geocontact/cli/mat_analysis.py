@@ -19,6 +19,7 @@ from geocontact.cli.mat_moving import Travel, followed, refuse_idle_motion
 from geocontact.cli.mat_reading import Recording, recording
 from geocontact.cli.mat_registration import registered
 from geocontact.cli.mat_results import Result, write_results
+from geocontact.cli.mat_second_scan import mat_marks, refuse_idle_scan
 from geocontact.cli.output import written_whole
 from geocontact.cli.patience import preparing
 from geocontact.cli.record import Record
@@ -32,7 +33,7 @@ from geocontact.geometry.drape.lay import lay
 from geocontact.geometry.drape.mat import Marks, Mat
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
-from geocontact.io.mat_landmarks import MatLandmarks, read_mat_landmarks
+from geocontact.io.mat_landmarks import MatLandmarks
 from geocontact.io.units import LENGTH
 from geocontact.loads.mat_errors import wrench_covariance
 from geocontact.loads.mat_fill import filling_covariance
@@ -53,9 +54,8 @@ def analyse(path: Path, o: MatOptions) -> int:
         seen, travel = followed(record, recording(record, path, o), o)
         surface = read_surface(record, "surface", o.surface, o.unit, None)
         _guard(surface, seen.frames, o)
-        marks = read_mat_landmarks(o.landmarks, seen.frames.rows, seen.frames.columns)
-        record.add_input("--landmarks", o.landmarks, landmarks=len(marks.name))
         with preparing():
+            marks = mat_marks(record, surface, seen.frames, o)
             surface, marks, found = registered(record, surface, marks, o)
             laid = _laid(record, surface, seen.frames, marks, o)
             placed = _mapped(surface, laid, seen.frames)
@@ -88,6 +88,7 @@ def _refuse_idle(o: MatOptions) -> None:
     for wrong, option, what, remedy in rows:
         if wrong:
             raise InputError("", option, what, remedy)
+    refuse_idle_scan(o)
     refuse_belt(o)
     refuse_idle_motion(o)
 
@@ -113,7 +114,7 @@ def _laid(record: Record, surface: Surface, frames: PressureFrames, marks: MatLa
     except NotAroundError as error:
         raise open_belt(o, error) from error
     except ValueError as error:
-        raise InputError(o.landmarks, "", str(error), "check landmarks, unit and --seen-from") from error
+        raise InputError(o.landmarks or "", "", str(error), "check landmarks, unit and --seen-from") from error
     _say_how_it_lies(record, laid, frames, marks)
     say_how_it_closes(record, mat, laid, o)
     return laid
