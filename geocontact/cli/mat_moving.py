@@ -82,7 +82,8 @@ def followed(record: Record, seen: Recording, o: MatOptions) -> tuple[Recording,
     record.results["motion"] = {
         "source": motion.source, "frame": frame, "poses": len(motion), "frames_left_out": int((~inside).sum()),
     }  # fmt: skip
-    return Recording(_only(seen.frames, inside), _only(seen.read, inside), seen.clipped), Travel(poses, frame)
+    chosen = replace(seen, frames=_only(seen.frames, inside), read=_only(seen.read, inside))
+    return chosen, Travel(poses, frame)
 
 
 def _motion(record: Record, o: MatOptions) -> Motion:

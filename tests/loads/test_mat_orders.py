@@ -44,7 +44,7 @@ def gauss(low: float, high: float, count: int = 200) -> tuple[np.ndarray, np.nda
 
 
 def test_uniform_pressure_on_a_patch_of_the_sphere_converges_at_second_order_of_the_cells() -> None:
-    """F = -p int n dA over longitudes a and latitudes b; n dA = R^2 n cos b da db. Off the top; lever arm from there."""
+    """F = -p int n dA over longitudes a and latitudes b; n dA = R^2 n cos b da db. Arms from the top."""
     a, b, p = (0.05, 0.65), (-0.2, 0.5), 1e4
     (u, wu), (v, wv) = gauss(*a), gauss(*b)
     weight = R**2 * np.outer(wu, wv * np.cos(v))
@@ -53,9 +53,8 @@ def test_uniform_pressure_on_a_patch_of_the_sphere_converges_at_second_order_of_
     force, moment = push.sum(axis=(0, 1)), np.cross(points - TOP, push).sum(axis=(0, 1))
     centre = np.einsum("ij,ijk->k", weight, points) / weight.sum()
     # closed: int cos^2 b db and sin a between the ends
-    closed = (
-        -p * R**2 * (np.sin(a[1]) - np.sin(a[0])) * 0.5 * (b[1] - b[0] + 0.5 * (np.sin(2 * b[1]) - np.sin(2 * b[0])))
-    )
+    square = 0.5 * (b[1] - b[0] + 0.5 * (np.sin(2 * b[1]) - np.sin(2 * b[0])))
+    closed = -p * R**2 * (np.sin(a[1]) - np.sin(a[0])) * square
     assert force[2] == pytest.approx(closed, rel=1e-12)
     surface, counts, errors = cap(300), np.array([2, 4, 8]), []
     for count in counts:
@@ -111,7 +110,7 @@ def test_hertz_pressure_on_a_sphere_converges_in_force_centre_and_moment(tilt: f
 
 
 def test_facets_of_a_cylinder_cost_force_and_moment_at_second_order_of_their_edges() -> None:
-    """Fine cells on coarse meshes: what is left is what the mesh lacks. Uniform p on |angle| <= 0.6, x in -0.02 .. 0.1."""
+    """Fine cells on coarse meshes: what is left is what the mesh lacks. Uniform p on |angle| <= 0.6, 0.12 m long."""
     half, low, high, p = 0.6, -0.02, 0.1, 1e4
     force = np.array([0.0, 0.0, -2.0 * p * TUBE * (high - low) * np.sin(half)])
     origin = np.array([0.0, 0.03, 0.0])
