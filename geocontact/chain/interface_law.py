@@ -1,11 +1,11 @@
 """Law of a strapped-on interface: a spring that pulls and pushes, and every term that may stand beside it.
 
-From the outside in: the attachment may slip; a contact that is open closes its gap; what is left is taken up by play;
-the spring carries the rest, with its stiffening and asymmetry, and a Maxwell branch follows the spring; the dampers,
-the base's and a further one, follow the rate beyond the play; stops and the strap's tension see the deflection after
-slip, dry friction the displacement itself; and a contact that cannot pull lets go of a sum that would. Terms that are
-absent have neutral numbers and cost next to nothing, and the order in which they were added does not matter. At a joint
-the deflection is an angle and the force a moment: N m and rad in the place of N and m throughout.
+From the outside in: the attachment may slip; what is left is taken up by play first; the spring carries the rest, with
+its stiffening and asymmetry, and a Maxwell branch follows the spring; the dampers, the base's and a further one, follow
+the rate beyond the play; stops and the strap's tension see the deflection after slip, dry friction the displacement
+itself; of the sum, a contact that may open passes on what pushes. Terms that are absent have neutral numbers and cost
+next to nothing, and the order in which they were added does not matter. At a joint the deflection is an angle and the
+force a moment: N m and rad in the place of N and m throughout.
 
 The law remembers `MEMORY` numbers per deflection: it reads those of the last accepted sample and writes those of this
 one, so it serves along a recorded motion, in an implicit solve and inside an integrator alike.
@@ -20,7 +20,7 @@ from numpy import ndarray
 
 from geocontact.chain.slots import Slots
 from geocontact.chain.terms.asymmetry import direction_factor
-from geocontact.chain.terms.contact_loss import closed_by, pushing
+from geocontact.chain.terms.contact_loss import transmitted
 from geocontact.chain.terms.damping import power_damping
 from geocontact.chain.terms.dead_zone import beyond_play
 from geocontact.chain.terms.dry_friction import friction_at_rate, friction_state
@@ -61,7 +61,7 @@ INTERFACE_LAW = Slots(
         "end_stop.power": 1.0,
         "end_stop.reference": 1.0,
         "b": 0.0,
-        "contact_loss.gap": -math.inf,
+        "contact_loss.opening": -math.inf,
         "contact_loss.rounding": 0.0,
         "contact_loss.side": 1.0,
     }
@@ -84,15 +84,6 @@ def spring_force(taut: float, speed: float, n: Float[ndarray, " slots"]) -> floa
 
 
 @kernel
-def closed(attached: float, speed: float, n: Float[ndarray, " slots"]) -> tuple[float, float]:
-    """Deflection beyond the gap of a contact that may be open, and its rate; all of it where the contact is glued."""
-    if n[28] == -math.inf:
-        return attached, speed
-    overlap, share = closed_by(n[30] * attached - n[28], n[29])
-    return n[30] * overlap, speed * share
-
-
-@kernel
 def dashpots(speed: float, n: Float[ndarray, " slots"]) -> float:
     """Force against the rate, the base's linear one and a further one."""
     force = n[27] * speed
@@ -103,7 +94,7 @@ def dashpots(speed: float, n: Float[ndarray, " slots"]) -> float:
 
 @kernel
 def beside(attached: float, n: Float[ndarray, " slots"]) -> float:
-    """Force of stops and strap, which see the deflection whether the contact is closed or not."""
+    """Force of stops and strap."""
     force = 0.0
     if n[8] != 0.0:
         force += stop_force(attached, n[8], n[9], 1.0, n[25], n[26])
@@ -130,8 +121,7 @@ def interface_force(
     slip = slipped(old[SLIP], old[DEFLECTION], u, h, n[0], n[1], n[2])
     attached = u - slip
     speed = rate - (slip - old[SLIP]) / h if h > 0.0 else rate
-    pressed, speed = closed(attached, speed, n)
-    taut = beyond_play(pressed, n[3], n[4])
+    taut = beyond_play(attached, n[3], n[4])
     if n[3] > 0.0 and taut == 0.0:
         speed = 0.0
     elastic = spring_force(taut, speed, n)
@@ -147,7 +137,7 @@ def interface_force(
     if n[21] != 0.0:
         force += n[21] * friction_at_rate(rate, n[22])
     if n[28] != -math.inf:
-        force = pushing(force, n[30])
+        force = transmitted(force, n[28], n[29], n[30])
     new[DEFLECTION] = u
     new[SLIP] = slip
     new[FRICTION] = friction

@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from geocontact.chain.contact_law import CONTACT_LAW, contact_force
 from geocontact.chain.interface_law import INTERFACE_LAW, MEMORY, interface_force
 from geocontact.chain.terms.asymmetry import direction_factor
-from geocontact.chain.terms.contact_loss import closed_by, pushing
+from geocontact.chain.terms.contact_loss import transmitted
 from geocontact.chain.terms.damping import power_damping
 from geocontact.chain.terms.dead_zone import beyond_play
 from geocontact.chain.terms.dry_friction import friction_state
@@ -116,30 +116,27 @@ def test_inside_the_play_nothing_acts() -> None:
 def test_an_open_contact_carries_nothing_before_its_gap_is_closed() -> None:
     time = np.linspace(0.0, 2.0, 201)
     u = 0.012 * np.sin(4.0 * time)
-    got = along(time, u, k=5000.0, contact_loss_gap=0.004)
-    np.testing.assert_allclose(got, 5000.0 * np.maximum(u - 0.004, 0.0), rtol=1e-12)
-    other = along(time, -u, k=5000.0, contact_loss_gap=0.004, contact_loss_side=-1.0)
+    got = along(time, u, k=5000.0, contact_loss_opening=20.0)
+    np.testing.assert_allclose(got, 5000.0 * np.maximum(u - 0.004, 0.0), rtol=1e-12, atol=1e-12)
+    other = along(time, -u, k=5000.0, contact_loss_opening=20.0, contact_loss_side=-1.0)
     np.testing.assert_allclose(other, -got, rtol=1e-12)
 
 
 def test_a_contact_that_parts_fast_is_not_held_back_by_its_dashpot() -> None:
     time = np.linspace(0.0, 1.0, 1001)
     u = 0.01 - 0.02 * time
-    got = along(time, u, k=1000.0, b=100.0, contact_loss_gap=0.0)
+    got = along(time, u, k=1000.0, b=100.0, contact_loss_opening=0.0)
     np.testing.assert_allclose(got, np.maximum(1000.0 * u - 2.0, 0.0), atol=1e-12)
     assert along(time, u, k=1000.0, b=100.0)[-1] == pytest.approx(-12.0)  # the same, glued
-    closing = along(time, -u, k=1000.0, b=100.0, contact_loss_gap=0.0)
-    np.testing.assert_allclose(closing, np.where(u < 0.0, -1000.0 * u + 2.0, 0.0), atol=1e-12)
 
 
-def test_a_rounded_contact_closes_gradually_and_as_fast_as_it_is_pressed() -> None:
-    x = np.linspace(-0.01, 0.01, 401)
-    pressed, share = np.array([closed_by(float(each), 0.002) for each in x]).T
-    np.testing.assert_allclose(pressed * (pressed - x), 0.25 * 0.002**2, rtol=1e-9)  # its equation, e² - x e = r²/4
-    np.testing.assert_allclose(share[1:-1], np.gradient(pressed, x)[1:-1], atol=1e-4)
-    assert closed_by(0.003, 0.0) == (0.003, 1.0)
-    assert closed_by(-0.003, 0.0) == (0.0, 0.0)
-    assert [pushing(force, side) for force in (3.0, -3.0) for side in (1.0, -1.0)] == [3.0, 0.0, 0.0, -3.0]
+def test_a_rounded_contact_closes_gradually() -> None:
+    force = np.linspace(-20.0, 20.0, 401)
+    got = np.array([transmitted(float(each), 5.0, 2.0, 1.0) for each in force])
+    np.testing.assert_allclose(got * (got - (force - 5.0)), 0.25 * 2.0**2, rtol=1e-9)  # F (F - x) = r²/4
+    assert (got > 0.0).all()
+    sides = [transmitted(each, 1.0, 0.0, side) for each in (3.0, -3.0) for side in (1.0, -1.0)]
+    assert sides == [2.0, 0.0, 0.0, -2.0]
 
 
 def test_terms_by_hand() -> None:

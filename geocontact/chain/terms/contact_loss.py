@@ -8,18 +8,13 @@ from geocontact.geometry.kernels.compile import kernel
 
 
 @kernel
-def closed_by(x: float, rounding: float) -> tuple[float, float]:
-    """What is pressed when the bodies overlap by `x`, and how much of a rate of `x` presses it.
+def transmitted(force: float, opening: float, rounding: float, side: float) -> float:
+    """What is left of a `force` once the contact has closed [N]; `side` +1 or -1 is the sign of a push.
 
-    max(x, 0) for `rounding` 0; else (x + sqrt(x² + rounding²))/2, a pad whose edge meets the body before the rest.
+    max(x, 0), x = side force - opening, for `rounding` 0; else (x + sqrt(x² + rounding²))/2: a pad whose edge meets the
+    body before the rest. The opening is the load that closing the gap would take without one: stiffness times gap.
     """
+    x = side * force - opening
     if rounding <= 0.0:
-        return max(x, 0.0), 1.0 if x > 0.0 else 0.0
-    root = math.hypot(x, rounding)
-    return 0.5 * (x + root), 0.5 * (1.0 + x / root)
-
-
-@kernel
-def pushing(force: float, side: float) -> float:
-    """The force as far as it pushes: max(side force, 0) side [N]; `side` +1 or -1 is the sign of a push."""
-    return side * max(side * force, 0.0)
+        return side * max(x, 0.0)
+    return side * 0.5 * (x + math.hypot(x, rounding))
