@@ -54,4 +54,5 @@ END_STOP = Effect(
         "end_stop.power",
         "end_stop.reference",
     ),
+    together=False,
 )

@@ -5,11 +5,12 @@ Each site has a spring, a dashpot and a memory of its own; sites do not feel eac
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.chain.implicit import require_convergence
 from geocontact.chain.links import Law, Loads, Values
@@ -35,43 +36,55 @@ COMPLIANCE = 4
 
 @kernel
 def deflected(
-    normal: Float[np.ndarray, "s t"],
-    turn: Float[np.ndarray, "s t"],
-    closing: Float[np.ndarray, "s t"],
-    spin: Float[np.ndarray, "s t"],
+    position: Float[np.ndarray, "i t"],
+    speed: Float[np.ndarray, "i t"],
+    rows: Int[np.ndarray, "s two"],
     numbers: Float[np.ndarray, "s seven"],
 ) -> tuple[Float[np.ndarray, "s t"], Float[np.ndarray, "s t"]]:
-    """u = normal + ρ φ and its rate, ρ = ρ0 + a ψ + c ψ², ψ the rotation φ from the middle of its range."""
-    u, rate = np.empty(normal.shape), np.empty(normal.shape)
-    for s in range(normal.shape[0]):
+    """u = normal + ρ φ and its rate, ρ = ρ0 + a ψ + c ψ², ψ the rotation φ from the middle of its range.
+
+    `rows` are those of the normal displacement and of the rotation of each site.
+    """
+    u, rate = np.empty((len(rows), position.shape[1])), np.empty((len(rows), position.shape[1]))
+    for s in range(len(rows)):
         rho0, slope, bend, centre = numbers[s, 0], numbers[s, 1], numbers[s, 2], numbers[s, 3]
-        for i in range(normal.shape[1]):
-            angle = turn[s, i] - centre
+        normal, rotation = rows[s, 0], rows[s, 1]
+        for i in range(position.shape[1]):
+            turn = position[rotation, i]
+            angle = turn - centre
             rho = rho0 + angle * (slope + bend * angle)
-            u[s, i] = normal[s, i] + rho * turn[s, i]
-            rate[s, i] = closing[s, i] + spin[s, i] * (rho + turn[s, i] * (slope + 2.0 * bend * angle))
+            u[s, i] = position[normal, i] + rho * turn
+            rate[s, i] = speed[normal, i] + speed[rotation, i] * (rho + turn * (slope + 2.0 * bend * angle))
     return u, rate
 
 
 @kernel
 def carried(
     time: Float[np.ndarray, " t"],
-    u: Float[np.ndarray, "s t"],
-    rate: Float[np.ndarray, "s t"],
+    position: Float[np.ndarray, "i t"],
+    speed: Float[np.ndarray, "i t"],
+    rows: Int[np.ndarray, "s two"],
     numbers: Float[np.ndarray, "s seven"],
     law: Float[np.ndarray, "s numbers"],
 ) -> tuple[Float[np.ndarray, "t s"], int]:
     """Load of every site, and how many samples have no solution behind a spring in series."""
-    out = np.empty((u.shape[1], u.shape[0]))
+    u, rate = deflected(position, speed, rows, numbers)
+    out = np.empty((time.size, len(rows)))
     straight = np.array([[0.0, 1.0], [0.0, 1.0], [1.0, 1.0]])
     unsolved = 0
-    for s in range(u.shape[0]):
+    for s in range(len(rows)):
         if numbers[s, COMPLIANCE] == 0.0:
             out[:, s] = along(time, u[s], rate[s], law[s])
         else:
             out[:, s], missed = in_series(time, u[s], rate[s], straight, numbers[s, COMPLIANCE:], law[s])
             unsolved += missed
     return out, unsolved
+
+
+@functools.lru_cache(maxsize=32)
+def rows_of(sites: tuple[str, ...], inputs: tuple[str, ...]) -> Int[np.ndarray, "s two"]:
+    """Places of the normal displacement and of the rotation of each site among the inputs."""
+    return np.array([[inputs.index(f"{site}_{motion}") for motion in ("normal", "rotation")] for site in sites])
 
 
 @dataclass(frozen=True)
@@ -106,27 +119,18 @@ class InterfaceSites:
         self, movement: Movement, values: Values
     ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
         """u [m] and u' [m/s] of each site, nothing giving way."""
-        u, rate = self._deflected(movement, self._numbers(values))
+        rows = rows_of(self.sites, movement.inputs)
+        u, rate = deflected(movement.position, movement.rate, rows, self._numbers(values))
         return u.T, rate.T
 
     def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
         """Force of each site along a movement, each with a memory of its own."""
-        numbers = self._numbers(values)
-        u, rate = self._deflected(movement, numbers)
+        numbers, rows = self._numbers(values), rows_of(self.sites, movement.inputs)
         of_law = law.slots.numbers(values).reshape(len(self.sites), -1)
-        normal, unsolved = carried(movement.time, u, rate, numbers, of_law)
+        normal, unsolved = carried(movement.time, movement.position, movement.rate, rows, numbers, of_law)
         require_convergence(unsolved, normal.size, numbers[:, COMPLIANCE].max())
         nothing = np.zeros_like(normal)
         return Loads(normal, nothing, nothing)
 
     def _numbers(self, values: Values) -> Float[np.ndarray, "s seven"]:
         return self.slots.numbers(values).reshape(len(self.sites), -1)
-
-    def _deflected(
-        self, movement: Movement, numbers: Float[np.ndarray, "s seven"]
-    ) -> tuple[Float[np.ndarray, "s t"], Float[np.ndarray, "s t"]]:
-        along_normal, about = (
-            [movement.row(f"{site}_{motion}") for site in self.sites] for motion in ("normal", "rotation")
-        )
-        place, rate = movement.position, movement.rate
-        return deflected(place[along_normal], place[about], rate[along_normal], rate[about], numbers)
