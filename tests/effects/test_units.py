@@ -47,7 +47,7 @@ def in_other_units(system: System, trials: tuple[Trial, ...], of: Mapping[str, f
         recording(t.name, t.time, {c: t.column(c) * factor(system.unit(c), of) for c in channels}, **t.covariates)
         for t in trials
     ]
-    units = {"angle0": "rad", "hardening": "1/rad^2"}
+    units = {"angle0": "rad", "hardening": "1/rad^2", "b": "N s/m"}
     constants = {name: value * factor(units.get(name, "-"), of) for name, value in system.constants.items()}
     other = replace(system, parameters=tuple(turned(p, of) for p in system.parameters), constants=constants)
     return other.scaled(changed), changed

@@ -1,4 +1,4 @@
-"""Systems on synthetic trials: a swept elbow, a foot rolling over, a knee, and an own model, a joint."""
+"""Systems on synthetic trials: a swept elbow, a foot rolling over, a knee, three straps, and an own model, a joint."""
 
 from __future__ import annotations
 
@@ -9,14 +9,17 @@ from geocontact.chain.system import System
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.systems import elastic_joint, elbow_exoskeleton, knee_implant, prosthetic_foot
+from geocontact.systems import elastic_joint, elbow_exoskeleton, knee_implant, prosthetic_foot, sit_to_stand
 
 FOOT_CONSTANTS = {"n": 1.2, "delta_full": 0.002, "mu_s": 0.9, "mu_k": 0.7, "v_th": 0.25}
 ELBOW_CONSTANTS = {"l_ex": 0.185, "z_ex": 0.09}
 ELBOW_VALUES = {"k": 300.0, "x": 0.03, "y": 0.04}
 JOINT_CONSTANTS = {"angle0": 0.1, "hardening": 0.6}
 KNEE_CONSTANTS = {"R": 0.037}
-NAMES = ("elbow", "foot", "knee", "joint")
+SITES_CONSTANTS = {"b": 80.0}
+STIFFNESS = {"pelvis": 4000.0, "thigh": 7000.0, "shank": 5500.0}
+LEVERS = {"pelvis": 0.04, "thigh": -0.03, "shank": 0.05}
+NAMES = ("elbow", "foot", "knee", "sit_to_stand", "joint")
 
 
 def recording(name: str, time: np.ndarray, columns: dict[str, np.ndarray], **covariates: float) -> Trial:
@@ -60,6 +63,26 @@ def knee_trial(name: str, speed: float, step: float = 0.01, duration: float = 3.
 
 def knee() -> System:
     return knee_implant.build((Parameter("E_star", "Pa", 1.2e7, 2e6, 8e7),), KNEE_CONSTANTS, {})
+
+
+def sites_trial(name: str, speed: float, step: float = 0.02, duration: float = 6.0) -> Trial:
+    """Every site pressed and let go until it pulls, in its own time; rotations do not follow displacements."""
+    time = np.arange(round(duration / step) + 1) * step
+    columns: dict[str, np.ndarray] = {}
+    for i, site in enumerate(sit_to_stand.SITES):
+        phase = speed * time + 0.9 * i
+        slow = np.sin((0.41 + 0.07 * i) * phase + 2.0 * i)
+        columns[f"{site}_normal"] = 0.004 + 0.007 * np.sin(phase) + 0.004 * slow
+        columns[f"{site}_tangential"] = 0.003 * np.cos(0.7 * phase)
+        columns[f"{site}_rotation"] = 0.05 * np.cos(0.53 * phase + i) + 0.04 * np.sin(1.3 * phase)
+    forces = {f"{site}_force": np.full(time.size, np.nan) for site in sit_to_stand.SITES}
+    return recording(name, time, columns | forces)
+
+
+def sites() -> System:
+    parameters = [Parameter(f"k_n_{site}", "N/m", k, 1000.0, 25000.0) for site, k in STIFFNESS.items()]
+    parameters += [Parameter(f"rho_{site}", "m", rho, -0.15, 0.15) for site, rho in LEVERS.items()]
+    return sit_to_stand.build(tuple(parameters), SITES_CONSTANTS, {})
 
 
 def joint_trial(name: str, speed: float, setting: float, step: float = 0.02, duration: float = 12.0) -> Trial:
@@ -110,6 +133,9 @@ def example(name: str, refine: int = 1) -> tuple[System, tuple[Trial, ...]]:
     elif name == "knee":
         system = knee()
         trials = tuple(knee_trial(f"t{i}", speed, 0.01 / refine) for i, speed in enumerate((1.0, 1.7)))
+    elif name == "sit_to_stand":
+        system = sites()
+        trials = tuple(sites_trial(f"t{i}", speed, 0.02 / refine) for i, speed in enumerate((2.3, 3.7)))
     elif name == "joint":
         system = joint()
         told = enumerate(((1.3, -1.0), (2.9, 1.0)))
