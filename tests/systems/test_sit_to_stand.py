@@ -28,14 +28,18 @@ def deflection(trial: Trial, site: str) -> tuple[np.ndarray, np.ndarray]:
     return tuple(each[normal] + LEVERS[site] * each[rotation] for each in (moved.position, moved.rate))  # type: ignore[return-value]
 
 
-def candidate(label: str, system: System = SYSTEM) -> Candidate:
-    return next(each for each in candidates(system) if each.label == label)
+def candidate(wanted: str, system: System = SYSTEM) -> Candidate:
+    return next(each for each in candidates(system) if each.label == wanted)
 
 
-def with_effect(label: str, trial: Trial = TRIALS[0], **values: float) -> np.ndarray:
-    one = candidate(label)
+def label(one: Candidate) -> str:
+    return one.label
+
+
+def with_effect(wanted: str, **values: float) -> np.ndarray:
+    one = candidate(wanted)
     given = {p.name: values[p.name.split(".")[-1]] for p in one.parameters}
-    return one.apply(SYSTEM).simulate(trial, {**SYSTEM.start, **given})
+    return one.apply(SYSTEM).simulate(TRIALS[0], {**SYSTEM.start, **given})
 
 
 def base(trial: Trial = TRIALS[0]) -> np.ndarray:
@@ -57,7 +61,7 @@ def test_the_tangential_displacement_does_not_matter() -> None:
     assert not [one.label for one in candidates(SYSTEM) if "tangential" in one.label]
 
 
-@pytest.mark.parametrize("one", [one for one in candidates(SYSTEM) if one.variant.endswith("thigh")], ids=str)
+@pytest.mark.parametrize("one", [one for one in candidates(SYSTEM) if one.variant.endswith("thigh")], ids=label)
 def test_what_is_at_the_thigh_leaves_the_other_sites_alone(one: Candidate) -> None:
     full = one.apply(SYSTEM)
     got = full.simulate(TRIALS[1], {**SYSTEM.start, **one.starts[-1]})
