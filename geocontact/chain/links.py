@@ -34,12 +34,15 @@ class Modifier(Generic[T]):
         What is done: (what passes, movement, values) → what is passed on.
     trials
         Names of the trials that have it; None for all.
+    apart
+        Whether it does to each channel what depends on no other.
     """
 
     name: str
     rank: float
     change: Callable[[T, Movement, Values], T]
     trials: frozenset[str] | None = None
+    apart: bool = False
 
 
 def added(modifiers: tuple[Modifier[T], ...], one: Modifier[T]) -> tuple[Modifier[T], ...]:

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.implicit import NotConverged
-from geocontact.chain.links import Balance, Geometry, Law, Motion, Places, Sensor
+from geocontact.chain.links import Balance, Geometry, Law, Modifier, Motion, Places, Sensor
 from geocontact.chain.scale import Scale, scale_of
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
@@ -99,6 +99,23 @@ class System:
     def start(self) -> dict[str, float]:
         """Starting value of every free parameter."""
         return {p.name: p.start for p in self.parameters if not p.fixed}
+
+    @cached_property
+    def apart(self) -> dict[str, tuple[int, ...]]:
+        """Outputs (columns) of each parameter that acts at one place only; empty where anything mixes the channels."""
+        modifiers: tuple[Modifier[Any], ...] = (*self.motion.modifiers, *self.balance.modifiers, *self.sensor.modifiers)
+        sources = [*self.law.slots.sources.items(), *self.geometry.slots.sources.items()]
+        if not self.places or not all(one.apart for one in modifiers) or any(callable(s) for _, s in sources):
+            return {}
+        acts: dict[str, set[str]] = {}
+        for name, source in sources:
+            if isinstance(source, str):
+                acts.setdefault(source, set()).add(name.partition(".")[0])
+        columns = {
+            place: tuple(c for c, name in enumerate(self.outputs) if name.startswith(f"{place}_"))
+            for place in self.places
+        }
+        return {name: columns[next(iter(at))] for name, at in acts.items() if len(at) == 1}
 
     def unit(self, channel: str) -> str:
         """SI unit of a channel, "-" where the model does not say."""

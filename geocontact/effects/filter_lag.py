@@ -27,7 +27,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
     def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
         return lagged(movement.time, outputs, values[lag.name], values[order.name])
 
-    link = with_sensor(Modifier("filter_lag", RANK, change))
+    link = with_sensor(Modifier("filter_lag", RANK, change, apart=True))
     others = ({lag.name: 0.3 * most},)
     return (Candidate("filter_lag", "", "sensor", (lag, order), link, {lag.name: 0.0}, others),)
 

@@ -39,7 +39,7 @@ def biased(system: System, name: str, unit: str, most: float) -> Candidate:
         bias[row] = values[offset.name]
         return replace(movement, position=movement.position + bias)
 
-    link = with_motion(Modifier(f"motion_offset.{name}", RANK, change))
+    link = with_motion(Modifier(f"motion_offset.{name}", RANK, change, apart=True))
     others = ({offset.name: -offset.start},)
     return Candidate("motion_offset", name, "kinematics", (offset,), link, {offset.name: 0.0}, others, channel=name)
 

@@ -42,7 +42,7 @@ def saturated(system: System, name: str) -> Candidate:
         out[:, column] = clipped(outputs[:, column], values[level.name], values[softness.name])
         return out
 
-    link = with_sensor(Modifier(f"saturation.{name}", RANK, change))
+    link = with_sensor(Modifier(f"saturation.{name}", RANK, change, apart=True))
     others = ({level.name: 0.8 * most}, {level.name: 0.6 * most})
     neutral = {level.name: np.inf}
     return Candidate("saturation", name, "sensor", (level, softness), link, neutral, others, channel=name)

@@ -38,7 +38,7 @@ def drifting(system: System, name: str) -> Candidate:
         by = values[rate.name] * whole * drift(share, values[bend.name])
         return np.asarray(outputs + by[:, None] * hit)
 
-    link = with_sensor(Modifier(f"sensor_drift.{name}", RANK, change))
+    link = with_sensor(Modifier(f"sensor_drift.{name}", RANK, change, apart=True))
     others = ({rate.name: -rate.start},)
     return Candidate("sensor_drift", name, "sensor", (rate, bend), link, {rate.name: 0.0}, others, channel=name)
 

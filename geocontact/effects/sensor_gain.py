@@ -26,7 +26,7 @@ def scaled(system: System, variant: str, channels: tuple[str, ...]) -> Candidate
         return outputs * (1.0 + values[gain.name] * hit)
 
     channel = channels[0] if len(channels) == 1 else ""
-    link = with_sensor(Modifier(f"sensor_gain.{variant}", RANK, change))
+    link = with_sensor(Modifier(f"sensor_gain.{variant}", RANK, change, apart=True))
     return Candidate(
         "sensor_gain", variant, "sensor", (gain,), link, {gain.name: 0.0}, ({gain.name: -0.05},), channel=channel
     )

@@ -26,7 +26,7 @@ def shifted(system: System, name: str) -> Candidate:
     def change(outputs: Channels, _: Movement, values: Values) -> Channels:
         return outputs + values[offset.name] * hit
 
-    link = with_sensor(Modifier(f"sensor_offset.{name}", RANK, change))
+    link = with_sensor(Modifier(f"sensor_offset.{name}", RANK, change, apart=True))
     return Candidate("sensor_offset", name, "sensor", (offset,), link, {offset.name: 0.0}, channel=name)
 
 

@@ -25,7 +25,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
     def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
         return delayed(movement.time, outputs, values[delay.name])
 
-    link = with_sensor(Modifier("time_shift", RANK, change))
+    link = with_sensor(Modifier("time_shift", RANK, change, apart=True))
     others = ({delay.name: 0.4 * most},)
     return (Candidate("time_shift", "", "timing", (delay,), link, {delay.name: 0.0}, others),)
 

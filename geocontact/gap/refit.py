@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -118,16 +119,35 @@ def magnitude(p: Parameter) -> float:
 def derivatives(
     system: System, measured: Measured, values: Mapping[str, float], base: Sequence[np.ndarray] | None = None
 ) -> list[Float[np.ndarray, "_ c p"]]:
-    """Derivative of the prediction with respect to each free parameter, per trial, by one-sided differences."""
+    """Derivative of the prediction with respect to each free parameter, per trial, by one-sided differences.
+
+    Parameters that no output has two of are moved at once (Curtis, Powell & Reid 1974, J. Inst. Math. Appl. 13:117).
+    """
     start = measured.residuals(system, values) if base is None else base
-    columns: list[list[np.ndarray]] = [[] for _ in measured.trials]
-    for p in free(system):
-        step = STEP * magnitude(p)
-        step = -step if values[p.name] + step > p.upper else step
-        moved = measured.residuals(system, {**values, p.name: values[p.name] + step})
-        for column, before, after in zip(columns, start, moved, strict=True):
-            column.append((before - after) / step)
-    return [np.stack(c, axis=-1) if c else np.zeros((*r.shape, 0)) for c, r in zip(columns, start, strict=True)]
+    parameters = free(system)
+    out = [np.zeros((*r.shape, len(parameters))) for r in start]
+    for group in moved_at_once(system, parameters):
+        steps = {}
+        for k in group:
+            p, step = parameters[k], STEP * magnitude(parameters[k])
+            steps[p.name] = -step if values[p.name] + step > p.upper else step
+        moved = measured.residuals(system, {**values, **{name: values[name] + by for name, by in steps.items()}})
+        for k in group:
+            name = parameters[k].name
+            columns = system.apart.get(name, slice(None)) if len(group) > 1 else slice(None)
+            for slopes, before, after in zip(out, start, moved, strict=True):
+                slopes[:, columns, k] = (before[:, columns] - after[:, columns]) / steps[name]
+    return out
+
+
+def moved_at_once(system: System, parameters: Sequence[Parameter]) -> list[list[int]]:
+    """Places of the parameters in groups that share no output; alone what acts on everything."""
+    groups = [[k] for k, p in enumerate(parameters) if p.name not in system.apart]
+    at: dict[tuple[int, ...], list[int]] = {}
+    for k, p in enumerate(parameters):
+        if p.name in system.apart:
+            at.setdefault(system.apart[p.name], []).append(k)
+    return groups + [[k for k in some if k is not None] for some in zip_longest(*at.values())]
 
 
 def refit(

@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from geocontact.chain.candidate import Candidate
+from geocontact.effects.catalogue import candidates
 from geocontact.gap.problem import Plain, base_starts, rough_noise
-from geocontact.gap.refit import Measured, derivatives, free, refit
+from geocontact.gap.refit import Measured, derivatives, free, magnitude, moved_at_once, refit
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import NOISE, TRUE, elbow_case, lost
+from tests.systems.examples import example
 
 
 def measured() -> tuple:
@@ -44,3 +47,22 @@ def test_samples_that_were_not_measured_count_for_nothing() -> None:
     missing = ~data.present[0][:, 0]
     assert missing.any()
     assert (data.residuals(system, TRUE)[0][missing] == 0.0).all()
+
+
+SITES, SITES_TRIALS = example("sit_to_stand")
+
+
+@pytest.mark.parametrize("one", [one for one in candidates(SITES) if one.parameters], ids=lambda one: one.label)
+def test_moving_parameters_at_once_gives_what_each_alone_gives(one: Candidate) -> None:
+    system = one.apply(SITES)
+    measured, values = Measured.of(system, SITES_TRIALS, np.ones(3)), system.start
+    found, base = derivatives(system, measured, values), measured.residuals(system, values)
+    for k, p in enumerate(free(system)):
+        step = 1e-5 * magnitude(p)
+        step = -step if values[p.name] + step > p.upper else step
+        moved = measured.residuals(system, {**values, p.name: values[p.name] + step})
+        for slopes, before, after in zip(found, base, moved, strict=True):
+            np.testing.assert_array_equal(slopes[..., k], (before - after) / step, err_msg=p.name)
+    groups = moved_at_once(system, free(system))
+    assert sorted(k for group in groups for k in group) == list(range(len(free(system))))
+    assert len(groups) == len(free(system)) if one.name == "crosstalk" else len(groups) <= 4
