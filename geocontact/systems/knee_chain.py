@@ -50,6 +50,7 @@ At a threshold of 4 mm that is 1.9 mm and 0.054 rad: more than fluoroscopy or a 
 STRAPS = (
     *("slip.mobility", "dead_zone.width", "stiffening.gain", "end_stop.upper.stiffness", "end_stop.lower.stiffness"),
     *("damping.b", "dry_friction.stroke.limit", "dry_friction.rate.limit", "preload.tension"),
+    "contact_loss.opening",
 )
 """Terms of the law that an implant does not have: they stay neutral and are not offered."""
 
@@ -109,7 +110,7 @@ def build(
         total = partial(to_cells, rows=(posterior, anterior), regression=regression_of(tables))
     units = {**dict.fromkeys(ANGLES, "rad"), **dict.fromkeys(SHIFTS, "m"), **dict.fromkeys(outputs, "N")}
     geometry = geometry_of(meshes, constants["threshold"], constants["side"])
-    law = Law(INTERFACE_LAW, deflection="m^2").having(dict.fromkeys(STRAPS, 0.0))
+    law = Law(INTERFACE_LAW, deflection="m^2").having({name: INTERFACE_LAW.neutral[name] for name in STRAPS})
     return System(
         name="knee_chain",
         motion=Motion(POSE),

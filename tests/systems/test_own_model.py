@@ -172,8 +172,9 @@ def names(system: System) -> set[str]:
 
 def test_links_decide_which_effects_an_own_model_gets() -> None:
     """The elbow and the foot under another name: what the vocabulary lists for them, and what their links carry."""
-    # an elbow's mass must know where it sits; asymmetry its law knows, but the vocabulary lists it for others
-    assert names(renamed(elbow())) == names(elbow()) - {"inertia_load"} | {"asymmetry"}
+    # an elbow's mass must know where it sits; asymmetry and contact_loss its law knows, but the vocabulary lists them
+    # for others
+    assert names(renamed(elbow())) == names(elbow()) - {"inertia_load"} | {"asymmetry", "contact_loss"}
     assert names(renamed(foot())) == names(foot()) - {"inertia_load"}
 
 
