@@ -19,8 +19,10 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import EFFECTS, candidates
 from geocontact.io.gap_case import read_gap_case
+from geocontact.io.program import program
 from geocontact.systems.catalogue import SYSTEMS, system_of
 from tests.systems.examples import elbow, foot, joint
+from tests.systems.test_command import Spring
 
 MODEL = """
 from dataclasses import replace
@@ -203,7 +205,7 @@ def blocks() -> list[str]:
 
 
 def test_the_model_of_the_page_for_users_works(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    model, _, _, effect = blocks()
+    model, _, _, effect, _ = blocks()
     monkeypatch.delitem(sys.modules, "own_orthosis", raising=False)
     text = effect + model.replace('"N m"},', '"N m"}, own=(SECOND_STRUT,),')
     (here / "own_orthosis.py").write_text(text, encoding="utf-8")
@@ -216,6 +218,16 @@ def test_the_model_of_the_page_for_users_works(here: Path, monkeypatch: pytest.M
     values = {**system.start, "second_strut.stiffness": 30.0, "second_strut.gap": 0.2}
     want = base + 30.0 * np.maximum(angle - 0.2, 0.0)
     np.testing.assert_allclose(strut.simulate(given.calibration[0], values)[:, 0], want, rtol=1e-12, atol=1e-12)
+
+
+def test_the_program_of_the_page_for_users_works(tmp_path: Path) -> None:
+    """Which is the spring that the tests of programs have in place of one."""
+    (tmp_path / "simulator.py").write_text(blocks()[-1], encoding="utf-8")
+    words = f'"{sys.executable}" -S -E "{tmp_path / "simulator.py"}" {{params}} {{trial}} {{out}}'
+    own = program(words, ("angle",), ("torque",), {"angle": "rad", "torque": "N m"})
+    time = np.linspace(0.0, 1.0, 21)
+    angle, numbers = np.sin(3.0 * time)[None], {"k": 60.0, "neutral": 0.05, "h": 0.0, "level": 0.0}
+    np.testing.assert_allclose(own.run(time, angle, numbers), Spring().run(time, angle, numbers), rtol=1e-12)
 
 
 def test_the_table_of_the_page_for_users_names_every_effect() -> None:
