@@ -118,7 +118,9 @@ def interface_force(
 
     `h` = 0 at the first sample: everything is relaxed, nothing has slipped, friction is unloaded.
     """
-    slip = slipped(old[SLIP], old[DEFLECTION], u, h, n[0], n[1], n[2])
+    slip = old[SLIP]
+    if n[1] > 0.0:
+        slip = slipped(slip, old[DEFLECTION], u, h, n[0], n[1], n[2])
     attached = u - slip
     speed = rate - (slip - old[SLIP]) / h if h > 0.0 else rate
     taut = beyond_play(attached, n[3], n[4])

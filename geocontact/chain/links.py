@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Generic, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
@@ -99,11 +99,14 @@ class Loads:
         Forces [N]; tangential is zero where the system has none.
     arm
         Where each of them acts, for a balance that needs it [m].
+    moved
+        What the loads have moved, where a system has a body of its own that is measured [rad]; else no column.
     """
 
     normal: Float[np.ndarray, "t n"]
     tangential: Float[np.ndarray, "t n"]
     arm: Float[np.ndarray, "t n"]
+    moved: Float[np.ndarray, "k m"] = field(default_factory=lambda: np.zeros((0, 0)))
 
 
 @runtime_checkable

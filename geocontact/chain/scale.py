@@ -26,8 +26,8 @@ class Scale:
         Longest trial and typical (median) sample step [s].
     output
         Largest magnitude of each measured channel.
-    centre, span
-        Middle and half-range of each input.
+    centre, span, speed
+        Middle and half-range of each input, and root mean square of its rate.
     places
         The same for each place of a system that has several.
     """
@@ -42,6 +42,7 @@ class Scale:
     centre: Mapping[str, float] = field(default_factory=dict)
     span: Mapping[str, float] = field(default_factory=dict)
     places: Mapping[str, Scale] = field(default_factory=dict)
+    speed: Mapping[str, float] = field(default_factory=dict)
 
     def of(self, channel: str) -> float:
         """Magnitude of a channel, 1 when it is not known."""
@@ -58,6 +59,12 @@ def measured_magnitude(trials: Sequence[Trial], channel: str) -> float:
     values = [t.column(channel) for t in trials if channel in t.signals.channels]
     finite = [np.abs(v[np.isfinite(v)]) for v in values]
     return positive(max((float(v.max()) for v in finite if v.size), default=1.0))
+
+
+def rms_rate(movements: Sequence[Movement], name: str) -> float:
+    """Root mean square of the rate of an input over all trials."""
+    rates = np.concatenate([m.rate[m.row(name)] for m in movements])
+    return positive(float(np.sqrt(np.mean(rates**2))))
 
 
 def scale_of(
@@ -86,4 +93,5 @@ def scale_of(
         output={name: measured_magnitude(trials, name) for name in outputs},
         centre={name: 0.5 * (least[name] + most[name]) for name in inputs},
         span={name: positive(0.5 * (most[name] - least[name])) for name in inputs},
+        speed={name: rms_rate(movements, name) for name in inputs},
     )

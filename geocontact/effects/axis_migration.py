@@ -1,7 +1,8 @@
-"""A length of the joint changes with its angle: x of the elbow, whose axis wanders; R of the knee; ρ of a site.
+"""A length of the joint changes with its angle: x of the elbow, o_x of the shoulder; R of the knee; ρ of a site.
 
-x → x + a φ + c φ², φ = β - the middle of the measured range, so that x keeps its meaning there. a of either sign, a few
-centimetres per radian; the curvature c is the shape. Its rate moves the deflection as well. The lever ρ of a
+x → x + a φ + c φ², φ = β - the middle of the measured range, so that x keeps its meaning there; at the shoulder φ is
+the arm's angle itself, because o_x is known from the arm that hangs down. a of either sign, a few centimetres per
+radian; the curvature c is the shape. Its rate moves the deflection as well. The lever ρ of a
 strapped-on site changes with the site's own rotation, which is small: by `LEVER` over half its range at most.
 """
 
@@ -25,7 +26,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
         most, bend = LEVER / half, LEVER / half**2
     a = Parameter("axis_migration.slope", "m/rad", 0.1 * most, -most, most)
     c = Parameter("axis_migration.curvature", "m/rad^2", 0.0, -bend, bend)
-    centre = system.scale.centre.get(angle, 0.0)
+    centre = 0.0 if system.name == "shoulder" else system.scale.centre.get(angle, 0.0)
     link = with_geometry({a.name: a.name, c.name: c.name, "axis_migration.centre": centre})
     neutral = {a.name: 0.0, c.name: 0.0}
     return (Candidate("axis_migration", "", "geometry", (a, c), link, neutral, ({a.name: -a.start},)),)
@@ -34,7 +35,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
 AXIS_MIGRATION = Effect(
     "axis_migration",
     "geometry",
-    ("elbow", "knee", "sit_to_stand"),
+    ("elbow", "shoulder", "knee", "sit_to_stand"),
     offer,
     "instantaneous axis of the elbow: Bottlang et al. (2000) J. Orthop. Res. 18:821; R(φ) of a knee: `geocontact fit`",
     ("axis_migration.slope", "axis_migration.curvature", "axis_migration.centre"),

@@ -12,6 +12,7 @@ from geocontact.effects.damping import DAMPING
 from geocontact.effects.dead_zone import DEAD_ZONE
 from geocontact.effects.dry_friction import DRY_FRICTION
 from geocontact.effects.end_stop import END_STOP
+from geocontact.effects.event_load import EVENT_LOAD
 from geocontact.effects.filter_lag import FILTER_LAG
 from geocontact.effects.gravity_load import GRAVITY_LOAD
 from geocontact.effects.inertia_load import INERTIA_LOAD
@@ -46,6 +47,7 @@ EFFECTS: tuple[Effect, ...] = (
     SLIP,
     CONTACT_LOSS,
     ASYMMETRY,
+    EVENT_LOAD,
     GRAVITY_LOAD,
     INERTIA_LOAD,
     SENSOR_GAIN,

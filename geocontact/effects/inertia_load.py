@@ -3,8 +3,9 @@
 Elbow, "tip": force += m l β'', the mass at the end of the forearm link moving across it, of either sign (the sensor's
 sense is not stated); "attachment": force += m d_tot'', the cuff's own mass moving with the deflection, m >= 0. Foot:
 force_x += m x_c'', force_y += m y_c'' for a mass m >= 0 in the foot at the distance c ahead of the heel (the shape);
-the centre of pressure is left alone. A joint of one angle: moment += I angle'' for an inertia I >= 0; of one length:
-force += m x''. Accelerations are those of the fit that differentiates the inputs.
+the centre of pressure is left alone. Shoulder, "exo": the exoskeleton's arm is harder to turn by an inertia I >= 0;
+"cuff": force += m L_h a'', a mass between sensor and limb, of either sign. A joint of one angle: moment += I angle''
+for an inertia I >= 0; of one length: force += m x''. Accelerations are those of the fit that differentiates the inputs.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.effects.parts import load_channels, with_balance
+from geocontact.effects.parts import load_channels, with_balance, with_geometry
 
 RANK = 20.0
 HEAVY = 10.0
@@ -84,11 +85,35 @@ def of_the_input(system: System) -> tuple[Candidate, ...]:
     return (Candidate("inertia_load", "", "load", (mass,), link, {mass.name: 0.0}),)
 
 
+def of_the_arm_that_is_moved(system: System) -> Candidate:
+    """Shoulder: moment of inertia of the exoskeleton's arm beyond the known one."""
+    known = {**system.known, **system.start}["I"]
+    inertia = Parameter("inertia_load.exo.inertia", "kg m^2", 0.1 * known, 0.0, HEAVY * known)
+    link = with_geometry({"inertia_load.inertia": inertia.name})
+    return Candidate("inertia_load", "exo", "load", (inertia,), link, {inertia.name: 0.0})
+
+
+def at_the_cuff(system: System) -> Candidate:
+    """Shoulder: mass times acceleration of the arm where the interface is."""
+    mass = Parameter("inertia_load.cuff.mass", "kg", 0.2, -HEAVY, HEAVY)
+    row, column = system.inputs.index("arm"), system.outputs.index("force")
+
+    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+        out = outputs.copy()
+        out[:, column] += values[mass.name] * values["L_h"] * movement.acceleration[row]
+        return out
+
+    link = with_balance(Modifier("inertia_load.cuff", RANK, change))
+    return Candidate("inertia_load", "cuff", "load", (mass,), link, {mass.name: 0.0}, ({mass.name: -0.2},))
+
+
 def offer(system: System) -> tuple[Candidate, ...]:
-    """Two candidates for the elbow, one for others."""
+    """Two candidates for the elbow and the shoulder, one for others."""
     if system.name == "elbow":
         return at_the_tip(system), at_the_attachment(system)
+    if system.name == "shoulder":
+        return of_the_arm_that_is_moved(system), at_the_cuff(system)
     return (in_the_foot(system),) if system.name == "foot" else of_the_input(system)
 
 
-INERTIA_LOAD = Effect("inertia_load", "load", ("elbow", "foot"), offer, "Newton's second law")
+INERTIA_LOAD = Effect("inertia_load", "load", ("elbow", "foot", "shoulder"), offer, "Newton's second law")

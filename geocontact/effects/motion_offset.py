@@ -23,6 +23,7 @@ PLAUSIBLE = {"rad": 0.35, "m": 0.01}
 USED = {
     "elbow": (("beta", "rad", 0.35),),
     "foot": (("y", "m", 0.01), ("pitch", "rad", 0.15)),
+    "shoulder": (("arm", "rad", 0.35),),
     "knee": (("area_medial", "m^2", 1e-4), ("area_lateral", "m^2", 1e-4)),
     "sit_to_stand": tuple((f"{site}_normal", "m", 0.01) for site in ("pelvis", "thigh", "shank")),
 }
@@ -55,7 +56,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
 MOTION_OFFSET = Effect(
     "motion_offset",
     "kinematics",
-    ("elbow", "foot", "knee", "sit_to_stand"),
+    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
     offer,
     "marker placement and alignment errors: Della Croce et al. (2005) Gait Posture 21:226",
 )

@@ -25,7 +25,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
 PRELOAD = Effect(
     "preload",
     "constitutive",
-    ("elbow", "sit_to_stand"),
+    ("elbow", "shoulder", "sit_to_stand"),
     offer,
     "a tension-only spring in parallel; strap pressure of the explicit pHRI study",
     ("preload.tension", "preload.slackening"),

@@ -54,5 +54,9 @@ def offer(system: System) -> tuple[Candidate, ...]:
 
 
 SATURATION = Effect(
-    "saturation", "sensor", ("elbow", "foot", "knee", "sit_to_stand"), offer, "range of an amplifier or converter"
+    "saturation",
+    "sensor",
+    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
+    offer,
+    "range of an amplifier or converter",
 )

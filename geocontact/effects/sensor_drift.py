@@ -49,5 +49,9 @@ def offer(system: System) -> tuple[Candidate, ...]:
 
 
 SENSOR_DRIFT = Effect(
-    "sensor_drift", "sensor", ("elbow", "foot", "knee", "sit_to_stand"), offer, "warm-up drift of strain-gauge sensors"
+    "sensor_drift",
+    "sensor",
+    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
+    offer,
+    "warm-up drift of strain-gauge sensors",
 )

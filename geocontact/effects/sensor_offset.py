@@ -36,5 +36,5 @@ def offer(system: System) -> tuple[Candidate, ...]:
 
 
 SENSOR_OFFSET = Effect(
-    "sensor_offset", "sensor", ("elbow", "foot", "knee", "sit_to_stand"), offer, "zero error of a sensor"
+    "sensor_offset", "sensor", ("elbow", "foot", "shoulder", "knee", "sit_to_stand"), offer, "zero error of a sensor"
 )

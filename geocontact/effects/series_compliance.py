@@ -1,7 +1,7 @@
 """A spring in series: the input gives way in proportion to the load.
 
-Elbow: β → β - c F; foot: y → y + c F_y (a pylon or liner under the sensor of motion); a strapped-on site: u → u - c F;
-a joint: the angle likewise to its moment. c F is generalised to
+Elbow: β → β - c F; foot: y → y + c F_y (a pylon or liner under the sensor of motion); shoulder and strapped-on sites:
+u → u - c F; a joint: the angle likewise to its moment. c F is generalised to
 c F* (F/F*)^p, F* the largest measured force and p the shape. c >= 0. Implicit; the load of every sample is solved for
 to 1e-10, the spring's rate is its change over the sample. The pylon lies between the sole and the origin that is
 measured, so the lever of the rolling speed x' - pitch' (h - radius - y) grows with it.
@@ -21,9 +21,11 @@ def offer(system: System) -> tuple[Candidate, ...]:
     force = scale.of("force_y") if system.name == "foot" else largest_load(system)
     way = system.geometry.yields
     ways = {"elbow": 0.4, "foot": 3.0 * scale.deflection, "sit_to_stand": scale.deflection}
+    ways["shoulder"] = 3.0 * scale.deflection
     most = ways.get(system.name, scale.span.get(way, 1.0)) / force
+    unit = system.law.deflection if system.name == "shoulder" else system.unit(way)
     load = f"({system.law.load})" if " " in system.law.load else system.law.load
-    c = Parameter("series_compliance.compliance", f"{system.unit(way)}/{load}", 0.05 * most, 0.0, most)
+    c = Parameter("series_compliance.compliance", f"{unit}/{load}", 0.05 * most, 0.0, most)
     p = Parameter("series_compliance.exponent", "-", 1.0, 0.5, 2.0)
     link = with_geometry({c.name: c.name, p.name: p.name, "series_compliance.reference": force})
     others = ({c.name: 0.3 * most},)
@@ -33,7 +35,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
 SERIES_COMPLIANCE = Effect(
     "series_compliance",
     "geometry",
-    ("elbow", "foot", "sit_to_stand"),
+    ("elbow", "foot", "shoulder", "sit_to_stand"),
     offer,
     "springs in series; prosthetic pylon and socket liner",
     tuple(f"series_compliance.{number}" for number in ("compliance", "exponent", "reference")),

@@ -25,5 +25,9 @@ def offer(system: System) -> tuple[Candidate, ...]:
 
 
 SIGN_FLIP = Effect(
-    "sign_flip", "data", ("elbow", "foot", "knee", "sit_to_stand"), offer, "sense of axes that two devices do not share"
+    "sign_flip",
+    "data",
+    ("elbow", "foot", "shoulder", "knee", "sit_to_stand"),
+    offer,
+    "sense of axes that two devices do not share",
 )

@@ -29,7 +29,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
 SLIP = Effect(
     "slip",
     "constitutive",
-    ("elbow", "sit_to_stand"),
+    ("elbow", "shoulder", "sit_to_stand"),
     offer,
     "Bingham (1922); elasto-viscoplastic element after Perzyna (1966)",
     ("slip.mobility", "slip.limit"),

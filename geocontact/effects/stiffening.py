@@ -36,7 +36,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
 STIFFENING = Effect(
     "stiffening",
     "constitutive",
-    ("elbow", "foot", "sit_to_stand"),
+    ("elbow", "foot", "shoulder", "sit_to_stand"),
     offer,
     "Fung (1993) Biomechanics: Mechanical Properties of Living Tissues, ch. 7; Duffing (1918)",
     ("stiffening.gain", "stiffening.exponent", "stiffening.reference"),

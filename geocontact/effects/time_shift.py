@@ -31,5 +31,5 @@ def offer(system: System) -> tuple[Candidate, ...]:
 
 
 TIME_SHIFT = Effect(
-    "time_shift", "timing", ("elbow", "foot", "knee", "sit_to_stand"), offer, "unsynchronised recorders"
+    "time_shift", "timing", ("elbow", "foot", "shoulder", "knee", "sit_to_stand"), offer, "unsynchronised recorders"
 )

@@ -10,10 +10,11 @@ from geocontact.systems.elbow_exoskeleton import ELBOW
 from geocontact.systems.knee_implant import KNEE
 from geocontact.systems.own import own_system
 from geocontact.systems.prosthetic_foot import FOOT
+from geocontact.systems.shoulder_exoskeleton import SHOULDER
 from geocontact.systems.sit_to_stand import SIT_TO_STAND
 from geocontact.systems.tried import refusal, tried
 
-SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT, KNEE, SIT_TO_STAND)
+SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT, SHOULDER, KNEE, SIT_TO_STAND)
 
 
 def system_of(case: GapCase) -> System:

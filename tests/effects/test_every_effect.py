@@ -18,6 +18,9 @@ VOCABULARY = {
     "saturation unit_error sign_flip",
     "foot": "time_shift filter_lag motion_offset series_compliance stiffening damping relaxation asymmetry "
     "inertia_load sensor_gain sensor_offset sensor_drift saturation crosstalk unit_error sign_flip side_swap",
+    "shoulder": "time_shift filter_lag motion_offset axis_migration series_compliance stiffening damping relaxation "
+    "dry_friction dead_zone end_stop preload slip contact_loss event_load gravity_load inertia_load sensor_gain "
+    "sensor_offset sensor_drift saturation unit_error sign_flip",
     "knee": "time_shift filter_lag motion_offset axis_migration relaxation asymmetry sensor_gain sensor_offset "
     "sensor_drift saturation crosstalk unit_error sign_flip side_swap",
     "sit_to_stand": "time_shift filter_lag motion_offset axis_migration series_compliance stiffening damping "

@@ -1,4 +1,4 @@
-"""Systems on synthetic trials: a swept elbow, a foot rolling over, a knee, three straps, and an own model, a joint."""
+"""Systems on synthetic trials: elbow, foot, shoulder, knee, three straps, and an own model, a joint."""
 
 from __future__ import annotations
 
@@ -9,7 +9,14 @@ from geocontact.chain.system import System
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.systems import elastic_joint, elbow_exoskeleton, knee_implant, prosthetic_foot, sit_to_stand
+from geocontact.systems import (
+    elastic_joint,
+    elbow_exoskeleton,
+    knee_implant,
+    prosthetic_foot,
+    shoulder_exoskeleton,
+    sit_to_stand,
+)
 
 FOOT_CONSTANTS = {"n": 1.2, "delta_full": 0.002, "mu_s": 0.9, "mu_k": 0.7, "v_th": 0.25}
 ELBOW_CONSTANTS = {"l_ex": 0.185, "z_ex": 0.09}
@@ -19,7 +26,8 @@ KNEE_CONSTANTS = {"R": 0.037}
 SITES_CONSTANTS = {"b": 80.0}
 STIFFNESS = {"pelvis": 4000.0, "thigh": 7000.0, "shank": 5500.0}
 LEVERS = {"pelvis": 0.04, "thigh": -0.03, "shank": 0.05}
-NAMES = ("elbow", "foot", "knee", "sit_to_stand", "joint")
+NAMES = ("elbow", "foot", "shoulder", "knee", "sit_to_stand", "joint")
+SHOULDER_CONSTANTS = {"L_h": 0.25, "o_x": 0.01, "o_y": 0.02, "I": 0.09, "c": 0.2, "l_c": 0.2}
 
 
 def recording(name: str, time: np.ndarray, columns: dict[str, np.ndarray], **covariates: float) -> Trial:
@@ -59,6 +67,27 @@ def knee_trial(name: str, speed: float, step: float = 0.01, duration: float = 3.
     columns = {"flexion": flexion, "adduction": 0.02 * np.sin(phase), "area_medial": medial, "area_lateral": lateral}
     empty = np.full(time.size, np.nan)
     return recording(name, time, {**columns, "force_medial": empty, "force_lateral": empty})
+
+
+def shoulder_trial(name: str, speed: float, level: float, step: float = 0.01, duration: float = 6.0) -> Trial:
+    """An arm that is raised and lowered in strokes that are no two alike, a tool running now and then."""
+    time = np.arange(round(duration / step) + 1) * step
+    arm = 1.0 - 0.55 * np.cos(speed * time) - 0.2 * np.cos(0.45 * speed * time) + 0.04 * (1.0 - np.cos(8.0 * time))
+    event = ((time > 0.4 * duration) & (time < 0.55 * duration)) | (time > 0.8 * duration)
+    empty = np.full(time.size, np.nan)
+    columns = {"arm": arm, "event": event.astype(float), "exo": empty, "force": empty}
+    return recording(name, time, columns, level=level)
+
+
+def support() -> pd.DataFrame:
+    angle = np.linspace(-0.6, 2.8, 18)
+    return pd.DataFrame({"angle [rad]": angle, "torque [N m]": 7.5 * np.maximum(np.sin(1.05 * angle + 0.1), 0.0)})
+
+
+def shoulder() -> System:
+    bounds = (("k_t", "N/m", 700.0, 100.0, 5000.0), ("b_t", "N s/m", 20.0, 0.0, 100.0), ("m", "kg", 1.6, 0.3, 5.0))
+    parameters = tuple(Parameter(*each) for each in bounds)
+    return shoulder_exoskeleton.build(parameters, SHOULDER_CONSTANTS, {"support": support()})
 
 
 def knee() -> System:
@@ -136,6 +165,10 @@ def example(name: str, refine: int = 1) -> tuple[System, tuple[Trial, ...]]:
     elif name == "sit_to_stand":
         system = sites()
         trials = tuple(sites_trial(f"t{i}", speed, 0.02 / refine) for i, speed in enumerate((2.3, 3.7)))
+    elif name == "shoulder":
+        system = shoulder()
+        told = enumerate(((1.3, 0.3), (2.6, 1.0)))
+        trials = tuple(shoulder_trial(f"t{i}", speed, level, 0.01 / refine) for i, (speed, level) in told)
     elif name == "joint":
         system = joint()
         told = enumerate(((1.3, -1.0), (2.9, 1.0)))
