@@ -1,4 +1,4 @@
-"""Diagnoses of cases that others made: practice cases of four systems, and the loops of a prosthetic ankle."""
+"""Diagnoses of cases that others made: practice cases of five systems, and the loops of a prosthetic ankle."""
 
 from __future__ import annotations
 
@@ -20,12 +20,15 @@ EXPLAINED = {
     "elbow_04": {"dry_friction", "time_shift"},
     "foot_01": {"series_compliance"},
     "foot_03": {"sensor_gain"},
+    "shoulder_01": {"event_load"},
+    "shoulder_02": {"axis_migration"},
+    "shoulder_04": {"dry_friction", "sensor_offset"},
     "knee_01": {"asymmetry"},
     "knee_02": {"crosstalk"},
     "sit_to_stand_02": {"stiffening"},
     "sit_to_stand_03": {"contact_loss"},
 }
-NOTHING = ("elbow_01", "foot_02", "knee_03", "sit_to_stand_01")
+NOTHING = ("elbow_01", "foot_02", "shoulder_03", "knee_03", "sit_to_stand_01")
 UNKNOWN = ("foot_04", "knee_04", "sit_to_stand_04")
 CASES = (*EXPLAINED, *NOTHING, *UNKNOWN)
 
