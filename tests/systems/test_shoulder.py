@@ -85,10 +85,10 @@ def test_motion_and_force_are_those_of_the_equation(level: float, k_t: float) ->
 @pytest.mark.parametrize("k_t", [300.0, 700.0, 5000.0])
 def test_half_the_step_changes_next_to_nothing(k_t: float) -> None:
     system = shoulder()
-    for trial in (raised_trial(0.5), shoulder_trial("t", 2.0, 1.0)):
+    for trial, most in ((raised_trial(0.0), 1e-3), (raised_trial(0.5), 2e-3), (shoulder_trial("t", 2.0, 1.0), 4e-3)):
         whole, half = (with_step(system, h).simulate(trial, {**VALUES, "k_t": k_t}) / NOISE for h in (1e-2, 5e-3))
         assert np.sqrt(np.mean((whole - half) ** 2)) < 1e-3
-        assert np.abs(whole - half).max() < 2e-3  # at the kinks of the support torques
+        assert np.abs(whole - half).max() < most  # support torques have kinks, without support there are none
 
 
 def with_step(system: System, longest: float) -> System:
