@@ -43,23 +43,49 @@ def gathered(path: Path, out: Path) -> int:
 
 
 def _case(record: Record, path: Path, plan: Gathering, out: Path) -> GapCase:
-    mats: dict[str, dict[str, MatResult]] = {site: {} for site in plan.sites}
+    if plan.settings.mesh:
+        raise InputError(path, "mesh", "a case with meshes is not gathered", "add them to the case by hand")
+    mats = {site: _alike(record, site, _mats(record, path, plan, site)) for site in plan.sites}
     trials = {}
     for name, source in plan.sources.items():
         table = read_trial(source.inputs)
         record.add_input(name, source.inputs, samples=len(table.signals.time))
-        for site in plan.sites:
-            if site not in source.mats:
-                raise InputError(path, f"[from.{name}]", f"has no mat of {site}", "every trial needs every site")
-            mats[site][name] = own = read_mat_result(source.mats[site])
-            record.add_input(f"{name} {site}", own.folder / FRAMES, cells=len(own.cells))
-            table = _with_force(table, site, own)
+        for site, own in mats.items():
+            table = _with_force(table, site, own[name])
         trials[name] = table
     tables = {key: read_side_table(path.parent / file) for key, file in plan.settings.tables.items()}
-    if plan.settings.mesh:
-        raise InputError(path, "mesh", "a case with meshes is not gathered", "add them to the case by hand")
     case = case_of(plan.settings, path, out.name, alike(trials), tables)
     return replace(case, cells={site: _cells(record, site, own) for site, own in mats.items()})
+
+
+def _mats(record: Record, path: Path, plan: Gathering, site: str) -> dict[str, MatResult]:
+    """Of one site, by trial."""
+    found = {}
+    for name, source in plan.sources.items():
+        if site not in source.mats:
+            raise InputError(path, f"[from.{name}]", f"has no mat of {site}", "every trial needs every site")
+        found[name] = own = read_mat_result(source.mats[site])
+        record.add_input(f"{name} {site}", own.folder / FRAMES, cells=len(own.cells))
+    return found
+
+
+def _alike(record: Record, site: str, mats: Mapping[str, MatResult]) -> dict[str, MatResult]:
+    """The mats with the cells that every trial has, in one order: force and cells are of the same ones everywhere."""
+    first, *others = mats.values()
+    common = tuple(cell for cell in first.cells if all(cell in other.cells for other in others))
+    if not common:
+        raise InputError(first.folder / CELLS, "", f"no cell of {site} is in every trial", "are these the same mat?")
+    found = {}
+    for name, own in mats.items():
+        order = [own.cells.index(cell) for cell in common]
+        found[name] = kept = replace(
+            own, cells=common, place=own.place[order], area=own.area[order], pressure=own.pressure[:, order]
+        )
+        if len(own.cells) > len(common):
+            lost = 1.0 - float(kept.force.sum()) / max(float(own.force.sum()), 1e-300)
+            what = f"{len(own.cells) - len(common)} cells of {site} in {name} are not in every trial"
+            record.warn(f"{what} and left out, with {lost:.1%} of its force")
+    return found
 
 
 def _with_force(table: TrialTable, site: str, mat: MatResult) -> TrialTable:
@@ -83,20 +109,12 @@ def _with_force(table: TrialTable, site: str, mat: MatResult) -> TrialTable:
 
 def _cells(record: Record, site: str, mats: Mapping[str, MatResult]) -> CellChannels:
     """Cells that every trial has, where they lie on average."""
-    first, *others = mats.values()
-    common = [cell for cell in first.cells if all(cell in other.cells for other in others)]
-    if not common:
-        raise InputError(first.folder / CELLS, "", f"no cell of {site} is in every trial", "are these the same mat?")
-    order = {name: [own.cells.index(cell) for cell in common] for name, own in mats.items()}
-    for name, own in mats.items():
-        if len(own.cells) > len(common):
-            record.warn(f"{len(own.cells) - len(common)} cells of {site} in {name} are not in every trial and left out")
-    places = np.array([own.place[order[name]] for name, own in mats.items()])
-    area = np.mean([own.area[order[name]] for name, own in mats.items()], axis=0)
+    places = np.array([own.place for own in mats.values()])
+    area = np.mean([own.area for own in mats.values()], axis=0)
     off = np.linalg.norm(places - places.mean(axis=0), axis=2).max(axis=1)
     if off.max() > ELSEWHERE:
         worst = list(mats)[int(np.argmax(off))]
         record.warn(f"the mat of {site} lies up to {off.max() * 1e3:.0f} mm elsewhere in {worst}; places are averages")
-    ids = tuple(f"r{row}c{column}" for row, column in common)
-    trials = {name: CellTrial(own.time, own.pressure[:, order[name]]) for name, own in mats.items()}
+    ids = tuple(f"r{row}c{column}" for row, column in next(iter(mats.values())).cells)
+    trials = {name: CellTrial(own.time, own.pressure) for name, own in mats.items()}
     return CellChannels(f"{site}_force", ids, places.mean(axis=0), area, trials)

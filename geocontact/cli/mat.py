@@ -40,6 +40,8 @@ class MatOptions:
         Format of FRAMES, where its content does not tell.
     sensor
         Which mat, where FRAMES holds several ("left").
+    inwards
+        Faces of an open scan look into the body: turn them over. A closed scan needs none.
     seen_from
         Side from which the layout shows the mat where it lies: outside, with the body behind it, or body, as seat mats
         are drawn.
@@ -118,6 +120,7 @@ class MatOptions:
     sensor: str | None = None
     seen_from: Literal["outside", "body"] = "outside"
     lay: Literal["geodesic", "closest"] = "geodesic"
+    inwards: Annotated[bool, Flag] = False
     belt: Literal["rows", "columns"] | None = None
     motion: Path | None = None
     osim: Path | None = None

@@ -20,6 +20,7 @@ from geocontact.cli.mat_reading import Recording, recording
 from geocontact.cli.mat_registration import registered
 from geocontact.cli.mat_results import Result, write_results
 from geocontact.cli.mat_second_scan import mat_marks, refuse_idle_scan
+from geocontact.cli.mat_sides import outwards, say_which_side
 from geocontact.cli.output import written_whole
 from geocontact.cli.patience import preparing
 from geocontact.cli.record import Record
@@ -52,7 +53,7 @@ def analyse(path: Path, o: MatOptions) -> int:
     _refuse_idle(o)
     with record.catching_warnings(), written_whole(o.out) as draft:
         seen, travel = followed(record, recording(record, path, o), o)
-        surface = read_surface(record, "surface", o.surface, o.unit, None)
+        surface = outwards(read_surface(record, "surface", o.surface, o.unit, None), o)
         _guard(surface, seen.frames, o)
         with preparing():
             marks = mat_marks(record, surface, seen.frames, o)
@@ -114,8 +115,11 @@ def _laid(record: Record, surface: Surface, frames: PressureFrames, marks: MatLa
     except NotAroundError as error:
         raise open_belt(o, error) from error
     except ValueError as error:
-        raise InputError(o.landmarks or "", "", str(error), "check landmarks, unit and --seen-from") from error
+        inside = "" if surface.closed else ", and --inwards where faces look into the body"
+        remedy = f"check landmarks, unit and --seen-from{inside}"
+        raise InputError(o.landmarks or "", "", str(error), remedy) from error
     _say_how_it_lies(record, laid, frames, marks)
+    say_which_side(record, surface, laid, marks, o)
     say_how_it_closes(record, mat, laid, o)
     return laid
 
@@ -135,8 +139,9 @@ def _say_how_it_lies(record: Record, laid: Drape, frames: PressureFrames, marks:
             n: float(m) * 1e3 if np.isfinite(m) else None for n, m in zip(marks.name, laid.misses, strict=True)
         },
     }
-    if LOST * max(frames.pitch) < missed[worst] < np.inf:
-        what = f"landmark {marks.name[worst]} is missed by {missed[worst] * 1e3:.0f} mm"
+    farthest = int(np.argmax(np.where(np.isfinite(missed), missed, -1.0)))
+    if LOST * max(frames.pitch) < missed[farthest] < np.inf:
+        what = f"landmark {marks.name[farthest]} is missed by {missed[farthest] * 1e3:.0f} mm"
         raise InputError("", "--landmarks", what, "check places and points of the landmarks, the pitch and the unit")
     if missed[worst] > FAR * min(frames.pitch):
         where = f"{missed[worst] * 1e3:.1f} mm" if np.isfinite(missed[worst]) else "the edge of the scan"
@@ -180,7 +185,6 @@ def _loads(record: Record, p: Placed, seen: Recording, travel: Travel | None, o:
         "perpendicular_N": None if np.isnan(whole.normal[0]) else round(float(whole.perpendicular[heaviest]), 6),
         "interface_normal": None if np.isnan(whole.normal[0]) else whole.normal.tolist(),
         "peak_Pa": float(whole.peak.max()),
-        "below_zero_clipped_Pa": seen.clipped,
         "segments": list(parts),
     }
     record.say(

@@ -16,6 +16,7 @@ from geocontact.cli.mat_results import Result, load_table
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.identify.agreement import Agreement, agreement, over_stretches, per_phase
+from geocontact.identify.even_times import at_times, even_times
 
 PARTS = 10
 
@@ -31,13 +32,16 @@ def compared(record: Record, result: Result, o: MatOptions) -> pd.DataFrame | No
     time = result.seen.frames.time
     if len(time) < 3 * PARTS:
         raise InputError(o.compare, "", f"{len(time)} frames are too few to compare", f"{3 * PARTS} are needed")
-    step = float(np.median(np.diff(time)))
+    even, step = even_times(time)
+    if even is not time:
+        record.warn("frames are not evenly spaced: agreement is told at even times, without what lies in gaps")
     measured = load_table(result.whole, time)
-    in_phases = _phases(record, time, step, o)
+    in_phases = _phases(record, even, step, o)
     rows = [
         {"channel": name, "unit": UNITS[name], "phase": phase, **asdict(each)}
-        for name, model in model_curves(record, result.whole.wrench, time, o).items()
-        for ours in [measured[f"{name} [{UNITS[name]}]"].to_numpy(float)]
+        for name, theirs in model_curves(record, result.whole.wrench, time, o).items()
+        for model in [at_times(time, theirs, even, step)]
+        for ours in [at_times(time, measured[f"{name} [{UNITS[name]}]"].to_numpy(float), even, step)]
         for phase, each in {"all": agreement(model, ours, step), **in_phases(model, ours)}.items()
     ]
     agreed = pd.DataFrame(rows).rename(columns={"lag": "lag [s]", "r2": "r2 [-]", "correlation": "correlation [-]"})

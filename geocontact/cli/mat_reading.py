@@ -32,18 +32,16 @@ class Recording:
     Parameters
     ----------
     frames
-        Offset taken off, smoothed, not below 0.
+        Offset taken off, smoothed. What is below 0 then is noise and stays: cut off, it would no longer average out
+        over quiet cells.
     read
         As they were read.
-    clipped
-        Largest pressure below zero that was set to 0 [Pa].
     gaps
         Dead cells that were filled.
     """
 
     frames: PressureFrames
     read: PressureFrames
-    clipped: float
     gaps: tuple[Hole, ...]
 
     @cached_property
@@ -71,10 +69,8 @@ def recording(record: Record, path: Path, o: MatOptions) -> Recording:
         pressure = pressure - _zero(read, pressure, o).at(read.time)
     sound = treated(record, read, pressure, layout.dead if layout else (), o.dead)
     pressure, valid = _smooth(read, sound.pressure, o), sound.valid
-    low = float(min(pressure.min(initial=0.0), 0.0))
-    pressure = np.where(valid, np.maximum(pressure, 0.0), np.nan)
-    frames = replace(read, pressure=pressure, valid=valid)
-    found = Recording(frames, read, -low, sound.gaps)
+    frames = replace(read, pressure=np.where(valid, pressure, np.nan), valid=valid)
+    found = Recording(frames, read, sound.gaps)
     _say_what_is_odd(record, found, o)
     return found
 
@@ -91,8 +87,9 @@ def _chosen(mats: tuple[PressureFrames, ...], o: MatOptions) -> PressureFrames:
 
 
 def _zero(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOptions) -> Unloaded:
+    windows = quantities.windows(str(o.unloaded), "--unloaded")
     try:
-        return unloaded(read.time, pressure, quantities.windows(str(o.unloaded), "--unloaded"))
+        return unloaded(read.time, pressure, windows)
     except ValueError as error:
         raise InputError(
             "", "--unloaded", str(error), f"frames run from {read.time[0]:g} to {read.time[-1]:g} s"
@@ -130,7 +127,18 @@ def _say_what_is_odd(record: Record, seen: Recording, o: MatOptions) -> None:
     silent = frames.valid & ~(frames.pressure > 0.0).any(axis=0)
     if silent.any() and not silent.all():
         record.results["silent_cells"] = np.argwhere(silent).tolist()
+    _say_what_is_negative(record, frames)
     force = frames.force
     if o.unloaded is None and force.max(initial=0.0) > 0.0 and force.min() > RESTING * force.max():
         what = f"the mat never reads less than {force.min():.0f} N"
         record.warn(f"{what}: if it was unloaded at some time, say when with --unloaded")
+
+
+def _say_what_is_negative(record: Record, frames: PressureFrames) -> None:
+    """Noise about zero sums to little; an offset that was taken off and was none does not."""
+    pressure = np.where(frames.valid, frames.pressure, 0.0)
+    below = np.tensordot(np.minimum(pressure, 0.0), frames.cell_area, 2)
+    lowest, least = float(pressure.min(initial=0.0)), float(below.min(initial=0.0))
+    record.results["below_zero"] = {"lowest_Pa": lowest, "largest_force_N": -least}
+    if -least > RESTING * float(np.abs(frames.force).max(initial=0.0)):
+        record.warn(f"cells that read below 0 sum to {least:.1f} N in one frame: check --unloaded and the offset")

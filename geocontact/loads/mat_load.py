@@ -62,6 +62,8 @@ def mat_load(
 ) -> MatLoad:
     """Load of pressures [Pa] on the cells of a map.
 
+    Readings below zero, noise of quiet cells, count in forces and moments; in the centre they have no weight.
+
     Parameters
     ----------
     origin, frame
@@ -82,7 +84,7 @@ def mat_load(
     weight = pressure * area
     pressing = weight.sum(axis=1)
     loaded = (pressing > 0.0) & (pressing >= gate)
-    centre = _centres(placed.centre[use], weight, loaded)
+    centre = _centres(placed.centre[use], np.maximum(weight, 0.0), loaded)
     on = pressure >= touched
     touched_area = (on * area).sum(axis=1)
     mean = np.divide((on * weight).sum(axis=1), touched_area, out=np.zeros(len(on)), where=touched_area > 0.0)

@@ -55,8 +55,8 @@ class MatMap:
     left_out: Bool[np.ndarray, "r c"]
 
     def of(self, pressure: Float[np.ndarray, "t r c"]) -> Float[np.ndarray, "t n"]:
-        """Pressures of these cells [Pa]; what reads below zero presses with 0."""
-        return np.asarray(np.maximum(pressure[:, self.cell[:, 0], self.cell[:, 1]], 0.0))
+        """Pressures of these cells [Pa]; what reads below zero stays, so that noise of quiet cells averages out."""
+        return np.asarray(pressure[:, self.cell[:, 0], self.cell[:, 1]])
 
     def face_pressure(
         self, pressure: Float[np.ndarray, "t n"], face_area: Float[np.ndarray, " f"]

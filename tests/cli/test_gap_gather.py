@@ -153,7 +153,7 @@ def test_the_diagnosis_says_where_the_strap_pulls(case: Path, tmp_path: Path, el
             "[from.t09]: neither calibration nor evaluation",
         ),
         (lambda text: text.replace('thigh = "t02_thigh"\n', ""), "[from.t02]: names no inputs and no mat"),
-        (lambda text: text.replace('thigh = "t02', 'shank = "t02'), "[from.t01]: has no mat of shank"),
+        (lambda text: text.replace('thigh = "t02', 'shank = "t02'), "[from.t02]: has no mat of thigh"),
         (lambda text: text.replace("t02_thigh", "nowhere"), "nowhere: no cells.csv in it; name the folder that"),
         (lambda text: text.replace('"t02.csv"', '"t08.csv"'), "t08.csv: there is no such file"),
         (lambda text: text.split("\n[from")[0], "gather.toml: says nowhere what trials come from"),

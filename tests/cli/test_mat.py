@@ -338,6 +338,29 @@ def test_an_offset_below_zero_is_taken_off_before_anything_is_cut_at_zero(tmp_pa
     assert table(result)["normal [N]"].iloc[100] == pytest.approx(20e3 * 12e-4, rel=1e-6)
 
 
+def test_noise_about_zero_does_not_become_force(tmp_path: Path) -> None:
+    """An unloaded mat with 0.5 kPa of white noise reads nothing on average, not half of the noise of every cell."""
+    noise = 1.0 + 0.5 * np.random.default_rng(8).standard_normal((400, ROWS, COLS))
+    noise[100:300] += 5.0 * np.sin(np.pi * np.arange(200) / 200)[:, None, None]
+    result = done(mat(tmp_path, noise, *STILL, "--unloaded", "0:1.9,6.1:7.9"))
+    force = table(result)["normal [N]"].to_numpy()
+    sd = 500.0 * 1e-4 * np.sqrt(12.0)
+    assert abs(force[:95].mean()) < 4.0 * sd / np.sqrt(95.0)
+    assert force[:95].std() == pytest.approx(sd, rel=0.3)
+    loaded = 5e3 * 12e-4 * np.sin(np.pi * np.arange(200) / 200)
+    assert abs((force[100:300] - loaded).mean()) < 4.0 * sd / np.sqrt(200.0)
+    assert result.record()["results"]["below_zero"]["lowest_Pa"] < -800.0
+    assert "--gate" not in result.err and np.isfinite(table(result)["cop_x [mm]"].iloc[180:220]).all()
+
+
+def test_an_offset_that_was_none_is_told(tmp_path: Path) -> None:
+    """The window holds load, which is then missing from every frame."""
+    pressure = np.zeros((200, ROWS, COLS))
+    pressure[:60] = 20.0
+    result = done(mat(tmp_path, pressure, *STILL, "--unloaded", "0:0.5"))
+    assert "cells that read below 0 sum to -24.0 N in one frame: check --unloaded" in result.err
+
+
 @pytest.mark.parametrize(
     ("kind", "layout", "options", "off"),
     [("quantised", "layout", (), 0.5), ("faulty", "layout_faulty", ("--unloaded", "0:0.3,2.8:3"), 5.0)],

@@ -41,7 +41,7 @@ def anchored(geodesics: Geodesics, mat: Mat, marks: Marks, spine: Way = "rows") 
             word = "not mirrored" if mat.mirrored else "mirrored"
             raise ValueError(
                 f"the marks fit a mat that is {word}: rms {1e3 * turned:.1f} mm instead of {1e3 * rms:.1f} mm; "
-                "turn the mat over or correct the marks"
+                "is the mat seen from its other side, or do the faces look inwards?"
             )
     return anchor
 

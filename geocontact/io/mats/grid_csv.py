@@ -33,7 +33,7 @@ _PLACE = re.compile(r"r(?P<row>\d{1,4})c(?P<column>\d{1,4})")
 def is_grid(text: MatText) -> bool:
     """Whether the first line that is no comment names columns, the last of them with an id."""
     header = next((line for line in text.head if line and not line.startswith("#")), "")
-    names = [name for name, _ in _names(header, notation_of([header], None))]
+    names = [name for name, _ in _names(header, notation_of([header], None, ""))]
     return len(names) > 1 and all(_ID.fullmatch(name) or _PLACE.fullmatch(name) for name in names[1:])
 
 
@@ -46,7 +46,7 @@ def read_grid(text: MatText, layout: MatLayout | None) -> tuple[PressureFrames, 
     header = next((found for found in rows if not found[1].startswith("#")), None)
     if header is None:
         raise InputError(text.file, "", "no header", "one row `time [s], 1, 2, ...` is needed")
-    notation = notation_of([row for row in text.head[header[0] :] if row] or [header[1]], layout)
+    notation = notation_of([row for row in text.head[header[0] :] if row] or [header[1]], layout, text.file)
     time_scale, ids, unit = _columns(header, notation, layout, text.file)
     time: list[float] = []
     lines: list[int] = []

@@ -54,7 +54,7 @@ def read_pedar(text: MatText, layout: MatLayout | None) -> tuple[PressureFrames,
     rows = text.lines()
     header = _header(rows, text.file)
     _require_places(header, layout, text.file)
-    notation = notation_of(("\t", *(row for row in text.head[header.line :] if row)), layout)
+    notation = notation_of(("\t", *(row for row in text.head[header.line :] if row)), layout, text.file)
     width = 1 + sum(map(len, header.sides.values()))
     time: array[float] = array("d")
     lines: list[int] = []

@@ -72,7 +72,9 @@ def read_tekscan(text: MatText, layout: MatLayout | None) -> tuple[PressureFrame
 
 def _notation(text: MatText, layout: MatLayout) -> Notation:
     below = dropwhile(lambda line: not _DATA.match(_bare(line)), text.head)
-    return notation_of((line for line in islice(below, 1, None) if line and not _FRAME.match(_bare(line))), layout)
+    return notation_of(
+        (line for line in islice(below, 1, None) if line and not _FRAME.match(_bare(line))), layout, text.file
+    )
 
 
 def _bare(line: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from array import array
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -26,6 +27,9 @@ HEAD = 1 << 16
 
 LONGEST_LINE = 1_000_000
 """Bytes; 10 characters for each of 1e5 cells."""
+
+
+_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(,\d{3})+")
 
 
 @dataclass(frozen=True)
@@ -140,11 +144,12 @@ class Notation:
         return f"delimiter '{'tab' if self.delimiter == chr(9) else self.delimiter}', decimal '{self.decimal}'"
 
 
-def notation_of(sample: Iterable[str], layout: MatLayout | None) -> Notation:
+def notation_of(sample: Iterable[str], layout: MatLayout | None, file: str) -> Notation:
     """How rows of cells are written, by the layout or by the rows at the beginning of the file.
 
     Tabs and semicolons separate wherever they occur; then a comma inside a cell is a decimal comma. With commas
-    between the cells a decimal comma is one only inside quotes.
+    between the cells a decimal comma is one only inside quotes. Where every comma could as well part thousands, none of
+    the two is guessed: InputError unless the layout says `decimal`.
     """
     rows = list(sample)
     delimiter = {"tab": "\t"}.get(said, said) if (said := layout.delimiter if layout else None) else None
@@ -152,7 +157,11 @@ def notation_of(sample: Iterable[str], layout: MatLayout | None) -> Notation:
     decimal = layout.decimal if layout else None
     if decimal is None:
         plain = Notation(delimiter, ".")
-        decimal = "," if any("," in cell for row in rows for cell in plain.cells(row)) else "."
+        with_comma = [cell.strip() for row in rows for cell in plain.cells(row) if "," in cell]
+        if with_comma and all(_THOUSANDS.fullmatch(cell) for cell in with_comma):
+            what = f"'{shown(with_comma[0])}' may be thousands or have a decimal comma, as every cell with a comma"
+            raise InputError(file, "", what, 'say decimal = "," or "." in the layout, thousands written together')
+        decimal = "," if with_comma else "."
     return Notation(delimiter, decimal)
 
 

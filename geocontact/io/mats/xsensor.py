@@ -125,7 +125,7 @@ def _key(found: re.Match[str]) -> str:
 
 
 def _notation(text: MatText, layout: MatLayout) -> Notation:
-    return notation_of((line for line in text.head if re.match(r'"?[-+]?\d', line)), layout)
+    return notation_of((line for line in text.head if re.match(r'"?[-+]?\d', line)), layout, text.file)
 
 
 def _name(block: Keys, sensors: dict[str, _Sensor], line: int, file: str) -> str:

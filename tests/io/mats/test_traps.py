@@ -387,3 +387,20 @@ def test_damaged_files_give_finite_frames_or_one_line(tmp_path: Path, kind: str)
     assert all(line.isprintable() for line in refusals)
     assert len(refusals) > 50
     assert read > 20
+
+
+TABBED = "time [s]\t1\t2\t3\t4\t5\t6\n0\t0\t1,234\t15\t12,500\t3\t{}\n1\t0\t1\t2\t3\t4\t5\n"
+
+
+def test_commas_that_may_part_thousands_are_not_guessed(tmp_path: Path) -> None:
+    """1,234 is 1234 Pa or 1.234 kPa; a cell as 0,125 or 1,25 shows that the comma is a decimal one."""
+    said = refusal(tmp_path, TABBED.format("7"), GRID_LAYOUT)
+    assert said.startswith("'1,234' may be thousands or have a decimal comma, as every cell with a comma; say decimal")
+    for shows, value in (("0,125", 0.125), ("1,25", 1.25)):
+        (found,) = read_mat(write(tmp_path, TABBED.format(shows)), layout(tmp_path, GRID_LAYOUT), None)
+        assert found.pressure[0, 0, 1] == pytest.approx(1234.0) and found.pressure[0, 1, 2] == pytest.approx(
+            1e3 * value
+        )
+    declared = GRID_LAYOUT + 'decimal = ","\n'
+    (found,) = read_mat(write(tmp_path, TABBED.format("7")), layout(tmp_path, declared), None)
+    assert found.pressure[0, 0, 1] == pytest.approx(1234.0)
