@@ -7,8 +7,8 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.geometry.drape.cells import Drape, measured
 from geocontact.geometry.drape.geodesics import Geodesics, Places
-from geocontact.geometry.drape.lay import between
 from geocontact.geometry.drape.mat import Marks, Mat
+from geocontact.geometry.drape.positions import between
 from geocontact.geometry.register.landmarks import fit_landmarks
 from geocontact.geometry.rim import on_rim
 

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
 
 from geocontact.geometry.drape.anchor import anchored
 from geocontact.geometry.drape.cells import Drape, measured
-from geocontact.geometry.drape.geodesics import Geodesics, Places
+from geocontact.geometry.drape.geodesics import Geodesics
 from geocontact.geometry.drape.mat import Marks, Mat
+from geocontact.geometry.drape.positions import between
 from geocontact.geometry.drape.relax import relaxed
 from geocontact.geometry.drape.spread import Anchor, Way, spread
 
 
 def lay(geodesics: Geodesics, mat: Mat, at: Marks | Anchor, belt: Way | None = None, settle: bool = True) -> Drape:
-    """The mat on the surface: spread along straightest lines from its middle, then evened out.
+    """The mat on the surface: spread along straightest lines from its middle, then evened out; marks hold it there.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def lay(geodesics: Geodesics, mat: Mat, at: Marks | Anchor, belt: Way | None = N
     aside = (column - mat.middle[1]) * mat.pitch[1]
     nodes = spread(geodesics, anchor, mat, ahead, aside, spine)
     if settle or belt:
-        nodes = relaxed(geodesics, mat, nodes, belt)
+        nodes = relaxed(geodesics, mat, nodes, belt, at if isinstance(at, Marks) else None)
     misses = None
     if isinstance(at, Marks):
         misses = np.linalg.norm(between(nodes, at.cells) - at.points, axis=1)
@@ -47,20 +47,3 @@ def _spine(mat: Mat, belt: Way | None) -> Way:
     if belt is not None:
         return "columns" if belt == "rows" else "rows"
     return "rows" if mat.rows * mat.pitch[0] >= mat.columns * mat.pitch[1] else "columns"
-
-
-def between(nodes: Places, cells: Float[np.ndarray, "k 2"]) -> Float[np.ndarray, "k 3"]:
-    """Points at positions counted in cells [m], linear between the corners of their cell; NaN where it is not there."""
-    last = np.array(nodes.face.shape) - 2
-    low = np.clip(np.floor(cells).astype(np.int64), 0, last)
-    s, t = (cells - low).T[..., None]
-    i, j = low.T
-    p = nodes.point
-    corners = (
-        (i, j, (1.0 - s) * (1.0 - t)),
-        (i + 1, j, s * (1.0 - t)),
-        (i, j + 1, (1.0 - s) * t),
-        (i + 1, j + 1, s * t),
-    )
-    parts = [np.where(weight > 0.0, weight * p[a, b], 0.0) for a, b, weight in corners]
-    return np.asarray(np.sum(parts, axis=0))

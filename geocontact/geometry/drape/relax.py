@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
-from scipy.sparse import coo_array, eye_array
+from scipy.sparse import coo_array, csr_array, eye_array
 from scipy.sparse.linalg import spsolve
 
 from geocontact.geometry.drape.belt import closed
 from geocontact.geometry.drape.geodesics import Geodesics, Joins, Places
-from geocontact.geometry.drape.mat import Mat
+from geocontact.geometry.drape.held import Held, held
+from geocontact.geometry.drape.mat import Marks, Mat
 from geocontact.geometry.drape.spread import Way
 
 SHEAR = 0.05  # stiffness of the diagonals over that of the sides: cloth is sheared much more easily than stretched
@@ -35,15 +36,17 @@ class Springs:
     weight: Float[np.ndarray, " e"]
 
 
-def relaxed(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way | None = None) -> Places:
+def relaxed(
+    geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way | None = None, marks: Marks | None = None
+) -> Places:
     """Corners moved along the surface until sides differ least from the pitch, and diagonals, weakly, from theirs.
 
     Least squares over all corners that lie on the surface, by damped Gauss-Newton. A straightest line of length L from
     a to b grows by db . t_b - da . t_a when its ends move, t the unit directions of the line there (first variation of
     arc length), so the derivative is exact. With soft diagonals the result nears a Chebyshev net, whose sides keep the
     pitch and whose angles turn by the integral of the Gaussian curvature (Hazzidakis 1879). A mat that fits already is
-    returned as it is. Weak springs hold every corner where it was spread: a mat that marks put somewhere shall not
-    slide to where it would fit better.
+    returned as it is. Weak springs hold every corner where it was spread, and marks, as firmly as sides are, the mat as
+    a whole: it does not slide or turn away from them to where it would fit better, and is not bent towards them either.
     """
     if belt is not None:
         nodes = closed(geodesics, mat, nodes, belt)
@@ -51,20 +54,21 @@ def relaxed(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way | None = No
     owner = _owner(nodes.face.shape, belt)
     springs = _springs(mat, nodes.face.shape, flat, owner)
     damping = DAMPING
-    spread_to, hold = flat.point, STAYS
+    spread_to = flat.point
+    hold = None if marks is None else held(geodesics, mat, nodes, marks, owner, belt)
     residual, joins = _residual(geodesics, springs, flat)
     for _ in range(ROUNDS):
         if not len(residual) or np.abs(residual / springs.rest).max() < EVEN:
             break
         axes = _axes(geodesics, flat)
         astray = np.nan_to_num(flat.point - spread_to)
-        shift = _step(springs, joins, residual, axes, astray, hold, damping)
+        shift = _step(springs, joins, residual, axes, _pulls(hold, flat, axes, astray), damping)
         size = float(np.linalg.norm(shift, axis=1).max())
         shift *= min(1.0, STRIDE * min(mat.pitch) / size) if size > 0.0 else 1.0
         trial = geodesics.moved(flat, shift)
         trial = Places(np.where(trial.on, trial.face, flat.face), np.where(trial.on[:, None], trial.point, flat.point))
         after, joins_after = _residual(geodesics, springs, trial)
-        before, now = _energy(residual, astray, hold), _energy(after, np.nan_to_num(trial.point - spread_to), hold)
+        before, now = (_energy(r, p.point, spread_to, hold) for r, p in ((residual, flat), (after, trial)))
         if not now < before:
             damping *= 10.0
             if damping > STIFF:
@@ -132,8 +136,7 @@ def _step(
     joins: Joins,
     residual: Float[np.ndarray, " e"],
     axes: Float[np.ndarray, "n 2 3"],
-    astray: Float[np.ndarray, "n 3"],
-    hold: float,
+    pulls: tuple[csr_array, Float[np.ndarray, " two_n"]],
     damping: float,
 ) -> Float[np.ndarray, "n 3"]:
     """Damped Gauss-Newton move of every node [m]."""
@@ -144,12 +147,30 @@ def _step(
     column = np.concatenate([2 * springs.goal, 2 * springs.goal + 1, 2 * springs.start, 2 * springs.start + 1])
     value = np.concatenate([*ahead.T, *behind.T])
     jacobian = coo_array((value, (row, column)), shape=(len(e), 2 * len(axes))).tocsc()
-    held = hold**2 * np.einsum("nax,nx->na", axes, astray).ravel()
-    stiffness = (jacobian.T @ jacobian + (damping + hold**2) * eye_array(2 * len(axes), format="csc")).tocsc()
-    move = spsolve(stiffness, -(jacobian.T @ residual) - held).reshape(-1, 2)
+    stiffness = (jacobian.T @ jacobian + pulls[0] + damping * eye_array(2 * len(axes), format="csc")).tocsc()
+    move = spsolve(stiffness, -(jacobian.T @ residual) - pulls[1]).reshape(-1, 2)
     return np.asarray(np.einsum("na,nax->nx", move, axes))
 
 
-def _energy(residual: Float[np.ndarray, " e"], astray: Float[np.ndarray, "n 3"], hold: float) -> float:
+def _pulls(
+    hold: Held | None, flat: Places, axes: Float[np.ndarray, "n 2 3"], astray: Float[np.ndarray, "n 3"]
+) -> tuple[csr_array, Float[np.ndarray, " two_n"]]:
+    """Stiffness and force [m] of what holds the corners: each where it was spread, and all of them at the marks."""
+    stiffness = csr_array(STAYS**2 * eye_array(2 * len(axes), format="csr"))
+    force = STAYS**2 * np.einsum("nax,nx->na", axes, astray).ravel()
+    if hold is None:
+        return stiffness, force
+    jacobian = hold.jacobian(axes)
+    return csr_array(stiffness + jacobian.T @ jacobian), force + jacobian.T @ hold.miss(flat.point)
+
+
+def _energy(
+    residual: Float[np.ndarray, " e"],
+    points: Float[np.ndarray, "n 3"],
+    spread_to: Float[np.ndarray, "n 3"],
+    hold: Held | None,
+) -> float:
     """Of all springs and of the holds [m^2]."""
-    return float(residual @ residual) + hold**2 * float((astray**2).sum())
+    miss = np.zeros(0) if hold is None else hold.miss(points)
+    astray = np.nan_to_num(points - spread_to)
+    return float(residual @ residual) + STAYS**2 * float((astray**2).sum()) + float(miss @ miss)

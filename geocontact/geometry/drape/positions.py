@@ -1,0 +1,42 @@
+"""Positions on a laid mat, counted in cells: where they are, and which way rows and columns run there."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.geometry.drape.geodesics import Places
+
+
+def corners_at(
+    shape: tuple[int, ...], cells: Float[np.ndarray, "k 2"]
+) -> tuple[Int[np.ndarray, "k 4"], Float[np.ndarray, "k 4"]]:
+    """Corners of the cell that each position lies in (flat indices of nodes of `shape`), and their bilinear shares."""
+    low, (s, t) = _in_cell(shape, cells)
+    first = low @ np.array([shape[1], 1])
+    index = np.stack([first, first + shape[1], first + 1, first + shape[1] + 1], axis=1)
+    return index, np.stack([(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t], axis=1)
+
+
+def between(nodes: Places, cells: Float[np.ndarray, "k 2"]) -> Float[np.ndarray, "k 3"]:
+    """Points at positions counted in cells [m], linear between the corners of their cell; NaN where it is not there."""
+    index, share = corners_at(nodes.face.shape, cells)
+    corners = nodes.point.reshape(-1, 3)[index]
+    return np.asarray(np.where(share[..., None] > 0.0, share[..., None] * corners, 0.0).sum(axis=1))
+
+
+def directions(points: Float[np.ndarray, "r1 c1 3"], cells: Float[np.ndarray, "k 2"]) -> Float[np.ndarray, "k 2 3"]:
+    """Unit directions of increasing row and of increasing column at positions counted in cells; NaN off the surface."""
+    low, inside = _in_cell(points.shape, cells)
+    (i, j), (s, t) = low.T, inside[..., None]
+    a, b, c, d = points[i, j], points[i + 1, j], points[i, j + 1], points[i + 1, j + 1]
+    ways = np.stack([(1.0 - t) * (b - a) + t * (d - c), (1.0 - s) * (c - a) + s * (d - b)], axis=1)
+    return np.asarray(ways / np.linalg.norm(ways, axis=2, keepdims=True))
+
+
+def _in_cell(
+    shape: tuple[int, ...], cells: Float[np.ndarray, "k 2"]
+) -> tuple[Int[np.ndarray, "k 2"], Float[np.ndarray, "2 k"]]:
+    """First corner (row, column) of the cell that each position lies in, and how far in it is along both."""
+    low = np.clip(np.floor(cells).astype(np.int64), 0, np.array(shape[:2]) - 2)
+    return low, (cells - low).T
