@@ -96,8 +96,8 @@ class MatOptions:
     gain
         How far all cells are off together.
     registration
-        How far the mat may lie elsewhere, along and about each axis: 1mm,2deg; unless given, what the residual of
-        --body-landmarks or --icp tells.
+        How far the mat may lie elsewhere, along and about each axis: 1mm,2deg; unless given, what the residuals tell of
+        --landmarks, and of --body-landmarks or --icp.
     compare
         Forces of a model (or of a plate) over time, columns as in wrench.csv: agreement in agreement.csv. Lines
         `# point_mm = ...` and `# frame = ...` above it are heeded.

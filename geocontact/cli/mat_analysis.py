@@ -32,7 +32,9 @@ from geocontact.geometry.drape.closest_point import project
 from geocontact.geometry.drape.geodesics import Geodesics
 from geocontact.geometry.drape.lay import lay
 from geocontact.geometry.drape.mat import Marks, Mat
+from geocontact.geometry.drape.slip import slip_covariance
 from geocontact.geometry.register.quality import Registration
+from geocontact.geometry.register.uncertainty import PoseCovariance
 from geocontact.geometry.surface import Surface
 from geocontact.io.mat_landmarks import MatLandmarks
 from geocontact.io.units import LENGTH
@@ -107,8 +109,7 @@ def _guard(surface: Surface, frames: PressureFrames, o: MatOptions) -> None:
 
 
 def _laid(record: Record, surface: Surface, frames: PressureFrames, marks: MatLandmarks, o: MatOptions) -> Drape:
-    mat = Mat(frames.rows, frames.columns, frames.pitch, mirrored=o.seen_from == "body")
-    at = Marks(marks.place, marks.point, marks.name)
+    mat, at = _mat(frames, marks, o)
     geodesics = Geodesics(surface)
     try:
         laid = lay(geodesics, mat, at, o.belt) if o.lay == "geodesic" else project(geodesics, mat, at)
@@ -122,6 +123,16 @@ def _laid(record: Record, surface: Surface, frames: PressureFrames, marks: MatLa
     say_which_side(record, surface, laid, marks, o)
     say_how_it_closes(record, mat, laid, o)
     return laid
+
+
+def _mat(frames: PressureFrames, marks: MatLandmarks, o: MatOptions) -> tuple[Mat, Marks]:
+    mat = Mat(frames.rows, frames.columns, frames.pitch, mirrored=o.seen_from == "body")
+    return mat, Marks(marks.place, marks.point, marks.name)
+
+
+def _slip(p: Placed, frames: PressureFrames, o: MatOptions) -> PoseCovariance | None:
+    mat, marks = _mat(frames, p.marks, o)
+    return slip_covariance(mat, p.laid, marks, o.belt)
 
 
 def _say_how_it_lies(record: Record, laid: Drape, frames: PressureFrames, marks: MatLandmarks) -> None:
@@ -170,7 +181,7 @@ def _loads(record: Record, p: Placed, seen: Recording, travel: Travel | None, o:
     pressure = p.map.of(seen.frames.pressure)
     whole = mat_load(p.map, pressure, origin, frame, o.gate, touched)
     parts = segment_loads(p.map, pressure, origin, frame, _segments(record, p, o), o.gate, touched)
-    errors = stated_errors(record, p.map, p.registration, o)
+    errors = stated_errors(record, p.map, p.registration, _slip(p, seen.frames, o), o)
     spread = wrench_covariance(p.map, pressure, whole.wrench, errors)
     spread += filling_covariance(p.map, pressure, whole.wrench, seen.gaps)
     if travel is not None:

@@ -6,7 +6,7 @@ To first order, for cells with pressures p, areas A and unit forces u (m^2, agai
 - all cells off by the same share g: g^2 (F, M)(F, M)^T;
 - the mat moved by d and turned by θ about its middle c: F changes by θ × F, the moment about o by
   θ × M_c + (c - o) × (θ × F) + d × F, with M_c the moment about c. Components of d and of θ are independent where only
-  their size is stated; where a registration tells their covariance, that is used.
+  their size is stated; where residuals tell their covariance, that is used.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class MatErrors:
     turn
         Of how it is turned, about each axis [rad].
     pose
-        Of where the body lies that carries the mat, as its registration tells it.
+        Of where the mat lies, as the residuals tell it of the body's registration and of the mat's own marks.
     """
 
     cell: float = 0.0

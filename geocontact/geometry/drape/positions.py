@@ -26,12 +26,25 @@ def between(nodes: Places, cells: Float[np.ndarray, "k 2"]) -> Float[np.ndarray,
 
 
 def directions(points: Float[np.ndarray, "r1 c1 3"], cells: Float[np.ndarray, "k 2"]) -> Float[np.ndarray, "k 2 3"]:
-    """Unit directions of increasing row and of increasing column at positions counted in cells; NaN off the surface."""
-    low, inside = _in_cell(points.shape, cells)
-    (i, j), (s, t) = low.T, inside[..., None]
-    a, b, c, d = points[i, j], points[i + 1, j], points[i, j + 1], points[i + 1, j + 1]
-    ways = np.stack([(1.0 - t) * (b - a) + t * (d - c), (1.0 - s) * (c - a) + s * (d - b)], axis=1)
+    """Unit directions of increasing row and of increasing column at positions counted in cells; NaN off the surface.
+
+    By differences of the corners, of second order also at the ends of the mat; beside corners that are off the surface
+    by the sides of the position's own cell.
+    """
+    index, share = corners_at(points.shape, cells)
+    smooth = np.stack([_slope(points, k).reshape(-1, 3)[index] for k in (0, 1)], axis=1)
+    ways = np.where(share[:, None, :, None] > 0.0, share[:, None, :, None] * smooth, 0.0).sum(axis=2)
+    _, (s, t) = _in_cell(points.shape, cells)
+    a, b, c, d = points.reshape(-1, 3)[index].transpose(1, 0, 2)
+    s, t = s[:, None], t[:, None]
+    own = np.stack([(1.0 - t) * (b - a) + t * (d - c), (1.0 - s) * (c - a) + s * (d - b)], axis=1)
+    ways = np.where(np.isfinite(ways).all(axis=(1, 2))[:, None, None], ways, own)
     return np.asarray(ways / np.linalg.norm(ways, axis=2, keepdims=True))
+
+
+def _slope(points: Float[np.ndarray, "r1 c1 3"], axis: int) -> Float[np.ndarray, "r1 c1 3"]:
+    """Change of the corners from one to the next [m]."""
+    return np.asarray(np.gradient(points, axis=axis, edge_order=2 if points.shape[axis] > 2 else 1))
 
 
 def _in_cell(

@@ -32,6 +32,17 @@ class PoseCovariance:
         change[:3, 3:] = -crossing(point - self.about)
         return np.asarray(change @ self.matrix @ change.T)
 
+    def plus(self, other: PoseCovariance) -> PoseCovariance:
+        """With another motion of the same body that is independent of this one, about the same point.
+
+        Degrees of freedom follow Welch (1947) and Satterthwaite (1946), by the mean square of the shift.
+        """
+        matrices = self.matrix, other.at(self.about)
+        own, more = (float(np.trace(each[:3, :3])) for each in matrices)
+        inverse = own**2 / self.freedom + more**2 / other.freedom
+        freedom = (own + more) ** 2 / inverse if inverse > 0.0 else self.freedom + other.freedom
+        return PoseCovariance(self.about, matrices[0] + matrices[1], freedom)
+
 
 def crossing(vector: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "3 3"]:
     """The matrix [v] with [v] w = v x w."""
