@@ -88,7 +88,8 @@ class MatOptions:
     icp
         Fit the scan to the body's surface by shape, beginning where the landmarks put it.
     icp_engine
-        own: our own search by shape. open3d: that of open3d, where it is installed; own unless given.
+        own: our own search by shape. open3d: that of open3d. auto: open3d where it imports, else our own; auto unless
+        given.
     segment
         Part of the surface with a name, as often as there are parts: "upper=y > 20" (x y z nx ny nz, the scan's unit).
     accuracy
@@ -140,7 +141,7 @@ class MatOptions:
     body: Path | None = None
     body_unit: Literal["m", "cm", "mm", "in"] | None = None
     icp: Annotated[bool, Flag] = False
-    icp_engine: Literal["own", "open3d"] | None = None
+    icp_engine: Literal["auto", "own", "open3d"] | None = None
     segment: tuple[str, ...] = ()
     accuracy: str = "10%"
     gain: str | None = None

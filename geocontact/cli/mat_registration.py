@@ -43,8 +43,8 @@ def registered(
             record.warn(guard.warning)
         _tell(record, "landmarks", found)
         if o.icp:
-            found = _by_shape(scan, _body(record, o), found, o)
-            _tell(record, "shape", found)
+            engine, found = _by_shape(scan, _body(record, o), found, o)
+            _tell(record, "shape", found, engine=engine)
             if not found.converged:
                 record.warn("the registration by shape did not settle; look at registration.csv")
     except InputError:
@@ -70,18 +70,20 @@ def _refuse_idle(o: MatOptions) -> None:
     )  # fmt: skip
 
 
-def _by_shape(scan: Surface, body: Surface, start: Registration, o: MatOptions) -> Registration:
-    """The scan brought onto the body from where the landmarks put it, by the engine that was chosen."""
-    if o.icp_engine == "open3d":
+def _by_shape(scan: Surface, body: Surface, start: Registration, o: MatOptions) -> tuple[str, Registration]:
+    """The scan brought onto the body from where the landmarks put it, and by which engine."""
+    engine, found = "own", None
+    if o.icp_engine != "own":
         from geocontact.geometry.register.open3d_icp import open3d_icp  # heavy
 
         try:
-            found = open3d_icp(scan, body, start.pose)
+            engine, found = "open3d", open3d_icp(scan, body, start.pose)
         except ImportError as error:
-            raise InputError("", "--icp-engine", str(error), "or leave it out") from error
-    else:
-        found = icp(scan, body, start.pose)
-    return replace(found, covariance=shape_covariance(scan, body, found.pose, start=start.covariance))
+            if o.icp_engine == "open3d":
+                raise InputError("", "--icp-engine", str(error), "or leave it out") from error
+            engine = "own"
+    found = found or icp(scan, body, start.pose)
+    return engine, replace(found, covariance=shape_covariance(scan, body, found.pose, start=start.covariance))
 
 
 def registration_table(found: Registration) -> pd.DataFrame:
@@ -113,7 +115,7 @@ def _pairs(path: Path) -> tuple[tuple[str, ...], Float[np.ndarray, "n 3"], Float
     )
 
 
-def _tell(record: Record, way: str, found: Registration) -> None:
+def _tell(record: Record, way: str, found: Registration, **more: str) -> None:
     worst, off = found.worst
     record.results[f"registration by {way}"] = {
         "rms_mm": found.rms * 1e3,
@@ -122,6 +124,7 @@ def _tell(record: Record, way: str, found: Registration) -> None:
         "worst_mm": off * 1e3,
         "hold": None if np.isnan(found.hold) else found.hold,
         "pose": found.pose.as_matrix().tolist(),
+        **more,
     }
     record.say(
         f"registration by {way}: root mean square {found.rms * 1e3:.2f} mm, {found.overlap:.0%} of the points met"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -285,6 +286,8 @@ def test_results_are_in_the_frame_of_the_body_that_the_scan_is_registered_to(tmp
     assert np.linalg.norm(ours.loc[k, names] - truth.loc[k, names]) < (2.0 if shape else 0.5)
     told = result.record()["results"][f"registration by {'shape' if shape else 'landmarks'}"]
     assert told["rms_mm"] < 0.5
+    if shape:
+        assert told["engine"] in ("open3d", "own")
     assert len(table(result, "registration.csv")) > 0
     place = result.record()["results"]["uncertainty"]
     assert place["place"] == f"residual of the registration by {'shape' if shape else 'landmarks'}"
@@ -324,6 +327,65 @@ def test_the_residual_of_a_registration_makes_the_wrench_uncertain_unless_it_is_
     assert found["landmarks"][0]["sd_shift_mm"] == pytest.approx([2.0 / 3.0] * 3, rel=0.5)
     assert found["stated"][0]["place"] == "--registration" and found["stated"][1] < found["landmarks"][1]
     assert max(found["shape"][0]["sd_shift_mm"]) < 0.1, "the same mesh on both sides"
+
+
+@pytest.mark.parametrize("option", [(), ("--icp-engine", "auto"), ("--icp-engine", "open3d")])
+def test_where_open3d_does_not_import_our_own_search_is_taken(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, option: tuple[str, ...]
+) -> None:
+    """run.json says which; who asked for open3d is told."""
+    monkeypatch.setitem(sys.modules, "open3d", None)
+    given, axes = MESHES / "mat_thigh_16x8", [f"{a} [mm]" for a in "xyz"]
+    pairs = pd.read_csv(given / "landmarks.csv", skipinitialspace=True)[["id", *axes]]
+    pairs[[f"body_{a}" for a in axes]] = pairs[axes].to_numpy() + np.array([1.0, -1.0, 0.5])
+    pairs.to_csv(tmp_path / "pairs.csv", index=False)
+    result = call(
+        "mat", given / "frames.csv", "--layout", given / "layout.toml", "--surface", MESHES / "thigh.stl", "--unit",
+        "mm", "--landmarks", given / "landmarks.csv", "--body-landmarks", tmp_path / "pairs.csv", "--body",
+        MESHES / "thigh.stl", "--icp", *option, *STILL, "--out", tmp_path / "out", folder=tmp_path / "out",
+    )  # fmt: skip
+    if "open3d" in option:
+        refused(result, "open3d does not import")
+    else:
+        assert done(result).record()["results"]["registration by shape"]["engine"] == "own"
+
+
+def test_the_misses_of_the_landmarks_make_the_wrench_uncertain(tmp_path: Path) -> None:
+    """Corners of the mat pulled apart by 1 mm along x: s^2 = 4/5 mm^2, s^2/4 of the shift, s^2/2500 of the turn."""
+    marks(tmp_path, "a,0,0,19,30,0", "b,4,0,61,30,0", "c,0,3,19,60,0", "d,4,3,61,60,0")
+    result = done(call(
+        "mat", frames(tmp_path, uniform()), "--layout", written(tmp_path / "layout.toml", LAYOUT), "--surface",
+        scan(tmp_path), "--unit", "mm", "--landmarks", tmp_path / "landmarks.csv", "--point", "40,45,0", "--accuracy",
+        "0.001%", "--out", tmp_path / "out", *STILL, folder=tmp_path / "out",
+    ))  # fmt: skip
+    place = result.record()["results"]["uncertainty"]
+    shift, turn = np.sqrt(0.8 / 4), np.sqrt(0.8 / 2500.0)
+    assert place["place"] == "residual of the mat's landmarks" and place["degrees_of_freedom"] == 5.0
+    assert place["sd_shift_mm"] == pytest.approx([shift, shift, 0.0], rel=1e-6, abs=1e-9)
+    assert place["sd_turn_deg"] == pytest.approx([0.0, 0.0, np.degrees(turn)], rel=1e-6, abs=1e-9)
+    sd = table(result, "uncertainty.csv").iloc[0]
+    assert sd[["sd_mx [N m]", "sd_my [N m]"]].to_numpy(float) == pytest.approx([12.0 * shift * 1e-3] * 2, rel=1e-6)
+    assert sd[["sd_fx [N]", "sd_fy [N]"]].abs().max() < 1e-9, "a flat mat turns about its force"
+
+
+def test_both_residuals_count(tmp_path: Path) -> None:
+    """Registration by landmarks and marks of the mat: variances add up at the middle of the mat."""
+    marks(tmp_path, "a,0,0,19,30,0", "b,4,0,61,30,0", "c,0,3,19,60,0", "d,4,3,61,60,0")
+    corners = [(20, 30), (60, 30), (20, 60), (60, 60)]
+    pairs = [f"{k},{x},{y},0,{x + (3 if k % 2 else -3)},{y},0" for k, (x, y) in enumerate(corners)]
+    head = "id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm]"
+    result = done(call(
+        "mat", frames(tmp_path, uniform()), "--layout", written(tmp_path / "layout.toml", LAYOUT), "--surface",
+        scan(tmp_path), "--unit", "mm", "--landmarks", tmp_path / "landmarks.csv", "--point", "40,45,0", "--accuracy",
+        "0.001%", "--body-landmarks", written(tmp_path / "pairs.csv", "\n".join([head, *pairs]) + "\n"), "--out",
+        tmp_path / "out", *STILL, folder=tmp_path / "out",
+    ))  # fmt: skip
+    told = result.record()["results"]["uncertainty"]
+    assert told["place"] == "residual of the registration by landmarks"
+    own, more = (np.array(each["sd_shift_mm"]) for each in (told, told["mat_on_scan"]))
+    assert more[:2] == pytest.approx([np.sqrt(0.8 / 4)] * 2, rel=1e-6) and own.min() > more.max()
+    sd = table(result, "uncertainty.csv").iloc[0]
+    assert sd["sd_my [N m]"] == pytest.approx(12e-3 * np.hypot(own[0], more[0]), rel=0.02)
 
 
 def test_registration_by_shape_alone_is_refused(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
@@ -55,7 +56,9 @@ def open3d_icp(moving: Surface, fixed: Surface, start: RigidTransform, search: S
 def _open3d() -> Any:
     """The library, or a line that says what to do without it."""
     try:
-        import open3d
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # what its own imports are warned of is nothing to who measures
+            import open3d
     except (ImportError, OSError) as why:  # its wheel needs system libraries that a bare machine lacks
         raise ImportError(
             f"open3d does not import ({why}); install geocontact[scan], or register by geometry.register.icp"

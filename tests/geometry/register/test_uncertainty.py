@@ -85,3 +85,16 @@ def test_a_shift_of_another_point_contains_the_turn():
     turned = PoseCovariance(np.zeros(3), np.diag([0.0, 0.0, 0.0, 0.0, 0.0, 1e-4]), 6.0).at(np.array([0.5, 0.0, 0.2]))
     assert np.sqrt(np.diag(turned))[:3] == pytest.approx([0.0, 5e-3, 0.0], abs=1e-12)
     assert crossing(POINT) @ [1.0, 2.0, 3.0] == pytest.approx(np.cross(POINT, [1.0, 2.0, 3.0]))
+
+
+def test_independent_covariances_add_up_at_every_point():
+    """Degrees of freedom of Welch and Satterthwaite: n of two alike are 2 n, a negligible one adds nothing."""
+    rng = np.random.default_rng(2)
+    first, second = (rng.standard_normal((6, 6)) for _ in range(2))
+    a = PoseCovariance(np.array([0.1, 0.2, -0.1]), first @ first.T, 5.0)
+    b = PoseCovariance(np.array([-0.3, 0.0, 0.4]), second @ second.T, 9.0)
+    assert a.plus(b).at(POINT) == pytest.approx(a.at(POINT) + b.at(POINT), rel=1e-9)
+    assert a.plus(a).freedom == pytest.approx(10.0)
+    assert a.plus(PoseCovariance(a.about, 1e-12 * a.matrix, 1.0)).freedom == pytest.approx(5.0)
+    nothing = PoseCovariance(a.about, np.zeros((6, 6)), 3.0)
+    assert nothing.plus(nothing).freedom == 6.0
