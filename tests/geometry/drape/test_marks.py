@@ -59,7 +59,7 @@ def level_belt(z, mat, belt):
 
 @pytest.mark.parametrize("belt", ["columns", "rows"])
 def test_a_belt_stays_on_its_marks_below_the_fullest_place(belt):
-    """Held by each corner's weak spring only, it slid 8 mm and more towards where its length fits."""
+    """Held by each corner's weak spring only, it slid 10 mm towards where its length fits."""
     z, rings = 0.16, 6
     sheet = over(thigh(120))
     pitch = 2 * np.pi * (0.078 - 0.023 * ((z - 0.28) / 0.28) ** 2) / 32
