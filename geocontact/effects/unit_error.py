@@ -22,9 +22,10 @@ FACTORS = {
     "N": (1000.0, 9.80665, 4.4482216152605),
     "N m": (1000.0, 9.80665, 0.1129848290276167),
     "m": (1000.0, 100.0, 0.0254),
+    "m^2": (1e6, 1e4),
     "rad": (degrees(1.0),),
 }
-"""What the units of a dimension differ by: kN, kgf, lbf; kN m, kgf m, lbf in; mm, cm, inch; degrees.
+"""What the units of a dimension differ by: kN, kgf, lbf; kN m, kgf m, lbf in; mm, cm, inch; mm^2, cm^2; degrees.
 
 Their inverses count as well.
 """

@@ -14,19 +14,22 @@ from geocontact.gap.benchmark.planted.base_fit import jacobian
 from geocontact.gap.benchmark.planted.cases import prepared
 from geocontact.gap.benchmark.planted.catalogue import TABLE, plans
 from geocontact.gap.benchmark.planted.course import through
-from geocontact.gap.benchmark.planted.elbow import NotConvergedError
-from geocontact.gap.benchmark.planted.foot import Sole
+from geocontact.gap.benchmark.planted.effects.contact_loss import seated
+from geocontact.gap.benchmark.planted.foot import Sole, foot
 from geocontact.gap.benchmark.planted.hooks import BASE, Hooks
+from geocontact.gap.benchmark.planted.interface import NotConvergedError, pull
+from geocontact.gap.benchmark.planted.knee import area_under, deflection
 from geocontact.gap.benchmark.planted.noise import Coloured, smooth_covariance, smooth_noise
 from geocontact.gap.benchmark.planted.outside.catalogue import outsiders
 from geocontact.gap.benchmark.planted.reach import shortest
-from geocontact.gap.benchmark.planted.scene import SCENES
+from geocontact.gap.benchmark.planted.scenes import SCENES
+from geocontact.gap.benchmark.planted.sit_to_stand import inputs as inputs_of
+from geocontact.gap.benchmark.planted.sit_to_stand import sit_to_stand
 from geocontact.gap.benchmark.planted.trials import Fault, as_measured, fine_enough, record, samples, truth
 from geocontact.systems.catalogue import system_of
 
 ALLOWED = {"numpy", "scipy", "pandas", "numba", "jaxtyping"}
 STANDARD = {"__future__", "collections", "dataclasses", "functools", "inspect", "math", "typing"}
-INPUTS = {"elbow": ("beta",), "foot": ("x", "y", "pitch")}
 
 
 @pytest.fixture(autouse=True)
@@ -45,7 +48,7 @@ def test_it_shares_nothing_with_the_candidates():
 
 
 def test_every_file_says_what_is_planted_and_what_the_candidate_does():
-    assert len({name for name, *_ in TABLE}) == len(TABLE) == 21
+    assert len({name for name, *_ in TABLE}) == len(TABLE) == 22
     for name, equation, candidate in TABLE:
         text = (Path(planted.__file__).parent / "effects" / f"{name}.py").read_text()
         assert "planted:" in text and "candidate:" in text and equation != candidate
@@ -65,20 +68,25 @@ def stages():
 @pytest.mark.parametrize("system", SCENES)
 def test_base_models_agree_with_those_of_the_package(system):
     case = plant(system, "none", 3).case
+    if system == "sit_to_stand":  # rates are taken in another way
+        case = dataclasses.replace(case, constants={"b": 0.0})
     theirs = system_of(case)
     scene = SCENES[system](np.random.default_rng(0), shifted=False)
     scene = dataclasses.replace(scene, constants=case.constants, parameters=case.parameters)
     theta = np.array([0.7 * p.start for p in case.parameters])
     if system == "foot":
-        theta[len(theta) // 2 :] = 0.0  # rates are taken in another way; without damping only friction feels it
-        scene = dataclasses.replace(scene, sole=sole_of(case))
+        theta[len(theta) // 2 :] = 0.0  # likewise; without damping only friction feels it
+        scene = dataclasses.replace(scene, body=foot(sole_of(case)))
+    if system == "sit_to_stand":
+        sites = tuple(name.removesuffix("_force") for name in theirs.outputs)
+        scene = dataclasses.replace(scene, inputs=inputs_of(sites), outputs=theirs.outputs, body=sit_to_stand(sites))
     for trial in case.calibration:
         inputs = np.array([trial.column(name) for name in scene.inputs])
         course = through(trial.time, inputs, float(trial.time[-1]), 0.0)(trial.time)
         ours = scene.base_model(course)(theta)
         other = theirs.simulate(trial, scene.numbers(theta)).T
         there = np.isfinite(other)
-        rows = [0] if system == "elbow" else [1, 2]
+        rows = [1, 2] if system == "foot" else range(len(scene.outputs))
         for row in rows:
             np.testing.assert_allclose(ours[row][there[row]], other[row][there[row]], rtol=1e-9, atol=1e-12)
         if system == "foot":
@@ -103,7 +111,7 @@ def test_every_kind_is_what_it_says(system, kind):
     assert len(label.effects) == {"none": 0, "outside": 0, "pair": 2}.get(kind, 1)
     assert 3 <= len(case.calibration) <= 4 and 2 <= len(case.evaluation) <= 3
     for trial in (*case.calibration, *case.evaluation):
-        assert np.isfinite([trial.column(name) for name in INPUTS[system]]).all()
+        assert np.isfinite([trial.column(name) for name in system_of(case).inputs]).all()
         assert (np.diff(trial.time) > 0.0).all()
     assert np.isclose(sum(label.shares.values()), 1.0)
     for low, high in label.window.values():
@@ -199,7 +207,7 @@ def test_every_effect_converges_with_the_step(system, name, stages):
     stage = stages[system]
     scene, path = stage.scene, stage.trials[0].path
     plan = next(one for one in (*plans(system), *outsiders(system)) if one.name == name)
-    draw = plan.draw(np.random.default_rng(1), stage.scale)
+    draw = plan.drawn(np.random.default_rng(1), stage.scale)
     hooks = draw.hooks(np.sqrt(draw.low * draw.high))
     fine = fine_enough(scene, path, hooks)
     count = samples(scene, path)
@@ -233,7 +241,63 @@ def test_the_shortest_window_is_found_by_trying_all():
         assert j - i == min(widths)
 
 
-@pytest.mark.parametrize("wrong", [{"system": "knee", "kind": "none"}, {"system": "elbow", "kind": "triple"}])
+def test_of_several_sites_an_effect_sits_at_one_or_now_and_then_at_all(stages):
+    """What is drawn at a site changes that site's force alone."""
+    stage = stages["sit_to_stand"]
+    scene, one = stage.scene, stage.trials[0]
+    without = truth(scene, one.path, one.count, scene.theta, BASE, 10)
+    seen = {"every site": 0, "pelvis": 0, "thigh": 0, "shank": 0}
+    stiffening = next(plan for plan in plans("sit_to_stand") if plan.name == "stiffening")
+    for seed in range(40):
+        draw = stiffening.drawn(np.random.default_rng(seed), stage.scale)
+        where = draw.words(0.3).split(":")[0]
+        seen[where] += 1
+        with_it = truth(scene, one.path, one.count, scene.theta, draw.hooks(0.3), 10)
+        changed = np.abs(with_it - without).max(axis=1) > 1e-9
+        expected = [where in ("every site", name.removesuffix("_force")) for name in scene.outputs]
+        assert changed.tolist() == expected
+        assert draw.variant == ("" if where == "every site" else where)
+    assert min(seen.values()) > 3 and seen["every site"] < 20
+
+
+def test_hooks_at_places_add_up_place_by_place():
+    one = Hooks(spring=(abs,), places={"thigh": Hooks(play=(abs,))})
+    other = Hooks(places={"thigh": Hooks(play=(min,)), "shank": Hooks(series=(max,))})
+    both = one + other
+    assert both.seen_from("thigh") == Hooks(spring=(abs,), play=(abs, min))
+    assert both.seen_from("pelvis") == Hooks(spring=(abs,))
+    assert both.cannot_be_solved and not one.cannot_be_solved and not other.cannot_be_solved
+
+
+def test_medial_and_lateral_sides_share_what_the_knee_carries(stages):
+    """Areas that the loads make by Hertz's law carry these loads again."""
+    scene = stages["knee"].scene
+    force = np.array([100.0, 400.0, 900.0])
+    modulus, radius = float(scene.theta[0]), scene.constants["R"]
+    again = 4.0 / 3.0 * modulus * deflection(area_under(force, modulus, radius), np.asarray(radius))
+    np.testing.assert_allclose(again, force, rtol=1e-12)
+    made = stages["knee"].trials[0].outputs
+    assert (made > 20.0).all() and 0.4 < made[0].mean() / made.mean(axis=1).sum() < 0.75
+
+
+def test_a_dashpot_follows_what_reaches_the_spring():
+    """k u + b u' for a free strap; a strap in its play carries nothing at all."""
+    time = np.linspace(0.0, 1.0, 2001)
+    u = 0.01 * np.sin(2.0 * np.pi * time)
+    free = pull(time, u, 4000.0, BASE, 80.0)
+    exact = 4000.0 * u + 80.0 * 0.02 * np.pi * np.cos(2.0 * np.pi * time)
+    np.testing.assert_allclose(free, exact, atol=1e-4)
+    slack = Hooks(play=(lambda d: np.zeros_like(d),))
+    assert not pull(time, u, 4000.0, slack, 80.0).any()
+
+
+def test_a_pad_that_was_pressed_sits_closer_until_it_has_opened():
+    """Halfway through either ramp on the way up and down; between the ramps it keeps what it had."""
+    up, down = [0.0, 0.85, 1.1], [1.5, 0.85, 0.6, 0.3, 0.85]
+    np.testing.assert_allclose(seated(2e-3 * np.array(up + down), 2e-3), [0.0, 0.0, 0.5, 1.0, 1.0, 0.5, 0.0, 0.0])
+
+
+@pytest.mark.parametrize("wrong", [{"system": "hip", "kind": "none"}, {"system": "elbow", "kind": "triple"}])
 def test_what_does_not_exist_is_named(wrong):
-    with pytest.raises(ValueError, match=r"knee|triple"):
+    with pytest.raises(ValueError, match=r"hip|triple"):
         plant(**wrong, seed=0)

@@ -64,10 +64,9 @@ def refit(
 
 
 def starts(scene: Scene, rng: np.random.Generator) -> list[Float[np.ndarray, " p"]]:
-    """Where the parameters begin, the nominal ones, and for the elbow places away from its wrong basin at x = y = 0."""
+    """Where the parameters begin, the nominal ones, and some out of the scene's box, where it has one."""
     begin = [np.array([p.start for p in scene.parameters]), scene.theta]
-    if scene.sole is None:
-        low = np.array([100.0, 0.01, 0.02])
-        high = np.array([700.0, 0.07, 0.09])
+    if scene.begin is not None:
+        low, high = (np.array(side) for side in scene.begin)
         begin += [rng.uniform(low, high) for _ in range(3)]
     return begin

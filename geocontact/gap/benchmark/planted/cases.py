@@ -13,18 +13,20 @@ from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial as CaseTrial
 from geocontact.gap.benchmark.planted.base_fit import refit, starts
-from geocontact.gap.benchmark.planted.catalogue import SWALLOWED, plans
+from geocontact.gap.benchmark.planted.catalogue import NO_GAP, SWALLOWED, plans
 from geocontact.gap.benchmark.planted.course import Path
-from geocontact.gap.benchmark.planted.elbow import NotConvergedError
 from geocontact.gap.benchmark.planted.faults import draw_fault
 from geocontact.gap.benchmark.planted.faults import words as fault_words
 from geocontact.gap.benchmark.planted.hooks import BASE, Hooks, Outputs
 from geocontact.gap.benchmark.planted.ideal import ideal
+from geocontact.gap.benchmark.planted.interface import NotConvergedError
 from geocontact.gap.benchmark.planted.label import KINDS, Kind, Label, Planted
+from geocontact.gap.benchmark.planted.magnitudes import scale_of
 from geocontact.gap.benchmark.planted.outside.catalogue import outsiders
 from geocontact.gap.benchmark.planted.plan import Draw, Plan, Scale
 from geocontact.gap.benchmark.planted.reach import Reach, reach
-from geocontact.gap.benchmark.planted.scene import SCENES, Rng, Scene
+from geocontact.gap.benchmark.planted.scene import Rng, Scene
+from geocontact.gap.benchmark.planted.scenes import SCENES
 from geocontact.gap.benchmark.planted.trials import (
     FINE,
     NO_FAULT,
@@ -102,7 +104,7 @@ def plant(
     Parameters
     ----------
     system
-        "elbow" or "foot".
+        One of `scenes.SCENES`.
     kind
         See `label.KINDS`.
     seed
@@ -157,28 +159,7 @@ def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: floa
 def prepared(scene: Scene, paths: Sequence[Path], kind: Kind) -> Stage:
     """Whitened calibration trials and the magnitudes in them."""
     trials = tuple(whitener(scene, path) for path in paths)
-    courses = [one.path(np.arange(one.count) * scene.step) for one in trials]
-    pairs = [scene.motion(course) for course in courses]
-    u, rate = np.concatenate([p[0] for p in pairs]), np.concatenate([p[1] for p in pairs])
-    most = {
-        name: max(float(np.nanmax(np.abs(one.outputs[c]))) for one in trials) for c, name in enumerate(scene.outputs)
-    }
-    first = np.concatenate([course.position[0] for course in courses])
-    scale = Scale(
-        scene.system,
-        most["force"] if scene.sole is None else most["force_y"],
-        float(np.abs(u).max()),
-        float(u.min()),
-        float(u.max()),
-        float(np.sqrt(np.mean(rate**2))),
-        max(course.duration for course in courses),
-        scene.step,
-        most,
-        float(np.sqrt(np.mean(np.concatenate([course.acceleration[0] for course in courses]) ** 2))),
-        0.5 * float(first.min() + first.max()),
-        0.1 if kind == "absorbed" else 1.0,
-    )
-    return Stage(scene, trials, floor(scene, trials), scale)
+    return Stage(scene, trials, floor(scene, trials), scale_of(scene, trials, 0.1 if kind == "absorbed" else 1.0))
 
 
 def fitted(
@@ -200,11 +181,11 @@ def single(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> Fo
     if not known:
         raise ValueError(f"no planted effect {effect!r} for the {stage.scene.system}")
     if effect is None:
-        hard = SWALLOWED[stage.scene.system] if stage.scene.system == "elbow" else ()
+        hard = NO_GAP.get(stage.scene.system, ())
         known = [one for one in known if one.name not in hard]
     plan = known[rng.integers(len(known))]
     target = nats or float(np.exp(rng.uniform(np.log(FAINTEST), np.log(BRIGHTEST))))
-    return chosen(stage, plan, plan.draw(rng, stage.scale), target, least=FAINTEST if nats is None else 0.7 * nats)
+    return chosen(stage, plan, plan.drawn(rng, stage.scale), target, least=FAINTEST if nats is None else 0.7 * nats)
 
 
 def chosen(stage: Stage, plan: Plan, draw: Draw, target: float, least: float) -> Found:
@@ -241,16 +222,16 @@ def amplitude(stage: Stage, draw: Draw, target: float) -> tuple[float, Sight]:
 
 def pair(rng: Rng, stage: Stage, _: str | None, __: float | None) -> Found:
     """Two effects that are visible about alike, none of which the base parameters swallow."""
-    hard = SWALLOWED[stage.scene.system] if stage.scene.system == "elbow" else ()
+    hard = NO_GAP.get(stage.scene.system, ())
     known = [one for one in plans(stage.scene.system) if one.name not in hard]
     first, second = (known[i] for i in rng.choice(len(known), 2, replace=False))
     level = float(np.exp(rng.uniform(np.log(20.0), np.log(BRIGHTEST))))
     found = []
     for plan in (first, second):
         target = level * float(np.exp(rng.uniform(-0.5, 0.5)))
-        found.append(chosen(stage, plan, plan.draw(rng, stage.scale), target, least=0.8 * target))
+        found.append(chosen(stage, plan, plan.drawn(rng, stage.scale), target, least=0.8 * target))
     hooks = found[0].hooks + found[1].hooks
-    if hooks.series and hooks.has_memory_in_law:
+    if hooks.cannot_be_solved:
         raise NotFoundError("a spring in series is not combined with a law that remembers")
     alone = [one.sights or {} for one in found]
     both = stage.sight(hooks)
@@ -270,7 +251,7 @@ def outside(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> F
     known = [one for one in outsiders(stage.scene.system) if one.name == effect or effect is None]
     plan = known[rng.integers(len(known))]
     target = nats or float(np.exp(rng.uniform(np.log(10.0), np.log(BRIGHTEST))))
-    found = chosen(stage, plan, plan.draw(rng, stage.scale), target, least=min(10.0, 0.7 * target))
+    found = chosen(stage, plan, plan.drawn(rng, stage.scale), target, least=min(10.0, 0.7 * target))
     seen = (found.sights or {})[plan.name]
     words = f"{found.words} (not in the table)"
     return replace(
@@ -283,7 +264,7 @@ def absorbed(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> Fou
     known = [one for one in plans(stage.scene.system) if one.name in SWALLOWED[stage.scene.system]]
     known = [one for one in known if one.name == effect or effect is None]
     plan = known[rng.integers(len(known))]
-    draw = plan.draw(rng, stage.scale)
+    draw = plan.drawn(rng, stage.scale)
     largest, seen = amplitude(stage, draw, rng.uniform(0.3, 1.0) * HIDDEN)
     smallest = math.sqrt(WHOLE / max(seen.whole, WHOLE))
     size = largest * float(np.exp(rng.uniform(0.5 * math.log(smallest), 0.0)))
@@ -312,7 +293,9 @@ def mistake(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> Foun
         raise NotFoundError("the mistake does not show")
     where = "" if faulty is everywhere else ", in some trials only"
     details: dict[str, str | float] = {"channel": fault.channel, "factor": fault.factor}
-    return Found((fault.effect,), fault_words(fault) + where, BASE, {fault.effect: seen}, fault, faulty, details)
+    return Found(
+        (fault.effect,), fault_words(fault, stage.scene) + where, BASE, {fault.effect: seen}, fault, faulty, details
+    )
 
 
 FINDERS: Mapping[Kind, Callable[[Rng, Stage, str | None, float | None], Found]] = {
@@ -343,8 +326,9 @@ def case_of(
     trials = []
     for i, one in enumerate(recordings):
         outputs = one.outputs.copy()
-        if scene.sole is not None and rng.random() < 0.1:
-            outputs[2, rng.random(outputs.shape[1]) < 0.02] = np.nan
+        for row in scene.body.patchy:
+            if rng.random() < 0.1:
+                outputs[row, rng.random(outputs.shape[1]) < 0.02] = np.nan
         values = np.column_stack([*one.inputs, *outputs])
         signals = Signals(one.time, values, (*scene.inputs, *scene.outputs), scene.units)
         trials.append(CaseTrial(f"t{i + 1:02d}", signals))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from geocontact.gap.benchmark.planted.effects.asymmetry import ASYMMETRY
 from geocontact.gap.benchmark.planted.effects.axis_migration import AXIS_MIGRATION
+from geocontact.gap.benchmark.planted.effects.contact_loss import CONTACT_LOSS
 from geocontact.gap.benchmark.planted.effects.crosstalk import CROSSTALK
 from geocontact.gap.benchmark.planted.effects.damping import DAMPING
 from geocontact.gap.benchmark.planted.effects.dead_zone import DEAD_ZONE
@@ -39,6 +40,7 @@ PLANS: tuple[Plan, ...] = (
     END_STOP,
     PRELOAD,
     SLIP,
+    CONTACT_LOSS,
     ASYMMETRY,
     GRAVITY_LOAD,
     INERTIA_LOAD,
@@ -63,8 +65,13 @@ SWALLOWED = {
         "sensor_offset",
     ),
     "foot": ("sensor_gain",),
+    "knee": ("sensor_gain",),
+    "sit_to_stand": ("sensor_gain", "series_compliance"),
 }
-"""Effects that base parameters imitate nearly; planted as "single" they would be no visible gap."""
+"""Effects that base parameters imitate nearly, if they are of a plain form."""
+
+NO_GAP = {"elbow": SWALLOWED["elbow"], "sit_to_stand": ("sensor_gain",)}
+"""Those that leave no visible gap of their own kind at all: never planted as a single one or in a pair."""
 
 
 def plans(system: str) -> tuple[Plan, ...]:

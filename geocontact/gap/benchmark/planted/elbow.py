@@ -7,16 +7,12 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.gap.benchmark.planted.body import Body
 from geocontact.gap.benchmark.planted.course import Course
-from geocontact.gap.benchmark.planted.hooks import Hooks, Pull, Values, read
+from geocontact.gap.benchmark.planted.hooks import Hooks, Values, read
+from geocontact.gap.benchmark.planted.interface import in_series, pull
 
 INPUTS, OUTPUTS = ("beta",), ("force",)
-TOLERANCE = 1e-11
-"""Of a spring in series [rad]."""
-
-
-class NotConvergedError(ArithmeticError):
-    """The truth depends on the time step, or an equation was not solved."""
 
 
 def deflection(beta: Values, x: Values, y: float, l: float, z: float) -> Values:
@@ -39,42 +35,14 @@ def respond(course: Course, numbers: Mapping[str, float], hooks: Hooks) -> Float
             along = along + wander(angle)
         return deflection(angle, along, y, l, z)
 
-    def pull(angle: Values) -> Values:
-        u = stretch(angle)
-        u_rate = np.gradient(u, time, edge_order=2)
-        attached = u
-        for creep in hooks.attachment:
-            attached = creep(time, attached, k)
-        for slack in hooks.play:
-            attached = slack(attached)
-        elastic = k * attached
-        for factor in hooks.spring:
-            elastic = elastic * factor(time, attached, u_rate)
-        force = elastic
-        for term in hooks.beside:
-            force = force + term(Pull(time, u, u_rate, elastic))
-        return force
+    def carried(angle: Values) -> Values:
+        return pull(time, stretch(angle), k, hooks)
 
-    force = in_series(beta, pull, hooks) if hooks.series else pull(beta)
+    force = in_series(beta, carried, hooks) if hooks.series else carried(beta)
     outputs = force[None, :]
     for add in hooks.load:
         outputs = outputs + add(course, numbers)
     return read(hooks, course, outputs)
-
-
-def in_series(beta: Values, pull: Callable[[Values], Values], hooks: Hooks) -> Values:
-    """Force where the angle gives way to it: damped fixed point on w = g(F(beta - w)), asserted to have converged."""
-    way = np.zeros_like(beta)
-    damping = 0.5
-    for _ in range(400):
-        force = pull(beta - way)
-        target = sum(give(force) for give in hooks.series)
-        if float(np.abs(target - way).max()) < TOLERANCE:
-            return force
-        way = way + damping * (target - way)
-        if not np.isfinite(way).all():
-            break
-    raise NotConvergedError("the spring in series of the elbow was not solved")
 
 
 def base_model(course: Course, constants: Mapping[str, float]) -> Callable[[Values], Values]:
@@ -93,3 +61,6 @@ def course_deflection(course: Course, numbers: Mapping[str, float]) -> tuple[Val
     """Deflection and rate of the base model along a course."""
     u = deflection(course.position[0], np.asarray(numbers["x"]), numbers["y"], numbers["l_ex"], numbers["z_ex"])
     return u, np.gradient(u, course.time, edge_order=2)
+
+
+ELBOW = Body(respond, base_model, course_deflection)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.gap.benchmark.planted.body import Body
 from geocontact.gap.benchmark.planted.compile import loop
 from geocontact.gap.benchmark.planted.course import Course
-from geocontact.gap.benchmark.planted.elbow import NotConvergedError
-from geocontact.gap.benchmark.planted.hooks import Hooks, Pull, Values, read
+from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs, Pull, Values, read
+from geocontact.gap.benchmark.planted.interface import NotConvergedError
 
 INPUTS, OUTPUTS = ("x", "y", "pitch"), ("force_x", "force_y", "cop_x")
 LEAST = 20.0
@@ -156,3 +158,23 @@ def course_deflection(course: Course, sole: Sole) -> tuple[Values, Values]:
     depth, closing, _, _ = touch(course, sole)
     inside = depth > 0.0
     return depth[inside], closing[inside]
+
+
+def without_centre(outputs: Outputs) -> Outputs:
+    """The centre of pressure is empty where the vertical force is small."""
+    out = outputs.copy()
+    out[2, out[1] < LEAST] = np.nan
+    return out
+
+
+def foot(sole: Sole) -> Body:
+    """A foot with this sole."""
+    return Body(
+        partial(respond, sole=sole),
+        partial(base_model, sole=sole),
+        lambda course, _: course_deflection(course, sole),
+        loads=(0, 1),
+        normal=(1,),
+        patchy=(2,),
+        recorded=without_centre,
+    )

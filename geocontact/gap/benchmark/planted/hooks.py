@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -36,7 +36,7 @@ class Hooks:
     motion
         From the recorded motion to the true one.
     axis
-        What is added to x at an angle (elbow).
+        What is added to a length at an angle: x (elbow), R (knee), the lever of a site.
     attachment
         Deflection left once the attachment has crept: (time, u, k) → u.
     play
@@ -51,6 +51,8 @@ class Hooks:
         Added to the outputs.
     sensor
         (rank, outputs → outputs); lower ranks first.
+    places
+        What is hooked in at one interface of several only.
     """
 
     motion: tuple[Callable[[Course], Course], ...] = ()
@@ -63,13 +65,31 @@ class Hooks:
     load: tuple[Callable[[Course, Mapping[str, float]], Outputs], ...] = ()
     sensor: tuple[tuple[float, Callable[[Course, Outputs], Outputs]], ...] = ()
 
+    places: Mapping[str, Hooks] = field(default_factory=dict)
+
     def __add__(self, other: Hooks) -> Hooks:
-        return Hooks(**{one.name: getattr(self, one.name) + getattr(other, one.name) for one in fields(self)})
+        places = {name: self.at(name) + other.at(name) for name in {**self.places, **other.places}}
+        rows = [one.name for one in fields(self) if one.name != "places"]
+        return Hooks(**{name: getattr(self, name) + getattr(other, name) for name in rows}, places=places)
+
+    def at(self, place: str) -> Hooks:
+        """What is hooked in at one interface only."""
+        return self.places.get(place, Hooks())
+
+    def seen_from(self, place: str) -> Hooks:
+        """What one interface sees: what is hooked in there, and everywhere."""
+        return replace(self, places={}) + self.at(place)
 
     @property
     def has_memory_in_law(self) -> bool:
         """Whether the force depends on more than the deflection of the moment."""
         return bool(self.attachment or self.spring or self.beside)
+
+    @property
+    def cannot_be_solved(self) -> bool:
+        """Whether a spring in series stands somewhere before a law that remembers."""
+        seen = [self, *(self.seen_from(place) for place in self.places)]
+        return any(one.series and one.has_memory_in_law for one in seen)
 
 
 BASE = Hooks()

@@ -10,16 +10,10 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap.benchmark.planted import elbow, foot
+from geocontact.gap.benchmark.planted.body import Body
 from geocontact.gap.benchmark.planted.course import Course, Path
 from geocontact.gap.benchmark.planted.hooks import BASE, Hooks, Values
-from geocontact.gap.benchmark.planted.motions import (
-    ElbowStyle,
-    FootStyle,
-    elbow_path,
-    foot_path,
-)
-from geocontact.gap.benchmark.planted.noise import Coloured, corner_of
+from geocontact.gap.benchmark.planted.noise import Coloured
 
 Rng = np.random.Generator
 
@@ -40,6 +34,10 @@ class Scene:
         Of the recording [s]; of the low-pass filter that the inputs came through [Hz].
     path, later
         Draws a movement for a calibration trial; for an evaluation trial.
+    body
+        The system itself.
+    begin
+        Box from which a refit begins three times more, where it has a wrong basin.
     """
 
     system: str
@@ -57,7 +55,8 @@ class Scene:
     corner: float
     path: Callable[[Rng], Path]
     later: Callable[[Rng], Path]
-    sole: foot.Sole | None = None
+    body: Body
+    begin: tuple[tuple[float, ...], tuple[float, ...]] | None = None
 
     def numbers(self, theta: Float[np.ndarray, " p"]) -> dict[str, float]:
         """Constants and parameters by name."""
@@ -65,190 +64,18 @@ class Scene:
 
     def respond(self, course: Course, theta: Float[np.ndarray, " p"], hooks: Hooks = BASE) -> Float[np.ndarray, "c t"]:
         """The truth along a course."""
-        if self.sole is None:
-            return elbow.respond(course, self.numbers(theta), hooks)
-        return foot.respond(course, self.numbers(theta), hooks, self.sole)
+        return self.body.respond(course, self.numbers(theta), hooks)
 
     def base_model(self, course: Course) -> Callable[[Values], Values]:
         """The base model along a course as a function of its parameters."""
-        if self.sole is None:
-            return elbow.base_model(course, self.constants)
-        return foot.base_model(course, self.constants, self.sole)
+        return self.body.base_model(course, self.constants)
 
     def motion(self, course: Course) -> tuple[Values, Values]:
-        """Deflections in the base model and their rates, pooled."""
-        if self.sole is None:
-            return elbow.course_deflection(course, self.numbers(self.theta))
-        return foot.course_deflection(course, self.sole)
-
-
-def elbow_scene(rng: Rng, *, shifted: bool) -> Scene:
-    """An elbow exoskeleton at the pace of the practice cases or up to five times as fast."""
-    typical = rng.random() < 0.55
-    kind = "two" if typical else str(rng.choice(["two", "three", "sweep", "reaches"]))
-    pace = float(np.exp(rng.normal(0.0, 0.1))) if typical else float(np.exp(rng.uniform(np.log(0.6), np.log(5.0))))
-    step, duration = (
-        (0.04, 30.0)
-        if typical
-        else [(0.04, 30.0), (0.04, 20.0), (0.02, 20.0), (0.02, 24.0), (0.01, 12.0)][rng.integers(5)]
-    )
-    swing = 1.0 if typical else rng.uniform(0.65, 1.05)
-    style = ElbowStyle(kind, pace, swing, rng.uniform(1.1, 1.22), step, duration)
-    later = style
-    if shifted:
-        faster = rng.uniform(1.5, 2.2)
-        smaller = rng.uniform(0.6, 0.8)
-        style = ElbowStyle(kind, pace, swing * smaller, style.middle, step, duration)
-        later = ElbowStyle(kind, min(pace * faster, 7.0), swing, style.middle, step, duration)
-        if rng.random() < 0.5:
-            later = ElbowStyle(kind, pace, swing, style.middle, step, duration)
-    k, x, y = rng.uniform(180.0, 420.0), rng.uniform(0.015, 0.045), rng.uniform(0.03, 0.06)
-    if typical:
-        k, x, y = rng.normal(260.0, 15.0), rng.normal(0.035, 0.002), rng.normal(0.05, 0.002)
-    wide = rng.uniform(0.6, 1.3)
-    spread = np.diag([0.03 * k, 0.0007, 0.0012]) * wide
-    sd = 0.15 if typical else float(np.exp(rng.uniform(np.log(0.08), np.log(0.3))))
-    return Scene(
-        "elbow",
-        elbow.INPUTS,
-        elbow.OUTPUTS,
-        ("rad", "N"),
-        (
-            Parameter("k", "N/m", 300.0, 50.0, 1000.0),
-            Parameter("x", "m", 0.03, 0.0, 0.1),
-            Parameter("y", "m", 0.04, 0.0, 0.12),
-        ),
-        {"l_ex": 0.185 if typical else rng.uniform(0.16, 0.21), "z_ex": 0.09 if typical else rng.uniform(0.07, 0.11)},
-        {},
-        np.array([k, x, y]),
-        spread**2,
-        (colour(rng, sd),),
-        np.array([rng.uniform(0.0005, 0.002)]),
-        step,
-        corner_of(rng, step),
-        lambda r: elbow_path(r, style),
-        lambda r: elbow_path(r, later),
-    )
+        """Deflections in the base model and their rates, one row per interface."""
+        return self.body.motion(course, self.numbers(self.theta))
 
 
 def colour(rng: Rng, sd: float) -> Coloured:
     """Noise that is a little coloured, sometimes white, sometimes with a slow part."""
     quick = 0.0 if rng.random() < 0.25 else rng.uniform(0.2, 0.55)
     return Coloured(sd, quick, rng.uniform(0.2, 1.0), rng.uniform(0.1, 0.35) if rng.random() < 0.25 else 0.0)
-
-
-def sole_of(rng: Rng, *, typical: bool) -> tuple[foot.Sole, pd.DataFrame]:
-    """Spheres along a rocker, three to six zones."""
-    count = 15 if typical else int(rng.integers(9, 20))
-    zones = 5 if typical else int(rng.integers(3, 7))
-    length, rocker, radius = 0.22, 2.5, 0.011
-    if not typical:
-        length, rocker, radius = rng.uniform(0.2, 0.26), rng.uniform(1.5, 4.0), rng.uniform(0.009, 0.014)
-    px = np.linspace(0.0, length, count)
-    py = radius + (px - 0.36 * length) ** 2 / (2.0 * rocker)
-    cuts = np.array([0.1, 0.25, 0.4, 0.7]) if zones == 5 else np.linspace(0.0, 1.0, zones + 1)[1:-1]
-    zone = np.searchsorted(cuts, px / length, side="right")
-    names = tuple(f"z{i + 1}" for i in range(zones)) if typical or rng.random() < 0.6 else part_names(zones)
-    table = pd.DataFrame(
-        {
-            "px [m]": np.round(px, 4),
-            "py [m]": np.round(py, 5),
-            "radius [m]": np.full(count, round(radius, 4)),
-            "zone": [names[i] for i in zone],
-        }
-    )
-    places = [table[column].to_numpy(float) for column in ("px [m]", "py [m]", "radius [m]")]
-    return foot.Sole(places[0], places[1], places[2], zone, names), table
-
-
-def part_names(zones: int) -> tuple[str, ...]:
-    """Words for zones from the heel to the toe."""
-    words = {
-        3: ("heel", "mid", "fore"),
-        4: ("heel", "mid", "ball", "toe"),
-        5: ("heel", "rear", "mid", "ball", "toe"),
-        6: ("heel", "rear", "arch", "mid", "ball", "toe"),
-    }
-    return words[zones]
-
-
-def foot_style(rng: Rng, *, typical: bool) -> FootStyle:
-    """How the foot is walked on."""
-    return FootStyle(
-        stance=0.8 if typical else rng.uniform(0.55, 1.1),
-        heel=0.0082 if typical else rng.uniform(0.006, 0.0095),
-        middle=0.0070 if typical else rng.uniform(0.0055, 0.008),
-        toe=0.0093 if typical else rng.uniform(0.008, 0.0115),
-        strike=0.25 if typical else rng.uniform(0.15, 0.32),
-        push=0.55 if typical else rng.uniform(0.4, 0.65),
-        slide=0.035 if typical else rng.uniform(0.02, 0.08),
-        step=0.005,
-    )
-
-
-def other_style(rng: Rng, style: FootStyle) -> FootStyle:
-    """Walked faster, or harder."""
-    faster, harder = (rng.uniform(0.6, 0.75), 1.1) if rng.random() < 0.5 else (0.95, rng.uniform(1.2, 1.35))
-    changes = {
-        "stance": style.stance * faster,
-        "heel": style.heel * harder,
-        "middle": style.middle * harder,
-        "toe": style.toe * harder,
-    }
-    return FootStyle(**{**style.__dict__, **changes})
-
-
-def foot_scene(rng: Rng, *, shifted: bool) -> Scene:
-    """A prosthetic foot in stance."""
-    typical = rng.random() < 0.55
-    sole, table = sole_of(rng, typical=typical)
-    n = 1.2 if typical else float(rng.choice([1.0, 1.2, 1.5]))
-    style = foot_style(rng, typical=typical)
-    later = other_style(rng, style) if shifted else style
-    zones = len(sole.names)
-    soft = 10.0 ** (3.0 * (n - 1.2) * 0.75)
-    if typical:
-        k = rng.uniform(0.85, 1.05) * 1e5 * np.linspace(1.0, 1.5, zones) * np.exp(rng.normal(0.0, 0.04, zones))
-        b = 300.0 * np.exp(rng.normal(0.0, 0.1, zones))
-    else:
-        k = rng.uniform(0.4, 1.3) * 1e5 * soft * np.exp(rng.normal(0.0, 0.25, zones))
-        b = rng.uniform(100.0, 600.0) * np.exp(rng.normal(0.0, 0.3, zones))
-    wide = rng.uniform(0.6, 1.3)
-    spread = np.zeros((2 * zones, 2 * zones))
-    spread[:zones, :zones] = wide**2 * (np.diag((0.013 * k) ** 2) + np.outer(0.006 * k, 0.006 * k))
-    spread[zones:, zones:] = wide**2 * np.diag((0.08 * b) ** 2)
-    start = 80000.0 * soft if not typical else 80000.0
-    letters = [("k", start, start / 10.0, start * 12.5, "N/m^n"), ("b", 200.0, 0.0, 3000.0, "N s/m")]
-    parameters = tuple(
-        Parameter(f"{letter}_{name}", unit, begin, lower, upper)
-        for letter, begin, lower, upper, unit in letters
-        for name in sole.names
-    )
-    level = 1.0 if typical else float(np.exp(rng.uniform(np.log(0.5), np.log(1.7))))
-    return Scene(
-        "foot",
-        foot.INPUTS,
-        foot.OUTPUTS,
-        ("m", "m", "rad", "N", "N", "m"),
-        parameters,
-        {
-            "n": n,
-            "delta_full": 0.002,
-            "mu_s": 0.9 if typical else rng.uniform(0.7, 1.0),
-            "mu_k": 0.7 if typical else rng.uniform(0.5, 0.7),
-            "v_th": 0.25 if typical else rng.uniform(0.15, 0.3),
-        },
-        {"spheres": table},
-        np.concatenate([k, b]),
-        spread,
-        tuple(colour(rng, sd * level) for sd in (3.0, 6.0, 0.001)),
-        np.array([5.5e-5, 3e-5, 4e-4]) * rng.uniform(0.6, 1.2),
-        style.step,
-        corner_of(rng, style.step),
-        lambda r: foot_path(r, style, sole),
-        lambda r: foot_path(r, later, sole),
-        sole,
-    )
-
-
-SCENES: Mapping[str, Callable[..., Scene]] = {"elbow": elbow_scene, "foot": foot_scene}

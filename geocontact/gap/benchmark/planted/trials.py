@@ -9,9 +9,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.benchmark.planted.course import Course, Path, through
-from geocontact.gap.benchmark.planted.elbow import NotConvergedError
-from geocontact.gap.benchmark.planted.foot import LEAST
 from geocontact.gap.benchmark.planted.hooks import BASE, Hooks, Outputs
+from geocontact.gap.benchmark.planted.interface import NotConvergedError
 from geocontact.gap.benchmark.planted.noise import smooth_noise
 from geocontact.gap.benchmark.planted.scene import Rng, Scene
 
@@ -78,16 +77,7 @@ class Recording:
 def truth(scene: Scene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int) -> Outputs:
     """Outputs at `count` samples from steps `fine` times as short; no centre of pressure off the ground."""
     grid = np.arange((count - 1) * fine + 1) * (scene.step / fine)
-    return without_centre(scene, scene.respond(path(grid), theta, hooks)[:, ::fine])
-
-
-def without_centre(scene: Scene, outputs: Outputs) -> Outputs:
-    """The centre of pressure is empty where the vertical force is small."""
-    if scene.sole is None:
-        return outputs
-    out = outputs.copy()
-    out[2, out[1] < LEAST] = np.nan
-    return out
+    return scene.body.recorded(scene.respond(path(grid), theta, hooks)[:, ::fine])
 
 
 def samples(scene: Scene, path: Path) -> int:
@@ -124,7 +114,7 @@ def record(
     theta = vary(scene, rng)
     outputs = truth(scene, path, count, theta, hooks, fine)
     outputs = outputs + np.array([one.draw(rng, count, scene.step) for one in scene.noise])
-    outputs = without_centre(scene, outputs)
+    outputs = scene.body.recorded(outputs)
     course = path(np.arange(count) * scene.step)
     noise = [smooth_noise(rng, sd, count, scene.step, scene.corner) for sd in scene.input_noise]
     inputs = course.position + np.array(noise)
@@ -142,9 +132,10 @@ def record(
 
 
 def vary(scene: Scene, rng: Rng) -> Float[np.ndarray, " p"]:
-    """Base parameters of one trial, within what can be: a share of at least a tenth of the nominal ones."""
+    """Base parameters of one trial, within what can be: at least a tenth of the nominal ones, of their sign."""
     theta = rng.multivariate_normal(scene.theta, scene.spread, method="cholesky")
-    return np.asarray(np.maximum(theta, 0.1 * scene.theta))
+    least = 0.1 * scene.theta
+    return np.where(least > 0.0, np.maximum(theta, least), np.minimum(theta, least))
 
 
 def as_measured(recording: Recording) -> Course:

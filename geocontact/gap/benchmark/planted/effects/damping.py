@@ -12,16 +12,19 @@ import numpy as np
 from geocontact.gap.benchmark.planted.hooks import Hooks, Pull, Values
 from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
+THINNING = {"elbow": (4.0, 8.0), "foot": (1.2, 2.5), "sit_to_stand": (2.5, 4.5)}
+"""Range of v1 in units of the rms rate."""
+
 
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: b at small rates [N s/m]."""
-    thinning = (rng.uniform(4.0, 8.0) if scale.system == "elbow" else rng.uniform(1.2, 2.5)) * scale.rate
-    lean = rng.uniform(0.45, 0.65)
+    thinning = (rng.uniform(*THINNING[scale.system])) * scale.rate
+    lean = rng.uniform(0.45, 0.65) * (1.5 if scale.system == "sit_to_stand" else 1.0)
     reach = rng.uniform(0.25, 0.5) * scale.stroke
     harder = rng.uniform(0.18, 0.28) if scale.system == "foot" else 0.0
 
     def hooks(b: float) -> Hooks:
-        def elbow(p: Pull) -> Values:
+        def strap(p: Pull) -> Values:
             return np.asarray(
                 b * p.rate / (1.0 + np.abs(p.rate) / thinning) * (1.0 + lean * p.deflection / scale.stroke)
             )
@@ -32,12 +35,18 @@ def draw(rng: Rng, scale: Scale) -> Draw:
             drag = b * p.rate * -np.expm1(-inside * inside) / (1.0 + np.abs(p.rate) / thinning)
             return np.asarray(drag * (1.0 + harder * way))
 
-        return Hooks(beside=(foot if scale.system == "foot" else elbow,))
+        return Hooks(beside=(foot if scale.system == "foot" else strap,))
 
-    most = 0.5 * scale.force / scale.rate if scale.system == "elbow" else 3000.0
+    most = 3000.0 if scale.system == "foot" else 0.5 * scale.force / scale.rate
     return Draw(1e-4 * most, most, hooks, lambda b: f"viscous damping of {b:.3g} N s/m that thins with rate")
 
 
 DAMPING = Plan(
-    "damping", ("elbow", "foot"), "rate-thinning, deflection-dependent, uneven", "power of rate or depth", draw
+    "damping",
+    ("elbow", "foot", "sit_to_stand"),
+    "rate-thinning, deflection-dependent, uneven",
+    "power of rate or depth",
+    draw,
+    placed=True,
+    together=True,
 )

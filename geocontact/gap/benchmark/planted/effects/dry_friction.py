@@ -47,4 +47,12 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4 * scale.force, 0.4 * scale.force, hooks, lambda f: f"dry friction of {f:.3g} N in the strap")
 
 
-DRY_FRICTION = Plan("dry_friction", ("elbow",), "Bouc-Wen, limit grows with deflection", "Dahl, or tanh of rate", draw)
+DRY_FRICTION = Plan(
+    "dry_friction",
+    ("elbow", "sit_to_stand"),
+    "Bouc-Wen, limit grows with deflection",
+    "Dahl, or tanh of rate",
+    draw,
+    placed=True,
+    together=True,
+)

@@ -57,10 +57,14 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
         return Hooks(sensor=((30.0, passed),))
 
-    longest = min(0.35, 0.06 * scale.duration) if scale.system == "elbow" else 0.05
+    longest = 0.05 if scale.system == "foot" else min(0.35, 0.06 * scale.duration)
     return Draw(0.001, longest, hooks, lambda t: f"low-pass with a lag of {t:.3g} s, uneven by {uneven:.0%}")
 
 
 FILTER_LAG = Plan(
-    "filter_lag", ("elbow", "foot"), "direction-dependent first order, then Butterworth", "two linear stages", draw
+    "filter_lag",
+    ("elbow", "foot", "knee", "sit_to_stand"),
+    "direction-dependent first order, then Butterworth",
+    "two linear stages",
+    draw,
 )

@@ -1,6 +1,6 @@
 """Strap tension that relaxes a little and falls as the strap is let out.
 
-planted:   T (1 - r (1 - exp(-t/tau))) (1 + s tanh(2 u/D)), r = 0.05..0.12
+planted:   T (1 - r (1 - exp(-t/tau))) (1 + s tanh(2 u/D)), r = 0.05..0.12, s = 0.05..0.1; straps twice that
 candidate: T min(max(1 + c u, 0), 1)
 """
 
@@ -14,8 +14,9 @@ from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: tension at rest T [N]."""
-    lost, tau = scale.departure * rng.uniform(0.05, 0.12), scale.duration * rng.uniform(0.1, 0.3)
-    pull = scale.departure * rng.uniform(0.05, 0.1)
+    more = 2.0 if scale.system == "sit_to_stand" else 1.0
+    lost, tau = more * scale.departure * rng.uniform(0.05, 0.12), scale.duration * rng.uniform(0.1, 0.3)
+    pull = more * scale.departure * rng.uniform(0.05, 0.1)
     sign = rng.choice([-1.0, 1.0])
 
     def hooks(tension: float) -> Hooks:
@@ -28,4 +29,12 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-3 * scale.force, 0.5 * scale.force, hooks, lambda t: f"strap tension of {sign * t:.3g} N at rest")
 
 
-PRELOAD = Plan("preload", ("elbow",), "relaxing, deflection-dependent tension", "tension with slackening", draw)
+PRELOAD = Plan(
+    "preload",
+    ("elbow", "sit_to_stand"),
+    "relaxing, deflection-dependent tension",
+    "tension with slackening",
+    draw,
+    placed=True,
+    together=True,
+)

@@ -1,6 +1,8 @@
 """A viscoelastic solid with two times.
 
-planted:   F += sum g_j (F_el - z_j), z_j' = (F_el - z_j)/tau_j, two branches a factor 7..14 apart in time
+planted:   F += sum g_j (F_el - z_j), z_j' = (F_el - z_j)/tau_j, two branches a factor 7..14 apart in time (knee, straps
+           15..30)
+           knee, straps: of F_el (1 + e (|F_el|/F - 1/2)), e = 0.5..0.8
 candidate: one Maxwell branch
 """
 
@@ -12,6 +14,10 @@ from jaxtyping import Float
 from geocontact.gap.benchmark.planted.compile import loop
 from geocontact.gap.benchmark.planted.hooks import Hooks, Pull, Values
 from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+
+QUICK = {"elbow": (0.1, 0.5), "foot": (0.01, 0.03), "knee": (0.02, 0.04), "sit_to_stand": (0.04, 0.08)}
+"""Range of the shorter time [s]."""
+APART = {"elbow": (7.0, 14.0), "foot": (7.0, 14.0), "knee": (15.0, 30.0), "sit_to_stand": (15.0, 30.0)}
 
 
 @loop
@@ -28,14 +34,16 @@ def settled(elastic: Float[np.ndarray, "t n"], h: float, tau: float) -> Float[np
 
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: the share g that relaxes [-]."""
-    apart = rng.uniform(7.0, 14.0)
-    quick = rng.uniform(0.1, 0.5) if scale.system == "elbow" else rng.uniform(0.01, 0.03)
+    apart = rng.uniform(*APART[scale.system])
+    quick = rng.uniform(*QUICK[scale.system])
     first = rng.uniform(0.4, 0.65)
+    bend = rng.uniform(0.5, 0.8) if scale.system in ("knee", "sit_to_stand") else 0.0
 
     def hooks(g: float) -> Hooks:
         def branches(p: Pull) -> Values:
             h = float(p.time[1] - p.time[0])
             elastic = p.elastic.reshape(len(p.time), -1)
+            elastic = elastic * (1.0 + bend * (np.abs(elastic) / scale.force - 0.5))
             total = g * first * (elastic - settled(elastic, h, quick))
             total = total + g * (1.0 - first) * (elastic - settled(elastic, h, apart * quick))
             return np.asarray(total.reshape(p.elastic.shape))
@@ -48,4 +56,12 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4, 1.2, hooks, words)
 
 
-RELAXATION = Plan("relaxation", ("elbow", "foot"), "two Prony branches", "one Maxwell branch", draw)
+RELAXATION = Plan(
+    "relaxation",
+    ("elbow", "foot", "knee", "sit_to_stand"),
+    "two Prony branches",
+    "one Maxwell branch",
+    draw,
+    placed=True,
+    together=True,
+)

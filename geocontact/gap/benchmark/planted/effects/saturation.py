@@ -14,6 +14,9 @@ from geocontact.gap.benchmark.planted.effects.relaxation import settled
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs, Values
 from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
+LAG = {"elbow": (0.05, 0.12), "foot": (0.008, 0.014), "knee": (0.05, 0.07), "sit_to_stand": (0.05, 0.09)}
+"""Range of the recovery time [s]."""
+
 
 def compressed(y: Values, rail: float, knee: float, give: float) -> Values:
     """y below `knee` rail, towards `rail` above."""
@@ -26,12 +29,11 @@ def compressed(y: Values, rail: float, knee: float, give: float) -> Values:
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: how far the rail lies below the largest output, as a share of it [-]."""
     names = tuple(scale.output)
-    row = 0 if scale.system == "elbow" else int(rng.choice([0, 1, 1]))
+    row = int(rng.choice([0, 1, 1])) if scale.system == "foot" else scale.load(rng)
     most = scale.output[names[row]]
     knee, other, give = rng.uniform(0.75, 0.88), rng.uniform(1.0, 1.3), rng.uniform(0.06, 0.12)
-    elbow = scale.system == "elbow"
-    slow = rng.uniform(0.25, 0.4) if elbow else rng.uniform(0.45, 0.6)
-    lag = rng.uniform(0.05, 0.12) if elbow else rng.uniform(0.008, 0.014)
+    slow = rng.uniform(*((0.25, 0.4) if scale.system == "elbow" else (0.45, 0.6)))
+    lag = rng.uniform(*LAG[scale.system])
 
     def hooks(cut: float) -> Hooks:
         rail = (1.0 - cut) * most / (0.5 + 0.5 * knee)
@@ -52,5 +54,9 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 
 SATURATION = Plan(
-    "saturation", ("elbow", "foot"), "soft knee, uneven rails, slow recovery", "rounded symmetric clip", draw
+    "saturation",
+    ("elbow", "foot", "knee", "sit_to_stand"),
+    "soft knee, uneven rails, slow recovery",
+    "rounded symmetric clip",
+    draw,
 )

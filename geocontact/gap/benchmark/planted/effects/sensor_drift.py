@@ -32,7 +32,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
         return Hooks(sensor=((50.0, drifted),))
 
-    top = 0.4 if scale.system == "elbow" else 0.15
+    top = {"elbow": 0.4, "sit_to_stand": 0.4}.get(scale.system, 0.15)
 
     def words(size: float) -> str:
         return f"{names[row]} drifts by {sign * size:.3g} in a trial"
@@ -40,4 +40,10 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4 * most, top * most, hooks, words, names[row])
 
 
-SENSOR_DRIFT = Plan("sensor_drift", ("elbow", "foot"), "power of time with a wander", "linear or exponential", draw)
+SENSOR_DRIFT = Plan(
+    "sensor_drift",
+    ("elbow", "foot", "knee", "sit_to_stand"),
+    "power of time with a wander",
+    "linear or exponential",
+    draw,
+)

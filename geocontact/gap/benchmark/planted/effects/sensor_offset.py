@@ -1,6 +1,6 @@
 """A zero error that wanders slowly.
 
-planted:   y + o (1 + e sin(2 pi m t/T + phi)), e = 0.16..0.3, m = 1..2.5
+planted:   y + o (1 + e sin(2 pi m t/T + phi)), e = 0.16..0.3 (straps 0.05..0.08), m = 1..2.5
 candidate: y + o
 """
 
@@ -12,13 +12,16 @@ from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
 from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
+WANDER = {"sit_to_stand": (0.05, 0.08)}
+"""Range of e where base parameters take most of a plain offset away."""
+
 
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: offset o in the channel's unit, of either sign."""
     names = tuple(scale.output)
     row = int(rng.integers(len(names)))
     most = scale.output[names[row]]
-    sign, wander = rng.choice([-1.0, 1.0]), scale.departure * rng.uniform(0.16, 0.3)
+    sign, wander = rng.choice([-1.0, 1.0]), scale.departure * rng.uniform(*WANDER.get(scale.system, (0.16, 0.3)))
     turns, phase = rng.uniform(1.0, 2.5), rng.uniform(0.0, 2.0 * np.pi)
 
     def hooks(offset: float) -> Hooks:
@@ -30,8 +33,14 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
         return Hooks(sensor=((40.0, shifted),))
 
-    top = 0.4 if scale.system == "elbow" else 0.15
+    top = {"elbow": 0.4, "sit_to_stand": 0.4}.get(scale.system, 0.15)
     return Draw(1e-4 * most, top * most, hooks, lambda o: f"{names[row]} reads {sign * o:.3g} too much", names[row])
 
 
-SENSOR_OFFSET = Plan("sensor_offset", ("elbow", "foot"), "offset that wanders", "constant offset", draw)
+SENSOR_OFFSET = Plan(
+    "sensor_offset",
+    ("elbow", "foot", "knee", "sit_to_stand"),
+    "offset that wanders",
+    "constant offset",
+    draw,
+)

@@ -18,19 +18,29 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     share, limit = rng.uniform(0.16, 0.31), rng.uniform(0.2, 0.35) * force
     if scale.system == "elbow":  # where base parameters take most of a linear spring away
         share += 0.39 + 0.3 * (1.0 - scale.departure)
+    if scale.system == "sit_to_stand":  # likewise
+        share = 1.0 - scale.departure * (1.0 - share)
 
     def hooks(soft: float) -> Hooks:
         def foot(_: Values) -> Values:
             return np.array([soft, share * soft, limit])
 
-        def elbow(load: Values) -> Values:
+        def gives(load: Values) -> Values:
             return np.asarray(share * soft * load + (1.0 - share) * soft * limit * np.tanh(load / limit))
 
-        return Hooks(series=(foot if scale.system == "foot" else elbow,))
+        return Hooks(series=(foot if scale.system == "foot" else gives,))
 
-    most = 0.006 / 1400.0 if scale.system == "foot" else 0.5 / force
-    unit = "m/N" if scale.system == "foot" else "rad/N"
+    most = {"foot": 0.006 / 1400.0, "elbow": 0.5 / force}.get(scale.system, scale.stroke / force)
+    unit = "rad/N" if scale.system == "elbow" else "m/N"
     return Draw(1e-4 * most, most, hooks, lambda c: f"a spring in series gives way by {c:.3g} {unit} at first")
 
 
-SERIES_COMPLIANCE = Plan("series_compliance", ("elbow", "foot"), "two springs, one bottoms out", "power of load", draw)
+SERIES_COMPLIANCE = Plan(
+    "series_compliance",
+    ("elbow", "foot", "sit_to_stand"),
+    "two springs, one bottoms out",
+    "power of load",
+    draw,
+    placed=True,
+    together=True,
+)

@@ -29,10 +29,14 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
         return Hooks(sensor=((70.0, late),))
 
-    longest = min(0.35, 0.06 * scale.duration) if scale.system == "elbow" else 0.05
+    longest = 0.05 if scale.system == "foot" else min(0.35, 0.06 * scale.duration)
     return Draw(0.0005, longest, hooks, lambda d: f"outputs recorded {d:.3g} s late by an unsteady clock")
 
 
 TIME_SHIFT = Plan(
-    "time_shift", ("elbow", "foot"), "delay that wanders by a quarter through a trial", "constant delay", draw
+    "time_shift",
+    ("elbow", "foot", "knee", "sit_to_stand"),
+    "delay that wanders by a quarter through a trial",
+    "constant delay",
+    draw,
 )

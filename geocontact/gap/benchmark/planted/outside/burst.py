@@ -11,7 +11,7 @@ from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: push [N], at the same part of every trial."""
-    row = 0 if scale.system == "elbow" else int(rng.choice([0, 1]))
+    row = scale.load(rng)
     at, wide = rng.uniform(0.25, 0.75), rng.uniform(0.03, 0.09)
     sign = rng.choice([-1.0, 1.0])
 
@@ -26,4 +26,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4 * scale.force, 0.5 * scale.force, hooks, lambda a: f"a push of {sign * a:.3g} N around {at:.0%}")
 
 
-BURST = Plan("burst", ("elbow", "foot"), "push in a part of the trial", "", draw)
+BURST = Plan("burst", ("elbow", "foot", "knee", "sit_to_stand"), "push in a part of the trial", "", draw)

@@ -8,6 +8,7 @@ from geocontact.gap.benchmark.planted.outside.jump import JUMP
 from geocontact.gap.benchmark.planted.outside.other_carrier import OTHER_CARRIER
 from geocontact.gap.benchmark.planted.outside.quantisation import QUANTISATION
 from geocontact.gap.benchmark.planted.outside.ringing import RINGING
+from geocontact.gap.benchmark.planted.outside.swelling import SWELLING
 from geocontact.gap.benchmark.planted.outside.tremor import TREMOR
 from geocontact.gap.benchmark.planted.outside.wander import WANDER
 from geocontact.gap.benchmark.planted.plan import Plan
@@ -21,6 +22,7 @@ OUTSIDERS: tuple[Plan, ...] = (
     JUMP,
     WANDER,
     RINGING,
+    SWELLING,
 )
 
 

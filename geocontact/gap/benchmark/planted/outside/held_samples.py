@@ -30,4 +30,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(0.002, 0.12, hooks, lambda s: f"{count} stretches of {s:.2%} of a trial in which values are repeated")
 
 
-HELD_SAMPLES = Plan("held_samples", ("elbow", "foot"), "held samples", "", draw)
+HELD_SAMPLES = Plan("held_samples", ("elbow", "foot", "knee", "sit_to_stand"), "held samples", "", draw)

@@ -23,4 +23,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-3, 0.5, hooks, lambda s: f"the stiffness changes by {sign * s:.2%} at {at:.2g} s")
 
 
-JUMP = Plan("jump", ("elbow", "foot"), "stiffness changes mid trial", "", draw)
+JUMP = Plan("jump", ("elbow", "foot", "knee", "sit_to_stand"), "stiffness changes mid trial", "", draw, placed=True)

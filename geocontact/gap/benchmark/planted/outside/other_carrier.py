@@ -1,4 +1,6 @@
-"""Something else carries load over a part of the motion: a cable that snaps over at the elbow, the arch of the foot."""
+"""Something else carries load over a part of the motion: a cable that snaps over at the elbow, the arch of the foot, a
+plica that pops over the condyle of a knee.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
 
 def draw(rng: Rng, scale: Scale) -> Draw:
-    """Amplitude: load [N]. Elbow: around an angle. Foot: around the middle of stance, at a place of the sole."""
+    """Amplitude: load [N]. Foot: around the middle of stance, at a place of the sole. Else around an angle."""
+    if scale.system == "knee":
+        return popping(rng, scale)
     angle, wide = scale.middle + rng.uniform(-0.4, 0.4), rng.uniform(0.06, 0.15)
     at, spell, place = rng.uniform(0.35, 0.6), rng.uniform(0.05, 0.1), rng.uniform(0.06, 0.12)
 
@@ -34,4 +38,22 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4 * scale.force, 0.4 * scale.force, hooks, lambda a: f"something else carries {a:.3g} N {where}")
 
 
-OTHER_CARRIER = Plan("other_carrier", ("elbow", "foot"), "load carried elsewhere", "", draw)
+def popping(rng: Rng, scale: Scale) -> Draw:
+    """Amplitude: load [N] of one side while flexion passes an angle, whichever way."""
+    row = scale.load(rng)
+    angle, wide = scale.middle + scale.span * rng.uniform(-0.5, 0.5), scale.span * rng.uniform(0.12, 0.3)
+    name = tuple(scale.output)[row]
+
+    def hooks(size: float) -> Hooks:
+        def pop(course: Course, _: Mapping[str, float]) -> Outputs:
+            added = np.zeros((len(scale.output), len(course.time)))
+            added[row] = size * np.exp(-(((course.position[0] - angle) / wide) ** 2))
+            return added
+
+        return Hooks(load=(pop,))
+
+    words = f"more in {name} while flexion passes {angle:.2g} rad"
+    return Draw(1e-4 * scale.force, 0.4 * scale.force, hooks, lambda a: f"a plica pops over, {a:.3g} N {words}")
+
+
+OTHER_CARRIER = Plan("other_carrier", ("elbow", "foot", "knee"), "load carried elsewhere", "", draw)

@@ -12,7 +12,7 @@ from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: height of a step in the channel's unit."""
     names = tuple(scale.output)
-    row = 0 if scale.system == "elbow" else int(rng.choice([0, 1]))
+    row = scale.load(rng)
     most = scale.output[names[row]]
     zero = rng.uniform()
 
@@ -27,4 +27,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-3 * most, 0.3 * most, hooks, lambda s: f"{names[row]} comes in steps of {s:.3g}")
 
 
-QUANTISATION = Plan("quantisation", ("elbow", "foot"), "coarse steps", "", draw)
+QUANTISATION = Plan("quantisation", ("elbow", "foot", "knee", "sit_to_stand"), "coarse steps", "", draw)

@@ -1,4 +1,4 @@
-"""A narrow line in the force: tremor or a resonance of the frame, 3..9 Hz at the elbow, 15..40 Hz at the foot."""
+"""A narrow line in the force: tremor or a resonance of the frame, 3..9 Hz at the elbow and straps, higher elsewhere."""
 
 from __future__ import annotations
 
@@ -8,12 +8,17 @@ from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
 from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
+PITCH = {"elbow": (3.0, 9.0), "foot": (15.0, 40.0), "knee": (7.0, 25.0), "sit_to_stand": (3.5, 9.0)}
+"""Range [Hz]; a third of the sampling frequency at most."""
+
 
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: of the oscillation [N]; its phase differs between trials."""
-    low, high = (3.0, min(9.0, 0.35 / scale.step)) if scale.system == "elbow" else (15.0, 40.0)
+    low, high = PITCH[scale.system]
+    if scale.system != "foot":
+        high = min(high, 0.35 / scale.step)
     pitch, swell = rng.uniform(low, high), rng.uniform(0.0, 0.4)
-    row = 0 if scale.system == "elbow" else int(rng.choice([0, 1]))
+    row = scale.load(rng)
 
     def hooks(size: float) -> Hooks:
         def shake(course: Course, outputs: Outputs) -> Outputs:
@@ -27,4 +32,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4 * scale.force, 0.3 * scale.force, hooks, lambda a: f"a tremor of {a:.3g} N at {pitch:.1f} Hz")
 
 
-TREMOR = Plan("tremor", ("elbow", "foot"), "narrow line", "", draw)
+TREMOR = Plan("tremor", ("elbow", "foot", "knee", "sit_to_stand"), "narrow line", "", draw)

@@ -28,4 +28,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4 * most, 0.2 * most, hooks, lambda a: f"{names[row]} wanders up and down by {a:.3g}")
 
 
-WANDER = Plan("wander", ("elbow", "foot"), "up and down, other in every trial", "", draw)
+WANDER = Plan("wander", ("elbow", "foot", "knee", "sit_to_stand"), "up and down, other in every trial", "", draw)
