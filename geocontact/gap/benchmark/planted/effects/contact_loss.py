@@ -41,7 +41,8 @@ def draw(rng: Rng, scale: Scale) -> Draw:
         heights = gap * (1.0 + spread * (2.0 * at**lean - 1.0))
 
         def closed(u: Values) -> Values:
-            return np.maximum((u + closer * gap * seated(u, gap))[:, None] - heights, 0.0).mean(axis=1)
+            overlap = np.maximum((u + closer * gap * seated(u, gap))[:, None] - heights, 0.0)
+            return np.asarray(overlap.mean(axis=1))
 
         return Hooks(play=(closed,))
 
