@@ -106,11 +106,35 @@ class FaultFound:
 
 
 @dataclass(frozen=True)
+class NextExperiment:
+    """What to record next.
+
+    Parameters
+    ----------
+    separates
+        Effects that it tells apart, or where none was found, that it would show.
+    change
+        What to do, in words with numbers.
+    gain_nats
+        By how much the smallest separation grows.
+    """
+
+    separates: tuple[str, ...]
+    change: str
+    gain_nats: float
+
+    def as_dict(self) -> dict[str, Any]:
+        """As in diagnosis.json."""
+        return {"separates": list(self.separates), "change": self.change, "gain_nats": self.gain_nats}
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """The answer to a gap case, as in diagnosis.json.
 
     `probabilities` is a distribution over single answers (effects, "none", "unknown"), `ambiguity` the effects that
-    these data cannot tell apart, `absorbed` those that would be invisible here.
+    these data cannot tell apart, `absorbed` those that would be invisible here, `next_experiment` what to record so that
+    it can be told; None where nothing is in question, or nothing that is simulated tells enough.
     """
 
     case: str
@@ -127,6 +151,7 @@ class Diagnosis:
     version: str
     faults: tuple[FaultFound, ...] = ()
     remarks: tuple[str, ...] = field(default=())
+    next_experiment: NextExperiment | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """Plain dicts, lists, strings, numbers and None, ready for JSON."""
@@ -164,6 +189,7 @@ class Diagnosis:
                 for f in self.faults
             ],
             "remarks": list(self.remarks),
+            "next_experiment": None if self.next_experiment is None else self.next_experiment.as_dict(),
             "seconds": self.seconds,
             "version": self.version,
         }

@@ -19,6 +19,7 @@ from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.evidence import Judged, prior_spread
 from geocontact.gap.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.locate import Cell, gap_map, windows
+from geocontact.gap.next_experiment import next_experiment
 from geocontact.gap.on_surface import SurfaceGap, on_surface
 from geocontact.gap.refit import free
 from geocontact.gap.shrink import shrinkage
@@ -68,6 +69,7 @@ def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
     chosen = said.chosen.judged
     offered = candidates(problem.system)
     hidden = absorbed(problem, offered, said.effects)
+    then = next_experiment(found, _swallowed(offered, [each.name for each in hidden]))
     cells = gap_map(found.clean, found.base.judged)
     gap = {
         name: ChannelGap(s.rmse_before, s.rmse_after, s.floor, s.reduction, (s.low, s.high), s.unexplained)
@@ -104,9 +106,15 @@ def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
             *(f"{each.words} in {each.channel}" if each.channel else each.words for each in found.odd),
             *(nearest(found) if said.verdict == "unknown" else ()),
         ),
+        next_experiment=then,
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     return Findings(diagnosis, found, cells, trials, surface)
+
+
+def _swallowed(offered: tuple[Candidate, ...], names: list[str]) -> list[Candidate]:
+    """The first candidate of each of these effects."""
+    return [next(one for one in offered if one.name == name and one.parameters) for name in names]
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:

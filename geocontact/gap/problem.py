@@ -47,6 +47,8 @@ class Problem:
         Base model fitted by least squares, every channel divided by `floor`.
     floor
         Noise plus trial-to-trial variation of each channel.
+    passed
+        The low-pass filter that the inputs came through.
     """
 
     system: System
@@ -59,6 +61,7 @@ class Problem:
     usual: Float[np.ndarray, " q"]
     plain: Refit
     floor: Float[np.ndarray, " c"]
+    passed: LowPass
 
     @property
     def calibration_layouts(self) -> tuple[Layout, ...]:
@@ -186,7 +189,7 @@ def problem_of(case: GapCase, system: System) -> Problem:
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
         prior, factor = usual_levels(system, case.noise, rough)
         layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present, passed))
-        problem = Problem(system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor)
+        problem = Problem(system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor, passed)
         noise = problem.weighed(plain)
         if not last:
             sd = {

@@ -1,0 +1,229 @@
+"""Changes to trials that a laboratory can make: the menu that the next experiment is chosen from.
+
+Each changes a trial that exists: another course of time along the same movement (faster, slower, in steps with holds), a
+smaller movement, nothing or a known weight on the sensor, two sensors exchanged, another setting of a covariate. So every
+change can be simulated with any model of the case.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.links import Modifier
+from geocontact.chain.movement import Movement, recorded
+from geocontact.chain.system import System
+from geocontact.data.motion import Signals
+from geocontact.data.trial import Trial
+
+LOADS = ("N", "N m")
+LAST = 1e6  # rank of what is done to the loads: after everything that loads the sensor
+FASTER, SLOWER = (4.0, 2.0), 0.5  # times as fast as before
+LEAST_FASTER = 1.25  # below which a movement does not count as faster
+FASTEST = 2.0  # Hz, up to which nine tenths of the power of a voluntary movement's rate may lie
+SAMPLED = 0.1  # cycles per sample up to which it may, so that the recording still shows it
+HOLDS, HELD = 5, 2.0  # plateaus of a movement in steps, and how long each lasts [s]
+SMALLER = 0.5  # times as large about its middle
+STILL = 10.0  # s, at rest with nothing or a weight on the sensor
+WEIGHT = 0.5  # of the largest load that was measured
+OTHER_SETTING = 0.5  # times the least value that a covariate had
+WHOLE_MOVEMENT = ("foot",)  # systems whose movement makes contact by its size: it cannot be made smaller
+
+Staging = Callable[[System], System]
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """One trial to be recorded: what to do, in words, the inputs that it would have, what becomes of the model.
+
+    Parameters
+    ----------
+    name
+        Of the change ("faster").
+    words
+        What a laboratory does, with numbers.
+    trial
+        Inputs only.
+    staged
+        Turns a model of the case into one of this trial; the same unless something else loads the sensor.
+    """
+
+    name: str
+    words: str
+    trial: Trial
+    staged: Staging = lambda system: system
+
+
+def menu(system: System, trials: Sequence[Trial]) -> tuple[Experiment, ...]:
+    """Every change that makes sense for a system, made to the trial of middling length."""
+    template = sorted(trials, key=len)[len(trials) // 2]
+    return (
+        *paces(system, template),
+        *_held(system, template),
+        *_smaller(system, template),
+        *_on_the_bench(system, template),
+        *_swapped(system, template),
+        *_settings(template, trials),
+    )
+
+
+def band(system: System, trial: Trial) -> tuple[str, float, float]:
+    """The input that moves most, and the frequencies below which a tenth and nine tenths of its rate's power lie [Hz].
+
+    Inputs are compared by their standard deviations over the half-range that the case has of them.
+    """
+    movement = recorded(trial.signals, system.inputs)
+    names = system.driving or system.inputs
+    most = max(names, key=lambda name: float(np.std(movement.position[movement.row(name)])) / _span(system, name))
+    step = float(np.median(np.diff(trial.time)))
+    even = np.arange(trial.time[0], trial.time[-1], step)
+    rate = np.interp(even, trial.time, movement.rate[movement.row(most)])
+    power = np.abs(np.fft.rfft(rate * np.hanning(len(rate)), 4 * len(rate))) ** 2
+    grown = np.cumsum(power) / max(float(power.sum()), 1e-300)
+    frequency = np.fft.rfftfreq(4 * len(rate), step)
+    low, high = (float(frequency[np.searchsorted(grown, share)]) for share in (0.1, 0.9))
+    return most, low, high
+
+
+def _span(system: System, name: str) -> float:
+    return system.scale.span.get(name, 1.0)
+
+
+def fastest(system: System, trial: Trial) -> float:
+    """How many times as fast the movement may be made."""
+    _, __, high = band(system, trial)
+    step = float(np.median(np.diff(trial.time)))
+    return min(FASTEST, SAMPLED / step) / max(high, 1e-9)
+
+
+def paces(system: System, trial: Trial) -> tuple[Experiment, ...]:
+    """The same movement faster and slower."""
+    name, low, high = band(system, trial)
+    most = fastest(system, trial)
+    factors = dict.fromkeys(round(min(factor, most), 2) for factor in FASTER)
+    found = []
+    for factor in [*(f for f in factors if f >= LEAST_FASTER), SLOWER]:
+        pace = f"{factor:.2g} times as fast" if factor > 1.0 else "half as fast"
+        words = f"sweep {name} at {factor * low:.2g}–{factor * high:.2g} Hz, {pace} as in these trials"
+        length = (trial.time[-1] - trial.time[0]) / max(factor, 1.0)
+        time = _grid(trial, length)
+        kind = "faster" if factor > 1.0 else "slower"
+        found.append(Experiment(kind, words, along(trial, system.inputs, time, trial.time[0] + factor * time)))
+    return tuple(found)
+
+
+def _held(system: System, trial: Trial) -> tuple[Experiment, ...]:
+    name, _, __ = band(system, trial)
+    pace = max(min(fastest(system, trial), FASTER[0]), 1.0)
+    whole = float(trial.time[-1] - trial.time[0])
+    leg = whole / HOLDS / pace
+    time = _grid(trial, HOLDS * (leg + HELD))
+    within = np.clip((time % (leg + HELD)) / leg, 0.0, 1.0)
+    smooth = within**3 * (10.0 - 15.0 * within + 6.0 * within**2)  # minimum jerk
+    place = (np.floor(time / (leg + HELD)) + smooth) / HOLDS
+    made = along(trial, system.inputs, time, trial.time[0] + np.clip(place, 0.0, 1.0) * whole)
+    unit = system.unit(name)
+    levels = made.column(name)[[int(np.searchsorted(time, (k + 1) * (leg + HELD))) - 1 for k in range(HOLDS)]]
+    at = ", ".join(f"{level:.2g}" for level in levels)
+    words = f"the same movement in {HOLDS} quick steps, held {HELD:g} s after each: {name} at {at} {unit}"
+    return (Experiment("step and hold", words, made),)
+
+
+def _smaller(system: System, trial: Trial) -> tuple[Experiment, ...]:
+    if system.name in WHOLE_MOVEMENT:
+        return ()
+    made = along(trial, system.inputs, trial.time - trial.time[0], trial.time)
+    middle = made.signals.values.mean(axis=0)
+    values = middle + SMALLER * (made.signals.values - middle)
+    words = "the same movement, half as large about its middle"
+    return (Experiment("smaller", words, replace(made, signals=replace(made.signals, values=values))),)
+
+
+def _on_the_bench(system: System, trial: Trial) -> tuple[Experiment, ...]:
+    """Nothing on the sensor, and a known weight on each that measures a load in turn."""
+    loads = [c for c, name in enumerate(system.outputs) if system.unit(name) in LOADS]
+    if not loads:
+        return ()
+    length = min(STILL, float(trial.time[-1] - trial.time[0]))
+    still = along(trial, system.inputs, _grid(trial, length), trial.time[0] + 0.0 * _grid(trial, length))
+    weights = [WEIGHT * system.scale.of(system.outputs[c]) for c in loads]
+    said = ", ".join(f"{w:.2g} {system.unit(system.outputs[c])}" for c, w in zip(loads, weights, strict=True))
+    on = f"known loads of {said}, one sensor after the other" if len(loads) > 1 else f"a known load of {said} on it"
+    rest = f"open the interface and record {length:.2g} s with nothing on the sensor"
+    return (
+        Experiment("unloaded zero", rest, still, bench(loads, [0.0 for _ in loads])),
+        Experiment("static weight", f"take the sensor off and put {on}, {length:.2g} s in all", still, bench(loads, weights)),
+    )
+
+
+def bench(loads: Sequence[int], weights: Sequence[float]) -> Staging:
+    """Models whose load channels carry known weights, one after the other; other channels have no value."""
+
+    def change(outputs: Float[np.ndarray, "t c"], _: Movement, __: object) -> Float[np.ndarray, "t c"]:
+        made = np.full(outputs.shape, np.nan)
+        turn = np.arange(len(made)) * len(loads) // len(made)
+        for k, (c, weight) in enumerate(zip(loads, weights, strict=True)):
+            made[:, c] = np.where(turn == k, weight, 0.0)
+        return made
+
+    return lambda system: replace(system, balance=system.balance.having(Modifier("bench", LAST, change)))
+
+
+def _swapped(system: System, trial: Trial) -> tuple[Experiment, ...]:
+    """Sensors of one unit, two by two; each keeps its name and carries the other's load."""
+    made = along(trial, system.inputs, trial.time - trial.time[0], trial.time)
+    found = []
+    alike = [(c, name) for c, name in enumerate(system.outputs) if system.unit(name) in LOADS]
+    for (a, first), (b, second) in combinations(alike, 2):
+        if system.name != "foot":  # a force plate measures both
+            found.append(Experiment("swapped sensors", f"exchange the sensors of {first} and {second}", made, swap(a, b)))
+    return tuple(found)
+
+
+def swap(a: int, b: int) -> Staging:
+    """Models whose channels a and b carry each other's load."""
+
+    def change(outputs: Float[np.ndarray, "t c"], _: Movement, __: object) -> Float[np.ndarray, "t c"]:
+        made = outputs.copy()
+        made[:, [a, b]] = outputs[:, [b, a]]
+        return made
+
+    return lambda system: replace(system, balance=system.balance.having(Modifier("swapped", LAST, change)))
+
+
+def _settings(trial: Trial, trials: Sequence[Trial]) -> tuple[Experiment, ...]:
+    """Covariates at another value; what the model does not use changes nothing and is never chosen."""
+    found = []
+    for name, value in trial.covariates.items():
+        least = min(abs(other.covariates.get(name, value)) for other in trials)
+        if least > 0.0:
+            other = OTHER_SETTING * least * float(np.sign(value))
+            changed = replace(trial, covariates={**trial.covariates, name: other})
+            found.append(Experiment("other setting", f"the same movement with {name} at {other:.3g}", changed))
+    return tuple(found)
+
+
+def _grid(trial: Trial, length: float) -> Float[np.ndarray, " n"]:
+    step = float(np.median(np.diff(trial.time)))
+    return step * np.arange(max(round(length / step), 20))
+
+
+def along(
+    trial: Trial, inputs: Sequence[str], time: Float[np.ndarray, " n"], source: Float[np.ndarray, " n"]
+) -> Trial:
+    """The inputs of a trial taken at other moments `source`, in the order of `time`."""
+    from scipy.interpolate import PchipInterpolator
+
+    columns = []
+    for name in inputs:
+        values = trial.column(name)
+        there = np.isfinite(values)
+        inside = np.clip(source, trial.time[there][0], trial.time[there][-1])
+        columns.append(PchipInterpolator(trial.time[there], values[there])(inside))
+    units = tuple(trial.signals.units[trial.signals.channels.index(name)] for name in inputs)
+    signals = Signals(np.asarray(time), np.stack(columns, axis=1), tuple(inputs), units)
+    return Trial("next", signals, trial.covariates, trial.labels)

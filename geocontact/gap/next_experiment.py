@@ -1,0 +1,220 @@
+"""The experiment to run next: the change to the trials that tells apart most surely what they cannot tell apart.
+
+For every change on the menu (`gap.experiments`) the answers still in question are simulated on new trials, with the
+parameters that were fitted to the old ones. Where A is true and B is fitted to old and new trials together, B leaves
+
+    ½ rᵀ (I + D S² Dᵀ)⁻¹ r,   r = A's prediction minus B's, whitened, D B's derivatives, S their prior spread
+
+to first order. The smallest of these over all pairs, either way round, is what a change is worth. Where nothing was
+found, changes are judged by what they make visible of effects that base parameters swallow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.movement import rate_of_waves
+from geocontact.chain.system import System
+from geocontact.data.diagnosis import NextExperiment
+from geocontact.gap.attribute import Attribution
+from geocontact.gap.contest import Contender
+from geocontact.gap.evidence import Judged, prior_spread
+from geocontact.gap.experiments import Experiment, menu
+from geocontact.gap.problem import Problem
+from geocontact.gap.refit import Measured, derivatives
+from geocontact.gap.weighing import Weighing, sensitivity
+from geocontact.identify.covariance import Layout
+from geocontact.identify.noise_spectrum import NoiseSpectrum
+
+TRIALS = 3  # of the new kind
+TELLS = 3.0  # times the smallest separation that a change must promise
+APART = 5.0  # nats that it must promise
+RIVALS = 3  # answers that are compared
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """A model that may be true: the names that it stands for, what it is and how it was fitted.
+
+    `residuals`, `jacobian` are those of the trials that exist.
+    """
+
+    name: str
+    system: System
+    values: dict[str, float]
+    residuals: list[Float[np.ndarray, "_ c"]]
+    jacobian: list[Float[np.ndarray, "_ c p"]]
+
+    @property
+    def spread(self) -> Float[np.ndarray, " p"]:
+        """Prior standard deviation of its parameters."""
+        return prior_spread(self.system, self.values)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Somebody who is true, and somebody who is fitted instead."""
+
+    true: Hypothesis
+    imitator: Hypothesis
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Whitened difference of a pair on some trials, and the imitator's directions in units of their prior spread."""
+
+    moved: Float[np.ndarray, " n"]
+    directions: Float[np.ndarray, "n p"]
+
+    def with_(self, other: Rows, times: int) -> Rows:
+        """These rows, and others that are recorded so many times."""
+        root = float(np.sqrt(times))
+        moved = np.concatenate([self.moved, root * other.moved])
+        return Rows(moved, np.concatenate([self.directions, root * other.directions]))
+
+    @property
+    def nats(self) -> float:
+        """What the imitator leaves."""
+        part = self.directions.T @ self.moved
+        inner = np.eye(len(part)) + self.directions.T @ self.directions
+        return 0.5 * float(self.moved @ self.moved - part @ np.linalg.solve(inner, part))
+
+
+def next_experiment(found: Attribution, swallowed: Sequence[Candidate] = ()) -> NextExperiment | None:
+    """The change that tells most; None where nothing is in question, or where nothing on the menu tells enough.
+
+    Parameters
+    ----------
+    found
+        What was attributed.
+    swallowed
+        Candidates that the base parameters swallow, asked about where nothing was found.
+    """
+    rivals = _rivals(found)
+    problem = found.clean
+    if len(rivals) > 1:
+        known = [_fitted(one) for one in rivals]
+        pairs = [Pair(a, b) for a in known for b in known if a is not b]
+        return _telling(found, problem, rivals[0].judged, pairs)
+    if found.answer.verdict == "no_gap" and swallowed:
+        base = _fitted(found.base)
+        pairs = [Pair(_swallowed(problem, found.base.judged, one), base) for one in swallowed]
+        return _unveiling(found, problem, found.base.judged, pairs)
+    return None
+
+
+def _rivals(found: Attribution) -> list[Contender]:
+    """The best model of each answer still in question, what is named first; mistakes in the data are no rivals."""
+    said = found.answer
+    rivals = [said.chosen] if said.chosen.candidates and said.verdict != "unknown" else []
+    for name in said.ambiguity:
+        if any(name in one.names for one in rivals):
+            continue
+        models = [c for c in found.contenders if name in c.names and len(c.names) <= max(len(said.effects), 1)]
+        if models:
+            rivals.append(max(models, key=lambda c: c.judged.nats))
+    sound = [one for one in rivals if all(each.somewhere is None for each in one.candidates)]
+    return sound[:RIVALS]
+
+
+def _fitted(one: Contender) -> Hypothesis:
+    model = one.judged.model
+    return Hypothesis("+".join(one.names), model.system, model.values, model.residuals, model.jacobian)
+
+
+def _swallowed(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
+    """An effect where a search for it sets out, on top of the fitted base."""
+    system, values = one.apply(problem.system), {**base.model.values, **one.starts[0]}
+    residuals = [
+        *problem.calibration.residuals(system, values),
+        *problem.evaluation.residuals(system, values),
+    ]
+    return Hypothesis(one.name, system, values, residuals, base.model.jacobian)
+
+
+def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Pair]) -> NextExperiment | None:
+    """The change that raises the smallest separation most."""
+    before = [_old(problem, lead, pair) for pair in pairs]
+    least = min(rows.nats for rows in before)
+    best: tuple[float, Experiment] | None = None
+    for one, new in _new(problem, lead, pairs):
+        after = min(rows.with_(more, TRIALS).nats for rows, more in zip(before, new, strict=True))
+        if after > max(TELLS * least, APART) and (best is None or after > best[0]):
+            best = (after, one)
+    if best is None:
+        return None
+    names = [name for name in found.answer.ambiguity if any(name in pair.true.name.split("+") for pair in pairs)]
+    return _said(best[1], names, best[0] - least)
+
+
+def _unveiling(found: Attribution, problem: Problem, base: Judged, pairs: list[Pair]) -> NextExperiment | None:
+    """The change that makes most effects visible that were swallowed, and of several the one that shows them best."""
+    before = [_old(problem, base, pair) for pair in pairs]
+    best: tuple[int, float, Experiment, list[str]] | None = None
+    for one, new in _new(problem, base, pairs):
+        shown = []
+        for pair, rows, more in zip(pairs, before, new, strict=True):
+            after = rows.with_(more, TRIALS).nats
+            if after > max(TELLS * rows.nats, APART):
+                shown.append((after - rows.nats, pair.true.name))
+        names = list(dict.fromkeys(name for _, name in shown))
+        if shown and (best is None or (len(names), min(shown)[0]) > best[:2]):
+            best = (len(names), min(shown)[0], one, names)
+    return None if best is None else _said(best[2], best[3], best[1])
+
+
+def _said(one: Experiment, names: Sequence[str], gain: float) -> NextExperiment:
+    return NextExperiment(tuple(names), f"record {TRIALS} trials: {one.words}", float(f"{gain:.3g}"))
+
+
+def _old(problem: Problem, lead: Judged, pair: Pair) -> Rows:
+    """A pair on the trials that exist, under the noise of the model that leads."""
+    weighings = problem.weighings(lead.noise, lead.model)
+    columns = [
+        np.concatenate([(b - a)[..., None], j * pair.imitator.spread], axis=-1)
+        for a, b, j in zip(pair.true.residuals, pair.imitator.residuals, pair.imitator.jacobian, strict=True)
+    ]
+    white = np.concatenate([w(part) for w, part in zip(weighings, columns, strict=True)])
+    return Rows(white[:, 0], white[:, 1:])
+
+
+def _new(problem: Problem, lead: Judged, pairs: list[Pair]) -> list[tuple[Experiment, list[Rows]]]:
+    """Every pair on one trial of every change."""
+    passed = problem.passed
+    spectrum = NoiseSpectrum.after(
+        passed, lambda frequency: rate_of_waves(frequency, passed.step, problem.system.motion.reach)
+    )
+    return [
+        (one, _rows(problem, lead, spectrum, one, pairs))
+        for one in menu(problem.system, problem.calibration.trials)
+    ]
+
+
+def _rows(
+    problem: Problem, lead: Judged, spectrum: NoiseSpectrum, one: Experiment, pairs: list[Pair]
+) -> list[Rows]:
+    trial, rough = one.trial, problem.calibration.rough
+    hypotheses = {id(each): each for pair in pairs for each in (pair.true, pair.imitator)}
+    predicted = {key: one.staged(each.system).simulate(trial, each.values) for key, each in hypotheses.items()}
+    present = np.isfinite(sum(predicted.values()))
+    zero = Measured((trial,), (np.where(present, 0.0, np.nan),), rough)
+    slopes = {
+        id(pair.imitator): derivatives(one.staged(pair.imitator.system), zero, pair.imitator.values)[0]
+        for pair in {id(pair.imitator): pair for pair in pairs}.values()
+    }
+    staged = one.staged(problem.system)
+    base = {name: lead.model.values[name] for name in problem.plain.values}
+    layout = Layout.of(trial.time, present, sensitivity(staged, trial, base), spectrum)
+    varied = derivatives(staged, zero, base)[0] * lead.noise.varies
+    weigh = Weighing.of(layout.whitener(lead.noise.levels), varied)
+    found = []
+    for pair in pairs:
+        off = np.where(present, predicted[id(pair.true)] - predicted[id(pair.imitator)], 0.0)
+        white = weigh(np.concatenate([off[..., None], slopes[id(pair.imitator)] * pair.imitator.spread], axis=-1))
+        found.append(Rows(white[:, 0], white[:, 1:]))
+    return found
