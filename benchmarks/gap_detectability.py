@@ -1,9 +1,9 @@
 """Do detectability statements hold? `python -m benchmarks.gap_detectability [--cases N] [--repeats N] [--effects A …]`.
 
 Synthetic cases without an effect (`gap.benchmark`) are fitted; `gap.detectability` says from which amplitude on the
-diagnosis would see each effect. Then trials are simulated at that amplitude, at half and at one and a half times of it,
-with noise, deviations of the trials and noise of the inputs as fitted, and attributed. Seen is an effect where the verdict
-is not `no_gap`. A statement is right where what it promises happens: seen at 1.5 times, not seen at half.
+diagnosis would see each effect. Then trials are simulated at that amplitude, at half and at one and a half times of
+it, with noise, deviations of the trials and noise of the inputs as fitted, and attributed. Seen is an effect where the
+verdict is not `no_gap`. A statement is right where what it promises happens: seen at 1.5 times, not seen at half.
 """
 
 from __future__ import annotations
@@ -52,9 +52,9 @@ def rows(options: argparse.Namespace, place: int) -> list[dict[str, Any]]:
     ground = ground_of(problem, base.noise, base.model.values)
     offered = candidates(problem.system)
     found = []
-    for told in detectabilities(ground, offered):
+    for told in detectabilities(ground, offered, [one for one in offered if one.label in options.effects]):
         one = told.candidate
-        if one.label not in options.effects or told.smallest is None:
+        if told.smallest is None:
             continue
         rest, first = rest_of(one), one.parameters[0].name
         for times in TIMES:
@@ -67,10 +67,18 @@ def rows(options: argparse.Namespace, place: int) -> list[dict[str, Any]]:
                 new = case_of(case, problem, base.noise, one.apply(problem.system), values, 1000 * place + k)
                 said = attribute(new, system_of(new), candidates).answer
                 seen = said.verdict != "no_gap"
-                row = {"case": place, "effect": one.label, "times": times, "amplitude": amplitude, "verdict": said.verdict}
+                row = {
+                    "case": place,
+                    "effect": one.label,
+                    "times": times,
+                    "amplitude": amplitude,
+                    "verdict": said.verdict,
+                }
                 row |= {"unit": one.parameters[0].unit, "seen": seen, "named": one.name in said.ambiguity}
                 found.append(row)
-            print(place, one.label, times, sum(r["seen"] for r in found[-options.repeats :]), file=sys.stderr, flush=True)
+            print(
+                place, one.label, times, sum(r["seen"] for r in found[-options.repeats :]), file=sys.stderr, flush=True
+            )
     return found
 
 
@@ -93,7 +101,9 @@ def main() -> None:
     right = [*seen["all"][1.5], *(not each for each in seen["all"][0.5])]
     rate = Rate.of(right)
     head = ("effect", *(f"seen at {t:g} times" for t in TIMES))
-    print(markdown(head, [[k, *(f"{own.get(f'{t:g}', float('nan')):.2f}" for t in TIMES)] for k, own in shares.items()]))
+    print(
+        markdown(head, [[k, *(f"{own.get(f'{t:g}', float('nan')):.2f}" for t in TIMES)] for k, own in shares.items()])
+    )
     print(f"statements right: {rate}")
     about = {"machine": machine(), "options": {k: str(v) for k, v in vars(options).items() if k != "out"}}
     summary = {"share_seen": shares, "statements_right": sum(right) / len(right), "statements": len(right)}

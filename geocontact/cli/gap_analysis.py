@@ -40,7 +40,7 @@ def diagnosed(record: Record, folder: Path, draft: Path, o: DiagnoseOptions) -> 
     """Diagnosis of the case in a folder, its results in `draft`."""
     case = read_gap_case(folder, run_programs=o.run_simulator)
     system = system_of(case)
-    _add_inputs(record, folder, case)
+    add_inputs(record, folder, case)
     findings = diagnose(case, system, __version__)
     record.results["diagnosis"] = {
         "verdict": findings.diagnosis.verdict,
@@ -52,7 +52,7 @@ def diagnosed(record: Record, folder: Path, draft: Path, o: DiagnoseOptions) -> 
     return findings
 
 
-def _add_inputs(record: Record, folder: Path, case: GapCase) -> None:
+def add_inputs(record: Record, folder: Path, case: GapCase) -> None:
     """What was read: case.toml, the tables that lie beside it, the trials, and the meshes."""
     record.add_input("case", folder / "case.toml", system=case.system)
     for side, trials in (("calibration", case.calibration), ("evaluation", case.evaluation)):

@@ -1,23 +1,22 @@
 """The smallest amplitude of an effect that the diagnosis would see on given trials, with a stated power.
 
-An effect at some amplitude adds P⊥ s to whitened residuals that are otherwise independent and of unit variance. To first
-order, what its model gains is
+An effect at some amplitude adds P⊥ s to whitened residuals that are otherwise independent and of unit variance. To
+first order, what its model gains is
 
     G = ½ |Qᵀ (P⊥ s + ε)|² - ½ log det(I + S Dᵀ P⊥ D S) - log(its variants),
 
-Q the directions of its own parameters beyond the base's, D their derivatives at this amplitude, S their prior spread: half
-a noncentral chi-square with noncentrality 2 × the visible nats, less Occam's price. Other effects gain on the same residual,
-correlated with it, so chi-squares are drawn together, not looked up. Gains then pass what the verdict makes of them
-(`gap.verdict`: borne out by calibration trials, tolerance of form, `SURE` for the base model), and the effect counts as
-seen where effects together outweigh "none". Draws are the same at every amplitude, so power grows with it up to the
-chance of the draws and a bisection finds the amplitude. Noise levels are taken as known. An effect that is hardly there is
-imitated by others, too; that something is seen does not say that the right effect is named.
+Q the directions of its own parameters beyond the base's, D their derivatives at this amplitude, S their prior spread:
+half a noncentral chi-square with noncentrality 2 × the visible nats, less Occam's price. Other effects gain on the same
+residual, correlated with it, so chi-squares are drawn together, not looked up. Gains then pass what the verdict makes
+of them (`gap.verdict`: borne out by calibration trials, tolerance of form, `SURE` for the base model), and the effect
+counts as seen where effects together outweigh "none". The seed is the same at every amplitude, so a bisection finds
+the amplitude. Noise levels are taken as known. That something is seen does not say that the right effect is named.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,14 +75,14 @@ class Gainer:
 
 
 def detectabilities(
-    ground: Ground, candidates: Sequence[Candidate], step: Callable[[], None] = lambda: None
+    ground: Ground, candidates: Sequence[Candidate], asked: Sequence[Candidate], step: Callable[[], None] = lambda: None
 ) -> tuple[Detectability, ...]:
-    """Of every candidate with a parameter; `step` is called after each."""
+    """Of those asked about, all of which and `candidates` may gain; `step` is called after each."""
     known = [one for one in candidates if one.parameters]
     variants = Counter(one.name for one in known)
     rivals = {one.label: _starting(ground, one, variants[one.name]) for one in known}
     found = []
-    for one in known:
+    for one in asked:
         found.append(detectability(ground, one, rivals, variants[one.name]))
         step()
     return tuple(found)
@@ -178,7 +177,7 @@ def _starting(ground: Ground, candidate: Candidate, variants: int) -> list[Gaine
 def _gainer(
     ground: Ground,
     candidate: Candidate,
-    values: dict[str, float],
+    values: Mapping[str, float],
     moved: Float[np.ndarray, " n"],
     variants: int,
     present: bool,
@@ -197,15 +196,13 @@ def _gainer(
     known = orthonormal(ground.slopes[inside])
     whole = np.column_stack([moved, slopes[:, 1:]])[inside]
     calibration[inside] = whole - known @ (known.T @ whole)
-    base = _base_gram(ground.slopes)
-    base_part = _base_gram(ground.slopes[inside])
     amplitude = candidate.parameters[0]
     return Gainer(
         candidate.name,
         _in_order(parts),
         _in_order(calibration),
-        _price(slopes * spread, base),
-        _price((slopes * spread)[inside], base_part),
+        _price(slopes * spread, ground.base),
+        _price((slopes * spread)[inside], known),
         float(np.log(variants)),
         int(amplitude.lower >= rest_of(candidate) or amplitude.upper <= rest_of(candidate)),
     )
@@ -213,10 +210,6 @@ def _gainer(
 
 def _spread(width: float, size: float) -> float:
     return width / FLAT if np.isfinite(width) else 100.0 * size
-
-
-def _base_gram(slopes: Float[np.ndarray, "n q"]) -> Float[np.ndarray, "n k"]:
-    return orthonormal(slopes)
 
 
 def _price(design: Float[np.ndarray, "n p"], base: Float[np.ndarray, "n k"]) -> float:

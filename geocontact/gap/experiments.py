@@ -1,8 +1,8 @@
 """Changes to trials that a laboratory can make: the menu that the next experiment is chosen from.
 
-Each changes a trial that exists: another course of time along the same movement (faster, slower, in steps with holds), a
-smaller movement, nothing or a known weight on the sensor, two sensors exchanged, another setting of a covariate. So every
-change can be simulated with any model of the case.
+Each changes a trial that exists: another course of time along the same movement (faster, slower, in steps with holds),
+a smaller movement, nothing or a known weight on the sensor, two sensors exchanged, another setting of a covariate. So
+every change can be simulated with any model of the case.
 """
 
 from __future__ import annotations
@@ -156,7 +156,9 @@ def _on_the_bench(system: System, trial: Trial) -> tuple[Experiment, ...]:
     rest = f"open the interface and record {length:.2g} s with nothing on the sensor"
     return (
         Experiment("unloaded zero", rest, still, bench(loads, [0.0 for _ in loads])),
-        Experiment("static weight", f"take the sensor off and put {on}, {length:.2g} s in all", still, bench(loads, weights)),
+        Experiment(
+            "static weight", f"take the sensor off and put {on}, {length:.2g} s in all", still, bench(loads, weights)
+        ),
     )
 
 
@@ -180,7 +182,9 @@ def _swapped(system: System, trial: Trial) -> tuple[Experiment, ...]:
     alike = [(c, name) for c, name in enumerate(system.outputs) if system.unit(name) in LOADS]
     for (a, first), (b, second) in combinations(alike, 2):
         if system.name != "foot":  # a force plate measures both
-            found.append(Experiment("swapped sensors", f"exchange the sensors of {first} and {second}", made, swap(a, b)))
+            found.append(
+                Experiment("swapped sensors", f"exchange the sensors of {first} and {second}", made, swap(a, b))
+            )
     return tuple(found)
 
 
@@ -212,9 +216,7 @@ def _grid(trial: Trial, length: float) -> Float[np.ndarray, " n"]:
     return step * np.arange(max(round(length / step), 20))
 
 
-def along(
-    trial: Trial, inputs: Sequence[str], time: Float[np.ndarray, " n"], source: Float[np.ndarray, " n"]
-) -> Trial:
+def along(trial: Trial, inputs: Sequence[str], time: Float[np.ndarray, " n"], source: Float[np.ndarray, " n"]) -> Trial:
     """The inputs of a trial taken at other moments `source`, in the order of `time`."""
     from scipy.interpolate import PchipInterpolator
 

@@ -190,14 +190,11 @@ def _new(problem: Problem, lead: Judged, pairs: list[Pair]) -> list[tuple[Experi
         passed, lambda frequency: rate_of_waves(frequency, passed.step, problem.system.motion.reach)
     )
     return [
-        (one, _rows(problem, lead, spectrum, one, pairs))
-        for one in menu(problem.system, problem.calibration.trials)
+        (one, _rows(problem, lead, spectrum, one, pairs)) for one in menu(problem.system, problem.calibration.trials)
     ]
 
 
-def _rows(
-    problem: Problem, lead: Judged, spectrum: NoiseSpectrum, one: Experiment, pairs: list[Pair]
-) -> list[Rows]:
+def _rows(problem: Problem, lead: Judged, spectrum: NoiseSpectrum, one: Experiment, pairs: list[Pair]) -> list[Rows]:
     trial, rough = one.trial, problem.calibration.rough
     hypotheses = {id(each): each for pair in pairs for each in (pair.true, pair.imitator)}
     predicted = {key: one.staged(each.system).simulate(trial, each.values) for key, each in hypotheses.items()}

@@ -189,7 +189,9 @@ def problem_of(case: GapCase, system: System) -> Problem:
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
         prior, factor = usual_levels(system, case.noise, rough)
         layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present, passed))
-        problem = Problem(system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor, passed)
+        problem = Problem(
+            system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor, passed
+        )
         noise = problem.weighed(plain)
         if not last:
             sd = {

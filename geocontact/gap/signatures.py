@@ -189,6 +189,6 @@ def own_slopes(
     def slope(p: Parameter) -> Float[np.ndarray, " n"]:
         step = STEP * magnitude(p)
         step = -step if known[p.name] + step > p.upper else step
-        return (ground.moved(system, {**known, p.name: known[p.name] + step}) - at_values) / step
+        return np.asarray((ground.moved(system, {**known, p.name: known[p.name] + step}) - at_values) / step)
 
     return np.stack([slope(p) for p in candidate.parameters], axis=1)

@@ -1,0 +1,98 @@
+"""What trials can tell at all: which effects they would show, which they cannot tell apart, from which size on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from threadpoolctl import threadpool_limits
+
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.system import System
+from geocontact.data.diagnosis import NextExperiment
+from geocontact.data.gap_case import GapCase
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.absorbed import absorbed
+from geocontact.gap.admission import admitted
+from geocontact.gap.attribute import Attribution, attribute
+from geocontact.gap.detectability import Detectability, detectabilities
+from geocontact.gap.next_experiment import next_experiment
+from geocontact.gap.separability import Separation, classes, separations
+from geocontact.gap.signatures import Ground, Sized, at_nats, ground_of
+
+NATS = 50.0  # visible nats that effects are compared at
+
+
+@dataclass(frozen=True)
+class Confusion:
+    """What was found out about the trials of a case.
+
+    Parameters
+    ----------
+    found
+        The diagnosis that noise and base parameters are taken from.
+    ground
+        Base model and weighing of all trials.
+    effects
+        Every candidate asked about, as visible as asked for, or as its bounds let it be.
+    separations, classes
+        Every one against every other, and those that cannot be told apart.
+    detectabilities
+        From which amplitude on each is seen.
+    absorbed
+        Effects that refitted base parameters swallow, the most completely swallowed first.
+    proposal
+        What to record next.
+    """
+
+    found: Attribution
+    ground: Ground
+    effects: tuple[Sized, ...]
+    separations: tuple[Separation, ...]
+    classes: tuple[tuple[str, ...], ...]
+    detectabilities: tuple[Detectability, ...]
+    absorbed: tuple[str, ...]
+    proposal: NextExperiment | None
+
+
+def offered(system: System, names: Sequence[str] = ()) -> tuple[Candidate, ...]:
+    """Candidates with a parameter, those of some effects only where names are given."""
+    known = tuple(one for one in candidates(system) if one.parameters)
+    return tuple(one for one in known if one.name in names or one.label in names) if names else known
+
+
+def confuse(
+    case: GapCase,
+    system: System,
+    names: Sequence[str] = (),
+    nats: float = NATS,
+    step: Callable[[], None] = lambda: None,
+) -> Confusion:
+    """What the trials of a case tell of effects, on one core.
+
+    Noise, deviations of trials and base parameters are those of the diagnosis' answer, so that a gap which is there
+    does not pass for noise; effects are set on top of the base model.
+
+    Parameters
+    ----------
+    case, system
+        As for `gap.diagnose.diagnose`.
+    names
+        Effects or candidates asked about; all where there are none.
+    nats
+        How visible each effect is taken to be when it is held against others.
+    step
+        Called twice per candidate.
+    """
+    with threadpool_limits(limits=1):
+        found = attribute(admitted(case, system), system, candidates)
+        problem, judged = found.clean, found.answer.chosen.judged
+        ground = ground_of(problem, judged.noise, judged.model.values)
+        asked = offered(problem.system, names)
+        effects = tuple(at_nats(ground, one, nats) for one in asked)
+        apart = separations(ground, effects, step)
+        hidden = tuple(each.name for each in absorbed(problem, asked, ()))
+        seen = detectabilities(ground, offered(problem.system), asked, step)
+        swallowed = [next(one for one in asked if one.name == name) for name in hidden]
+        proposal = next_experiment(found, swallowed)
+    return Confusion(found, ground, effects, apart, classes(apart), seen, hidden, proposal)

@@ -1,0 +1,46 @@
+"""What trials can tell, in sentences: from which size on effects are seen, what is swallowed, what is told apart."""
+
+from __future__ import annotations
+
+from geocontact.data.diagnosis import NextExperiment
+from geocontact.gap.confuse import Confusion
+from geocontact.gap.detectability import POWER, Detectability
+from geocontact.gap.separability import APART
+from geocontact.gap.signatures import rest_of
+from geocontact.view.gap_words import names, percent
+
+
+def confusion_sentences(c: Confusion) -> list[str]:
+    """One sentence each, without a full stop: seen, never seen, swallowed, confused, what to record next."""
+    seen = [amplitude_words(one) for one in c.detectabilities if one.smallest is not None]
+    never = [one.candidate.label for one in c.detectabilities if one.smallest is None]
+    said = []
+    if seen:
+        said.append(f"these trials show in {percent(POWER)} of 100 repetitions: {'; '.join(seen)}")
+    if never:
+        said.append(f"not to be seen at any plausible size: {names(never)}")
+    if c.absorbed:
+        said.append(
+            f"base parameters imitate nearly all of {names(c.absorbed)}: they leave wrong parameters, hardly a gap"
+        )
+    said += [f"not to be told apart (less than {APART:g} nats between any two): {names(one)}" for one in c.classes]
+    if not c.classes and len(c.effects) > 1:
+        said.append(f"any two of these effects would be told apart by {APART:g} nats or more, one way round at least")
+    if c.proposal is not None:
+        said.append(proposal_words(c.proposal))
+    return said
+
+
+def amplitude_words(one: Detectability) -> str:
+    """ "damping from damping.b = 0.83 N s/m on"; an amplitude that shrinks as the effect grows is an upper limit."""
+    p, rest = one.candidate.parameters[0], rest_of(one.candidate)
+    unit = "" if p.unit == "-" else f" {p.unit}"
+    value = f"{one.at.amplitude:.3g}".replace("-", "−")
+    on = "down" if one.at.amplitude < rest and p.lower >= 0.0 else "on"
+    return f"{one.candidate.label} from {p.name} = {value}{unit} {on}"
+
+
+def proposal_words(one: NextExperiment) -> str:
+    """What to record next, and why."""
+    why = f"tells {names(one.separates)} apart" if len(one.separates) > 1 else f"shows {names(one.separates)}"
+    return f"next: {one.change}; it {why} by {one.gain_nats:g} nats more"
