@@ -3,7 +3,8 @@
 Synthetic cases without an effect (`gap.benchmark`) are fitted; `gap.detectability` says from which amplitude on the
 diagnosis would see each effect. Then trials are simulated at that amplitude, at half and at one and a half times of
 it, with noise, deviations of the trials and noise of the inputs as fitted, and attributed. Seen is an effect where the
-verdict is not `no_gap`. A statement is right where what it promises happens: seen at 1.5 times, not seen at half.
+verdict is not `no_gap`. A statement is what is more probable by the predicted power, at half and at one and a half times;
+it is right where that happens.
 """
 
 from __future__ import annotations
@@ -40,9 +41,9 @@ def rows(options: argparse.Namespace, place: int) -> list[dict[str, Any]]:
     from geocontact.gap.attribute import attribute
     from geocontact.gap.benchmark.drawing import Lot, drawn
     from geocontact.gap.contest import base_contender
-    from geocontact.gap.detectability import detectabilities
+    from geocontact.gap.detectability import detectabilities, power, rivals_of
     from geocontact.gap.problem import problem_of
-    from geocontact.gap.signatures import ground_of, reach_of, rest_of
+    from geocontact.gap.signatures import ground_of, reach_of, rest_of, sized
     from geocontact.systems.catalogue import system_of
 
     case = drawn(Lot(options.system, "none", options.seed, place)).case
@@ -50,8 +51,8 @@ def rows(options: argparse.Namespace, place: int) -> list[dict[str, Any]]:
     problem = problem_of(case, system_of(case))
     base = base_contender(problem).judged
     ground = ground_of(problem, base.noise, base.model.values)
-    offered = candidates(problem.system)
-    found = []
+    offered = [one for one in candidates(problem.system) if one.parameters]
+    rivals, found = rivals_of(ground, offered), []
     for told in detectabilities(ground, offered, [one for one in offered if one.label in options.effects]):
         one = told.candidate
         if told.smallest is None:
@@ -63,19 +64,16 @@ def rows(options: argparse.Namespace, place: int) -> list[dict[str, Any]]:
                 continue
             amplitude = rest + times * (told.smallest - rest)
             values = {**base.model.values, **told.at.values, first: amplitude}
+            others = [each for label, some in rivals.items() if label != one.label for each in some]
+            there = sized(ground, one, {**told.at.values, first: amplitude})
+            predicted = power(ground, there, others, sum(each.name == one.name for each in offered))
             for k in range(options.repeats):
                 new = case_of(case, problem, base.noise, one.apply(problem.system), values, 1000 * place + k)
                 said = attribute(new, system_of(new), candidates).answer
                 seen = said.verdict != "no_gap"
-                row = {
-                    "case": place,
-                    "effect": one.label,
-                    "times": times,
-                    "amplitude": amplitude,
-                    "verdict": said.verdict,
-                }
-                row |= {"unit": one.parameters[0].unit, "seen": seen, "named": one.name in said.ambiguity}
-                found.append(row)
+                row = {"case": place, "effect": one.label, "times": times, "amplitude": amplitude, "seen": seen}
+                row |= {"unit": one.parameters[0].unit, "visible_nats": there.visible, "predicted": predicted}
+                found.append(row | {"verdict": said.verdict, "named": one.name in said.ambiguity})
             print(
                 place, one.label, times, sum(r["seen"] for r in found[-options.repeats :]), file=sys.stderr, flush=True
             )
@@ -98,7 +96,7 @@ def main() -> None:
         for label in (row["effect"], "all"):
             seen[label][row["times"]].append(row["seen"])
     shares = {label: {f"{t:g}": sum(v) / len(v) for t, v in own.items()} for label, own in seen.items()}
-    right = [*seen["all"][1.5], *(not each for each in seen["all"][0.5])]
+    right = [row["seen"] == (row["predicted"] >= 0.5) for row in found if row["times"] != 1.0]
     rate = Rate.of(right)
     head = ("effect", *(f"seen at {t:g} times" for t in TIMES))
     print(

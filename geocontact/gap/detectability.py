@@ -78,14 +78,19 @@ def detectabilities(
     ground: Ground, candidates: Sequence[Candidate], asked: Sequence[Candidate], step: Callable[[], None] = lambda: None
 ) -> tuple[Detectability, ...]:
     """Of those asked about, all of which and `candidates` may gain; `step` is called after each."""
-    known = [one for one in candidates if one.parameters]
-    variants = Counter(one.name for one in known)
-    rivals = {one.label: _starting(ground, one, variants[one.name]) for one in known}
+    variants, rivals = Counter(one.name for one in candidates if one.parameters), rivals_of(ground, candidates)
     found = []
     for one in asked:
         found.append(detectability(ground, one, rivals, variants[one.name]))
         step()
     return tuple(found)
+
+
+def rivals_of(ground: Ground, candidates: Sequence[Candidate]) -> dict[str, list[Gainer]]:
+    """Every candidate with a parameter where it starts from, by label."""
+    known = [one for one in candidates if one.parameters]
+    variants = Counter(one.name for one in known)
+    return {one.label: _starting(ground, one, variants[one.name]) for one in known}
 
 
 def detectability(

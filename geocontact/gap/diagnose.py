@@ -69,7 +69,7 @@ def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
     chosen = said.chosen.judged
     offered = candidates(problem.system)
     hidden = absorbed(problem, offered, said.effects)
-    then = next_experiment(found, _swallowed(offered, [each.name for each in hidden]))
+    then = next_experiment(found, first_of(offered, [each.name for each in hidden]))
     cells = gap_map(found.clean, found.base.judged)
     gap = {
         name: ChannelGap(s.rmse_before, s.rmse_after, s.floor, s.reduction, (s.low, s.high), s.unexplained)
@@ -112,7 +112,7 @@ def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
     return Findings(diagnosis, found, cells, trials, surface)
 
 
-def _swallowed(offered: tuple[Candidate, ...], names: list[str]) -> list[Candidate]:
+def first_of(offered: tuple[Candidate, ...], names: list[str]) -> list[Candidate]:
     """The first candidate of each of these effects."""
     return [next(one for one in offered if one.name == name and one.parameters) for name in names]
 

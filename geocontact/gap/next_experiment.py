@@ -85,8 +85,24 @@ class Rows:
         return 0.5 * float(self.moved @ self.moved - part @ np.linalg.solve(inner, part))
 
 
+@dataclass(frozen=True)
+class Proposal:
+    """What is said, the experiment, the pairs that it was chosen for, and the model whose noise they are weighed by."""
+
+    said: NextExperiment
+    experiment: Experiment
+    pairs: tuple[Pair, ...]
+    lead: Judged
+
+
 def next_experiment(found: Attribution, swallowed: Sequence[Candidate] = ()) -> NextExperiment | None:
-    """The change that tells most; None where nothing is in question, or where nothing on the menu tells enough.
+    """The change that tells most; None where nothing is in question, or where nothing on the menu tells enough."""
+    one = proposed(found, swallowed)
+    return None if one is None else one.said
+
+
+def proposed(found: Attribution, swallowed: Sequence[Candidate] = ()) -> Proposal | None:
+    """The same with what it was chosen by.
 
     Parameters
     ----------
@@ -137,7 +153,7 @@ def _swallowed(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
     return Hypothesis(one.name, system, values, residuals, base.model.jacobian)
 
 
-def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Pair]) -> NextExperiment | None:
+def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Pair]) -> Proposal | None:
     """The change that raises the smallest separation most."""
     before = [_old(problem, lead, pair) for pair in pairs]
     least = min(rows.nats for rows in before)
@@ -149,10 +165,10 @@ def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Pai
     if best is None:
         return None
     names = [name for name in found.answer.ambiguity if any(name in pair.true.name.split("+") for pair in pairs)]
-    return _said(best[1], names, best[0] - least)
+    return Proposal(_said(best[1], names, best[0] - least), best[1], tuple(pairs), lead)
 
 
-def _unveiling(found: Attribution, problem: Problem, base: Judged, pairs: list[Pair]) -> NextExperiment | None:
+def _unveiling(found: Attribution, problem: Problem, base: Judged, pairs: list[Pair]) -> Proposal | None:
     """The change that makes most effects visible that were swallowed, and of several the one that shows them best."""
     before = [_old(problem, base, pair) for pair in pairs]
     best: tuple[int, float, Experiment, list[str]] | None = None
@@ -165,7 +181,10 @@ def _unveiling(found: Attribution, problem: Problem, base: Judged, pairs: list[P
         names = list(dict.fromkeys(name for _, name in shown))
         if shown and (best is None or (len(names), min(shown)[0]) > best[:2]):
             best = (len(names), min(shown)[0], one, names)
-    return None if best is None else _said(best[2], best[3], best[1])
+    if best is None:
+        return None
+    shown_by = tuple(pair for pair in pairs if pair.true.name in best[3])
+    return Proposal(_said(best[2], best[3], best[1]), best[2], shown_by, base)
 
 
 def _said(one: Experiment, names: Sequence[str], gain: float) -> NextExperiment:

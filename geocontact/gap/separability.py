@@ -10,7 +10,7 @@ roughly how much.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -18,6 +18,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
+from geocontact.chain.system import System
 from geocontact.gap.refit import free, refit
 from geocontact.gap.signatures import Ground, Sized, orthonormal, own_slopes
 
@@ -51,45 +52,50 @@ class Separation:
 
 @dataclass(frozen=True)
 class Imitator:
-    """A candidate that tries to look like others: its directions at each start, the base's with them."""
+    """A model that tries to look like others: where it may start from, and the directions that it has there.
 
-    candidate: Candidate
+    `slopes` and `directions` are those of all its parameters, the base's first.
+    """
+
+    label: str
+    system: System
+    starts: tuple[Mapping[str, float], ...]
     slopes: tuple[Float[np.ndarray, "n p"], ...]
     directions: tuple[Float[np.ndarray, "n k"], ...]
 
 
+def base_alone(ground: Ground) -> Imitator:
+    """The base model, which can only be refitted."""
+    return Imitator(NONE, ground.system, (ground.values,), (ground.slopes,), (ground.base,))
+
+
 def imitator_of(ground: Ground, candidate: Candidate) -> Imitator:
-    """At every start that the candidate offers."""
+    """The base model with a candidate, at every start that this offers."""
     system = candidate.apply(ground.system)
-    slopes = [
-        own_slopes(ground, candidate, start, ground.moved(system, {**ground.values, **start}))
-        for start in candidate.starts
-    ]
-    return Imitator(candidate, tuple(slopes), tuple(orthonormal(np.hstack([ground.slopes, each])) for each in slopes))
+    starts = tuple({**ground.values, **start} for start in candidate.starts)
+    slopes = tuple(
+        np.hstack([ground.slopes, own_slopes(ground, candidate, start, ground.moved(system, start))])
+        for start in starts
+    )
+    return Imitator(candidate.label, system, starts, slopes, tuple(orthonormal(each) for each in slopes))
 
 
 def separations(
     ground: Ground, effects: Sequence[Sized], step: Callable[[], None] = lambda: None
 ) -> tuple[Separation, ...]:
     """Every effect against the base model and against every other; `step` is called after each effect."""
-    imitators = [imitator_of(ground, one.candidate) for one in effects]
+    imitators = [base_alone(ground), *(imitator_of(ground, one.candidate) for one in effects)]
     found = []
     for one in effects:
         target = ground.moved(one.candidate.apply(ground.system), {**ground.values, **one.values})
-        found.append(_from_base(ground, one, target))
         found += [separation(ground, one, target, other) for other in imitators]
         step()
     return tuple(found)
 
 
-def _from_base(ground: Ground, one: Sized, target: Float[np.ndarray, " n"]) -> Separation:
-    left = ground.left(target)
-    return Separation(one.candidate.label, NONE, 0.5 * float(left @ left), "linearised")
-
-
 def separation(ground: Ground, one: Sized, target: Float[np.ndarray, " n"], other: Imitator) -> Separation:
     """What `other` leaves of `target`, which is what the effect does, `Ground.moved`."""
-    names = one.candidate.label, other.candidate.label
+    names = one.candidate.label, other.label
     if names[0] == names[1]:
         return Separation(*names, 0.0, "itself")
     costs = [0.5 * float(target @ target - (d.T @ target) @ (d.T @ target)) for d in other.directions]
@@ -100,26 +106,25 @@ def separation(ground: Ground, one: Sized, target: Float[np.ndarray, " n"], othe
     point, kept = _straight(ground, target, other, best)
     if abs(kept - promised) <= KEPT + 0.1 * promised:
         return Separation(*names, kept, "linearised")
-    return Separation(*names, min(kept, refitted(ground, one, other.candidate, point)), "refitted")
+    return Separation(*names, min(kept, refitted(ground, one, other, point)), "refitted")
 
 
 def _straight(
     ground: Ground, target: Float[np.ndarray, " n"], other: Imitator, which: int
 ) -> tuple[dict[str, float], float]:
     """Where one straight step to the target leads, within bounds, and what it leaves of the target there [nats]."""
-    system, start = other.candidate.apply(ground.system), other.candidate.starts[which]
-    moved = ground.moved(system, {**ground.values, **start})
-    columns = np.hstack([ground.slopes, other.slopes[which]])
+    start, columns = other.starts[which], other.slopes[which]
+    moved = ground.moved(other.system, start)
     size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
     shift = np.linalg.lstsq(columns / size, target - moved, rcond=1e-9)[0] / size
-    values = {**ground.values, **start}
-    for p, by in zip(free(system), shift, strict=True):
+    values = dict(start)
+    for p, by in zip(free(other.system), shift, strict=True):
         values[p.name] = float(np.clip(values[p.name] + by, p.lower, p.upper))
-    off = target - ground.moved(system, values)
+    off = target - ground.moved(other.system, values)
     return values, 0.5 * float(off @ off)
 
 
-def refitted(ground: Ground, one: Sized, other: Candidate, start: dict[str, float]) -> float:
+def refitted(ground: Ground, one: Sized, other: Imitator, start: Mapping[str, float]) -> float:
     """What a bounded least-squares fit of `other` leaves of trials that have the effect and no noise [nats]."""
     there = one.candidate.apply(ground.system)
     full = {**ground.values, **one.values}
@@ -128,8 +133,7 @@ def refitted(ground: Ground, one: Sized, other: Candidate, start: dict[str, floa
         for t, o in zip(ground.measured.trials, ground.measured.outputs, strict=True)
     ]
     measured = replace(ground.measured, outputs=tuple(outputs))
-    starts = [start, *({**ground.values, **each} for each in other.starts)]
-    return refit(other.apply(ground.system), measured, ground.weighings, starts, REFITTED).cost
+    return refit(other.system, measured, ground.weighings, [start, *other.starts], REFITTED).cost
 
 
 def classes(found: Sequence[Separation], least: float = APART) -> tuple[tuple[str, ...], ...]:

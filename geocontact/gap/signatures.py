@@ -21,7 +21,8 @@ from geocontact.gap.problem import Noise, Problem
 from geocontact.gap.refit import STEP, Measured, Refit, at, magnitude
 from geocontact.gap.weighing import Weighing
 
-ROUNDS, CLOSE = 8, 0.02  # steps to an amplitude of given nats, and how close these must be
+ROUNDS, CLOSE = 16, 0.02  # steps to an amplitude of given nats, and how close these must be
+LEAST, FAINT = 1e-6, 1e-3  # of the way to the end of its bounds, and of the nats asked for, that are looked at
 
 
 @dataclass(frozen=True)
@@ -157,24 +158,29 @@ def at_nats(ground: Ground, candidate: Candidate, nats: float) -> Sized:
     """An effect at the amplitude at which so much of it is visible, or as near to it as its bounds let it come."""
     first, start = candidate.parameters[0].name, candidate.starts[0]
     rest, reach = rest_of(candidate), reach_of(candidate, start)
-    share = float(np.clip((start[first] - rest) / reach, 1e-6, 1.0))
-    best = one = sized(ground, candidate, {**start, first: rest + share * reach})
-    power, before = 0.5, None
+
+    def at_share(share: float) -> Sized:
+        return sized(ground, candidate, {**start, first: rest + share * reach})
+
+    low, high, share = LEAST, 1.0, float(np.clip((start[first] - rest) / reach, LEAST, 1.0))
+    best = one = at_share(share)
     for _ in range(ROUNDS):
-        if abs(np.log(max(one.visible, 1e-300) / nats)) < CLOSE:
-            return one
-        if before is not None and share != before[0] and min(one.visible, before[1]) > 0.0:
-            slope = np.log(one.visible / before[1]) / np.log(share / before[0])
-            power = 1.0 / float(np.clip(slope, 0.5, 20.0))
-        before = (share, one.visible)
-        factor = float(np.clip((nats / max(one.visible, 1e-300)) ** power, 1e-3, 1e3))
-        share = float(np.clip(share * factor, 1e-6, 1.0))
-        if share == before[0]:
-            break
-        one = sized(ground, candidate, {**start, first: rest + share * reach})
-        if abs(np.log(max(one.visible, 1e-300) / nats)) < abs(np.log(max(best.visible, 1e-300) / nats)):
+        if _off(one, nats) < _off(best, nats):
             best = one
+        if _off(best, nats) < CLOSE or low >= high * (1.0 - 1e-6):
+            break
+        low, high = (share, high) if one.visible < nats else (low, share)
+        quadratic = share * float(np.sqrt(nats / max(one.visible, FAINT * nats)))
+        share = quadratic if low < quadratic < high else float(np.sqrt(low * high))
+        if quadratic >= high == 1.0:
+            share = low = 1.0
+        one = at_share(share)
     return best
+
+
+def _off(one: Sized, nats: float) -> float:
+    """How far the visible nats are from those asked for: a logarithm."""
+    return abs(float(np.log(max(one.visible, 1e-300) / nats)))
 
 
 def own_slopes(
