@@ -3,8 +3,8 @@
 Synthetic cases without an effect (`gap.benchmark`) are fitted; `gap.detectability` says from which amplitude on the
 diagnosis would see each effect. Then trials are simulated at that amplitude, at half and at one and a half times of
 it, with noise, deviations of the trials and noise of the inputs as fitted, and attributed. Seen is an effect where the
-verdict is not `no_gap`. A statement is what is more probable by the predicted power, at half and at one and a half times;
-it is right where that happens.
+verdict is not `no_gap`. A statement is what is more probable by the predicted power, at half and at one and a half
+times; it is right where that happens.
 """
 
 from __future__ import annotations

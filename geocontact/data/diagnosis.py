@@ -184,12 +184,12 @@ class Diagnosis:
                 name: {"value": e.value, "ci95": list(e.ci95), "unit": e.unit, "identifiable": e.identifiable}
                 for name, e in self.parameters.items()
             },
+            "next_experiment": None if self.next_experiment is None else self.next_experiment.as_dict(),
             "faults": [
                 {"effect": f.effect, "channel": f.channel, "factor": f.factor, "trials": list(f.trials)}
                 for f in self.faults
             ],
             "remarks": list(self.remarks),
-            "next_experiment": None if self.next_experiment is None else self.next_experiment.as_dict(),
             "seconds": self.seconds,
             "version": self.version,
         }

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from geocontact.data.diagnosis import NextExperiment
 from geocontact.gap.confuse import Confusion
 from geocontact.gap.detectability import POWER, Detectability
 from geocontact.gap.separability import APART
 from geocontact.gap.signatures import rest_of
-from geocontact.view.gap_words import names, percent
+from geocontact.view.gap_words import names, percent, proposal_words
 
 
 def confusion_sentences(c: Confusion) -> list[str]:
@@ -38,9 +37,3 @@ def amplitude_words(one: Detectability) -> str:
     value = f"{one.at.amplitude:.3g}".replace("-", "−")
     on = "down" if one.at.amplitude < rest and p.lower >= 0.0 else "on"
     return f"{one.candidate.label} from {p.name} = {value}{unit} {on}"
-
-
-def proposal_words(one: NextExperiment) -> str:
-    """What to record next, and why."""
-    why = f"tells {names(one.separates)} apart" if len(one.separates) > 1 else f"shows {names(one.separates)}"
-    return f"next: {one.change}; it {why} by {one.gain_nats:g} nats more"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Where
+from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, NextExperiment, Where
 from geocontact.gap.locate import Cell
 
 SIGNIFICANT = 0.05  # family-wise
@@ -17,7 +17,14 @@ MOST = 0.1  # share of the whole gap from which a further channel is mentioned
 def verdict_sentences(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     """The verdict first, then what limits it; one sentence each, without a full stop."""
     found = {"explained": _explained, "no_gap": _no_gap, "unknown": _unknown, "unresolved": _unresolved}[d.verdict]
-    return [*found(d, cells), *_faults(d), *(f"odd: {remark}" for remark in d.remarks)]
+    then = [] if d.next_experiment is None else [proposal_words(d.next_experiment)]
+    return [*found(d, cells), *_faults(d), *(f"odd: {remark}" for remark in d.remarks), *then]
+
+
+def proposal_words(one: NextExperiment) -> str:
+    """What to record next, and what for."""
+    why = f"would tell {names(one.separates)} apart" if len(one.separates) > 1 else f"would show {names(one.separates)}"
+    return f"next: {one.change}; that {why} by {one.gain_nats:g} nats more"
 
 
 def place(where: Where, cells: Sequence[Cell]) -> str:

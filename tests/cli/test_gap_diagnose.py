@@ -21,7 +21,7 @@ from tests.cli.gap_cases import DAMPING, damped_elbow, in_degrees_and_kilonewton
 TABLES = {"diagnosis.json", "run.json", "gap_map.csv", "ranking.csv", "held_out.csv", "trials.csv"}
 FIGURES = {f"{name}.{ending}" for name in ("gap_map", "ranking", "gap_residuals") for ending in ("png", "svg")}
 KEYS = ["case", "system", "verdict", "effects", "probabilities", "ambiguity", "absorbed", "where", "gap", "parameters"]
-KEYS += ["faults", "remarks", "seconds", "version"]
+KEYS += ["next_experiment", "faults", "remarks", "seconds", "version"]
 CHANNEL = ["rmse_before", "rmse_after", "noise_floor", "reduction", "ci95", "unexplained"]
 
 
