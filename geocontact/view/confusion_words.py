@@ -26,7 +26,7 @@ def confusion_sentences(c: Confusion) -> list[str]:
     if not c.classes and len(c.effects) > 1:
         said.append(f"any two of these effects would be told apart by {APART:g} nats or more, one way round at least")
     if c.proposal is not None:
-        said.append(proposal_words(c.proposal))
+        said.append(proposal_words(c.proposal, c.found.answer.verdict))
     return said
 
 

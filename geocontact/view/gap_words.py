@@ -17,13 +17,14 @@ MOST = 0.1  # share of the whole gap from which a further channel is mentioned
 def verdict_sentences(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     """The verdict first, then what limits it; one sentence each, without a full stop."""
     found = {"explained": _explained, "no_gap": _no_gap, "unknown": _unknown, "unresolved": _unresolved}[d.verdict]
-    then = [] if d.next_experiment is None else [proposal_words(d.next_experiment)]
+    then = [] if d.next_experiment is None else [proposal_words(d.next_experiment, d.verdict)]
     return [*found(d, cells), *_faults(d), *(f"odd: {remark}" for remark in d.remarks), *then]
 
 
-def proposal_words(one: NextExperiment) -> str:
-    """What to record next, and what for."""
-    why = f"would tell {names(one.separates)} apart" if len(one.separates) > 1 else f"would show {names(one.separates)}"
+def proposal_words(one: NextExperiment, verdict: str) -> str:
+    """What to record next, and what for: to show what is absorbed where nothing was found, else to tell apart."""
+    some = names(one.separates)
+    why = f"would show {some}" if verdict == "no_gap" else f"would tell {some} apart"
     return f"next: {one.change}; that {why} by {one.gain_nats:g} nats more"
 
 
