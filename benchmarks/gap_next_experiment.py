@@ -149,31 +149,39 @@ def weighings(problem: Any, noise: Any, one: Any, trials: Sequence[Any], stage: 
 
 
 def main() -> None:
-    """Ask, simulate, refit, print the shares, write the JSON."""
+    """Ask, simulate, refit, write what there is after each round of cases, print the share."""
     options = arguments()
     from threadpoolctl import threadpool_limits
 
-    from benchmarks.machine import machine
-    from geocontact.gap.benchmark.rates import Rate
-
-    found, silent = [], 0
+    found: list[dict[str, Any]] = []
+    asked = 0
     with threadpool_limits(limits=1):
         for place in range(options.cases):
             for system in options.systems:
                 for kind in KINDS:
                     row = checked(system, kind, place, options)
-                    silent += row is None
+                    asked += 1
                     if row is not None:
                         found.append(row)
                         print(json.dumps(row), file=sys.stderr, flush=True)
+            written(options, found, asked)
+
+
+def written(options: argparse.Namespace, found: Sequence[dict[str, Any]], asked: int) -> None:
+    """The JSON, and a line."""
+    from benchmarks.machine import machine
+    from geocontact.gap.benchmark.rates import Rate
+
     rate = Rate.of(row["raised"] for row in found)
-    print(f"raised at least {TIMES:g} times: {rate}; nothing proposed in {silent} cases")
-    about = {"machine": machine(), "options": {k: str(v) for k, v in vars(options).items() if k != "out"}}
-    summary = {"raised": rate.value, "interval": rate.interval(), "proposals": rate.count, "without_proposal": silent}
-    options.out.mkdir(parents=True, exist_ok=True)
-    (options.out / "gap_next_experiment.json").write_text(
-        json.dumps({**about, **summary, "rows": found}, indent=1) + "\n"
+    print(
+        f"raised at least {TIMES:g} times: {rate}; nothing proposed in {asked - len(found)} of {asked} cases",
+        flush=True,
     )
+    about = {"machine": machine(), "options": {k: str(v) for k, v in vars(options).items() if k != "out"}}
+    summary = {"raised": rate.value, "interval": rate.interval(), "proposals": rate.count, "cases": asked}
+    options.out.mkdir(parents=True, exist_ok=True)
+    text = json.dumps({**about, **summary, "rows": list(found)}, indent=1)
+    (options.out / "gap_next_experiment.json").write_text(text + "\n")
 
 
 if __name__ == "__main__":
