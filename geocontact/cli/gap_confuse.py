@@ -26,12 +26,15 @@ class ConfuseOptions:
         How visible each effect is taken to be when it is held against the others.
     bare
         Write tables, confuse.json and run.json only: no page, no figures.
+    run_simulator
+        Allow a case of the system "command" to run the program that it names.
     """
 
     out: Path
     effects: str | None = None
     nats: float = 50.0
     bare: Annotated[bool, Flag] = False
+    run_simulator: Annotated[bool, Flag] = False
 
 
 def confuse(case: Path, /, *, options: ConfuseOptions) -> int:

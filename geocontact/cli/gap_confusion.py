@@ -42,7 +42,7 @@ def confused(folder: Path, o: ConfuseOptions) -> int:
         raise InputError("", "--nats", f"is {o.nats:g}", "give a number above 0")
     record = Record(COMMAND, {"case": folder, **asdict(o)})
     with record.catching_warnings(), written_whole(o.out) as draft:
-        case = read_gap_case(folder)
+        case = read_gap_case(folder, run_programs=o.run_simulator)
         system = system_of(case)
         add_inputs(record, folder, case)
         names = asked(o.effects, system)

@@ -42,11 +42,12 @@ MAT = (
     *(f"{name}.{ending}" for name in TABLES for ending in ("csv", "parquet")),
     "mat.png", "mat.svg", "mat_on_surface.vtp", "report.html",
 )  # fmt: skip
+ASKED = ("confuse.json", "separability.csv", "detectability.csv", "planted.json", "report.html")
 BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
-NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *MODULUS, *MAT, *GAP, *BENCHMARK, RUN})
+NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *MODULUS, *MAT, *GAP, *ASKED, *BENCHMARK, RUN})
 PARAVIEW = "paraview"
 PICTURES = re.compile(
-    r"(gap_map|ranking|gap_residuals|before_after_\w+|gap_surface_\w+)\.(png|svg)"
+    r"(gap_map|ranking|separability|detectability|gap_residuals|before_after_\w+|gap_surface_\w+)\.(png|svg)"
     r"|still_[a-z_0-9.,−-]+\.png|paraview/(both|fixed|moving)\.pvd|paraview/frames/(fixed|moving)_\d+\.vtp"
 )
 """The only files that are ever removed: those that a run writes, and only where its run.json lists them."""
