@@ -32,7 +32,7 @@ K = '[parameters.k]\nstart = 280.0\nlower = 50.0\nupper = 1000.0\nunit = "N/m"\n
 WRONG = {
     # system, file, what is replaced by what, words of the line
     "unknown system": ("elbow", "case.toml", '"elbow"', '"ankle"', "case.toml system: 'ankle' is unknown; known are e"),
-    "no model": ("elbow", "case.toml", '"elbow"', '"shoulder"', "case.toml system shoulder: has no base model h"),
+    "no table": ("elbow", "case.toml", '"elbow"', '"shoulder"', "shoulder: the table of support torques is missing"),
     "own module": ("elbow", "case.toml", '"elbow"', '"no_such:MODEL"', "module no_such cannot be imported"),
     "constant missing": ("elbow", "case.toml", "l_ex = ", "l_in = ", "elbow: l_ex is missing; give it as a parameter"),
     "parameter missing": ("elbow", "case.toml", K, "", "elbow: k is missing; give it as a parameter or as a constant"),

@@ -14,6 +14,7 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
+from geocontact.systems.shoulder_arm import ShoulderArm
 from tests.effects.runs import EXAMPLES, FITTED, label, outputs, truth
 from tests.systems.examples import recording
 
@@ -47,9 +48,14 @@ def in_other_units(system: System, trials: tuple[Trial, ...], of: Mapping[str, f
         recording(t.name, t.time, {c: t.column(c) * factor(system.unit(c), of) for c in channels}, **t.covariates)
         for t in trials
     ]
-    units = {"angle0": "rad", "hardening": "1/rad^2", "b": "N s/m"}
+    units = {"angle0": "rad", "hardening": "1/rad^2", "b": "N s/m", "I": "kg m^2", "c": "N m s/rad"}
     constants = {name: value * factor(units.get(name, "-"), of) for name, value in system.constants.items()}
-    other = replace(system, parameters=tuple(turned(p, of) for p in system.parameters), constants=constants)
+    geometry = system.geometry
+    if isinstance(geometry, ShoulderArm):
+        sizes = np.array([[factor("rad", of)], [factor("N m", of)]])
+        geometry = replace(geometry, table=geometry.table * sizes)
+    parameters = tuple(turned(p, of) for p in system.parameters)
+    other = replace(system, parameters=parameters, constants=constants, geometry=geometry)
     return other.scaled(changed), changed
 
 
