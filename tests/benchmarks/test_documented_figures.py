@@ -89,6 +89,10 @@ def test_mats() -> None:
         ("largest memory of the process", "memory at most [MB]"),
     ):
         assert near(row(page, label)[0].rpartition(" ")[0], told["speed"][key])
+    whole = "the whole command: reading, filter, dead cells, projection beside, tables, figure, page"
+    for label, key in ((whole, "seconds"), ("largest memory of the command", "memory at most [MB]")):
+        assert near(row(page, label)[0].rpartition(" ")[0], told["command"][key])
+    scan = told["registration"]["scan 1 mm and 2 deg off"]
     exact, off = told["registration"]["landmarks exact, largest"], told["registration"]["1 mm and 2 deg off"]
     for label, key in (
         ("force", "force [%]"),
@@ -96,5 +100,5 @@ def test_mats() -> None:
         ("centre of pressure", "centre [mm]"),
     ):
         shown = [cell.rpartition(" ")[0] for cell in row(page, label)]
-        values = (exact[key], off[key]["mean"], off[key]["95 %"])
+        values = (exact[key], off[key]["mean"], off[key]["95 %"], scan[key]["mean"], scan[key]["95 %"])
         assert all(near(text, value) for text, value in zip(shown, values, strict=True))
