@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,8 @@ import pandas as pd
 import pytest
 import trimesh
 
+from geocontact.geometry.drape.cells import Drape
+from geocontact.geometry.drape.lay import lay
 from tests.cli.calls import MESHES, Call, call, done
 
 HOME = MESHES / "mat_thigh_16x8"
@@ -76,3 +79,17 @@ def test_landmarks_on_one_line_do_not_show_the_side(shells: dict[str, Path], tmp
 def test_inwards_is_nothing_for_a_closed_scan(shells: dict[str, Path], tmp_path: Path) -> None:
     result = mat(shells | {"closed": MESHES / "thigh.stl"}, "closed", tmp_path / "a", "--inwards")
     assert result.code == 2 and "--inwards: does nothing for a closed scan" in result.err
+
+
+def test_a_mark_that_is_far_off_is_refused_beside_one_that_hangs_over_the_edge(
+    shells: dict[str, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A mark over the edge has no distance; it must not hide how far another is missed."""
+
+    def laid(*given: object) -> Drape:
+        found = lay(*given)
+        return replace(found, misses=np.array([np.nan, 0.2, *found.misses[2:]]))
+
+    monkeypatch.setattr("geocontact.cli.mat_analysis.lay", laid)
+    result = mat(shells, "outwards", tmp_path / "a")
+    assert result.code == 2 and "landmark L2 is missed by 200 mm" in result.err
