@@ -13,7 +13,17 @@ from geocontact.effects.catalogue import candidates
 from tests.systems.examples import NAMES, example
 
 EXAMPLES = {name: example(name) for name in NAMES}
-OFFERED = [(name, one) for name in NAMES for one in candidates(EXAMPLES[name][0])]
+
+
+def stands_for_others(system: System, one: Candidate) -> bool:
+    """Whether a candidate is tried: of several places of contact, which are alike, the first and what joins it."""
+    first, *others = system.places or ("",)
+    return not any(place in one.label for place in others) or first in one.label
+
+
+OFFERED = [
+    (name, one) for name in NAMES for one in candidates(EXAMPLES[name][0]) if stands_for_others(EXAMPLES[name][0], one)
+]
 FITTED = [(name, one) for name, one in OFFERED if one.parameters]
 DISCRETE = [(name, one) for name, one in OFFERED if not one.parameters]
 
