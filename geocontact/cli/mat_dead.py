@@ -55,12 +55,14 @@ def treated(
     pressure: Float[np.ndarray, "t r c"],
     declared: tuple[tuple[int, int], ...],
     way: Way,
+    touched: float,
 ) -> Treated:
     """Dead cells by `way`: found in `read`, or `declared` in the layout, which leaves those out of `read` already.
 
-    Only found ones are warned of; declared ones are filled too where that is asked for.
+    Only found ones are warned of; declared ones are filled too where that is asked for. `touched` [Pa] is the pressure
+    from which a cell counts as loaded.
     """
-    found = dead_cells(read)
+    found = dead_cells(read, touched)
     listed = np.zeros_like(found)
     for row, column in declared:
         listed[row, column] = True

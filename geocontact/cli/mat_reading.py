@@ -67,7 +67,9 @@ def recording(record: Record, path: Path, o: MatOptions) -> Recording:
     pressure = np.where(read.valid, read.pressure, 0.0)
     if o.unloaded is not None:
         pressure = pressure - _zero(read, pressure, o).at(read.time)
-    sound = treated(record, read, pressure, layout.dead if layout else (), o.dead)
+    sound = treated(
+        record, read, pressure, layout.dead if layout else (), o.dead, quantities.modulus(o.touched, "--touched")
+    )
     pressure, valid = _smooth(read, sound.pressure, o), sound.valid
     frames = replace(read, pressure=np.where(valid, pressure, np.nan), valid=valid)
     found = Recording(frames, read, sound.gaps)

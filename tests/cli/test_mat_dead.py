@@ -127,3 +127,14 @@ def test_a_sound_recording_says_nothing_of_dead_cells(tmp_path: Path) -> None:
 def test_other_ways_are_refused(tmp_path: Path) -> None:
     result = mat(tmp_path, uniform(), "--dead", "bury")
     assert result.code == 2 and "bury" in result.err and not result.folder.exists()
+
+
+@pytest.mark.parametrize(("touched", "count"), [("1kPa", 1), ("30kPa", 0)])
+def test_cells_are_dead_beside_what_counts_as_touched(tmp_path: Path, touched: str, count: int) -> None:
+    """Around this cell no more than 29 kPa are read: where less than 30 kPa is no touch, nothing shows it."""
+    result = done(call(
+        "mat", zeroed(tmp_path, [[5, 3]]), "--layout", GIVEN / "layout.toml", "--surface", MESHES / "thigh.stl",
+        "--unit", "mm", "--landmarks", GIVEN / "landmarks.csv", "--touched", touched, "--out", tmp_path / "out", *STILL,
+        folder=tmp_path / "out",
+    ))  # fmt: skip
+    assert len([line for line in result.warnings if "dead" in line]) == count
