@@ -13,6 +13,7 @@ from geocontact.cli.record import Record
 from geocontact.data.cell_channels import CellChannels, CellTrial
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
+from geocontact.io.case_consistency import parameters_of
 from geocontact.io.csv_text import Column
 from geocontact.io.gap_case import case_of, read_gap_case
 from geocontact.io.gap_case_writer import write_gap_case
@@ -54,7 +55,8 @@ def _case(record: Record, path: Path, plan: Gathering, out: Path) -> GapCase:
             table = _with_force(table, site, own[name])
         trials[name] = table
     tables = {key: read_side_table(path.parent / file) for key, file in plan.settings.tables.items()}
-    case = case_of(plan.settings, path, out.name, alike(trials), tables)
+    parameters = parameters_of(plan.settings, path)
+    case = case_of(plan.settings, parameters, path, out.name, alike(trials), tables)
     return replace(case, cells={site: _cells(record, site, own) for site, own in mats.items()})
 
 

@@ -29,6 +29,7 @@ DRAWS = 200
 BANDS = (0.0, 1.0, 5.0, np.inf)  # Hz
 HOLDS = 0.70  # of the squared gap lies in the window that is reported
 GRID = 101
+SMOOTHED = 0.025  # of a trial, over which a residual is smoothed
 
 
 @dataclass(frozen=True)
@@ -98,7 +99,7 @@ def windows(
         for c in range(curves.shape[1]):
             if there[:, c].any():
                 curves[:, c] += np.interp(phase, own[there[:, c]], square[there[:, c], c])
-    curves = np.maximum(curves if after is not None else _smooth(curves), 0.0)
+    curves = np.maximum(curves if after is not None else smoothed(curves), 0.0)
     parts = curves.sum(axis=0) / problem.floor**2
     shares = parts / max(parts.sum(), 1e-300)
     found = [
@@ -133,10 +134,11 @@ def shortest(curve: Float[np.ndarray, " g"]) -> tuple[float, float]:
     return float(best / len(curve)), float(min(ends[best], len(curve)) / len(curve))
 
 
-def _smooth(curves: Float[np.ndarray, "g c"]) -> Float[np.ndarray, "g c"]:
+def smoothed(curves: Float[np.ndarray, "t ..."]) -> Float[np.ndarray, "t ..."]:
+    """Curves over a trial, without what is shorter than a part of it."""
     from scipy.ndimage import gaussian_filter1d
 
-    return np.asarray(gaussian_filter1d(curves, 0.025 * GRID, axis=0, mode="nearest"))
+    return np.asarray(gaussian_filter1d(curves, SMOOTHED * len(curves), axis=0, mode="nearest"))
 
 
 def _least(cells: tuple[Cell, ...], channel: str) -> float:

@@ -28,10 +28,9 @@ from geocontact.data.cell_channels import CellChannels
 from geocontact.data.trial import Trial
 from geocontact.gap.evidence import Judged
 from geocontact.gap.faults import Fault
-from geocontact.gap.locate import BLOCKS, FLIPS, HOLDS, missed
+from geocontact.gap.locate import BLOCKS, FLIPS, HOLDS, missed, smoothed
 from geocontact.gap.problem import Problem
 
-SMOOTHED = 0.025  # of a trial, over which a residual is smoothed before cells are held against it
 TURNS = 200  # times to which the gap is turned
 SHOWN = 0.5  # of the gap that the cells together must show: less, and most of it was made behind the mat
 
@@ -111,7 +110,7 @@ def _site(
     for trial, gap in zip(problem.evaluation.trials, gaps, strict=True):
         if trial.name in cells.trials:
             off = cells.forces(trial.name, trial.time) - np.outer(_base(problem, trial, column), spread)
-            own = gap[:, column] if named else _smooth(gap[:, column])
+            own = gap[:, column] if named else smoothed(gap[:, column])
             seen.append((np.where(np.isfinite(off), off, 0.0), own))
     if not seen or spread.sum() <= 0.0:
         return None
@@ -140,12 +139,6 @@ def _spread(fitted: Seen) -> Float[np.ndarray, " n"]:
     products = (np.where(there, forces, 0.0) * model[:, None]).sum(axis=0)
     squares = (there * model[:, None] ** 2).sum(axis=0)
     return np.asarray(products / np.where(squares > 0.0, squares, np.inf))
-
-
-def _smooth(curve: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
-    from scipy.ndimage import gaussian_filter1d
-
-    return np.asarray(gaussian_filter1d(curve, SMOOTHED * len(curve), mode="nearest"))
 
 
 def _flipped(seen: Seen) -> float:

@@ -13,6 +13,7 @@ import pandas as pd
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.gap_case import CaseMesh, GapCase
+from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.io.case_cells import read_cells
 from geocontact.io.case_consistency import KNOWN_SYSTEMS, check_settings, parameters_of
@@ -61,19 +62,24 @@ def read_gap_case(
     file = home / SETTINGS
     settings = read_settings(file)
     check_settings(settings, file, known_systems)
-    parameters_of(settings, file)  # before the trials are read: a mistake there is told at once
+    parameters = parameters_of(settings, file)
     check_trial_files(home, settings)
     tables = {key: read_side_table(inside(home, name, key)) for key, name in settings.tables.items()}
     trials = alike({name: read_trial(trial_file(home, name)) for name in settings.trials})
     cells = read_cells(home, settings, next(iter(trials.values())).signals.channels)
     name = Path(os.path.abspath(home)).name
     simulator = _simulator(settings, file, next(iter(trials.values())), run_programs)
-    case = case_of(settings, file, name, trials, tables)
+    case = case_of(settings, parameters, file, name, trials, tables)
     return replace(case, meshes=_meshes(home, settings), cells=cells, simulator=simulator)
 
 
 def case_of(
-    settings: CaseSettings, file: Path, name: str, trials: Mapping[str, TrialTable], tables: Mapping[str, pd.DataFrame]
+    settings: CaseSettings,
+    parameters: tuple[Parameter, ...],
+    file: Path,
+    name: str,
+    trials: Mapping[str, TrialTable],
+    tables: Mapping[str, pd.DataFrame],
 ) -> GapCase:
     """Case of that name without meshes and cells: settings that `file` holds, trials that are alike, and tables."""
     return GapCase(
@@ -81,7 +87,7 @@ def case_of(
         system=settings.system,
         calibration=tuple(_trial(each, trials[each], settings) for each in settings.calibration),
         evaluation=tuple(_trial(each, trials[each], settings) for each in settings.evaluation),
-        parameters=parameters_of(settings, file),
+        parameters=parameters,
         constants=dict(settings.constants),
         noise=noise_in_si(_told(settings.noise, file), trials, file),
         tables=tables,

@@ -9,12 +9,12 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
+from geocontact.io.case_cells import AREA, PLACE
 from geocontact.io.side_table import read_side_table
 from geocontact.io.tables import listed
 from geocontact.io.trial_table import read_trial
 
 CELLS, FRAMES = "cells.csv", "frames_cells.csv"
-PLACE, AREA = ("x [m]", "y [m]", "z [m]"), "area [m^2]"
 
 
 @dataclass(frozen=True, eq=False)
