@@ -18,6 +18,7 @@ from jaxtyping import Float
 from geocontact.chain.history import between
 from geocontact.chain.implicit import ATTEMPTS, SLOPE, TOLERANCE, next_load, nothing_known, start_over
 from geocontact.chain.interface_law import MEMORY, interface_force
+from geocontact.chain.single_deflection import gives_way
 from geocontact.chain.slots import Slots
 from geocontact.chain.terms.dry_friction import friction_at_rate, friction_state
 from geocontact.geometry.kernels.compile import kernel
@@ -98,13 +99,6 @@ def support(angle: float, table: Float[np.ndarray, "two k"], state: Float[np.nda
 
 
 @kernel
-def gives_way(force: float, n: Float[np.ndarray, " slots"]) -> float:
-    """Deflection by which a spring in series gives way to `force` [m]."""
-    share = force / n[13]
-    return float(n[11] * n[13] * (share if n[12] == 1.0 else np.sign(share) * abs(share) ** n[12]))
-
-
-@kernel
 def interface(
     u: float,
     rate: float,
@@ -123,7 +117,7 @@ def interface(
     start_over(inner)
     guess = before[FORCE] if h > 0.0 else force
     for _ in range(ATTEMPTS):
-        given = gives_way(guess, n)
+        given = gives_way(guess, n[11:14])
         speed = rate - (given - before[GIVEN]) / h if h > 0.0 else rate
         force = interface_force(u - given, speed, h, law, old, new)
         if abs(guess - force) <= 1e-2 * TOLERANCE * max(abs(force), n[13]):
@@ -168,7 +162,7 @@ def acceleration(
     if n[18] != 0.0:
         torque -= n[18] * sin(angle + n[19])
     after[ANGLE], after[RATE], after[FRICTION], after[FORCE] = angle, rate, friction, force
-    after[GIVEN] = gives_way(force, n) if n[11] != 0.0 else 0.0
+    after[GIVEN] = gives_way(force, n[11:14]) if n[11] != 0.0 else 0.0
     return torque / (n[3] + n[20]), known
 
 
