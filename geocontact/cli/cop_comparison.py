@@ -12,8 +12,7 @@ from jaxtyping import Float, Int
 from geocontact.cli.cop import CopOptions
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.wrench import Wrench
-from geocontact.io.force_plates import ForcePlate, read_force_plates
+from geocontact.io.force_plates import ForcePlate, plate_named, read_force_plates
 from geocontact.io.poses import read_pose
 from geocontact.loads.centre_of_pressure import CentreOfPressure
 
@@ -38,7 +37,7 @@ def chosen_plate(record: Record, o: CopOptions) -> ForcePlate | None:
             if value is not None:
                 raise InputError("", option, "does nothing without --compare", "name the file of force plates")
         return None
-    plate = _named(read_force_plates(o.compare), o)
+    plate = plate_named(read_force_plates(o.compare), o.plate, o.compare, "--plate")
     record.add_input("--compare", o.compare, plate=plate.name)
     if o.plate_pose is None:
         return plate
@@ -58,11 +57,9 @@ def plate_curves(
         what = f"runs from {plate.time[0]:g} to {plate.time[-1]:g} s, the motion from {time[0]:g} to {time[-1]:g} s"
         raise InputError(path, plate.name, what, "shift the clock of one of them")
     _refuse_other_frame(path, plate, ours)
-    about = plate.wrench.moved_to(np.zeros(3))
-    force, moment = (_interpolated(time[inside], plate.time, values) for values in (about.force, about.moment))
-    wrench = Wrench(force, moment, np.zeros_like(force), about.frame)
+    wrench = plate.at(time[inside])
     centre = wrench.centre_of_pressure(plate.point, plate.normal, o.gate)
-    return PlateCurves(inside, force, centre, wrench.free_moment(centre, plate.normal))
+    return PlateCurves(inside, wrench.force, centre, wrench.free_moment(centre, plate.normal))
 
 
 def comparison_table(time: Float[np.ndarray, " t"], ours: CentreOfPressure, plate: PlateCurves) -> pd.DataFrame:
@@ -86,31 +83,9 @@ def root_mean_squares(table: pd.DataFrame) -> dict[str, float | None]:
     }
 
 
-def _named(plates: tuple[ForcePlate, ...], o: CopOptions) -> ForcePlate:
-    names = [plate.name for plate in plates]
-    path = o.compare or Path()
-    if o.plate is None:
-        if len(plates) == 1:
-            return plates[0]
-        raise InputError(path, "", f"holds {len(plates)} plates: {', '.join(names)}", "pass --plate NAME or its number")
-    if o.plate in names:
-        return plates[names.index(o.plate)]
-    if o.plate.isdecimal() and 1 <= int(o.plate) <= len(plates):
-        return plates[int(o.plate) - 1]
-    raise InputError(
-        path, "--plate", f"no plate {o.plate!r}", f"plates are: {', '.join(names)} (or 1 to {len(plates)})"
-    )
-
-
 def _refuse_other_frame(path: Path, plate: ForcePlate, ours: CentreOfPressure) -> None:
     normals = ours.normal[np.isfinite(ours.normal[:, 0])]
     if len(normals) and float((normals @ plate.normal).mean()) < ALIGNED:
         mine, theirs = (", ".join(f"{value:.2f}" for value in n) for n in (normals.mean(axis=0), plate.normal))
         what = f"its normal is ({theirs}), that of our ground ({mine})"
         raise InputError(path, plate.name, what, "give the pose of the plates' frame in ours with --plate-pose")
-
-
-def _interpolated(
-    at: Float[np.ndarray, " f"], time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t 3"]
-) -> Float[np.ndarray, "f 3"]:
-    return np.column_stack([np.interp(at, time, column) for column in values.T])

@@ -1,4 +1,4 @@
-"""Mats and inputs of several trials brought together into a gap case: reads, matches cells, writes, says so."""
+"""What was recorded of several trials brought together into a gap case: reads, matches cells, writes, says so."""
 
 from __future__ import annotations
 
@@ -8,22 +8,21 @@ from pathlib import Path
 
 import numpy as np
 
+from geocontact.cli.gap_gathered_channels import with_mat, with_plate, with_sides
 from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.data.cell_channels import CellChannels, CellTrial
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.io.case_consistency import parameters_of
-from geocontact.io.csv_text import Column
 from geocontact.io.gap_case import case_of, read_gap_case
 from geocontact.io.gap_case_writer import write_gap_case
 from geocontact.io.gathering import Gathering, read_gathering
 from geocontact.io.mat_results import CELLS, FRAMES, MatResult, read_mat_result
 from geocontact.io.side_table import read_side_table
 from geocontact.io.trial_set import alike
-from geocontact.io.trial_table import TrialTable, read_trial
+from geocontact.io.trial_table import read_trial
 
-SHARED = 0.5  # of a trial's samples that the mat must have been recorded at
 ELSEWHERE = 0.01  # m, that a cell may lie away from where it lies on average without a word
 
 
@@ -37,8 +36,8 @@ def gathered(path: Path, out: Path) -> int:
         write_gap_case(case, draft)
         read_gap_case(draft)
         record.write(draft)
-    sites = ", ".join(f"{site} ({len(own.ids)} cells)" for site, own in case.cells.items())
-    record.say(f"{len(plan.settings.trials)} trials with {sites} in {out}; next: geocontact gap diagnose {out} --out …")
+    sites = "".join(f", {site} ({len(own.ids)} cells)" for site, own in case.cells.items())
+    record.say(f"{len(plan.settings.trials)} trials{sites} in {out}; next: geocontact gap diagnose {out} --out …")
     record.speak()
     return 0
 
@@ -52,7 +51,11 @@ def _case(record: Record, path: Path, plan: Gathering, out: Path) -> GapCase:
         table = read_trial(source.inputs)
         record.add_input(name, source.inputs, samples=len(table.signals.time))
         for site, own in mats.items():
-            table = _with_force(table, site, own[name])
+            table = with_mat(table, site, own[name])
+        if source.plate is not None:
+            table = with_plate(record, name, table, source.plate)
+        if source.sides is not None:
+            table = with_sides(record, name, table, source.sides)
         trials[name] = table
     tables = {key: read_side_table(path.parent / file) for key, file in plan.settings.tables.items()}
     parameters = parameters_of(plan.settings, path)
@@ -88,25 +91,6 @@ def _alike(record: Record, site: str, mats: Mapping[str, MatResult]) -> dict[str
             what = f"{len(own.cells) - len(common)} cells of {site} in {name} are not in every trial"
             record.warn(f"{what} and left out, with {lost:.1%} of its force")
     return found
-
-
-def _with_force(table: TrialTable, site: str, mat: MatResult) -> TrialTable:
-    """The trial with the mat's force at its own times, nothing where the mat was not recorded."""
-    name, signals = f"{site}_force", table.signals
-    if name in signals.channels:
-        raise InputError(table.file, "line 1", f"has a column '{name}' already", "strike it, or leave the mat out")
-    force = np.interp(signals.time, mat.time, mat.force, np.nan, np.nan)
-    if np.isfinite(force).mean() < SHARED:
-        what = f"runs from {signals.time[0]:g} to {signals.time[-1]:g} s, the mat in {mat.folder.name}"
-        times = f"{mat.time[0]:g} to {mat.time[-1]:g} s"
-        raise InputError(table.file, "", f"{what} from {times}", "put both on one clock")
-    widened = replace(
-        signals,
-        values=np.column_stack([signals.values, force]),
-        channels=(*signals.channels, name),
-        units=(*signals.units, "N"),
-    )
-    return replace(table, signals=widened, columns=(*table.columns, Column(name, "N", "N", 1.0)))
 
 
 def _cells(record: Record, site: str, mats: Mapping[str, MatResult]) -> CellChannels:

@@ -52,6 +52,15 @@ class ForcePlate:
         """Centre of pressure on the plate's surface [m]; NaN where the normal force is below `gate` [N]."""
         return self.wrench.centre_of_pressure(self.point, self.normal, gate)
 
+    def at(self, time: Float[np.ndarray, " f"]) -> Wrench:
+        """Reaction at other times [s], linear between samples, moment about the frame's origin; NaN outside its own."""
+        about = self.wrench.moved_to(np.zeros(3))
+        force, moment = (
+            np.column_stack([np.interp(time, self.time, column, np.nan, np.nan) for column in values.T])
+            for values in (about.force, about.moment)
+        )
+        return Wrench(force, moment, np.zeros_like(force), about.frame)
+
     def free_moment(self, gate: float = LOADED) -> Float[np.ndarray, " t"]:
         """Moment about the plate's normal through the centre of pressure [N m]; NaN below the gate."""
         return self.wrench.free_moment(self.centre_of_pressure(gate), self.normal)
@@ -65,6 +74,25 @@ def read_force_plates(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
     if suffix in (".mot", ".sto"):
         return _from_table(read_table(path))
     raise InputError(path, "", f"'{suffix}' is not a file of ground reactions", "give a .mot, .sto or .c3d file")
+
+
+def plate_named(plates: tuple[ForcePlate, ...], name: str | None, path: Path, option: str) -> ForcePlate:
+    """The plate of this name or number, counted from 1; the only one where none is named.
+
+    `option` is how the user names one, for messages.
+    """
+    names = [plate.name for plate in plates]
+    if name is None:
+        if len(plates) == 1:
+            return plates[0]
+        remedy = f"pass {option} NAME or its number"
+        raise InputError(path, "", f"holds {len(plates)} plates: {', '.join(names)}", remedy)
+    if name in names:
+        return plates[names.index(name)]
+    if name.isdecimal() and 1 <= int(name) <= len(plates):
+        return plates[int(name) - 1]
+    remedy = f"plates are: {', '.join(names)} (or 1 to {len(plates)})"
+    raise InputError(path, option, f"no plate {name!r}", remedy)
 
 
 def _from_table(table: Table) -> tuple[ForcePlate, ...]:

@@ -6,22 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from os import fspath
 from pathlib import Path
-from typing import Any
 
 from geocontact.data.errors import InputError
 from geocontact.io.case_consistency import KNOWN_SYSTEMS, check_settings
 from geocontact.io.case_settings import LARGEST_SETTINGS, CaseSettings, settings_of
 from geocontact.io.toml_text import toml_of
-
-EXAMPLE = '[from.t01] with inputs = "t01.csv" and thigh = "results/t01_thigh"'
-
-
-@dataclass(frozen=True)
-class Source:
-    """Where one trial comes from: the file of its inputs, and the folder of each site's mat."""
-
-    inputs: Path
-    mats: Mapping[str, Path]
+from geocontact.io.trial_sources import EXAMPLE, Source, source_of
 
 
 @dataclass(frozen=True)
@@ -54,17 +44,4 @@ def read_gathering(path: Path) -> Gathering:
         if name not in settings.trials:
             what = "neither calibration nor evaluation lists this trial"
             raise InputError(path, f"[from.{name}]", what, f"trials are {', '.join(settings.trials[:30])}")
-    return Gathering(settings, {name: _source(path, name, told[name]) for name in settings.trials})
-
-
-def _source(path: Path, trial: str, given: Any) -> Source:
-    place = f"[from.{trial}]"
-    if not isinstance(given, dict) or "inputs" not in given or len(given) < 2:
-        raise InputError(path, place, "names no inputs and no mat", f"write {EXAMPLE}")
-    for key, value in given.items():
-        if not isinstance(value, str) or not value.strip():
-            raise InputError(path, f"{place} {key}", f"is {value!r:.60}", "write a path in quotes")
-        if key != "inputs" and not key.isidentifier():
-            raise InputError(path, f"{place} {key}", "is no name of a site", "letters, digits and _")
-    paths = {key: path.parent / value for key, value in given.items()}
-    return Source(paths.pop("inputs"), paths)
+    return Gathering(settings, {name: source_of(path, name, told[name]) for name in settings.trials})
