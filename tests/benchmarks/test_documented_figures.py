@@ -102,3 +102,28 @@ def test_mats() -> None:
         shown = [cell.rpartition(" ")[0] for cell in row(page, label)]
         values = (exact[key], off[key]["mean"], off[key]["95 %"], scan[key]["mean"], scan[key]["95 %"])
         assert all(near(text, value) for text, value in zip(shown, values, strict=True))
+
+
+def test_gaps_of_real_recordings() -> None:
+    """Every row of the page's tables; rows of one name are told apart by the section they stand in."""
+    units = {"force_medial": 1.0, "force_lateral": 1.0, "force_x": 1.0, "force_y": 1.0, "cop_x": 1e3}
+    text = (ROOT / "docs" / "reference" / "gap_real_data.md").read_text(encoding="utf-8")
+    sections = {"knee": "## Knee", "overground": "### Overground", "treadmill": "### Treadmill"}
+    for subject, variants in results("real_gaps")["cases"].items():
+        part = text.partition(sections[subject])[2].partition("\n## " if subject == "knee" else "\n##")[0]
+        shown = [[cell.strip() for cell in line.strip("|").split("|")] for line in part.splitlines() if "|" in line]
+        for name, said in variants.items():
+            (cells,) = [each[1:] for each in shown if each[0] == name]
+            assert cells[0] == said["verdict"] and cells[1] == (", ".join(said["effects"]) or "–")
+            assert near(cells[2], said["probabilities"].get("unknown", 0.0))
+            for k, (channel, gap) in enumerate(said["gap"].items()):
+                errors = zip(cells[3 + 2 * k].split(", "), (gap["rmse_before"], gap["noise_floor"]), strict=True)
+                assert all(near(text, value, units[channel]) for text, value in errors), (name, channel)
+                taken = cells[4 + 2 * k]
+                if taken == "–":
+                    assert gap["reduction"] == 0.0
+                    continue
+                printed = taken.replace("(", "").replace(")", "").replace("… ", "").split()
+                assert all(map(near, printed, (gap["reduction"], *gap["ci95"]))), (name, channel)
+    belt = results("real_gaps")["cases"]["treadmill"]["as stated"]["made"]["belt_m_per_s"]
+    assert f"the belt runs at {belt:.2f} m/s" in text
