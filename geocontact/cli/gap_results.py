@@ -73,6 +73,9 @@ def gap_map_table(findings: Findings) -> pd.DataFrame:
             "gap": [c.gap for c in findings.cells],
             "gap_unit": [system.unit(c.channel) for c in findings.cells],
             "share [-]": [c.share for c in findings.cells],
+            "share_low [-]": [c.ci95[0] for c in findings.cells],
+            "share_high [-]": [c.ci95[1] for c in findings.cells],
+            "floor [-]": [c.floor for c in findings.cells],
             "p_value [-]": [c.p_value for c in findings.cells],
         }
     )

@@ -18,7 +18,8 @@ from geocontact.gap.admission import admitted
 from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.evidence import Judged, prior_spread
 from geocontact.gap.leave_one_out import TrialGain, leave_one_out
-from geocontact.gap.locate import Cell, gap_map, windows
+from geocontact.gap.locate import gap_map, windows
+from geocontact.gap.map_cell import Cell
 from geocontact.gap.next_experiment import next_experiment
 from geocontact.gap.on_surface import SurfaceGap, on_surface
 from geocontact.gap.refit import free

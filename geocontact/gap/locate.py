@@ -1,16 +1,16 @@
-"""Where the gap lies: over channel and phase, state (each input, its rate, the load), and frequency band.
+"""Where the gap lies: over channel and phase and state (each input, its rate, the load).
 
 The residual of the base model, its trial-to-trial part taken off, is summed over blocks inside trials, longer than the
 noise remembers. A cell's statistic is its sum over blocks in units of the root of the summed squares. Under no gap each
 block's sign is arbitrary: flipping them at random gives the distribution of the largest statistic over the whole map,
-so that the p-values hold for the family of all cells (Nichols & Holmes, Hum. Brain Mapp. 15:1, 2002). The energy in
-each frequency band is compared with that of noise drawn from the fitted levels, all bands and channels one family.
+so that the p-values hold for the family of all cells (Nichols & Holmes, Hum. Brain Mapp. 15:1, 2002). Of the squared
+residual along an axis, what is left when the squared means (their variance taken off) are taken away is the floor: with
+it the parts add up to the whole. Intervals of the shares are from blocks drawn anew within each trial.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float
@@ -18,6 +18,8 @@ from jaxtyping import Float
 from geocontact.chain.movement import recorded
 from geocontact.gap.evidence import Judged
 from geocontact.gap.faults import Fault
+from geocontact.gap.frequency_map import frequency_map
+from geocontact.gap.map_cell import Cell, shares
 from geocontact.gap.mending import put_back
 from geocontact.gap.problem import Problem, noise_variance
 
@@ -25,36 +27,10 @@ PHASES = 20
 BINS = 6
 BLOCKS = 16  # per trial
 FLIPS = 2000
-DRAWS = 200
-BANDS = (0.0, 1.0, 5.0, np.inf)  # Hz
+RESAMPLED = 400  # times that blocks are drawn anew
 HOLDS = 0.70  # of the squared gap lies in the window that is reported
 GRID = 101
 SMOOTHED = 0.025  # of a trial, over which a residual is smoothed
-
-
-@dataclass(frozen=True)
-class Cell:
-    """One cell of the map.
-
-    Parameters
-    ----------
-    channel, axis, low, high
-        Of an output, over "phase", an input, its rate, "load", or "band" [Hz], between these values, SI.
-    gap
-        Mean residual there [the channel's unit]; for a band the root mean square.
-    share
-        Of the channel's squared gap along this axis, noise taken off.
-    p_value
-        Family-wise.
-    """
-
-    channel: str
-    axis: str
-    low: float
-    high: float
-    gap: float
-    share: float
-    p_value: float
 
 
 @dataclass(frozen=True)
@@ -69,7 +45,8 @@ class Window:
 
 def gap_map(problem: Problem, base: Judged) -> tuple[Cell, ...]:
     """Every cell, all trials."""
-    return (*_means(problem, base), *_bands(problem, base))
+    residuals = _deviations_off(problem, base)
+    return (*_means(problem, base, residuals), *frequency_map(problem, base, residuals))
 
 
 def windows(
@@ -159,43 +136,73 @@ def _deviations_off(problem: Problem, base: Judged) -> list[Float[np.ndarray, "_
     return left
 
 
-def _means(problem: Problem, base: Judged) -> list[Cell]:
+def _means(problem: Problem, base: Judged, residuals: list[Float[np.ndarray, "_ c"]]) -> list[Cell]:
     trials = problem.calibration.trials + problem.evaluation.trials
     present = problem.calibration.present + problem.evaluation.present
-    residuals = _deviations_off(problem, base)
-    axes = _axes(problem, base)
-    columns, where = [], []
-    for c, name in enumerate(problem.system.outputs):
-        for axis, values, edges in axes:
-            which = [np.clip(np.searchsorted(edges, v, side="right") - 1, 0, len(edges) - 2) for v in values]
-            for b in range(len(edges) - 1):
-                sums = []
-                inside_count, total = 0, 0.0
-                for trial, residual, there, own in zip(trials, residuals, present, which, strict=True):
-                    inside = there[:, c] & (own == b)
-                    block = np.minimum(np.arange(len(trial)) * BLOCKS // len(trial), BLOCKS - 1)
-                    sums.append(np.bincount(block[inside], residual[inside, c], BLOCKS))
-                    inside_count += int(inside.sum())
-                    total += float(residual[inside, c].sum())
-                if inside_count:
-                    columns.append(np.concatenate(sums))
-                    where.append((name, axis, float(edges[b]), float(edges[b + 1]), total / inside_count, inside_count))
-    table = np.array(columns).T
-    size = np.sqrt((table**2).sum(axis=0))
-    size[size == 0.0] = np.inf
-    signs = np.random.default_rng(0).choice([-1.0, 1.0], (FLIPS, len(table)))
-    largest = np.abs(signs @ (table / size)).max(axis=1)
-    statistic = np.abs((table / size).sum(axis=0))
-    p_values = (1.0 + (largest[:, None] >= statistic).sum(axis=0)) / (1.0 + FLIPS)
-    variance = size**2 / np.array([w[5] for w in where]) ** 2
-    squares = np.maximum(np.array([w[4] for w in where]) ** 2 - np.where(np.isfinite(variance), variance, 0.0), 0.0)
-    weights = squares * np.array([w[5] for w in where])
+    blocks = [np.minimum(np.arange(len(t)) * BLOCKS // len(t), BLOCKS - 1) for t in trials]
+    rng = np.random.default_rng(0)
     cells = []
-    for i, (name, axis, low, high, gap, _) in enumerate(where):
-        family = sum(weights[k] for k, w in enumerate(where) if w[0] == name and w[1] == axis)
-        share = float(weights[i] / family) if family > 0.0 else 0.0
-        cells.append(Cell(name, axis, low, high, gap, share, float(p_values[i])))
-    return cells
+    for axis, values, edges in _axes(problem, base):
+        which = [np.clip(np.searchsorted(edges, v, side="right") - 1, 0, len(edges) - 2) for v in values]
+        for c, name in enumerate(problem.system.outputs):
+            sums, counts = (np.zeros((len(trials), BLOCKS, len(edges) - 1)) for _ in range(2))
+            total = 0.0
+            for i, (residual, there, own) in enumerate(zip(residuals, present, which, strict=True)):
+                rows = np.flatnonzero(there[:, c])
+                np.add.at(sums[i], (blocks[i][rows], own[rows]), residual[rows, c])
+                np.add.at(counts[i], (blocks[i][rows], own[rows]), 1.0)
+                total += float((residual[rows, c] ** 2).sum())
+            cells += [_Sums(name, axis, edges, sums, counts, total)]
+    p_values = _family_wise([each.sums.reshape(-1, each.sums.shape[-1]) for each in cells])
+    return [cell for each, p in zip(cells, p_values, strict=True) for cell in each.cells(p, rng)]
+
+
+@dataclass(frozen=True)
+class _Sums:
+    """Residual of a channel along an axis: sums and counts of the bins, block by block, and its sum of squares."""
+
+    channel: str
+    axis: str
+    edges: Float[np.ndarray, " e"]
+    sums: Float[np.ndarray, "i k b"]
+    counts: Float[np.ndarray, "i k b"]
+    total: float
+
+    def cells(self, p_values: Float[np.ndarray, " b"], rng: np.random.Generator) -> list[Cell]:
+        """Those that were measured in."""
+        count = self.counts.sum(axis=(0, 1))
+        squares = systematic(self.sums, self.counts)
+        some = rng.integers(BLOCKS, size=(RESAMPLED, *self.sums.shape[:2]))
+        trial = np.arange(len(self.sums))[:, None]
+        drawn = np.array([shares(systematic(self.sums[trial, k], self.counts[trial, k])) for k in some])
+        low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
+        share, floor = shares(squares), 1.0 - float(squares.sum()) / max(self.total, 1e-300)
+        mean = self.sums.sum(axis=(0, 1)) / np.maximum(count, 1.0)
+        return [
+            Cell(
+                self.channel, self.axis, float(self.edges[b]), float(self.edges[b + 1]), float(mean[b]),
+                float(share[b]), float(p_values[b]), (float(low[b]), float(high[b])), floor,
+            )
+            for b in np.flatnonzero(count)
+        ]  # fmt: skip
+
+
+def systematic(sums: Float[np.ndarray, "i k b"], counts: Float[np.ndarray, "i k b"]) -> Float[np.ndarray, " b"]:
+    """Squared gap of each bin: its mean squared, less the variance of the mean, for every sample."""
+    count = np.maximum(counts.sum(axis=(0, 1)), 1.0)
+    return np.asarray(np.maximum(sums.sum(axis=(0, 1)) ** 2 - (sums**2).sum(axis=(0, 1)), 0.0) / count)
+
+
+def _family_wise(tables: list[Float[np.ndarray, "k _"]]) -> list[Float[np.ndarray, " _"]]:
+    """p of every column of block sums, by flipping the signs of all blocks of a map."""
+    together = np.concatenate(tables, axis=1)
+    size = np.sqrt((together**2).sum(axis=0))
+    size[size == 0.0] = np.inf
+    signs = np.random.default_rng(0).choice([-1.0, 1.0], (FLIPS, len(together)))
+    largest = np.abs(signs @ (together / size)).max(axis=1)
+    statistic = np.abs((together / size).sum(axis=0))
+    p_values = (1.0 + (largest[:, None] >= statistic).sum(axis=0)) / (1.0 + FLIPS)
+    return np.split(p_values, np.cumsum([table.shape[1] for table in tables])[:-1])
 
 
 def _axes(problem: Problem, base: Judged) -> list[tuple[str, list[np.ndarray], Float[np.ndarray, " e"]]]:
@@ -216,41 +223,3 @@ def _axes(problem: Problem, base: Judged) -> list[tuple[str, list[np.ndarray], F
 def _quantiles(values: list[np.ndarray]) -> Float[np.ndarray, " e"]:
     together = np.concatenate(values)
     return np.unique(np.quantile(together[np.isfinite(together)], np.linspace(0.0, 1.0, BINS + 1)))
-
-
-def _bands(problem: Problem, base: Judged) -> list[Cell]:
-    trials = problem.calibration.trials + problem.evaluation.trials
-    channels = problem.system.outputs
-    seen = np.array([_energies(t.time, r) for t, r in zip(trials, _deviations_off(problem, base), strict=True)])
-    rng = np.random.default_rng(0)
-    drawn = np.zeros((DRAWS, len(trials), len(channels), len(BANDS) - 1))
-    for i, (trial, whitener, residual) in enumerate(
-        zip(trials, base.noise.whiteners, base.model.residuals, strict=True)
-    ):
-        rows = np.concatenate(whitener.rows)
-        for k in range(DRAWS):
-            flat = np.zeros(residual.size)
-            flat[rows] = whitener.coloured(rng.standard_normal(len(rows)))
-            drawn[k, i] = _energies(trial.time, flat.reshape(residual.shape))
-    energy, null = seen.mean(axis=0), drawn.mean(axis=1)
-    middle, spread = null.mean(axis=0), np.maximum(null.std(axis=0), 1e-300)
-    largest = ((null - middle) / spread).max(axis=(1, 2))
-    cells = []
-    excess = np.maximum(energy - middle, 0.0)
-    for c, name in enumerate(channels):
-        total = float(excess[c].sum())
-        for b in range(len(BANDS) - 1):
-            p = (1.0 + float((largest >= (energy[c, b] - middle[c, b]) / spread[c, b]).sum())) / (1.0 + DRAWS)
-            share = float(excess[c, b] / total) if total > 0.0 else 0.0
-            cells.append(Cell(name, "band", BANDS[b], BANDS[b + 1], float(energy[c, b] ** 0.5), share, p))
-    return cells
-
-
-def _energies(time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "c b"]:
-    """Mean square of every channel in every band; missing samples count as 0."""
-    step = (time[-1] - time[0]) / (len(time) - 1)
-    power = np.abs(np.fft.rfft(np.nan_to_num(values), axis=0)) ** 2 / len(time) ** 2
-    power[1:] *= 2.0
-    frequency = np.fft.rfftfreq(len(time), step)
-    bands = [power[(frequency >= low) & (frequency < high)].sum(axis=0) for low, high in pairwise(BANDS)]
-    return np.array(bands).T

@@ -34,7 +34,7 @@ CELLS = 12  # of the gap map that the page lists
 WORDS = {"explained": "explained", "no_gap": "no gap", "unknown": "unknown", "unresolved": "unresolved"}
 MAP = (
     "Share of each channel's squared residual over the phase of the trial, over inputs, their rates and the load (cut "
-    "at quantiles), and over frequency bands; all trials, base model."
+    "at quantiles), over frequency bands, and over the phase again of what is faster than 5 Hz; all trials, base model."
 )
 RANKING = "Gain of evidence over the base model of every model that was tried, in nats."
 RESIDUALS = (
@@ -274,11 +274,15 @@ def _cells_table(findings: Findings) -> Table:
     rows = [
         (
             c.channel, c.axis, f"{c.low:.4g} … {c.high:.4g} {units.get(c.axis, '')}".replace("inf", "∞"),
-            f"{percent(c.share)} %", f"{c.p_value:.2g}",
+            f"{percent(c.share)} %", " … ".join(percent(part) for part in c.ci95) + " %", f"{percent(c.floor)} %",
+            f"{c.p_value:.2g}",
         )
         for c in cells[:CELLS]
     ]  # fmt: skip
-    header = ("channel", "along", "between", "share of the channel's gap", "p, whole map")
+    header = (
+        "channel", "along", "between", "share of the channel's gap", "95 % interval",
+        "floor: of the squared residual, no gap", "p, whole map",
+    )  # fmt: skip
     return Table(f"Gap map: {len(rows)} of {len(cells)} significant cells", header, rows)
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, NextExperiment, Where
-from geocontact.gap.locate import Cell
+from geocontact.gap.frequency_map import BAND, FAST_PHASE
+from geocontact.gap.map_cell import Cell
 
 SIGNIFICANT = 0.05  # family-wise
 TELLING = 0.35  # share of a channel's gap along one axis that a part of its range must hold to be named
@@ -48,7 +49,7 @@ def on_mat(held: CellsHeld | None) -> list[str]:
 def states(channel: str, cells: Sequence[Cell]) -> list[str]:
     """Parts of the inputs, of their rates and of the load that hold most of a channel's gap, the fullest first."""
     found: list[tuple[float, str]] = []
-    axes = dict.fromkeys(c.axis for c in cells if c.channel == channel and c.axis not in ("phase", "band"))
+    axes = dict.fromkeys(c.axis for c in cells if c.channel == channel and c.axis not in ("phase", BAND, FAST_PHASE))
     for axis in axes:
         own = sorted((c for c in cells if c.channel == channel and c.axis == axis), key=lambda c: c.low)
         words = ["low", "middle", "high"]

@@ -128,7 +128,7 @@ def test_tables_agree_with_the_answer(diagnosed: Call, answer: dict[str, Any]) -
     )
     assert told.sum() <= 1.0 + 1e-9
     cells = diagnosed.table("gap_map.csv")
-    assert {"phase", "beta", "beta'", "load", "band"} == set(cells["axis"])
+    assert {"phase", "beta", "beta'", "load", "band", "fast phase"} == set(cells["axis"])
     sums = cells.groupby(["channel", "axis"])["share [-]"].sum()
     assert all(value == pytest.approx(1.0) or value == 0.0 for value in sums)
     assert cells["p_value [-]"].min() == pytest.approx(answer["where"][0]["p_value"])

@@ -19,7 +19,8 @@ from geocontact.gap.contest import base_contender, singles
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.evidence import judged
 from geocontact.gap.form import forms
-from geocontact.gap.locate import Cell, Window, gap_map, windows
+from geocontact.gap.locate import Window, gap_map, windows
+from geocontact.gap.map_cell import Cell
 from geocontact.gap.oddities import oddities
 from geocontact.gap.problem import problem_of
 from geocontact.gap.surrogate import Surrogate, surrogate
@@ -167,6 +168,20 @@ class Bump:
 
     def __call__(self, _: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
         return force + self.size * np.exp(-0.5 * ((time - self.time) / self.width) ** 2)
+
+
+@dataclass(frozen=True)
+class Swing:
+    """An oscillation [Hz] between two times [s] only, at another phase in each trial."""
+
+    begin: float
+    end: float
+    size: float
+    frequency: float
+
+    def __call__(self, name: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+        inside = (time >= self.begin) & (time < self.end)
+        return force + self.size * np.sin(2.0 * np.pi * self.frequency * time + float(name[1:])) * inside
 
 
 @dataclass(frozen=True)

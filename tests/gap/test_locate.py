@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.gap.locate import Cell, Window, shortest
+from geocontact.gap.locate import BLOCKS, Window, shortest, systematic
+from geocontact.gap.map_cell import Cell
 from tests.elsewhere import Elsewhere
-from tests.gap.cases import Bump, located
+from tests.gap.cases import Bump, Swing, located
 
 Found = tuple[tuple[Cell, ...], tuple[Window, ...]]
 
@@ -45,3 +46,31 @@ def test_shares_along_an_axis_add_up(pushed: Found) -> None:
     for axis in {cell.axis for cell in cells}:
         total = sum(cell.share for cell in cells if cell.axis == axis)
         assert total == pytest.approx(1.0) or total == 0.0
+
+
+def test_what_swings_inside_a_bin_is_seen_in_the_fast_part_only(elsewhere: Elsewhere) -> None:
+    cells, _ = elsewhere(located, Swing(6.4, 7.2, 0.6, 9.0))
+    fast = [cell for cell in cells if cell.axis == "fast phase"]
+    (loud,) = (cell for cell in fast if cell.p_value <= 0.05)
+    assert (loud.low, loud.high) == (0.4, 0.45)
+    assert loud.share > 0.6 and loud.ci95[0] > 0.4
+    assert min(cell.p_value for cell in cells if cell.axis == "phase") > 0.05
+
+
+def test_shares_and_floor_make_up_the_whole(elsewhere: Elsewhere, pushed: Found) -> None:
+    cells, _ = pushed
+    for axis in ("phase", "fast phase"):
+        assert all(cell.ci95[0] <= cell.share <= cell.ci95[1] for cell in cells if cell.axis == axis)
+    quiet = next(cell.floor for cell in elsewhere(located, None)[0] if cell.axis == "phase")
+    loud = next(cell.floor for cell in cells if cell.axis == "phase")
+    assert quiet > 0.9
+    assert loud < 0.9
+
+
+def test_squares_of_means_are_without_their_variance() -> None:
+    rng = np.random.default_rng(0)
+    noise = rng.standard_normal((5, BLOCKS, 4, 400))
+    sums, counts = noise.sum(axis=-1), np.full((5, BLOCKS, 4), 400.0)
+    gap = np.array([0.0, 0.0, 0.1, 0.3])
+    found = systematic(sums + counts * gap, counts)
+    np.testing.assert_allclose(found / counts.sum(axis=(0, 1)), gap**2, atol=4e-3)

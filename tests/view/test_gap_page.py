@@ -12,7 +12,7 @@ import pytest
 from geocontact.data.diagnosis import ChannelGap, Diagnosis, Estimate, FaultFound, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings
-from geocontact.gap.locate import Cell
+from geocontact.gap.map_cell import Cell
 from geocontact.view.gap_curves import HeldOut, held_out
 from geocontact.view.gap_figures import axis_units, gap_figures, ranking
 from geocontact.view.gap_page import gap_page
@@ -142,7 +142,14 @@ def test_words_name_reservations_and_what_is_invisible(told: Told, page: Page) -
 
 
 def test_axes_have_units(told: Told) -> None:
-    assert axis_units(told[1]) == {"phase": "–", "band": "Hz", "load": "N", "beta": "rad", "beta'": "rad/s"}
+    assert axis_units(told[1]) == {
+        "phase": "–",
+        "fast phase": "–",
+        "band": "Hz",
+        "load": "N",
+        "beta": "rad",
+        "beta'": "rad/s",
+    }
 
 
 # Words of each verdict, on answers made by hand.
@@ -161,7 +168,8 @@ def said(**changes: object) -> list[str]:
 
 def rates(shares: tuple[float, ...], p_value: float = 0.001, axis: str = "beta'") -> tuple[Cell, ...]:
     """Cells along the rate of beta."""
-    return tuple(Cell("force", axis, k - 3.0, k - 2.0, 1.0, share, p_value) for k, share in enumerate(shares))
+    ends = [(k - 3.0, k - 2.0, 1.0, share, p_value, (0.0, 1.0), 0.1) for k, share in enumerate(shares)]
+    return tuple(Cell("force", axis, *each) for each in ends)
 
 
 def test_the_sentence_of_the_issue() -> None:

@@ -1,4 +1,4 @@
-"""Where a model misses the measurement: share of each channel's gap over phase, states and frequency bands."""
+"""Where a model misses the measurement: share of each channel's gap over phase, states and frequency."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geocontact.gap.locate import Cell
+from geocontact.gap.frequency_map import BAND, FAST, FAST_PHASE
+from geocontact.gap.map_cell import Cell
 from geocontact.view.curves.style import DOUBLE, SMALL, empty, in_style
 from geocontact.view.curves.text import plain
 
@@ -20,7 +21,10 @@ SIGNIFICANT = 0.05
 """Family-wise: a map without any gap has such a cell once in twenty times."""
 BESIDE = 4  # axes of states in one row
 ROW = 0.0055  # height of a channel's row [m]
+WIDE = ("phase", FAST_PHASE)  # axes with a row of their own
+ENERGIES = (BAND, FAST_PHASE)  # axes of what has no sign
 MARKS = {1: "+", -1: "−", 0: "•"}  # measured above, below the prediction; no sign
+SLENDER = 14  # times as long as it is wide the colour scale is, for each row of strips
 LIGHT = 0.55  # of the colour scale, from which marks are white
 
 
@@ -30,6 +34,7 @@ def gap_map_figure(cells: Sequence[Cell], units: Mapping[str, str]) -> Figure:
 
     The colour is the share of the channel's squared gap along the axis of the strip, noise taken off: the cells of one
     row of one strip sum to 1, or to 0 where there is no gap. States are cut at their quantiles, bands at 1 and 5 Hz.
+    What is faster than 5 Hz has a strip of its own over the phase.
 
     Parameters
     ----------
@@ -41,24 +46,30 @@ def gap_map_figure(cells: Sequence[Cell], units: Mapping[str, str]) -> Figure:
     if not cells:
         raise ValueError("cells: no map to draw")
     channels = list(dict.fromkeys(cell.channel for cell in cells))
-    others = [axis for axis in dict.fromkeys(cell.axis for cell in cells) if axis != "phase"]
-    rows = 1 + -(-len(others) // BESIDE)
+    axes = list(dict.fromkeys(cell.axis for cell in cells))
+    wide = [axis for axis in WIDE if axis in axes]
+    others = [axis for axis in axes if axis not in WIDE]
+    rows = len(wide) + -(-len(others) // BESIDE)
     figure = empty(DOUBLE, rows * (0.022 + ROW * len(channels)))
     grid = figure.add_gridspec(rows, BESIDE)
-    places = [grid[0, :], *(grid[1 + k // BESIDE, k % BESIDE] for k in range(len(others)))]
+    places = [grid[k, :] for k in range(len(wide))]
+    places += [grid[len(wide) + k // BESIDE, k % BESIDE] for k in range(len(others))]
     strips: list[Axes] = []
     pictures = []
-    for k, axis in enumerate(["phase", *others]):
+    for k, axis in enumerate([*wide, *others]):
         panel = figure.add_subplot(places[k])
         strips.append(panel)
         pictures.append(_strip(panel, [c for c in cells if c.axis == axis], channels))
-        panel.set_xlabel(plain(f"{axis} [{units[axis]}]" if axis in units else axis, 30))
-        first = k == 0 or (k - 1) % BESIDE == 0
+        label = f"phase, faster than {FAST:g} Hz" if axis == FAST_PHASE else axis
+        panel.set_xlabel(plain(f"{label} [{units[axis]}]" if axis in units else label, 30))
+        first = k < len(wide) or (k - len(wide)) % BESIDE == 0
         panel.set_yticks(range(len(channels)), [plain(name, 24) if first else "" for name in channels])
     strips[0].set_ylabel("channel")
-    bar = figure.colorbar(pictures[0], ax=strips, shrink=0.8, pad=0.01)
+    bar = figure.colorbar(pictures[0], ax=strips, shrink=0.8, pad=0.01, aspect=SLENDER * rows)
     bar.set_label("share of the channel's gap [–]")
-    note = f"+ / −: measured above / below the prediction, p ≤ {SIGNIFICANT:g} for the whole map; •: a band, p likewise"
+    note = (
+        f"+ / −: measured above / below the prediction, p ≤ {SIGNIFICANT:g} for the whole map; •: an energy, p likewise"
+    )
     figure.suptitle(note, fontsize=SMALL, x=0.01, ha="left")
     return figure
 
@@ -70,7 +81,7 @@ def _strip(panel: Axes, cells: Sequence[Cell], channels: Sequence[str]) -> AxesI
         row, column = channels.index(cell.channel), lows.index(cell.low)
         table[row, column] = cell.share
         if cell.p_value <= SIGNIFICANT:
-            sign = 0 if cell.axis == "band" else int(np.sign(cell.gap))
+            sign = 0 if cell.axis in ENERGIES else int(np.sign(cell.gap))
             colour = "white" if cell.share > LIGHT else "black"
             panel.text(column, row, MARKS[sign], ha="center", va="center", fontsize=8.0, color=colour)
     picture = panel.imshow(table, "Blues", vmin=0.0, vmax=1.0, aspect="auto", interpolation="nearest")

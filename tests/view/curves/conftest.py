@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from geocontact.gap.locate import Cell
+from geocontact.gap.map_cell import Cell
 from geocontact.view.curves.before_after import before_after
 from geocontact.view.curves.bland_altman import bland_altman
 from geocontact.view.curves.gap_map import gap_map_figure
@@ -71,17 +71,23 @@ def agreement(name: str) -> Figure:
 
 
 def gap_map(name: str) -> Figure:
-    axes = ("phase", name, f"{name}'", "load")
+    axes = ("phase", name, f"{name}'", "load", "fast phase")
     channels = (name, "force_y", "cop_x")
     cells = [
-        Cell(channel, axis, k / 6.0, (k + 1.0) / 6.0, (-1.0) ** k, 1.0 / 6.0, 0.01 if k % 2 else 0.5)
+        Cell(channel, axis, k / 6.0, (k + 1.0) / 6.0, (-1.0) ** k, 1.0 / 6.0, 0.01 if k % 2 else 0.5, (0.1, 0.2), 0.3)
         for channel in channels
         for axis in axes
         for k in range(6)
     ]
     bands = ((0.0, 1.0), (1.0, 5.0), (5.0, np.inf))
-    cells += [Cell(channel, "band", low, high, 1.0, 1.0 / 3.0, 0.01) for channel in channels for low, high in bands]
-    return gap_map_figure(cells, {"phase": "–", name: "rad", f"{name}'": "rad/s", "load": "N", "band": "Hz"})
+    cells += [
+        Cell(channel, "band", low, high, 1.0, 1.0 / 3.0, 0.01, (0.2, 0.4), 0.3)
+        for channel in channels
+        for low, high in bands
+    ]
+    return gap_map_figure(
+        cells, {"phase": "–", "fast phase": "–", name: "rad", f"{name}'": "rad/s", "load": "N", "band": "Hz"}
+    )
 
 
 def gains(name: str) -> Figure:
