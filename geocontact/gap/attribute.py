@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.contest import Contender, base_contender, mates, settled_in, singles
+from geocontact.gap.contest import Contender, base_contender, pairs, settled_in, singles
 from geocontact.gap.evidence import settled
 from geocontact.gap.faults import Fault, fault_of, recognised
+from geocontact.gap.flat_tops import FlatTop, flat_tops
 from geocontact.gap.hidden_faults import hidden_mistakes, undone
 from geocontact.gap.mending import mended
 from geocontact.gap.oddities import Oddity, oddities
@@ -23,6 +24,7 @@ FIRSTS = 3  # singles that a second effect is tried on
 LEADING = 3  # contenders under whose noise everyone is compared
 WORTH_A_PAIR = 8.0  # nats that a single must gain before a second effect is looked for
 WORTH_UNDOING = 12.0  # nats that a mistake may be behind for its noise to be looked at where it is undone
+CLIPPED = "saturation"  # what a flat top speaks for
 ODD = 5.0  # nats from which an oddity counts as something unknown
 
 Offer = Callable[[System], Sequence[Candidate]]
@@ -48,6 +50,8 @@ class Attribution:
         What the stand-in for anything unknown finds on the base ("none") and on the best contenders, by label.
     odd
         What is odd about the residual of the best model.
+    flat
+        Channels whose recordings end at a level.
     answer
         The verdict.
     """
@@ -59,6 +63,7 @@ class Attribution:
     contenders: tuple[Contender, ...]
     remaining: dict[str, Surrogate]
     odd: tuple[Oddity, ...]
+    flat: tuple[FlatTop, ...]
     answer: Answer
 
 
@@ -86,26 +91,25 @@ def _attributed(problem: Problem, fault: Fault | None, clean: Problem, offer: Of
     base = base_contender(clean)
     hidden = hidden_mistakes(clean, base.judged, candidates) if fault is None else ()
     entered = [*(one for one in candidates if one.parameters), *hidden]
-    single = singles(clean, base, entered)
+    flat = flat_tops(clean)
+    single = _with_clipped(clean, base, singles(clean, base, entered), candidates, flat)
     contenders = [*single]
     remaining = {"none": surrogate(clean, base.judged)}
     best = single[0]
     left = {best.label: surrogate(clean, best.judged)}
-    if best.judged.nats - base.judged.nats > WORTH_A_PAIR:
-        for first in _different(single)[:FIRSTS]:
-            contenders += mates(clean, first, candidates)
-        pair = max((c for c in contenders if len(c.candidates) == 2), key=lambda c: c.judged.nats, default=None)
-        if pair is not None:
-            left[pair.label] = surrogate(clean, pair.judged)
+    if best.nats - base.nats > WORTH_A_PAIR:
+        both = _credited(pairs(clean, _different(single)[:FIRSTS], candidates), flat)
+        contenders += both
+        left |= {pair.label: surrogate(clean, pair.judged) for pair in both[:1]}
     base, *contenders = compared(clean, [base, *contenders])
-    most = max(c.judged.nats for c in contenders)
+    most = max(c.nats for c in contenders)
     contenders = [
         undone(clean, case, c)
-        if c.candidates[0] in hidden and len(c.candidates) == 1 and c.judged.nats > most - WORTH_UNDOING
+        if c.candidates[0] in hidden and len(c.candidates) == 1 and c.nats > most - WORTH_UNDOING
         else c
         for c in contenders
     ]
-    top = max([base, *contenders], key=lambda c: c.judged.nats)
+    top = max([base, *contenders], key=lambda c: c.nats)
     odd = tuple(each for each in oddities(clean, top.judged) if each.nats > ODD)
     share = base.judged.fitted_rows / len(base.judged.model.whitened)
     strange = float(sum(each.nats for each in odd))
@@ -114,7 +118,7 @@ def _attributed(problem: Problem, fault: Fault | None, clean: Problem, offer: Of
     said = answer(base, contenders, share, unnamed, strange, over, Counter(one.name for one in entered))
     if fault is not None:
         said = with_mistake(said, fault.candidate.name)
-    return Attribution(problem, fault, clean, base, tuple(contenders), {**remaining, **left}, odd, said)
+    return Attribution(problem, fault, clean, base, tuple(contenders), {**remaining, **left}, odd, flat, said)
 
 
 def _believed(found: Surrogate, share: float) -> float:
@@ -124,11 +128,33 @@ def _believed(found: Surrogate, share: float) -> float:
 
 def compared(problem: Problem, contenders: Sequence[Contender]) -> list[Contender]:
     """Everyone under the noise of everyone who leads, and of the base, which comes first."""
-    ranked = sorted(contenders[1:], key=lambda c: -c.judged.nats)
+    ranked = sorted(contenders[1:], key=lambda c: -c.nats)
     leading = {c.label: settled_in(problem, c) for c in ranked[:LEADING]}
     noises = [contenders[0].judged.noise, *(c.judged.noise for c in leading.values())]
     everyone = [leading.get(c.label, c) for c in contenders]
     return [replace(c, judged=settled(problem, c.judged, noises)) for c in everyone]
+
+
+def _with_clipped(
+    problem: Problem,
+    base: Contender,
+    contenders: Sequence[Contender],
+    candidates: Sequence[Candidate],
+    flat: Sequence[FlatTop],
+) -> list[Contender]:
+    """The singles and the saturation of each channel that ends at a level, best first."""
+    channels, there = {one.channel for one in flat}, {c.label for c in contenders}
+    clipped = [one for one in candidates if one.name == CLIPPED and one.channel in channels]
+    others = [one for one in clipped if one.label not in there]
+    return _credited([*contenders, *(singles(problem, base, others) if others else ())], flat)
+
+
+def _credited(contenders: Sequence[Contender], flat: Sequence[FlatTop]) -> list[Contender]:
+    """What a flat top tells counts for the saturation of its channel; best first."""
+    told = {one.channel: one.nats for one in flat}
+    beside = [sum(told.get(one.channel, 0.0) for one in c.candidates if one.name == CLIPPED) for c in contenders]
+    found = [replace(c, beside=nats) for c, nats in zip(contenders, beside, strict=True)]
+    return sorted(found, key=lambda c: -c.nats)
 
 
 def _different(contenders: Sequence[Contender]) -> list[Contender]:

@@ -6,28 +6,39 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
 from geocontact.gap.evidence import Judged, bent_off, judged
 from geocontact.gap.form import forms
 from geocontact.gap.problem import Noise, Problem, evaluated
 from geocontact.gap.refit import Refit, free, refit
+from geocontact.gap.weighing import Weighing
 
 SECOND = 18  # candidates that are fitted again under the noise that suits the best
 FINALISTS = 6
 FORERUNNERS = 3  # leading under quiet noise
-MATE_TRIALS = 4  # second effects that are fitted on top of a first
-MATES = 2  # of these that get noise of their own
+MATE_TRIALS = 6  # second effects that are fitted on top of a first
+PAIRS = 6  # of two effects each that get noise of their own
 ROUNDS, ENOUGH = 4, 0.05  # times that noise and parameters of a leader are fitted in turn; nats from which it goes on
 FEW = 5  # free parameters up to which a joint fit also sets out from the case's own start
 
 
 @dataclass(frozen=True)
 class Contender:
-    """The base model with some candidates, judged; none of them for the base itself."""
+    """The base model with some candidates, judged; none of them for the base itself.
+
+    `beside` is what speaks for it besides its evidence [nats].
+    """
 
     candidates: tuple[Candidate, ...]
     judged: Judged
+    beside: float = 0.0
+
+    @property
+    def nats(self) -> float:
+        """Evidence, and what speaks for it besides; only differences mean anything."""
+        return self.judged.nats + self.beside
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -63,7 +74,7 @@ def settled_in(problem: Problem, one: Contender) -> Contender:
     """
     for _ in range(ROUNDS):
         model = replace(one.judged.model, residuals=bent_off(one.judged))
-        other = finished(problem, one.candidates, model, one.judged.noise)
+        other = replace(one, judged=finished(problem, one.candidates, model, one.judged.noise).judged)
         if other.judged.nats < one.judged.nats + ENOUGH:
             return one if other.judged.nats < one.judged.nats else other
         one = other
@@ -106,37 +117,57 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
     return sorted(contenders, key=lambda c: -c.judged.nats)
 
 
-def mates(problem: Problem, first: Contender, candidates: Sequence[Candidate]) -> list[Contender]:
-    """Pairs of a contender with a second candidate, best first; which to fit is told by one step of each."""
-    model, noise = first.judged.model, first.judged.noise
-    weighings = problem.fitting(noise, model)
-    rows = sum(len(w.directions) for w in weighings)
-    fitted = np.linalg.qr(model.whitened_jacobian[:rows])[0]
-    left = model.whitened[:rows] - fitted @ (fitted.T @ model.whitened[:rows])
+def pairs(problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Candidate]) -> list[Contender]:
+    """Leading contenders with a second candidate, the best pair of each two effects, best first.
+
+    Noise that was fitted to one effect explains away what the other does, so all pairs are fitted under noise no louder
+    than was told, the same for all, and the search for their own noise sets out from there; one linear step tells which
+    to fit.
+    """
+    quiet = problem.quieter(firsts[0].judged.noise)
+    best: dict[tuple[str, ...], tuple[tuple[Candidate, ...], Refit]] = {}
+    for first in firsts:
+        model = first.judged.model
+        weighings = problem.fitting(quiet, model)
+        for one in promising(problem, first, weighings, candidates):
+            starts = [{**model.values, **start} for start in one.starts]
+            both = refit(one.apply(model.system), problem.calibration, weighings, starts)
+            names = tuple(sorted((*first.names, one.name)))
+            if names not in best or both.cost < best[names][1].cost:
+                best[names] = ((*first.candidates, one), both)
+    leading = sorted(best.values(), key=lambda pair: pair[1].cost)[:PAIRS]
+    done = [finished(problem, together, model, quiet) for together, model in leading]
+    return sorted(done, key=lambda c: -c.judged.nats)
+
+
+def promising(
+    problem: Problem, first: Contender, weighings: Sequence[Weighing], candidates: Sequence[Candidate]
+) -> list[Candidate]:
+    """Second candidates whose first step explains most of what a contender leaves, base and first refitted."""
+    model = first.judged.model
     before = model.residuals[: len(weighings)]
-    promise: list[tuple[float, Candidate, Mapping[str, float]]] = []
+    fitted = np.linalg.qr(_whitened(weighings, model.jacobian[: len(weighings)]))[0]
+
+    def net(parts: Sequence[Float[np.ndarray, "_ c"]]) -> Float[np.ndarray, " n"]:
+        whole = _whitened(weighings, [part[..., None] for part in parts])[:, 0]
+        return np.asarray(whole - fitted @ (fitted.T @ whole))
+
+    left = net(before)
+    promise: dict[str, tuple[float, Candidate]] = {}
     for one in candidates:
         if not one.parameters or one.name in first.names:
             continue
         system = one.apply(model.system)
         for start in one.starts:
             after = problem.calibration.residuals(system, {**model.values, **start})
-            step = np.concatenate(
-                [w((a - b)[..., None])[:, 0] for w, a, b in zip(weighings, before, after, strict=True)]
-            )
-            step = step - fitted @ (fitted.T @ step)
+            step = net([a - b for a, b in zip(before, after, strict=True)])
             power = float(step @ step)
-            along = float(step @ left)
-            promise.append((0.5 * max(along, 0.0) ** 2 / power if power > 0.0 else 0.0, one, start))
-    promise.sort(key=lambda each: -each[0])
-    chosen: dict[str, Candidate] = {}
-    for _, one, _ in promise:
-        if len(chosen) < MATE_TRIALS:
-            chosen.setdefault(one.label, one)
-    pairs = []
-    for one in chosen.values():
-        starts = [{**model.values, **start} for start in one.starts]
-        pairs.append((one, refit(one.apply(model.system), problem.calibration, weighings, starts)))
-    pairs.sort(key=lambda pair: pair[1].cost)
-    done = [finished(problem, (*first.candidates, one), pair, noise) for one, pair in pairs[:MATES]]
-    return sorted(done, key=lambda c: -c.judged.nats)
+            gain = 0.5 * max(float(step @ left), 0.0) ** 2 / power if power > 0.0 else 0.0
+            if one.label not in promise or gain > promise[one.label][0]:
+                promise[one.label] = (gain, one)
+    ranked = sorted(promise.values(), key=lambda each: -each[0])
+    return [one for _, one in ranked[:MATE_TRIALS]]
+
+
+def _whitened(weighings: Sequence[Weighing], parts: Sequence[Float[np.ndarray, "_ c p"]]) -> Float[np.ndarray, "n p"]:
+    return np.concatenate([w(part) for w, part in zip(weighings, parts, strict=True)])

@@ -105,6 +105,7 @@ def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
         faults=_faults(found, offered),
         remarks=(
             *(f"{each.words} in {each.channel}" if each.channel else each.words for each in found.odd),
+            *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
             *(nearest(found) if said.verdict == "unknown" else ()),
         ),
         next_experiment=then,
@@ -120,8 +121,8 @@ def first_of(offered: tuple[Candidate, ...], names: list[str]) -> list[Candidate
 
 def nearest(found: Attribution) -> tuple[str, ...]:
     """In words what the model that gains most would do, where nothing was named although it gains something."""
-    best = max(found.contenders, key=lambda one: one.judged.nats, default=found.base)
-    gain = best.judged.nats - found.base.judged.nats
+    best = max(found.contenders, key=lambda one: one.nats, default=found.base)
+    gain = best.nats - found.base.nats
     if gain < SURE:
         return ()
     shrunk = shrinkage(found.problem, found.clean, best.judged, True, found.fault)

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap.evidence import Judged
+from geocontact.gap.evidence import Judged, bent_off
 from geocontact.gap.problem import Problem
+from geocontact.gap.recording_steps import measured_columns, resolution
 
 WINDOWS = (4, 8, 16, 32, 64)  # samples
 SHORTEST = 64  # samples of a trial whose spectrum is looked at
@@ -47,11 +48,11 @@ def oddities(problem: Problem, judged: Judged) -> list[Oddity]:
 
 
 def innovations(problem: Problem, judged: Judged) -> list[list[Float[np.ndarray, " _"]]]:
-    """Whitened residual of every channel of every trial, in the order of time."""
+    """Whitened residual of each channel of each trial in the order of time, without what bends make up for."""
     weighings = problem.weighings(judged.noise, judged.model)
     channels = len(problem.floor)
     out = []
-    for weighing, residual in zip(weighings, judged.model.residuals, strict=True):
+    for weighing, residual in zip(weighings, bent_off(judged), strict=True):
         white = weighing(residual[..., None])[:, 0]
         flat = np.full(residual.size, np.nan)
         flat[np.concatenate(weighing.whitener.rows)] = white
@@ -167,8 +168,8 @@ def held(problem: Problem) -> list[Oddity]:
     """
     found = []
     for c, name in enumerate(problem.system.outputs):
-        columns = _columns(problem, c)
-        resolution = _resolution(columns)
+        columns = measured_columns(problem, c)
+        step = resolution(columns)
         repeats, count, expected = 0, 0, 0.0
         for x in columns:
             low, high = np.percentile(x, [2.0, 98.0])
@@ -177,7 +178,7 @@ def held(problem: Problem) -> list[Oddity]:
             repeats += int((steps == 0.0).sum())
             count += len(steps)
             usual = float(np.median(np.abs(steps))) / 0.6745 if len(steps) else 0.0
-            expected += len(steps) * min(0.4 * resolution / usual if usual > 0.0 else 1.0, 1.0)
+            expected += len(steps) * min(0.4 * step / usual if usual > 0.0 else 1.0, 1.0)
         share, chance = repeats / max(count, 1), max(expected / max(count, 1), HELD_USUALLY)
         if share > chance:
             rest = np.log(max(1.0 - share, 1e-12) / max(1.0 - chance, 1e-12))
@@ -190,36 +191,11 @@ def steps(problem: Problem) -> list[Oddity]:
     """A recording that comes in steps that are coarse against its noise."""
     found = []
     for c, name in enumerate(problem.system.outputs):
-        columns = _columns(problem, c)
-        resolution = _resolution(columns)
+        columns = measured_columns(problem, c)
+        step = resolution(columns)
         values = sum(map(len, columns))
-        distinct = len(np.unique(np.round(np.concatenate(columns) / max(resolution, 1e-300)))) if values else 0
-        coarse = resolution / problem.floor_of_noise[c]
+        distinct = len(np.unique(np.round(np.concatenate(columns) / max(step, 1e-300)))) if values else 0
+        coarse = step / problem.floor_of_noise[c]
         if coarse > COARSE and distinct < values:
-            found.append(Oddity(f"it comes in steps of {resolution:.3g}", name, SURELY * coarse / COARSE))
+            found.append(Oddity(f"it comes in steps of {step:.3g}", name, SURELY * coarse / COARSE))
     return found
-
-
-def _columns(problem: Problem, c: int) -> list[Float[np.ndarray, " _"]]:
-    """Measured values of one channel, trial by trial, trials with a few only left out."""
-    columns = [outputs[:, c] for outputs in problem.recorded.outputs]
-    return [x[np.isfinite(x)] for x in columns if np.isfinite(x).sum() > 8]
-
-
-def _resolution(columns: list[Float[np.ndarray, " _"]]) -> float:
-    """Smallest step that nearly all differences are multiples of; 0 where there is none."""
-    if not columns:
-        return 0.0
-    moves = np.abs(np.concatenate([np.diff(x) for x in columns]))
-    moves = moves[moves > 0.0]
-    if len(moves) < 8:
-        return 0.0
-    unit = float(np.quantile(moves, 0.02))
-    for _ in range(20):
-        units = moves / unit
-        if (np.abs(units - np.round(units)) < 0.1).mean() > 0.9:
-            return unit
-        unit = float(np.median(moves[units < 1.5])) if (units < 1.5).sum() > 8 else 0.0
-        if unit <= 0.0 or np.isclose(unit, np.quantile(moves, 0.02)):
-            return 0.0
-    return 0.0

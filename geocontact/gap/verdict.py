@@ -52,7 +52,8 @@ def borne_out(total: float, calibration: float, share: float) -> float:
 
 def gain_of(one: Contender, over: Contender, share: float) -> float:
     """What a model gains over another [nats]."""
-    return borne_out(one.judged.nats - over.judged.nats, one.judged.calibration - over.judged.calibration, share)
+    gain = borne_out(one.judged.nats - over.judged.nats, one.judged.calibration - over.judged.calibration, share)
+    return gain + one.beside - over.beside
 
 
 def answer(

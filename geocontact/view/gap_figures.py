@@ -51,8 +51,8 @@ def ranking(findings: Findings) -> list[Ranked]:
     rows = [Ranked("none", "none", 0.0, 0.0, probabilities.get("none", 0.0))]
     unknown = found.remaining["none"]
     rows.append(Ranked("unknown", "unknown", unknown.nats, unknown.calibration, probabilities.get("unknown", 0.0)))
-    for one in sorted(found.contenders, key=lambda c: -c.judged.nats):
-        gain, calibration = one.judged.nats - zero.nats, one.judged.calibration - zero.calibration
+    for one in sorted(found.contenders, key=lambda c: -c.nats):
+        gain, calibration = one.nats - zero.nats, one.judged.calibration - zero.calibration
         first = len(one.names) == 1 and not any(row.effects == one.names[0] for row in rows)
         probability = probabilities.get(one.names[0], 0.0) if first else None
         rows.append(Ranked(one.label, " + ".join(one.names), gain, calibration, probability))

@@ -15,9 +15,10 @@ from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.contest import base_contender, singles
+from geocontact.gap.contest import base_contender, pairs, singles
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.evidence import judged
+from geocontact.gap.flat_tops import FlatTop, flat_tops
 from geocontact.gap.form import forms
 from geocontact.gap.locate import Window, gap_map, windows
 from geocontact.gap.map_cell import Cell
@@ -142,6 +143,27 @@ def odd(change: Change | None, after: Change | None = None) -> dict[str, float]:
     return {each.words: each.nats for each in oddities(problem, base_contender(problem).judged)}
 
 
+def paired() -> tuple[list[tuple[str, ...]], list[float]]:
+    """Effects of the pairs that are tried on damping where the force also drifts, and what they gain over damping."""
+
+    def drifting(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+        return force + 0.04 * time
+
+    case = elbow_case("damping", {"damping.b": 12.0, "damping.exponent": 1.0}, seed=5, change=drifting)
+    problem = problem_of(case, system_of(case))
+    base = base_contender(problem)
+    offered = [one for one in candidates(problem.system) if one.parameters]
+    first = singles(problem, base, [one for one in offered if one.name == "damping"])
+    found = pairs(problem, first, offered)
+    return [one.names for one in found], [one.nats - first[0].nats for one in found]
+
+
+def flat(recorded: Change | None) -> tuple[FlatTop, ...]:
+    """Flat tops of what is recorded of the base model."""
+    case = elbow_case(seed=7, recorded=recorded)
+    return flat_tops(problem_of(case, system_of(case)))
+
+
 def located(change: Change | None) -> tuple[tuple[Cell, ...], tuple[Window, ...]]:
     """Gap map and windows of the base model alone."""
     case = elbow_case(seed=6, change=change)
@@ -168,6 +190,18 @@ class Bump:
 
     def __call__(self, _: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
         return force + self.size * np.exp(-0.5 * ((time - self.time) / self.width) ** 2)
+
+
+@dataclass(frozen=True)
+class Clip:
+    """A recording that ends at a level [N], in steps [N] where they are not 0."""
+
+    level: float
+    step: float = 0.0
+
+    def __call__(self, _: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+        written = np.round(force / self.step) * self.step if self.step else force
+        return np.minimum(written, self.level)
 
 
 @dataclass(frozen=True)

@@ -163,7 +163,7 @@ def proposed(effects: Mapping[str, float] | None) -> NextExperiment | None:
         said = Answer("explained", ("time_shift",), {}, ("time_shift", "filter_lag"), rivals[0])
     else:
         rivals, said = [], Answer("no_gap", (), {}, (), base)
-    found = Attribution(problem, None, problem, base, tuple(rivals), {}, (), said)
+    found = Attribution(problem, None, problem, base, tuple(rivals), {}, (), (), said)
     names = [each.name for each in absorbed(problem, known, ())]
     return next_experiment(found, first_of(known, names))
 
