@@ -144,7 +144,7 @@ def odd(change: Change | None, after: Change | None = None) -> dict[str, float]:
 
 
 def paired() -> tuple[list[tuple[str, ...]], list[float]]:
-    """Effects of the pairs that are tried on damping where the force also drifts, and what they gain over damping."""
+    """Pairs with damping where the force also drifts, a stop in its variants beside; their gain over damping."""
 
     def drifting(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
         return force + 0.04 * time
@@ -152,7 +152,7 @@ def paired() -> tuple[list[tuple[str, ...]], list[float]]:
     case = elbow_case("damping", {"damping.b": 12.0, "damping.exponent": 1.0}, seed=5, change=drifting)
     problem = problem_of(case, system_of(case))
     base = base_contender(problem)
-    offered = [one for one in candidates(problem.system) if one.parameters]
+    offered = [one for one in candidates(problem.system) if one.name in ("damping", "sensor_drift", "end_stop")]
     first = singles(problem, base, [one for one in offered if one.name == "damping"])
     found = pairs(problem, first, offered)
     return [one.names for one in found], [one.nats - first[0].nats for one in found]
