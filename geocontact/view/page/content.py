@@ -130,7 +130,7 @@ class Page:
     Parameters
     ----------
     time, time_label
-        Time of each frame and what it is: "time [s]", "cycle [%]".
+        Time of each frame and what it is: "time [s]", "cycle [%]". A page of one frame has no slider.
     headline
         Label and value of what must be answered without a click: where, how much, in which frame.
     start_frame

@@ -42,6 +42,7 @@ def page_html(page: Page) -> str:
     sections = [(KINDS[type(section)], f"section-{k}", section) for k, section in enumerate(page.sections)]
     return _template().render(
         page=page,
+        moves=len(page.time) > 1,
         scene=next((section for kind, _, section in sections if kind == "scene"), None),
         opacities=_opacities(packed.data),
         panels=[s for s in sections if s[0] in ("curves", "strip", "readout")],

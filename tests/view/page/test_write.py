@@ -245,3 +245,19 @@ def _volume(body: Body, found: object) -> float:
 def test_words_are_there_without_scripts() -> None:
     page = replace(small_page(), sections=[Words("Not a device", ["For research."])])
     assert {"Not a device", "For research.", "largest area"} <= set(Elements(page_html(page)).texts)
+
+
+def test_a_page_without_time_shows_no_slider() -> None:
+    """What the script shows when it starts, the timeline, stands in an element that stays hidden."""
+    words = Words("said", ["nothing moves"])
+    for page, stage, slider in (
+        (small_page(), True, True),
+        (small_page(frames=1), True, False),
+        (Page("a", "", np.zeros(1), "time [s]", sections=[words]), False, False),
+    ):
+        body = page_html(page).partition("<main>")[2]
+        opened = re.search(r'<div class="stage[^>]*>', body)
+        assert opened is not None and ("hidden" in opened[0]) == (not stage)
+        before = body.partition('<div class="timeline"')[0].rstrip()
+        assert before.endswith("<div hidden>") == (not slider)
+        assert ("play, pause" in body) == slider
