@@ -7,7 +7,7 @@ every change can be simulated with any model of the case.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -30,7 +30,7 @@ HOLDS, HELD = 5, 2.0  # plateaus of a movement in steps, and how long each lasts
 SMALLER = 0.5  # times as large about its middle
 STILL = 10.0  # s, at rest with nothing or a weight on the sensor
 WEIGHT = 0.5  # of the largest load that was measured
-OTHER_SETTING = 0.5  # times the least value that a covariate had
+OTHER_SETTING = 0.5  # times the least value that a covariate had, besides 0
 WHOLE_MOVEMENT = ("foot",)  # systems whose movement makes contact by its size: it cannot be made smaller
 
 Staging = Callable[[System], System]
@@ -133,43 +133,51 @@ def _held(system: System, trial: Trial) -> tuple[Experiment, ...]:
     return (Experiment("step and hold", words, made),)
 
 
-def _smaller(system: System, trial: Trial) -> tuple[Experiment, ...]:
+def _smaller(system: System, template: Trial) -> tuple[Experiment, ...]:
     if system.name in WHOLE_MOVEMENT:
         return ()
-    made = along(trial, system.inputs, trial.time - trial.time[0], trial.time)
-    middle = made.signals.values.mean(axis=0)
-    values = middle + SMALLER * (made.signals.values - middle)
+    made = along(template, system.inputs, template.time - template.time[0], template.time)
+    values = made.signals.values
+    flag = ((values == 0.0) | (values == 1.0)).all(axis=0)  # an event is no movement
+    middle = values.mean(axis=0)
+    values = np.where(flag, values, middle + SMALLER * (values - middle))
     words = "the same movement, half as large about its middle"
     return (Experiment("smaller", words, replace(made, signals=replace(made.signals, values=values))),)
 
 
-def _on_the_bench(system: System, trial: Trial) -> tuple[Experiment, ...]:
-    """Nothing on the sensor, and a known weight on each that measures a load in turn."""
+def _on_the_bench(system: System, template: Trial) -> tuple[Experiment, ...]:
+    """Nothing on the sensors, and a known weight on each that measures a load, the others bare.
+
+    A weight lies still for the whole recording: when one is put on or taken off is known to nobody exactly.
+    """
     loads = [c for c, name in enumerate(system.outputs) if system.unit(name) in LOADS]
     if not loads:
         return ()
-    length = min(STILL, float(trial.time[-1] - trial.time[0]))
-    still = along(trial, system.inputs, _grid(trial, length), trial.time[0] + 0.0 * _grid(trial, length))
-    weights = [WEIGHT * system.scale.of(system.outputs[c]) for c in loads]
-    said = ", ".join(f"{w:.2g} {system.unit(system.outputs[c])}" for c, w in zip(loads, weights, strict=True))
-    on = f"known loads of {said}, one sensor after the other" if len(loads) > 1 else f"a known load of {said} on it"
+    length = min(STILL, float(template.time[-1] - template.time[0]))
+    grid = _grid(template, length)
+    still = along(template, system.inputs, grid, np.full(len(grid), template.time[0]))
     rest = f"open the interface and record {length:.2g} s with nothing on the sensor"
     return (
-        Experiment("unloaded zero", rest, still, bench(loads, [0.0 for _ in loads])),
-        Experiment(
-            "static weight", f"take the sensor off and put {on}, {length:.2g} s in all", still, bench(loads, weights)
-        ),
+        Experiment("unloaded zero", rest, still, bench(loads, {})),
+        *(_weighed(system, still, loads, c, length) for c in loads),
     )
 
 
-def bench(loads: Sequence[int], weights: Sequence[float]) -> Staging:
-    """Models whose load channels carry known weights, one after the other; other channels have no value."""
+def _weighed(system: System, still: Trial, loads: Sequence[int], on: int, length: float) -> Experiment:
+    """A known weight on one sensor."""
+    name = system.outputs[on]
+    weight = WEIGHT * system.scale.of(name)
+    which = f"the sensor of {name}" if len(loads) > 1 else "the sensor"
+    words = f"take {which} off and put a known load of {weight:.2g} {system.unit(name)} on it, {length:.2g} s in all"
+    return Experiment("static weight", words, still, bench(loads, {on: weight}))
+
+
+def bench(loads: Sequence[int], weights: Mapping[int, float]) -> Staging:
+    """Models whose load channels (columns) carry known weights, nothing where none is given; others have no value."""
 
     def change(outputs: Float[np.ndarray, "t c"], _: Movement, __: object) -> Float[np.ndarray, "t c"]:
         made = np.full(outputs.shape, np.nan)
-        turn = np.arange(len(made)) * len(loads) // len(made)
-        for k, (c, weight) in enumerate(zip(loads, weights, strict=True)):
-            made[:, c] = np.where(turn == k, weight, 0.0)
+        made[:, list(loads)] = [weights.get(c, 0.0) for c in loads]
         return made
 
     return lambda system: replace(system, balance=system.balance.having(Modifier("bench", LAST, change)))
@@ -199,15 +207,21 @@ def swap(a: int, b: int) -> Staging:
     return lambda system: replace(system, balance=system.balance.having(Modifier("swapped", LAST, change)))
 
 
-def _settings(trial: Trial, trials: Sequence[Trial]) -> tuple[Experiment, ...]:
-    """Covariates at another value; what the model does not use changes nothing and is never chosen."""
+def _settings(template: Trial, trials: Sequence[Trial]) -> tuple[Experiment, ...]:
+    """Covariates at another value: half the least that trials had besides none, the largest, or none at all.
+
+    What the model does not use changes nothing and is never chosen.
+    """
     found = []
-    for name, value in trial.covariates.items():
-        least = min(abs(other.covariates.get(name, value)) for other in trials)
-        if least > 0.0:
-            other = OTHER_SETTING * least * float(np.sign(value))
-            changed = replace(trial, covariates={**trial.covariates, name: other})
-            found.append(Experiment("other setting", f"the same movement with {name} at {other:.3g}", changed))
+    for name, own in template.covariates.items():
+        known = sorted({other.covariates.get(name, own) for other in trials}, key=abs)
+        some = [value for value in known if value != 0.0]
+        if not some:
+            continue
+        for value in dict.fromkeys((OTHER_SETTING * some[0], some[-1], 0.0)):
+            if value != own and (value != 0.0 or known[0] == 0.0):
+                changed = replace(template, covariates={**template.covariates, name: value})
+                found.append(Experiment("other setting", f"the same movement with {name} at {value:.3g}", changed))
     return tuple(found)
 
 

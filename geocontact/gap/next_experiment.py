@@ -1,12 +1,10 @@
 """The experiment to run next: the change to the trials that tells apart most surely what they cannot tell apart.
 
 For every change on the menu (`gap.experiments`) the answers still in question are simulated on new trials, with the
-parameters that were fitted to the old ones. Where A is true and B is fitted to old and new trials together, B leaves
-
-    ½ rᵀ (I + D S² Dᵀ)⁻¹ r,   r = A's prediction minus B's, whitened, D B's derivatives, S their prior spread
-
-to first order. The smallest of these over all pairs, either way round, is what a change is worth. Where nothing was
-found, changes are judged by what they make visible of effects that base parameters swallow.
+parameters that were fitted to the old ones. The least that one leaves of another (`gap.rivals`), either way round, is
+what a change is worth: first order tells which changes promise most, and the first of these that keeps what is needed
+when rivals are refitted to old and new trials together is proposed. Where nothing was found, changes are judged by what
+they make visible of effects that base parameters swallow.
 """
 
 from __future__ import annotations
@@ -15,18 +13,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.movement import rate_of_waves
-from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.contest import Contender
-from geocontact.gap.evidence import Judged, prior_spread
+from geocontact.gap.evidence import Judged
 from geocontact.gap.experiments import Experiment, menu
 from geocontact.gap.problem import Problem
 from geocontact.gap.refit import Measured, derivatives
+from geocontact.gap.rivals import Hypothesis, Pair, Recording, Rows, kept
 from geocontact.gap.weighing import Weighing, sensitivity
 from geocontact.identify.covariance import Layout
 from geocontact.identify.noise_spectrum import NoiseSpectrum
@@ -35,54 +32,7 @@ TRIALS = 3  # of the new kind
 TELLS = 3.0  # times the smallest separation that a change must promise
 APART = 5.0  # nats that it must promise
 RIVALS = 3  # answers that are compared
-
-
-@dataclass(frozen=True)
-class Hypothesis:
-    """A model that may be true: the names that it stands for, what it is and how it was fitted.
-
-    `residuals`, `jacobian` are those of the trials that exist.
-    """
-
-    name: str
-    system: System
-    values: dict[str, float]
-    residuals: list[Float[np.ndarray, "_ c"]]
-    jacobian: list[Float[np.ndarray, "_ c p"]]
-
-    @property
-    def spread(self) -> Float[np.ndarray, " p"]:
-        """Prior standard deviation of its parameters."""
-        return prior_spread(self.system, self.values)
-
-
-@dataclass(frozen=True)
-class Pair:
-    """Somebody who is true, and somebody who is fitted instead."""
-
-    true: Hypothesis
-    imitator: Hypothesis
-
-
-@dataclass(frozen=True)
-class Rows:
-    """Whitened difference of a pair on some trials, and the imitator's directions in units of their prior spread."""
-
-    moved: Float[np.ndarray, " n"]
-    directions: Float[np.ndarray, "n p"]
-
-    def with_(self, other: Rows, times: int) -> Rows:
-        """These rows, and others that are recorded so many times."""
-        root = float(np.sqrt(times))
-        moved = np.concatenate([self.moved, root * other.moved])
-        return Rows(moved, np.concatenate([self.directions, root * other.directions]))
-
-    @property
-    def nats(self) -> float:
-        """What the imitator leaves."""
-        part = self.directions.T @ self.moved
-        inner = np.eye(len(part)) + self.directions.T @ self.directions
-        return 0.5 * float(self.moved @ self.moved - part @ np.linalg.solve(inner, part))
+CHECKED = 4  # changes, the most promising ones, that are simulated with rivals refitted
 
 
 @dataclass(frozen=True)
@@ -154,33 +104,60 @@ def _swallowed(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
 
 
 def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Pair]) -> Proposal | None:
-    """The change that raises the smallest separation most."""
+    """The most promising change that raises the smallest separation enough once rivals are refitted."""
     before = [_old(problem, lead, pair) for pair in pairs]
     least = min(rows.nats for rows in before)
-    best: tuple[float, Experiment] | None = None
-    for one, new in _new(problem, lead, pairs):
-        after = min(rows.with_(more, TRIALS).nats for rows, more in zip(before, new, strict=True))
-        if after > max(TELLS * least, APART) and (best is None or after > best[0]):
-            best = (after, one)
-    if best is None:
-        return None
-    names = [name for name in found.answer.ambiguity if any(name in pair.true.name.split("+") for pair in pairs)]
-    return Proposal(_said(best[1], names, best[0] - least), best[1], tuple(pairs), lead)
+    needed = max(TELLS * least, APART)
+    promised = [
+        (min(rows.with_(more, TRIALS).nats for rows, more in zip(before, one.rows, strict=True)), one)
+        for one in _new(problem, lead, pairs)
+    ]
+    promising = sorted((each for each in promised if each[0] > needed), key=lambda each: -each[0])
+    for _, one in promising[:CHECKED]:
+        left = min(_kept(problem, lead, one, pair) for pair in pairs)
+        if left > needed:
+            names = [
+                name for name in found.answer.ambiguity if any(name in pair.true.name.split("+") for pair in pairs)
+            ]
+            said = _said(one.experiment, names, left - least)
+            return Proposal(said, one.experiment, tuple(pairs), lead)
+    return None
+
+
+def _kept(problem: Problem, lead: Judged, one: Rehearsed, pair: Pair) -> float:
+    """What an imitator leaves of the truth where it is refitted to old trials and to new ones [nats]."""
+    old = (problem.calibration, problem.evaluation)
+    outputs = [each for measured in old for each in measured.outputs]
+    known = Measured(
+        tuple(trial for measured in old for trial in measured.trials),
+        tuple(o - r for o, r in zip(outputs, pair.true.residuals, strict=True)),
+        problem.calibration.rough,
+    )
+    moved = one.experiment
+    truth = np.where(one.present, moved.staged(pair.true.system).simulate(moved.trial, pair.true.values), np.nan)
+    new = Measured((moved.trial,), (truth,), problem.calibration.rough)
+    return kept(
+        pair.imitator,
+        [
+            Recording(pair.imitator.system, known, problem.weighings(lead.noise, lead.model)),
+            Recording(moved.staged(pair.imitator.system), new, [one.weigh], TRIALS),
+        ],
+    )
 
 
 def _unveiling(found: Attribution, problem: Problem, base: Judged, pairs: list[Pair]) -> Proposal | None:
     """The change that makes most effects visible that were swallowed, and of several the one that shows them best."""
     before = [_old(problem, base, pair) for pair in pairs]
     best: tuple[int, float, Experiment, list[str]] | None = None
-    for one, new in _new(problem, base, pairs):
+    for one in _new(problem, base, pairs):
         shown = []
-        for pair, rows, more in zip(pairs, before, new, strict=True):
+        for pair, rows, more in zip(pairs, before, one.rows, strict=True):
             after = rows.with_(more, TRIALS).nats
             if after > max(TELLS * rows.nats, APART):
                 shown.append((after - rows.nats, pair.true.name))
         names = list(dict.fromkeys(name for _, name in shown))
         if shown and (best is None or (len(names), min(shown)[0]) > best[:2]):
-            best = (len(names), min(shown)[0], one, names)
+            best = (len(names), min(shown)[0], one.experiment, names)
     if best is None:
         return None
     shown_by = tuple(pair for pair in pairs if pair.true.name in best[3])
@@ -202,18 +179,29 @@ def _old(problem: Problem, lead: Judged, pair: Pair) -> Rows:
     return Rows(white[:, 0], white[:, 1:])
 
 
-def _new(problem: Problem, lead: Judged, pairs: list[Pair]) -> list[tuple[Experiment, list[Rows]]]:
+@dataclass(frozen=True)
+class Rehearsed:
+    """One trial of an experiment as models predict it: its weighing, where it has values, and every pair on it."""
+
+    experiment: Experiment
+    weigh: Weighing
+    present: np.ndarray
+    rows: list[Rows]
+
+
+def _new(problem: Problem, lead: Judged, pairs: list[Pair]) -> list[Rehearsed]:
     """Every pair on one trial of every change."""
     passed = problem.passed
     spectrum = NoiseSpectrum.after(
         passed, lambda frequency: rate_of_waves(frequency, passed.step, problem.system.motion.reach)
     )
-    return [
-        (one, _rows(problem, lead, spectrum, one, pairs)) for one in menu(problem.system, problem.calibration.trials)
-    ]
+    changes = menu(problem.system, problem.calibration.trials)
+    return [_rehearsed(problem, lead, spectrum, one, pairs) for one in changes]
 
 
-def _rows(problem: Problem, lead: Judged, spectrum: NoiseSpectrum, one: Experiment, pairs: list[Pair]) -> list[Rows]:
+def _rehearsed(
+    problem: Problem, lead: Judged, spectrum: NoiseSpectrum, one: Experiment, pairs: list[Pair]
+) -> Rehearsed:
     trial, rough = one.trial, problem.calibration.rough
     hypotheses = {id(each): each for pair in pairs for each in (pair.true, pair.imitator)}
     predicted = {key: one.staged(each.system).simulate(trial, each.values) for key, each in hypotheses.items()}
@@ -233,4 +221,4 @@ def _rows(problem: Problem, lead: Judged, spectrum: NoiseSpectrum, one: Experime
         off = np.where(present, predicted[id(pair.true)] - predicted[id(pair.imitator)], 0.0)
         white = weigh(np.concatenate([off[..., None], slopes[id(pair.imitator)] * pair.imitator.spread], axis=-1))
         found.append(Rows(white[:, 0], white[:, 1:]))
-    return found
+    return Rehearsed(one, weigh, present, found)

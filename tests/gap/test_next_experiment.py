@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from geocontact.data.trial import Trial
-from geocontact.gap.experiments import HELD, HOLDS, bench, swap
-from geocontact.gap.next_experiment import Rows
+from geocontact.gap.experiments import HELD, HOLDS, _settings, bench, menu, swap
+from geocontact.gap.rivals import Rows
 from tests.elsewhere import Elsewhere
 from tests.gap.told import LAG, on_the_menu, proposed
-from tests.systems.examples import KNEE_CONSTANTS, knee, knee_trial
+from tests.systems.examples import KNEE_CONSTANTS, example, knee, knee_trial
 
 
 @pytest.fixture(scope="module")
@@ -57,10 +58,57 @@ def test_weights_and_exchanged_sensors() -> None:
     plain = knee().simulate(trial, values)
     exchanged = swap(0, 1)(knee()).simulate(trial, values)
     assert np.array_equal(exchanged, plain[:, ::-1])
-    loaded = bench([0, 1], [100.0, 50.0])(knee()).simulate(trial, values)
-    half = (len(trial) + 1) // 2
-    assert set(loaded[:half, 0]) == {100.0} and set(loaded[:half, 1]) == {0.0}
-    assert set(loaded[half:, 0]) == {0.0} and set(loaded[half:, 1]) == {50.0}
+    loaded = bench([0, 1], {1: 50.0})(knee()).simulate(trial, values)
+    assert set(loaded[:, 0]) == {0.0} and set(loaded[:, 1]) == {50.0}
+
+
+EVERYWHERE = {"slower", "step and hold", "unloaded zero", "static weight"}
+OFFERED = {
+    "elbow": EVERYWHERE | {"faster", "smaller"},
+    "foot": EVERYWHERE,  # walking is as fast as it can be, contact is made by its size, one plate has both forces
+    "shoulder": EVERYWHERE | {"faster", "smaller", "other setting"},
+    "knee": EVERYWHERE | {"smaller", "swapped sensors"},
+    "sit_to_stand": EVERYWHERE | {"faster", "smaller", "swapped sensors"},
+}
+
+
+@pytest.mark.parametrize("name", OFFERED)
+def test_every_change_of_the_menu_does_something_to_the_systems_it_is_for(name: str) -> None:
+    system, trials = example(name)
+    before = sorted(trials, key=len)[len(trials) // 2]
+    plain = system.simulate(before, system.start)
+    changes = menu(system, trials)
+    assert {one.name for one in changes} == OFFERED[name]
+    for one in changes:
+        made = one.staged(system).simulate(one.trial, system.start)
+        again = system.simulate(one.trial, system.start)
+        if one.name in ("unloaded zero", "static weight"):
+            assert np.array_equal(made, np.broadcast_to(made[0], made.shape), equal_nan=True), "it lies still"
+            heavy = np.nan_to_num(made[0]) > 0.0
+            assert heavy.sum() == (one.name == "static weight")
+        elif one.name == "swapped sensors":
+            assert not np.allclose(made, again)
+        elif one.name in ("smaller", "other setting"):
+            assert not np.allclose(np.nan_to_num(made), np.nan_to_num(plain[: len(made)]), rtol=1e-3)
+        else:
+            least = min(len(made), len(plain))
+            assert not np.allclose(np.nan_to_num(made[:least]), np.nan_to_num(plain[:least]), rtol=1e-3)
+
+
+def test_an_event_is_no_movement_that_could_be_smaller() -> None:
+    system, trials = example("shoulder")
+    small = next(one.trial for one in menu(system, trials) if one.name == "smaller")
+    assert set(small.column("event")) == {0.0, 1.0}
+    assert np.ptp(small.column("arm")) < 0.6 * max(np.ptp(t.column("arm")) for t in trials)
+
+
+def test_other_settings_are_such_as_the_device_has() -> None:
+    _, trials = example("shoulder")
+    settings = [replace(t, covariates={"level": level}) for t in trials for level in (0.0, 0.5, 1.0)]
+    for template in (0.5, 1.0):
+        ordered = sorted(settings, key=lambda t: t.covariates["level"] != template)
+        offered = {one.trial.covariates["level"] for one in _settings(ordered[0], settings)}
+        assert offered == {0.0, 0.25, 1.0} - {template}
 
 
 def test_what_the_imitator_leaves_is_the_projection_where_its_prior_is_wide() -> None:
