@@ -1,10 +1,10 @@
-"""Do detectability statements hold? `python -m benchmarks.gap_detectability [--cases N] [--repeats N] [--effects A …]`.
+"""Do detectability statements hold? `python -m benchmarks.gap_detectability [--cases N] [--repeats N]`.
 
-Synthetic cases without an effect (`gap.benchmark`) are fitted; `gap.detectability` says from which amplitude on the
-diagnosis would see each effect. Then trials are simulated at that amplitude, at half and at one and a half times of
-it, with noise, deviations of the trials and noise of the inputs as fitted, and attributed. Seen is an effect where the
-verdict is not `no_gap`. A statement is what is more probable by the predicted power, at half and at one and a half
-times; it is right where that happens.
+Cases without an effect (planted ones, or a folder: `benchmarks.gap_sources`) are fitted; `gap.detectability` says from
+which amplitude on the diagnosis would see an effect. Then trials are simulated at that amplitude, at half and at one
+and a half times of it, with noise, deviations of the trials and noise of the inputs as fitted, and attributed. Seen is
+an effect where the verdict is not `no_gap`. A statement is what is more probable by the predicted power, at half and at
+one and a half times; it is right where that happens.
 """
 
 from __future__ import annotations
@@ -12,102 +12,157 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 HERE = Path(__file__).resolve().parent
 TIMES = (0.5, 1.0, 1.5)
-EFFECTS = ("time_shift", "damping", "dry_friction.rate", "stiffening", "sensor_drift.force", "saturation.force")
+EFFECTS = (
+    "time_shift", "damping", "asymmetry", "sensor_drift", "stiffening", "dead_zone", "crosstalk", "dry_friction",
+    "saturation",
+)  # fmt: skip
+"""Asked about in this order, as far as a system has them; the first candidate of each."""
 
 
 def arguments() -> argparse.Namespace:
     """Command line."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.gap_detectability", description=__doc__.splitlines()[0])
-    parser.add_argument("--system", default="elbow")
-    parser.add_argument("--cases", type=int, default=2)
-    parser.add_argument("--repeats", type=int, default=4, help="simulations of each effect at each amplitude of a case")
-    parser.add_argument("--effects", nargs="+", default=list(EFFECTS))
+    parser.add_argument(
+        "--sources", nargs="+", default=["elbow", "foot", "knee", "sit_to_stand"],
+        help="systems with planted cases, or folders of cases without an effect",
+    )  # fmt: skip
+    parser.add_argument("--cases", type=int, default=1, help="of each source")
+    parser.add_argument("--most", type=int, default=4, help="effects asked about in a case")
+    parser.add_argument("--repeats", type=int, default=1, help="simulations of each effect at each amplitude of a case")
+    parser.add_argument(
+        "--narrow", nargs="*", default=[],
+        help="sources whose diagnoses, and statements, are offered nothing but the effects asked about: quicker",
+    )  # fmt: skip
+    parser.add_argument("--times", nargs="+", type=float, default=list(TIMES))
     parser.add_argument("--seed", type=int, default=7)
+    parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--out", type=Path, default=HERE / "results", help="folder for the JSON")
     return parser.parse_args()
 
 
-def rows(options: argparse.Namespace, place: int) -> list[dict[str, Any]]:
-    """One case: every effect at every amplitude."""
-    from benchmarks.gap_simulated import case_of
+@dataclass(frozen=True)
+class Asked:
+    """A statement about one effect of a case, and everything to try it."""
+
+    case: Any
+    problem: Any
+    base: Any
+    told: Any
+    offer: Callable[[Any], list[Any]]
+
+
+def statements(source: str, place: int, options: argparse.Namespace) -> Iterator[tuple[dict[str, Any], Asked]]:
+    """What is said of every effect of a case at every amplitude: rows without the outcome."""
+    from benchmarks.gap_sources import bare_case, name_of
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.admission import admitted
-    from geocontact.gap.attribute import attribute
-    from geocontact.gap.benchmark.drawing import Lot, drawn
     from geocontact.gap.contest import base_contender
     from geocontact.gap.detectability import detectabilities, power, rivals_of
     from geocontact.gap.problem import problem_of
     from geocontact.gap.signatures import ground_of, reach_of, rest_of, sized
     from geocontact.systems.catalogue import system_of
 
-    case = drawn(Lot(options.system, "none", options.seed, place)).case
+    case = bare_case(source, options.seed, place)
     case = admitted(case, system_of(case))
     problem = problem_of(case, system_of(case))
     base = base_contender(problem).judged
     ground = ground_of(problem, base.noise, base.model.values)
-    offered = [one for one in candidates(problem.system) if one.parameters]
-    rivals, found = rivals_of(ground, offered), []
-    for told in detectabilities(ground, offered, [one for one in offered if one.label in options.effects]):
+    known = [one for one in candidates(problem.system) if one.parameters]
+    able = [name for name in EFFECTS if any(one.name == name for one in known)]
+    names = [able[(place + k) % len(able)] for k in range(min(options.most, len(able)))]
+    asked = [next(one for one in known if one.name == name) for name in names]
+
+    def offer(system: Any) -> list[Any]:
+        return [one for one in candidates(system) if source not in options.narrow or one.name in names]
+
+    offered = [one for one in offer(problem.system) if one.parameters]
+    rivals = rivals_of(ground, offered)
+    for told in detectabilities(ground, offered, asked):
         one = told.candidate
         if told.smallest is None:
             continue
         rest, first = rest_of(one), one.parameters[0].name
-        for times in TIMES:
-            share = times * (told.smallest - rest) / reach_of(one, one.starts[0])
-            if share > 1.0:
-                continue
+        others = [each for label, some in rivals.items() if label != one.label for each in some]
+        for times in options.times:
             amplitude = rest + times * (told.smallest - rest)
-            values = {**base.model.values, **told.at.values, first: amplitude}
-            others = [each for label, some in rivals.items() if label != one.label for each in some]
+            if (amplitude - rest) / reach_of(one, one.starts[0]) > 1.0:
+                continue
             there = sized(ground, one, {**told.at.values, first: amplitude})
-            predicted = power(ground, there, others, sum(each.name == one.name for each in offered))
+            chance = power(ground, there, others, sum(each.name == one.name for each in offered))
+            row = {"source": name_of(source), "case": place, "effect": one.label, "times": times}
+            row |= {"amplitude": amplitude, "unit": one.parameters[0].unit, "visible_nats": there.visible}
+            yield row | {"predicted": chance}, Asked(case, problem, base, there, offer)
+
+
+def rows(source: str, place: int, options: argparse.Namespace) -> list[dict[str, Any]]:
+    """One case: every effect at every amplitude, simulated and attributed."""
+    from threadpoolctl import threadpool_limits
+
+    from benchmarks.gap_simulated import case_of
+    from geocontact.gap.attribute import attribute
+    from geocontact.systems.catalogue import system_of
+
+    found = []
+    with threadpool_limits(limits=1):
+        for row, one in statements(source, place, options):
+            values = {**one.base.model.values, **one.told.values}
+            system = one.told.candidate.apply(one.problem.system)
             for k in range(options.repeats):
-                new = case_of(case, problem, base.noise, one.apply(problem.system), values, 1000 * place + k)
-                said = attribute(new, system_of(new), candidates).answer
-                seen = said.verdict != "no_gap"
-                row = {"case": place, "effect": one.label, "times": times, "amplitude": amplitude, "seen": seen}
-                row |= {"unit": one.parameters[0].unit, "visible_nats": there.visible, "predicted": predicted}
-                found.append(row | {"verdict": said.verdict, "named": one.name in said.ambiguity})
-            print(
-                place, one.label, times, sum(r["seen"] for r in found[-options.repeats :]), file=sys.stderr, flush=True
-            )
+                new = case_of(one.case, one.problem, one.base.noise, system, values, 1000 * place + k)
+                said = attribute(new, system_of(new), one.offer).answer
+                done = row | {"seen": said.verdict != "no_gap", "verdict": said.verdict}
+                found.append(done | {"named": one.told.candidate.name in said.ambiguity})
+                print(json.dumps(found[-1]), file=sys.stderr, flush=True)
     return found
 
 
-def main() -> None:
-    """Simulate, attribute, print the shares, write the JSON."""
-    options = arguments()
-    from threadpoolctl import threadpool_limits
+def right(row: dict[str, Any]) -> bool:
+    """Whether what the predicted power makes more probable happened."""
+    return bool(row["seen"] == (row["predicted"] >= 0.5))
 
-    from benchmarks.machine import machine
-    from benchmarks.tables import markdown
+
+def summary(found: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Shares seen by amplitude, and statements right, at other amplitudes than the stated one."""
     from geocontact.gap.benchmark.rates import Rate
 
-    with threadpool_limits(limits=1):
-        found = [row for place in range(options.cases) for row in rows(options, place)]
-    seen: dict[str, dict[float, list[bool]]] = defaultdict(lambda: defaultdict(list))
-    for row in found:
-        for label in (row["effect"], "all"):
-            seen[label][row["times"]].append(row["seen"])
-    shares = {label: {f"{t:g}": sum(v) / len(v) for t, v in own.items()} for label, own in seen.items()}
-    right = [row["seen"] == (row["predicted"] >= 0.5) for row in found if row["times"] != 1.0]
-    rate = Rate.of(right)
-    head = ("effect", *(f"seen at {t:g} times" for t in TIMES))
-    print(
-        markdown(head, [[k, *(f"{own.get(f'{t:g}', float('nan')):.2f}" for t in TIMES)] for k, own in shares.items()])
-    )
-    print(f"statements right: {rate}")
-    about = {"machine": machine(), "options": {k: str(v) for k, v in vars(options).items() if k != "out"}}
-    summary = {"share_seen": shares, "statements_right": sum(right) / len(right), "statements": len(right)}
+    seen = {t: Rate.of(row["seen"] for row in found if row["times"] == t) for t in sorted({r["times"] for r in found})}
+    rate = Rate.of(right(row) for row in found if row["times"] != 1.0)
+    shares = {f"{t:g}": {"seen": one.hits, "of": one.count} for t, one in seen.items()}
+    return {"right": rate.hits, "statements": rate.count, "interval": rate.interval(), "seen_at": shares}
+
+
+def main() -> None:
+    """Simulate, attribute, write the JSON after each case, print the shares."""
+    options = arguments()
+    found: list[dict[str, Any]] = []
+    work = [(source, place) for place in range(options.cases) for source in options.sources]
+    with ProcessPoolExecutor(options.jobs, get_context("spawn")) as pool:
+        for done in as_completed([pool.submit(rows, *one, options) for one in work]):
+            found += done.result()
+            written(options, sorted(found, key=lambda one: (one["source"], one["case"], one["effect"], one["times"])))
+    print(summary(found))
+
+
+def written(options: argparse.Namespace, found: Sequence[dict[str, Any]]) -> None:
+    """The JSON: pooled, by source, then every simulation."""
+    from benchmarks.gap_sources import name_of
+    from benchmarks.machine import machine
+
+    said = {k: v for k, v in vars(options).items() if k != "out"}
+    said |= {key: [name_of(one) for one in said[key]] for key in ("sources", "narrow")}
+    own = {source: summary([row for row in found if row["source"] == source]) for source in said["sources"]}
     options.out.mkdir(parents=True, exist_ok=True)
-    text = json.dumps({**about, **summary, "rows": found}, indent=1)
-    (options.out / "gap_detectability.json").write_text(text + "\n")
+    whole = {"machine": machine(), "options": said, "all": summary(found), "of": own, "rows": list(found)}
+    (options.out / "gap_detectability.json").write_text(json.dumps(whole, indent=1) + "\n")
 
 
 if __name__ == "__main__":

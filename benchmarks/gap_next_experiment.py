@@ -1,11 +1,12 @@
 """Do proposed experiments tell apart what they promise? `python -m benchmarks.gap_next_experiment [--cases N]`.
 
-Synthetic cases (`gap.benchmark`: effects that are hardly visible, effects that base parameters swallow, nothing) are
-attributed and asked for the next experiment. Then every answer in question is simulated on trials like those of the
-case and on the trials proposed, with noise, deviations of the trials and noise of the inputs, and refitted by itself
-and by every other: what the wrong one leaves more than the right one, in nats, on the old trials and on old and new
-ones together. The smallest of these is what the experiment must raise, `TIMES` times or more, a separation of less than
-`NOTHING` nats counting as that much.
+Synthetic cases have one effect that is hardly visible; it and one that looks like it are fitted, and where their
+evidence leaves both in question the next experiment is asked for. Others have an effect that base parameters swallow,
+or none, and are attributed with everything on offer. Then every answer in question is simulated on trials like those of
+the case and on the trials proposed, with noise, deviations of the trials and noise of the inputs, and refitted by
+itself and by every other: what the wrong one leaves more than the right one, in nats, on the old trials and on old and
+new ones together. The smallest of these over all pairs is what the experiment must raise, `TIMES` times or more, a
+separation of less than `NOTHING` nats counting as that much.
 """
 
 from __future__ import annotations
@@ -13,8 +14,9 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -23,8 +25,15 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 TIMES = 3.0
 NOTHING = 5.0 / 3.0  # nats: so that at least 5 must be reached
-KINDS = ("single", "absorbed", "none")
 FAINT = (15.0, 60.0)  # visible nats of effects that are hardly told apart
+PAIRS = (
+    ("asymmetry", "sensor_gain"), ("preload", "sensor_offset"), ("crosstalk", "sensor_gain"),
+    ("motion_offset", "sensor_offset"), ("damping", "relaxation"), ("motion_offset", "preload"),
+    ("time_shift", "filter_lag"),
+)  # fmt: skip
+"""Effects that look like each other, in the order in which cases get them."""
+CLOSE = 1e-6  # relative change of the squares at which a refit has ended
+ROUNDS = 30
 
 
 def arguments() -> argparse.Namespace:
@@ -32,40 +41,95 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.gap_next_experiment", description=__doc__.splitlines()[0]
     )
-    parser.add_argument("--systems", nargs="+", default=["elbow", "foot"])
-    parser.add_argument("--cases", type=int, default=4, help="of each kind and system")
+    parser.add_argument(
+        "--sources", nargs="+", default=["elbow", "foot", "knee", "sit_to_stand"],
+        help="systems with planted cases, or folders of cases without an effect that are simulated anew",
+    )  # fmt: skip
+    parser.add_argument("--cases", type=int, default=10, help="of each source that have an effect")
+    parser.add_argument("--others", type=int, default=1, help="absorbed ones, and ones without an effect")
     parser.add_argument("--repeats", type=int, default=3, help="simulations of each answer of a case")
     parser.add_argument("--seed", type=int, default=11)
-    parser.add_argument("--out", type=Path, default=HERE / "results", help="folder for the JSON")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--out", type=Path, default=HERE / "results" / "gap_next_experiment.json", help="the JSON")
     return parser.parse_args()
 
 
-def checked(system_name: str, kind: str, place: int, options: argparse.Namespace) -> dict[str, Any] | None:
-    """One case; None where nothing is proposed."""
+def asked(options: argparse.Namespace) -> Iterator[tuple[str, str, tuple[str, ...], int]]:
+    """Source, effect, pair that is held against each other (none: the diagnosis decides) and place of every case."""
+    from benchmarks.gap_sources import NOTHING as BARE
+    from benchmarks.gap_sources import SWALLOWED, effects_of, has_swallowed, known_to
+
+    known = {source: list(_pairs(effects_of(source), known_to(source))) for source in options.sources}
+    for place in range(options.cases):
+        for source, pairs in known.items():
+            pair, able = pairs[place % len(pairs)]
+            yield source, able[place // len(pairs) % len(able)], pair, place
+    for place in range(options.others):
+        for source in options.sources:
+            yield source, BARE, (), options.cases + 2 * place
+            if has_swallowed(source):
+                yield source, SWALLOWED, (), options.cases + 2 * place + 1
+
+
+def _pairs(effects: Sequence[str], known: Sequence[str]) -> Iterator[tuple[tuple[str, str], tuple[str, ...]]]:
+    """Pairs that a source knows, and which of the two its cases can have."""
+    for pair in PAIRS:
+        able = tuple(name for name in pair if name in effects)
+        if able and set(pair) <= set(known):
+            yield pair, able
+
+
+def checked(
+    source: str, effect: str, pair: tuple[str, ...], place: int, options: argparse.Namespace
+) -> dict[str, Any] | None:
+    """One case; None where it cannot be made, no "change" where nothing is proposed."""
+    from benchmarks.gap_sources import case_with, name_of
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.absorbed import absorbed
     from geocontact.gap.admission import admitted
     from geocontact.gap.attribute import attribute
-    from geocontact.gap.benchmark.planted.cases import plant
     from geocontact.gap.diagnose import first_of
     from geocontact.gap.next_experiment import proposed
     from geocontact.systems.catalogue import system_of
 
     nats = float(np.exp(np.random.default_rng([options.seed, place]).uniform(*np.log(FAINT))))
-    seed = np.random.SeedSequence(options.seed, spawn_key=(KINDS.index(kind), place))
-    case = plant(system_name, kind, seed, nats=nats if kind == "single" else None).case
-    system = system_of(case)
-    found = attribute(admitted(case, system), system, candidates)
-    problem = found.clean
-    hidden = [each.name for each in absorbed(problem, candidates(problem.system), found.answer.effects)]
-    chosen = proposed(found, first_of(candidates(problem.system), hidden))
-    if chosen is None:
+    case = case_with(source, effect, nats, options.seed, place)
+    if case is None:
         return None
+    system = system_of(case)
+    case = admitted(case, system)
+    found = in_question(case, system, pair) if pair else attribute(case, system, candidates)
+    problem, said = found.clean, found.answer
+    hidden = [each.name for each in absorbed(problem, candidates(problem.system), said.effects)]
+    chosen = proposed(found, first_of(candidates(problem.system), hidden))
+    row: dict[str, Any] = {"source": name_of(source), "effect": effect, "held": list(pair), "case": place}
+    row |= {"verdict": said.verdict, "in_question": list(said.ambiguity)}
+    if chosen is None:
+        return row
     rng = np.random.default_rng([options.seed, place, 1])
     before, after = separated(found, chosen, rng, options.repeats)
-    row = {"system": system_name, "kind": kind, "case": place, "separates": list(chosen.said.separates)}
-    row |= {"change": chosen.said.change, "promised_nats": chosen.said.gain_nats, "before": before, "after": after}
+    row |= {"about": "absorbed" if said.verdict == "no_gap" else "rivals", "separates": list(chosen.said.separates)}
+    row |= {"experiment": chosen.experiment.name, "change": chosen.said.change}
+    row |= {"promised_nats": chosen.said.gain_nats, "before": before, "after": after}
     return row | {"raised": after >= TIMES * max(before, NOTHING)}
+
+
+def in_question(case: Any, system: Any, pair: tuple[str, ...]) -> Any:
+    """The two as they are fitted, both in question where their evidence differs by less than one that is out needs."""
+    from geocontact.effects.catalogue import candidates
+    from geocontact.gap.attribute import Attribution
+    from geocontact.gap.contest import base_contender, singles
+    from geocontact.gap.problem import problem_of
+    from geocontact.gap.verdict import ALIVE, Answer
+
+    problem = problem_of(case, system)
+    base = base_contender(problem)
+    known = [one for one in candidates(problem.system) if one.name in pair and one.parameters]
+    ranked = singles(problem, base, known)
+    near = [c for c in ranked if c.judged.nats > ranked[0].judged.nats + np.log(ALIVE)]
+    names = tuple(dict.fromkeys(name for c in near for name in c.names))
+    said = Answer("explained", names[:1], {}, names, ranked[0])
+    return Attribution(problem, None, problem, base, tuple(ranked), {}, (), said)
 
 
 def separated(found: Any, chosen: Any, rng: np.random.Generator, repeats: int) -> tuple[float, float]:
@@ -75,113 +139,137 @@ def separated(found: Any, chosen: Any, rng: np.random.Generator, repeats: int) -
 
     problem, noise = found.clean, chosen.lead.noise
     old = [*problem.calibration.trials, *problem.evaluation.trials]
+    stage, moved = chosen.experiment.staged, chosen.experiment.trial
     outcomes: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for true in {id(pair.true): pair.true for pair in chosen.pairs}.values():
         imitators = [pair.imitator for pair in chosen.pairs if pair.true is true]
         for _ in range(repeats):
             values = dict(true.values)
             recorded = [trial_of(problem, noise, t, true.system, values, rng) for t in old]
-            stage = chosen.experiment.staged
-            moved = chosen.experiment.trial
             fresh = [trial_of(problem, noise, moved, true.system, values, rng, stage) for _ in range(TRIALS)]
-            own = costs(problem, noise, true, recorded, fresh, stage)
+            seen = Seen.of(problem, chosen.lead, recorded, fresh, stage)
+            own = seen.costs(true)
             for other in imitators:
-                wrong = costs(problem, noise, other, recorded, fresh, stage)
+                wrong = seen.costs(other)
                 gap = (wrong[0] - own[0], wrong[1] - own[1])
                 outcomes.setdefault((true.name, other.name), []).append(gap)
     means = [np.mean(each, axis=0) for each in outcomes.values()]
     return float(min(m[0] for m in means)), float(min(m[1] for m in means))
 
 
-def costs(
-    problem: Any, noise: Any, one: Any, recorded: Sequence[Any], fresh: Sequence[Any], stage: Any
-) -> tuple[float, float]:
-    """Half the weighed squares that a model leaves where it is fitted: of the old trials, and of old and new ones."""
-    return tuple(
-        refitted(problem, noise, one, trials, stage, len(recorded)) for trials in (recorded, [*recorded, *fresh])
-    )
+class Seen:
+    """Old and new trials as the diagnosis sees them, and one weighing of each for every model."""
+
+    def __init__(self, outputs: Sequence[str], trials: Sequence[Any], weighings: Sequence[Any], old: int, stage: Any):
+        self.trials, self.weighings, self.old, self.stage = trials, weighings, old, stage
+        self.measured = [np.stack([t.column(name) for name in outputs], axis=1) for t in trials]
+
+    @classmethod
+    def of(cls, problem: Any, lead: Any, recorded: Sequence[Any], fresh: Sequence[Any], stage: Any) -> Seen:
+        """Trials denoised; weighed at the base parameters and by the noise of the model that leads."""
+        from geocontact.gap.inputs import denoised
+
+        sd = dict(zip(problem.system.inputs, lead.noise.levels.inputs.tolist(), strict=True))
+        seen = [denoised(t, sd, problem.passed) for t in (*recorded, *fresh)]
+        return cls(
+            problem.system.outputs, seen, weighings(problem, lead, seen, stage, len(recorded)), len(recorded), stage
+        )
+
+    def costs(self, one: Any) -> tuple[float, float]:
+        """Half the weighed squares that a model leaves where it is fitted: of the old trials, of old and new ones."""
+        return self.refitted(one, self.old), self.refitted(one, len(self.trials))
+
+    def refitted(self, one: Any, count: int) -> float:
+        """Bounded least squares over the first trials."""
+        from scipy.optimize import least_squares
+
+        from geocontact.gap.refit import free, magnitude
+
+        staged = self.stage(one.system)
+        parameters = free(one.system)
+        size = np.array([magnitude(p) for p in parameters])
+        low, high = (np.array([getattr(p, side) for p in parameters]) / size for side in ("lower", "upper"))
+
+        def residual(z: np.ndarray) -> np.ndarray:
+            values = {p.name: float(v) for p, v in zip(parameters, z * size, strict=True)}
+            parts = []
+            for k in range(count):
+                predicted = (one.system if k < self.old else staged).simulate(self.trials[k], values)
+                left = np.nan_to_num(self.measured[k] - predicted)
+                parts.append(self.weighings[k](left[..., None])[:, 0])
+            return np.concatenate(parts)
+
+        start = np.array([one.values[p.name] for p in parameters]) / size
+        inside = np.clip(start, low + 1e-6, high - 1e-6)
+        fit = least_squares(residual, inside, bounds=(low, high), max_nfev=ROUNDS, ftol=CLOSE, diff_step=1e-5)
+        return float(fit.cost)
 
 
-def refitted(problem: Any, noise: Any, one: Any, trials: Sequence[Any], stage: Any, plain: int) -> float:
-    """Bounded least squares over all trials; those from `plain` on are staged."""
-    from scipy.optimize import least_squares
-
-    from geocontact.gap.inputs import denoised
-    from geocontact.gap.refit import free, magnitude
-
-    sd = dict(zip(problem.system.inputs, noise.levels.inputs.tolist(), strict=True))
-    seen = [denoised(t, sd, problem.passed) for t in trials]
-    models = [one.system if k < plain else stage(one.system) for k in range(len(trials))]
-    weigh = weighings(problem, noise, one, seen, stage, plain)
-    measured = [np.stack([t.column(name) for name in problem.system.outputs], axis=1) for t in seen]
-    parameters = free(one.system)
-    size = np.array([magnitude(p) for p in parameters])
-    low, high = (np.array([getattr(p, side) for p in parameters]) / size for side in ("lower", "upper"))
-
-    def residual(z: np.ndarray) -> np.ndarray:
-        values = {p.name: float(v) for p, v in zip(parameters, z * size, strict=True)}
-        parts = [np.nan_to_num(m - s.simulate(t, values)) for m, s, t in zip(measured, models, seen, strict=True)]
-        return np.concatenate([w(r[..., None])[:, 0] for w, r in zip(weigh, parts, strict=True)])
-
-    start = np.array([one.values[p.name] for p in parameters]) / size
-    inside = np.clip(start, low + 1e-6, high - 1e-6)
-    return float(least_squares(residual, inside, bounds=(low, high), max_nfev=12, diff_step=1e-5).cost)
-
-
-def weighings(problem: Any, noise: Any, one: Any, trials: Sequence[Any], stage: Any, plain: int) -> list[Any]:
-    """Whitening of every trial, at the base parameters of the case's answer."""
+def weighings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain: int) -> list[Any]:
+    """Whitening of every trial; those from `plain` on are staged."""
     from geocontact.chain.movement import rate_of_waves
     from geocontact.gap.refit import Measured, derivatives
     from geocontact.gap.weighing import Weighing, sensitivity
     from geocontact.identify.covariance import Layout
     from geocontact.identify.noise_spectrum import NoiseSpectrum
 
-    passed, base = problem.passed, {name: one.values[name] for name in problem.plain.values}
+    passed, base = problem.passed, {name: lead.model.values[name] for name in problem.plain.values}
     spectrum = NoiseSpectrum.after(passed, lambda f: rate_of_waves(f, passed.step, problem.system.motion.reach))
     made = []
     for k, trial in enumerate(trials):
         system = problem.system if k < plain else stage(problem.system)
-        measured = Measured.of(replace(system), [trial], problem.calibration.rough)
+        measured = Measured.of(system, [trial], problem.calibration.rough)
         layout = Layout.of(trial.time, measured.present[0], sensitivity(system, trial, base), spectrum)
-        varied = derivatives(system, measured, base)[0] * noise.varies
-        made.append(Weighing.of(layout.whitener(noise.levels), varied))
+        varied = derivatives(system, measured, base)[0] * lead.noise.varies
+        made.append(Weighing.of(layout.whitener(lead.noise.levels), varied))
     return made
 
 
-def main() -> None:
-    """Ask, simulate, refit, write what there is after each round of cases, print the share."""
-    options = arguments()
+def one_core(*work: Any) -> dict[str, Any] | None:
+    """`checked` with one thread."""
     from threadpoolctl import threadpool_limits
 
-    found: list[dict[str, Any]] = []
-    asked = 0
     with threadpool_limits(limits=1):
-        for place in range(options.cases):
-            for system in options.systems:
-                for kind in KINDS:
-                    row = checked(system, kind, place, options)
-                    asked += 1
-                    if row is not None:
-                        found.append(row)
-                        print(json.dumps(row), file=sys.stderr, flush=True)
-            written(options, found, asked)
+        return checked(*work)
 
 
-def written(options: argparse.Namespace, found: Sequence[dict[str, Any]], asked: int) -> None:
-    """The JSON, and a line."""
-    from benchmarks.machine import machine
+def main() -> None:
+    """Ask, simulate, refit, write what there is after each case, print the share."""
+    options = arguments()
+    found: list[dict[str, Any]] = []
+    with ProcessPoolExecutor(options.jobs, get_context("spawn")) as pool:
+        for done in as_completed([pool.submit(one_core, *one, options) for one in asked(options)]):
+            row = done.result()
+            if row is not None:
+                found.append(row)
+                print(json.dumps(row), file=sys.stderr, flush=True)
+                written(options, sorted(found, key=lambda one: (one["source"], one["case"])))
+    print(f"raised at least {TIMES:g} times: {rate_of(found)}; cases {len(found)}")
+
+
+def rate_of(rows: Sequence[dict[str, Any]]) -> Any:
+    """Share of proposals that raised the separation."""
     from geocontact.gap.benchmark.rates import Rate
 
-    rate = Rate.of(row["raised"] for row in found)
-    print(
-        f"raised at least {TIMES:g} times: {rate}; nothing proposed in {asked - len(found)} of {asked} cases",
-        flush=True,
-    )
-    about = {"machine": machine(), "options": {k: str(v) for k, v in vars(options).items() if k != "out"}}
-    summary = {"raised": rate.value, "interval": rate.interval(), "proposals": rate.count, "cases": asked}
-    options.out.mkdir(parents=True, exist_ok=True)
-    text = json.dumps({**about, **summary, "rows": list(found)}, indent=1)
-    (options.out / "gap_next_experiment.json").write_text(text + "\n")
+    return Rate.of(row["raised"] for row in rows if "raised" in row)
+
+
+def written(options: argparse.Namespace, found: Sequence[dict[str, Any]]) -> None:
+    """The JSON: shares pooled, by what they are about and by source, then every case."""
+    from benchmarks.gap_sources import name_of
+    from benchmarks.machine import machine
+
+    def summary(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
+        rate = rate_of(rows)
+        return {"raised": rate.hits, "proposals": rate.count, "interval": rate.interval(), "cases": len(rows)}
+
+    about = {"machine": machine(), "options": {k: v for k, v in vars(options).items() if k != "out"}}
+    about["options"]["sources"] = sources = [name_of(one) for one in options.sources]
+    by = {kind: summary([row for row in found if row.get("about") == kind]) for kind in ("rivals", "absorbed")}
+    own = {source: summary([row for row in found if row["source"] == source]) for source in sources}
+    options.out.parent.mkdir(parents=True, exist_ok=True)
+    text = json.dumps({**about, "all": summary(found), "about": by, "of": own, "rows": list(found)}, indent=1)
+    options.out.write_text(text + "\n")
 
 
 if __name__ == "__main__":
