@@ -20,7 +20,7 @@ from geocontact.chain.system import System
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 
-LOADS = ("N", "N m")
+LOADS, ANGLE = ("N", "N m"), "rad"
 LAST = 1e6  # rank of what is done to the loads: after everything that loads the sensor
 FASTER, SLOWER = (4.0, 2.0), 0.5  # times as fast as before
 LEAST_FASTER = 1.25  # below which a movement does not count as faster
@@ -146,7 +146,7 @@ def _smaller(system: System, template: Trial) -> tuple[Experiment, ...]:
 
 
 def _on_the_bench(system: System, template: Trial) -> tuple[Experiment, ...]:
-    """Nothing on the sensors, and a known weight on each that measures a load, the others bare.
+    """Nothing on the sensors, those of angles at their zero, and a known weight on each that measures a load.
 
     A weight lies still for the whole recording: when one is put on or taken off is known to nobody exactly.
     """
@@ -156,9 +156,11 @@ def _on_the_bench(system: System, template: Trial) -> tuple[Experiment, ...]:
     length = min(STILL, float(template.time[-1] - template.time[0]))
     grid = _grid(template, length)
     still = along(template, system.inputs, grid, np.full(len(grid), template.time[0]))
-    rest = f"open the interface and record {length:.2g} s with nothing on the sensor"
+    angles = [c for c, name in enumerate(system.outputs) if system.unit(name) == ANGLE]
+    held = "".join(f", {system.outputs[c]} held at 0" for c in angles)
+    rest = f"open the interface and record {length:.2g} s with nothing on the sensor{held}"
     return (
-        Experiment("unloaded zero", rest, still, bench(loads, {})),
+        Experiment("unloaded zero", rest, still, bench([*loads, *angles], {})),
         *(_weighed(system, still, loads, c, length) for c in loads),
     )
 
@@ -173,7 +175,7 @@ def _weighed(system: System, still: Trial, loads: Sequence[int], on: int, length
 
 
 def bench(loads: Sequence[int], weights: Mapping[int, float]) -> Staging:
-    """Models whose load channels (columns) carry known weights, nothing where none is given; others have no value."""
+    """Models whose channels (columns) carry known weights, nothing where none is given; others have no value."""
 
     def change(outputs: Float[np.ndarray, "t c"], _: Movement, __: object) -> Float[np.ndarray, "t c"]:
         made = np.full(outputs.shape, np.nan)

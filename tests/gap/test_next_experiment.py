@@ -86,6 +86,8 @@ def test_every_change_of_the_menu_does_something_to_the_systems_it_is_for(name: 
             assert np.array_equal(made, np.broadcast_to(made[0], made.shape), equal_nan=True), "it lies still"
             heavy = np.nan_to_num(made[0]) > 0.0
             assert heavy.sum() == (one.name == "static weight")
+            known = [c for c, n in enumerate(system.outputs) if system.unit(n) in ("N", "rad")]
+            assert one.name == "static weight" or np.isfinite(made[:, known]).all()
         elif one.name == "swapped sensors":
             assert not np.allclose(made, again)
         elif one.name in ("smaller", "other setting"):
