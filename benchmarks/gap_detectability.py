@@ -45,7 +45,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--times", nargs="+", type=float, default=list(TIMES))
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--out", type=Path, default=HERE / "results", help="folder for the JSON")
+    parser.add_argument("--out", type=Path, default=HERE / "results" / "gap_detectability.json", help="the JSON")
     return parser.parse_args()
 
 
@@ -137,7 +137,10 @@ def summary(found: Sequence[dict[str, Any]]) -> dict[str, Any]:
     seen = {t: Rate.of(row["seen"] for row in found if row["times"] == t) for t in sorted({r["times"] for r in found})}
     rate = Rate.of(right(row) for row in found if row["times"] != 1.0)
     shares = {f"{t:g}": {"seen": one.hits, "of": one.count} for t, one in seen.items()}
-    return {"right": rate.hits, "statements": rate.count, "interval": rate.interval(), "seen_at": shares}
+    cases = len({(row["source"], row["case"]) for row in found})
+    return {
+        "right": rate.hits, "statements": rate.count, "interval": rate.interval(), "cases": cases, "seen_at": shares,
+    }  # fmt: skip
 
 
 def main() -> None:
@@ -160,9 +163,9 @@ def written(options: argparse.Namespace, found: Sequence[dict[str, Any]]) -> Non
     said = {k: v for k, v in vars(options).items() if k != "out"}
     said |= {key: [name_of(one) for one in said[key]] for key in ("sources", "narrow")}
     own = {source: summary([row for row in found if row["source"] == source]) for source in said["sources"]}
-    options.out.mkdir(parents=True, exist_ok=True)
+    options.out.parent.mkdir(parents=True, exist_ok=True)
     whole = {"machine": machine(), "options": said, "all": summary(found), "of": own, "rows": list(found)}
-    (options.out / "gap_detectability.json").write_text(json.dumps(whole, indent=1) + "\n")
+    options.out.write_text(json.dumps(whole, indent=1) + "\n")
 
 
 if __name__ == "__main__":

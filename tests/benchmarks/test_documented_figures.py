@@ -127,3 +127,21 @@ def test_gaps_of_real_recordings() -> None:
                 assert all(map(near, printed, (gap["reduction"], *gap["ci95"]))), (name, channel)
     belt = results("real_gaps")["cases"]["treadmill"]["as stated"]["made"]["belt_m_per_s"]
     assert f"the belt runs at {belt:.2f} m/s" in text
+
+
+def test_detectability_and_the_next_experiment() -> None:
+    page = "reference/gap_benchmark.md"
+    for name, hits, count in (
+        ("gap_detectability", "right", "statements"),
+        ("gap_next_experiment", "raised", "proposals"),
+    ):
+        told = results(name)
+        for label, one in ({"all": told["all"]} | told["of"]).items():
+            if not one["cases"]:
+                continue
+            cells = row(page, f"{label}, {name}")
+            share, _, interval = cells[0].partition(" [")
+            assert share == f"{one[hits]} of {one[count]}", cells
+            ends = interval.strip("]% ").split(",")
+            assert all(near(text, end, 100.0) for text, end in zip(ends, one["interval"], strict=True)), cells
+            assert cells[1] == str(one["cases"])
