@@ -21,7 +21,7 @@ from geocontact.chain.interface_law import MEMORY, interface_force
 from geocontact.chain.single_deflection import gives_way
 from geocontact.chain.slots import Slots
 from geocontact.chain.terms.dry_friction import friction_at_rate, friction_state
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import kernel, part
 
 HINGED_ARM = Slots(
     {
@@ -60,8 +60,10 @@ SETTING_OUT = 1.0 / 32.0
 """First step over the time to the next sample."""
 STIFF = 1.5
 """Slope of a step's equation from which the trapezoidal rule is used as it is: 1 for a free arm, more the stiffer."""
+CLOSE = 1e-6
+"""Share of e'' that it may be off for the next secant step to be the last; that one is not evaluated any more."""
 SLOW = 10.0
-"""Angular acceleration [rad/s²] below which a step is solved to `TOLERANCE` of this instead of to that of its own."""
+"""Angular acceleration [rad/s²] below which a step is solved to `CLOSE` of this instead of to that of its own."""
 FIRST, WIDER, HALVINGS = 0.01, 1.5, 52
 """First stride of the search for equilibrium [rad], how much longer each next one is, and halvings of the last."""
 WX, WY, WX_RATE, WY_RATE = range(4)
@@ -98,7 +100,7 @@ def support(angle: float, table: Float[np.ndarray, "two k"], state: Float[np.nda
     return float(table[1, i] + share * (table[1, i + 1] - table[1, i]))
 
 
-@kernel
+@part
 def interface(
     u: float,
     rate: float,
@@ -126,7 +128,7 @@ def interface(
     return force, False
 
 
-@kernel
+@part
 def acceleration(
     angle: float,
     rate: float,
@@ -207,6 +209,17 @@ def at_rest(
 
 
 @kernel
+def moved(
+    reached: float, h: float, start: float, beta: float, ahead: float, before: Float[np.ndarray, " ten"]
+) -> tuple[float, float, float, float]:
+    """Angle, rate, and slopes of e'' over and at the end of a step of `h` seconds in which e'' comes to `reached`."""
+    chord = (reached - before[ACCELERATION]) / h
+    jerk = chord + (chord - before[CHORD]) * h / (h + before[STEP]) if before[STEP] > 0.0 else chord
+    angle = before[ANGLE] + h * (start + h * ((0.5 - beta) * before[ACCELERATION] + beta * reached))
+    return angle, start + 0.5 * h * (before[ACCELERATION] + reached) - ahead * jerk, chord, jerk
+
+
+@part
 def step(
     h: float,
     w: Float[np.ndarray, " four"],
@@ -227,22 +240,22 @@ def step(
     smooth = search[SLOPE] < STIFF
     beta, ahead = (1.0 / 12.0, h * h / 12.0) if smooth else (0.25, 0.0)
     headed = guess = before[ACCELERATION] + before[CHORD] * h
+    if before[STEP] > 0.0:
+        guess += (before[JERK] - before[CHORD]) * h * (1.0 + h / before[STEP])
     start = before[RATE] + ahead * before[JERK]
-    found, solved = 0.0, False
+    solved = False
     start_over(search)
     for _ in range(ATTEMPTS):
-        chord = (guess - before[ACCELERATION]) / h
-        jerk = chord + (chord - before[CHORD]) * h / (h + before[STEP]) if before[STEP] > 0.0 else chord
-        angle = before[ANGLE] + h * (start + h * ((0.5 - beta) * before[ACCELERATION] + beta * guess))
-        rate = start + 0.5 * h * (before[ACCELERATION] + guess) - ahead * jerk
+        angle, rate, _, _ = moved(guess, h, start, beta, ahead, before)
         found, known = acceleration(angle, rate, h, w, n, table, law, old, new, before, after, inner)
-        solved = known and abs(guess - found) <= TOLERANCE * max(abs(found), SLOW)
+        off = abs(guess - found)
+        guess = next_load(guess, guess - found, search)
+        solved = known and off <= CLOSE * max(abs(found), SLOW)
         if solved:
             break
-        guess = next_load(guess, guess - found, search)
-    after[ACCELERATION] = found
-    after[CHORD], after[JERK], after[STEP] = chord, jerk, h
-    return abs(found - headed), solved
+    after[ANGLE], after[RATE], after[CHORD], after[JERK] = moved(guess, h, start, beta, ahead, before)
+    after[ACCELERATION], after[STEP] = guess, h
+    return abs(guess - headed), solved
 
 
 @kernel

@@ -13,7 +13,7 @@ import inspect
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeVar, cast
+from typing import Literal, TypeVar, cast
 
 import numba
 
@@ -40,8 +40,20 @@ def kernel(function: F) -> F:
 
     A function that is checked while tests run is compiled from what it wraps.
     """
+    return _compiled(function, "never")
+
+
+def part(function: F) -> F:
+    """The same for a step of a long loop: it is put where it is called.
+
+    Handing over its arrays costs more than it does. Whatever calls it takes longer to compile.
+    """
+    return _compiled(function, "always")
+
+
+def _compiled(function: F, inline: Literal["never", "always"]) -> F:
     plain = inspect.unwrap(function)
     if not os.environ.get("NUMBA_CACHE_DIR"):
         own = Path(inspect.getfile(plain)).parent == HERE
         vars(numba.config)["CACHE_DIR"] = str(_cache_folder(own=own))
-    return cast(F, numba.njit(cache=True, nogil=True, error_model="numpy")(plain))
+    return cast(F, numba.njit(cache=True, nogil=True, error_model="numpy", inline=inline)(plain))
