@@ -22,6 +22,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.linalg import lapack
 
+from geocontact.identify.block_sums import pulled, summed
 from geocontact.identify.noise_spectrum import NoiseSpectrum
 
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
@@ -69,32 +70,42 @@ class Sensitivity:
 
 @dataclass(frozen=True)
 class Block:
-    """Rows of one stretch of a trial and the parts that its covariance is summed from."""
+    """Rows of one stretch of a trial and the parts that its covariance is summed from.
+
+    Parameters
+    ----------
+    rows
+        Flat indices (t, c), channel after channel, each in the order of time.
+    time, channel
+        Of each row [s].
+    inputs
+        Covariance that noise of unit variance of each input makes.
+    """
 
     rows: Int[np.ndarray, " n"]
-    of_channel: tuple[Int[np.ndarray, " _"], ...]
-    lags: tuple[Float[np.ndarray, "_ _"], ...]
+    time: Float[np.ndarray, " n"]
+    channel: Int[np.ndarray, " n"]
     inputs: Float[np.ndarray, "j n n"]
 
     def covariance(self, levels: Levels) -> Float[np.ndarray, "n n"]:
         """At these levels."""
-        total = np.tensordot(levels.inputs**2, self.inputs, axes=1)
-        for c, (own, lag) in enumerate(zip(self.of_channel, self.lags, strict=True)):
-            total[np.ix_(own, own)] += levels.coloured[c] ** 2 * np.exp(-lag / levels.memory[c])
-            total[own, own] += levels.white[c] ** 2
-        total[np.diag_indices_from(total)] *= 1.0 + JITTER
-        return np.asarray(total)
+        powers = (levels.white**2, levels.coloured**2, levels.memory, levels.inputs**2)
+        return summed(self.time, self.channel, self.inputs, *powers, 1.0 + JITTER)
 
     def pulls(self, levels: Levels, pull: Float[np.ndarray, "n n"]) -> Float[np.ndarray, " h"]:
-        """Sum of `pull` times the derivative of the covariance with respect to each logarithm of a level."""
-        white, coloured, memory = np.zeros((3, len(self.lags)))
-        for c, (own, lag) in enumerate(zip(self.of_channel, self.lags, strict=True)):
-            part = pull[np.ix_(own, own)] * np.exp(-lag / levels.memory[c])
-            white[c] = 2.0 * levels.white[c] ** 2 * pull[own, own].sum()
-            coloured[c] = 2.0 * levels.coloured[c] ** 2 * part.sum()
-            memory[c] = levels.coloured[c] ** 2 * (part * lag).sum() / levels.memory[c]
-        inputs = 2.0 * levels.inputs**2 * np.tensordot(self.inputs, pull, axes=2)
-        return np.concatenate([white, coloured, memory, inputs])
+        """Sum of `pull` times the derivative of the covariance with respect to each logarithm of a level.
+
+        `pull` is symmetric; its upper half is read.
+        """
+        (white, coloured, lagged), inputs = pulled(self.time, self.channel, self.inputs, levels.memory, pull)
+        return np.concatenate(
+            [
+                2.0 * levels.white**2 * white,
+                2.0 * levels.coloured**2 * coloured,
+                levels.coloured**2 * lagged / levels.memory,
+                2.0 * levels.inputs**2 * inputs,
+            ]
+        )
 
 
 @dataclass(frozen=True)
@@ -120,8 +131,9 @@ class Layout:
 
     def whitener(self, levels: Levels) -> Whitener:
         """What turns noise of these levels into independent numbers of unit variance."""
-        factors = [_inverse_factor(block.covariance(levels)) for block in self.blocks]
-        return Whitener(tuple(b.rows for b in self.blocks), tuple(f for f, _ in factors), sum(s for _, s in factors))
+        factors = [_factor(block.covariance(levels)) for block in self.blocks]
+        inverses = tuple(lapack.dtrtri(factor, lower=1)[0] for factor, _ in factors)
+        return Whitener(tuple(block.rows for block in self.blocks), inverses, sum(scale for _, scale in factors))
 
     @cached_property
     def rows(self) -> Int[np.ndarray, " n"]:
@@ -167,8 +179,6 @@ def _block(
         sample.append(own)
         channel.append(np.full(len(own), c))
     at, which = np.concatenate(sample), np.concatenate(channel)
-    of_channel = tuple(np.flatnonzero(which == c) for c in range(present.shape[1]))
-    lags = tuple(np.abs(time[at[own]][:, None] - time[at[own]]) for own in of_channel)
     signed = time[at][:, None] - time[at]
     value, mixed, rate = spectrum.covariance(signed)
     a, b = sensitivity.to_value[at, which], sensitivity.to_rate[at, which]
@@ -180,21 +190,22 @@ def _block(
             for j in range(a.shape[1])
         ]
     )
-    return Block(at * present.shape[1] + which, of_channel, lags, inputs.reshape(-1, len(at), len(at)))
+    return Block(at * present.shape[1] + which, time[at], which, inputs.reshape(-1, len(at), len(at)))
 
 
-def _inverse_factor(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:
-    """Inverse of the lower Cholesky factor, and half the logarithm of the determinant.
+def _factor(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:
+    """Lower Cholesky factor, and half the logarithm of the determinant.
 
     Tables of the low-pass kernel are exact to a few digits; where input noise dwarfs the rest, the diagonal is raised
     until there is a factor.
     """
     raised, more = covariance, RAISED
     while True:
-        factor, failed = lapack.dpotrf(raised, lower=1, clean=1)
+        factor, failed = lapack.dpotrf(
+            raised.T, lower=1, clean=1
+        )  # symmetric: turned round it need not be copied twice
         if not failed:
-            inverse, _ = lapack.dtrtri(factor, lower=1)
-            return inverse, float(np.log(np.diag(factor)).sum())
+            return factor, float(np.log(factor.diagonal()).sum())
         if more > 1.0:
             raise ValueError("a noise covariance has no finite factor")
         raised = covariance + more * np.diag(np.diag(covariance))
@@ -231,18 +242,20 @@ def most_likely(
     pieces = []
     for layout, residual, moved in zip(layouts, residuals, jitter, strict=True):
         flat = moved.reshape(residual.size, moved.shape[-1])
-        pieces += [(block, residual.ravel()[block.rows], flat[block.rows]) for block in layout.blocks]
+        for block in layout.blocks:
+            own = flat[block.rows]
+            pieces.append((block, residual.ravel()[block.rows], own @ own.T))
 
     def cost(x: Float[np.ndarray, " h"]) -> tuple[float, Float[np.ndarray, " h"]]:
         levels = prior.at(middle + factor @ x)
-        total, slope = 0.5 * float(x @ x), x.copy()
+        total, pull = 0.5 * float(x @ x), np.zeros(len(middle))
         for block, residual, moved in pieces:
-            root, log_scale = _inverse_factor(block.covariance(levels) + moved @ moved.T)
-            inverse = root.T @ root
-            solved = inverse @ residual
+            root, log_scale = _factor(block.covariance(levels) + moved)
+            solved, _ = lapack.dpotrs(root, residual, lower=1)
+            inverse, _ = lapack.dpotri(root, lower=1)  # its lower half, by columns: the upper by rows
             total += 0.5 * float(residual @ solved) + log_scale
-            slope += 0.5 * factor.T @ block.pulls(levels, inverse - np.outer(solved, solved))
-        return total, slope
+            pull += block.pulls(levels, inverse.T - np.outer(solved, solved))
+        return total, x + 0.5 * factor.T @ pull
 
     begin = np.linalg.solve(factor, start.logarithms() - middle)
     found = minimize(

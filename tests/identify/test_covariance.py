@@ -53,9 +53,8 @@ def test_covariance_is_symmetric_and_sums_white_coloured_and_input_noise() -> No
     block = layout().blocks[0]
     total = whole(block)
     assert_allclose(total, total.T, atol=1e-12)
-    first = block.of_channel[0][0]
+    first, second = np.flatnonzero(block.channel == 0)[:2]
     assert total[first, first] == pytest.approx(0.3**2 + 0.5**2 + 25.0 * 0.04**2, rel=1e-6)
-    second = block.of_channel[0][1]
     away = PASSED.covariance(np.array([[STEP]]))[0][0, 0]
     assert total[first, second] == pytest.approx(0.25 * np.exp(-STEP / 0.1) + 25.0 * 0.04**2 * away, rel=1e-6)
 

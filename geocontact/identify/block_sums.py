@@ -1,0 +1,95 @@
+"""Sums over the pairs of rows of one block of a trial: its covariance, and how that answers to levels of noise.
+
+Rows are measured samples, channel after channel, in the order of time. Within a channel exp(-lag/τ) of two rows is the
+product over the steps between them, so that exponentials are taken of steps only.
+"""
+
+from __future__ import annotations
+
+from math import exp
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.geometry.kernels.compile import kernel
+
+
+@kernel
+def decays(
+    time: Float[np.ndarray, " n"], channel: Int[np.ndarray, " n"], memory: Float[np.ndarray, " c"]
+) -> Float[np.ndarray, " n"]:
+    """Correlation of each row with the one before it, 0 at the first row of a channel."""
+    out = np.zeros(time.size)
+    for i in range(1, time.size):
+        if channel[i] == channel[i - 1]:
+            out[i] = exp(-(time[i] - time[i - 1]) / memory[channel[i]])
+    return out
+
+
+@kernel
+def summed(
+    time: Float[np.ndarray, " n"],
+    channel: Int[np.ndarray, " n"],
+    inputs: Float[np.ndarray, "j n n"],
+    white: Float[np.ndarray, " c"],
+    coloured: Float[np.ndarray, " c"],
+    memory: Float[np.ndarray, " c"],
+    powers: Float[np.ndarray, " j"],
+    raised: float,
+) -> Float[np.ndarray, "n n"]:
+    """Covariance of a block: variances of white and of coloured noise per channel, powers of the inputs' noise.
+
+    The diagonal is multiplied by `raised`.
+    """
+    size = time.size
+    kept = decays(time, channel, memory)
+    out = np.zeros((size, size))
+    for a in range(size):
+        for j in range(powers.size):
+            for b in range(a, size):
+                out[a, b] += powers[j] * inputs[j, a, b]
+        part = coloured[channel[a]]
+        out[a, a] = (out[a, a] + white[channel[a]] + part) * raised
+        for b in range(a + 1, size):
+            if channel[b] != channel[a]:
+                break
+            part *= kept[b]
+            out[a, b] += part
+    for a in range(size):
+        for b in range(a):
+            out[a, b] = out[b, a]
+    return out
+
+
+@kernel
+def pulled(
+    time: Float[np.ndarray, " n"],
+    channel: Int[np.ndarray, " n"],
+    inputs: Float[np.ndarray, "j n n"],
+    memory: Float[np.ndarray, " c"],
+    pull: Float[np.ndarray, "n n"],
+) -> tuple[Float[np.ndarray, "three c"], Float[np.ndarray, " j"]]:
+    """Sums of a symmetric `pull`, whose upper half is read: over each channel's diagonal, times exp(-lag/τ) over its
+    pairs, times lag exp(-lag/τ) [s]; and times each input's covariance.
+    """
+    size = time.size
+    kept = decays(time, channel, memory)
+    out, of_inputs = np.zeros((3, memory.size)), np.zeros(inputs.shape[0])
+    for a in range(size):
+        c = channel[a]
+        out[0, c] += pull[a, a]
+        out[1, c] += pull[a, a]
+        correlation = 1.0
+        for b in range(a + 1, size):
+            if channel[b] != c:
+                break
+            correlation *= kept[b]
+            both = 2.0 * pull[a, b] * correlation
+            out[1, c] += both
+            out[2, c] += both * (time[b] - time[a])
+        for j in range(inputs.shape[0]):
+            total = 0.5 * pull[a, a] * inputs[j, a, a]
+            for b in range(a + 1, size):
+                total += pull[a, b] * inputs[j, a, b]
+            of_inputs[j] += 2.0 * total
+    return out, of_inputs
