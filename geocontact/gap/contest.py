@@ -101,7 +101,9 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
                 starts = [{**base.judged.model.values, **start} for start in one.starts]
                 if len(free(problem.system)) < FEW and one.parameters:
                     starts.append(one.starts[0])
-            found[one.label] = refit(one.apply(problem.system), problem.calibration, weighings, starts)
+            costs = sorted(model.cost for model in found.values())
+            useful = costs[SECOND - 1] if len(costs) >= SECOND else np.inf
+            found[one.label] = refit(one.apply(problem.system), problem.calibration, weighings, starts, useful=useful)
         rounds.append(found)
         entered = sorted(entered, key=lambda one: found[one.label].cost)[:SECOND]
         reference = min(found.values(), key=lambda model: model.cost)

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import zip_longest
-from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
@@ -14,11 +13,11 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-
-if TYPE_CHECKING:
-    from scipy.optimize import OptimizeResult
+from geocontact.identify.within_bounds import Found, least
 
 STEP = 1e-5  # of a parameter's magnitude, for differences
+ENOUGH = 0.01  # nats that a search does not go on for
+LITTLE = 0.05  # nats that another start must promise to be followed
 NO_VALUE = 3.0  # residual, in rough noise levels, where something was measured and the model has no value
 
 
@@ -156,16 +155,21 @@ def refit(
     weighings: Sequence[Weigh],
     starts: Sequence[Mapping[str, float]],
     rounds: int = 12,
+    useful: float = np.inf,
 ) -> Refit:
-    """Bounded least squares of the weighed residuals, the best of several starts."""
+    """Bounded least squares of the weighed residuals, the best of several starts.
+
+    `rounds` are those of each start. A start is left as soon as it does not promise to come `LITTLE` below
+    those before it, and below the cost `useful`.
+    """
     if not free(system):
         return at(system, measured, weighings, {})
     search = Search(system, measured, weighings)
-    best, least = None, np.inf
+    best, cost = None, np.inf
     for start in starts:
-        found = search.from_start(start, rounds)
-        if found.cost < least:
-            best, least = search.reached(found.x), found.cost
+        found = search.from_start(start, rounds, min(useful, cost - LITTLE))
+        if found.cost < cost:
+            best, cost = search.reached(found.x), found.cost
     if best is None:
         raise ValueError("a search without a start")
     return best.weighed(weighings)
@@ -195,9 +199,8 @@ class Search:
         """Parameters by name."""
         return {p.name: float(v) for p, v in zip(self.parameters, z * self.scale, strict=True)}
 
-    def from_start(self, start: Mapping[str, float], rounds: int) -> OptimizeResult:
+    def from_start(self, start: Mapping[str, float], rounds: int, useful: float = np.inf) -> Found:
         """The least cost near a start, from the parameters' own where it says nothing."""
-        from scipy.optimize import least_squares
 
         def residual(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
             return self._weighed([r[..., None] for r in self.residuals(z.tobytes())])[:, 0]
@@ -206,8 +209,8 @@ class Search:
             return np.asarray(-self._weighed(self.slopes(z.tobytes())) * self.scale)
 
         z = np.array([start.get(p.name, p.start) for p in self.parameters]) / self.scale
-        inside, bounds = np.clip(z, self.lower + 1e-6, self.upper - 1e-6), (self.lower, self.upper)
-        return least_squares(residual, inside, slope, bounds, max_nfev=rounds, ftol=1e-5, xtol=1e-6, gtol=1e-6)
+        inside = np.clip(z, self.lower + 1e-6, self.upper - 1e-6)
+        return least(residual, slope, inside, self.lower, self.upper, rounds, ENOUGH, useful)
 
     def reached(self, z: Float[np.ndarray, " p"]) -> Refit:
         """The model where a search ended."""
