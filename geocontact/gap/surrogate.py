@@ -146,25 +146,25 @@ def chosen(
     left, free = residual - basis @ (basis.T @ residual), columns - basis @ (basis.T @ columns)
     each = float(np.log(columns.shape[1] * len(SIZES)))
     taken: list[int] = []
-    gain, design, spread = 0.0, np.zeros((len(left), 0)), np.zeros(0)
-    before = -0.5 * float(left @ left)
-    sizes = np.array(SIZES)
-    rest = left
+    directions, spread = np.zeros((0, len(left))), np.zeros(0)
+    squares = np.array(SIZES)[:, None] ** 2
+    power, along = (free**2).sum(axis=0), free.T @ left
     while len(taken) < DEEPEST:
-        power, along = (free**2).sum(axis=0), free.T @ rest
-        gains = 0.5 * along**2 / (power + 1.0 / sizes[:, None] ** 2) - 0.5 * np.log1p(sizes[:, None] ** 2 * power)
+        gains = 0.5 * along**2 / (power + 1.0 / squares) - 0.5 * np.log1p(squares * power)
         size, column = np.unravel_index(int(np.argmax(gains)), gains.shape)
         if gains[size, column] < each:
             break
         taken.append(int(column))
-        design = np.column_stack([design, columns[:, column] - basis @ (basis.T @ columns[:, column])])
-        spread = np.append(spread, sizes[size])
-        gain = log_evidence(left, design, spread) - before
-        direction = free[:, column] / np.sqrt(power[column])
-        rest = rest - direction * (direction @ rest)
-        free = free - np.outer(direction, direction @ free)
+        spread = np.append(spread, SIZES[size])
+        direction = free[:, column] - directions.T @ (directions @ free[:, column])
+        direction /= np.linalg.norm(direction)
+        directions = np.vstack([directions, direction])
+        shared = free.T @ direction
+        power, along = np.maximum(power - shared**2, 0.0), along - shared * (direction @ left)
     if not taken:
         return Choice([], np.zeros(0), np.zeros(known.shape[1]), 0.0, 0.0, price)
+    design = free[:, taken]
+    gain = log_evidence(left, design, spread) + 0.5 * float(left @ left)
     part = log_evidence(left[:rows], design[:rows], spread) + 0.5 * float(left[:rows] @ left[:rows])
     weights = _posterior(left, design, spread)
     ridge = RIDGE * np.eye(known.shape[1])
