@@ -94,11 +94,16 @@ def settled(problem: Problem, one: Judged, noises: Sequence[Noise]) -> Judged:
 def log_evidence(
     residual: Float[np.ndarray, " n"], design: Float[np.ndarray, "n p"], spread: Float[np.ndarray, " p"]
 ) -> float:
-    """Logarithm of N(r; 0, I + D S² Dᵀ), without the constant."""
+    """Logarithm of N(r; 0, I + D S² Dᵀ), without the constant.
+
+    rᵀ (I + D S² Dᵀ)⁻¹ r is the least of |r - D S x|² + |x|²: summed so, whatever rounding
+    does to x, it is no less than that.
+    """
     scaled = design * spread
     inner = np.eye(len(spread)) + scaled.T @ scaled
-    part = scaled.T @ residual
-    quadratic = float(residual @ residual) - float(part @ np.linalg.solve(inner, part))
+    weights = np.linalg.solve(inner, scaled.T @ residual)
+    left = residual - scaled @ weights
+    quadratic = float(left @ left) + float(weights @ weights)
     return -0.5 * quadratic - 0.5 * float(np.linalg.slogdet(inner)[1])
 
 

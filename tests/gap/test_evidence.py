@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from geocontact.gap.evidence import held_back, log_mean
+from geocontact.gap.evidence import held_back, log_evidence, log_mean
 from geocontact.gap.refit import Refit
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import PARAMETERS, elbow_case
@@ -43,3 +43,15 @@ def test_a_parameter_on_a_bound_costs_what_the_data_rule_out() -> None:
 
 def test_a_parameter_inside_its_bounds_costs_nothing_here() -> None:
     assert held_back(model(300.0, 0.1)) == 0.0
+
+
+def test_rounding_never_makes_a_model_better_than_it_is() -> None:
+    """Derivatives out of all proportion, as beside a point without solution, once beat a perfect fit."""
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        design = 1e7 * rng.standard_normal((200, 1)) @ rng.standard_normal((1, 4)) + rng.standard_normal((200, 4))
+        residual = rng.standard_normal(200)
+        together, wanted = np.concatenate([design, np.eye(4)]), np.concatenate([residual, np.zeros(4)])
+        left = wanted - together @ np.linalg.lstsq(together, wanted, rcond=0.0)[0]
+        half = 0.5 * float(np.linalg.slogdet(np.eye(4) + design.T @ design)[1])
+        assert log_evidence(residual, design, np.ones(4)) <= -0.5 * float(left @ left) * (1.0 - 1e-6) - half
