@@ -37,7 +37,7 @@ class BenchmarkOptions:
     """
 
     out: Path
-    system: Literal["elbow", "foot", "knee", "sit_to_stand", "all"] = "all"
+    system: Literal["elbow", "foot", "shoulder", "knee", "sit_to_stand", "all"] = "all"
     cases: int = 150
     seed: int | None = None
     kinds: str | None = None

@@ -11,7 +11,7 @@ from geocontact.gap.benchmark.planted import KINDS, Planted, plant
 
 __all__ = ["KINDS", "SHARES", "SYSTEMS", "Lot", "Planted", "drawn", "lots", "shares"]
 
-SYSTEMS = ("elbow", "foot", "knee", "sit_to_stand")
+SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
 SHARES = {"none": 50, "single": 36, "pair": 16, "outside": 16, "absorbed": 10, "fault": 12, "shift": 10}
 """Cases of each kind among 150: a third without any effect, most others with one."""
 

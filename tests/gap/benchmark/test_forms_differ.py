@@ -24,6 +24,8 @@ from geocontact.systems.catalogue import system_of
 LEAST = 0.01
 MOST = 0.25  # more would be another effect
 NATS = 800.0
+TRIALS = {"shoulder": 3}
+"""So that all levels of support are among them."""
 EFFECTS = [(system, one.name) for system in SCENES for one in plans(system) if one.name not in NO_GAP.get(system, ())]
 
 
@@ -31,24 +33,25 @@ EFFECTS = [(system, one.name) for system in SCENES for one in plans(system) if o
 def stages():
     found = {}
     for system, make in SCENES.items():
-        rng = np.random.default_rng({"elbow": 12, "foot": 1, "knee": 2, "sit_to_stand": 1}[system])
+        rng = np.random.default_rng({"elbow": 12, "foot": 1, "shoulder": 8, "knee": 2, "sit_to_stand": 1}[system])
         scene = make(rng, shifted=False)
-        found[system] = prepared(scene, [scene.path(rng)], "single")
+        found[system] = prepared(scene, [scene.path(rng, i) for i in range(TRIALS.get(system, 1))], "single")
     return found
 
 
 @pytest.mark.parametrize(("system", "name"), EFFECTS)
 def test_the_candidate_at_its_best_leaves_a_part_of_the_effect(system, name, stages):
     stage = stages[system]
-    scene, one = stage.scene, stage.trials[0]
+    scene = stage.scene
     plan = next(p for p in plans(system) if p.name == name)
     draw = plan.drawn(np.random.default_rng(3), stage.scale)
     size, seen = amplitude(stage, draw, NATS)
     hooks = draw.hooks(size)
-    outputs = truth(scene, one.path, one.count, scene.theta, hooks, fine_enough(scene, one.path, hooks))
+    fine = fine_enough(scene, stage.trials[0].path, hooks)
+    outputs = [truth(scene, one.path, one.count, scene.theta, hooks, fine) for one in stage.trials]
     left = {
         c.label: misfit(scene, stage, outputs, c, seen.theta)
-        for c in candidates(base_of(scene, one, outputs))
+        for c in candidates(base_of(stage, outputs))
         if c.name == name and (not c.channel or c.variant == draw.variant) and at_the_place(c, plan, draw)
     }
     share = min(left.values()) / misfit(scene, stage, outputs, None, seen.theta)
@@ -65,19 +68,23 @@ def at_the_place(candidate, plan, draw):
 
 def trial_of(scene, one, outputs):
     time = np.arange(one.count) * scene.step
-    values = np.column_stack([*one.path(time).position, *outputs])
-    return Trial("t", Signals(time, values, (*scene.inputs, *scene.outputs), scene.units))
+    course = one.path(time)
+    values = np.column_stack([*course.position, *outputs])
+    return Trial("t", Signals(time, values, (*scene.inputs, *scene.outputs), scene.units), course.setting)
 
 
-def base_of(scene, one, outputs):
-    trial = trial_of(scene, one, outputs)
-    return system_of(GapCase("c", scene.system, (trial,), (), scene.parameters, scene.constants, {}, scene.tables))
+def trials_of(stage, outputs):
+    return tuple(trial_of(stage.scene, one, values) for one, values in zip(stage.trials, outputs, strict=True))
+
+
+def base_of(stage, outputs):
+    scene, trials = stage.scene, trials_of(stage, outputs)
+    return system_of(GapCase("c", scene.system, trials, (), scene.parameters, scene.constants, {}, scene.tables))
 
 
 def misfit(scene, stage, outputs, candidate, theta):
     """Sum of squares that the base, or the base with a candidate, leaves of noise-free outputs."""
-    one = stage.trials[0]
-    trial, base = trial_of(scene, one, outputs), base_of(scene, one, outputs)
+    trials, base = trials_of(stage, outputs), base_of(stage, outputs)
     system = base if candidate is None else candidate.apply(base)
     names = [p.name for p in system.parameters]
     low, high = (np.array([getattr(p, side) for p in system.parameters]) for side in ("lower", "upper"))
@@ -85,7 +92,9 @@ def misfit(scene, stage, outputs, candidate, theta):
 
     def residual(v):
         values = dict(zip(names, v * scale, strict=True))
-        return np.nan_to_num((system.simulate(trial, values).T - outputs) / stage.floor[:, None]).ravel()
+        made = [system.simulate(trial, values).T for trial in trials]
+        off = [(one - other) / stage.floor[:, None] for one, other in zip(made, outputs, strict=True)]
+        return np.nan_to_num(np.concatenate(off, axis=1)).ravel()
 
     fits = []
     for start in [{}] if candidate is None else candidate.starts:
@@ -100,12 +109,12 @@ def test_a_candidate_planted_as_itself_would_be_found_out(stages):
     """The measure works: a gap in the candidate's own equation is explained to the last bit."""
     stage = stages["elbow"]
     one = stage.trials[0]
-    base = base_of(stage.scene, one, one.outputs)
+    base = base_of(stage, [one.outputs])
     damping = next(c for c in candidates(base) if c.name == "damping")
     values = {**stage.scene.numbers(stage.scene.theta), "damping.b": 20.0, "damping.exponent": 1.0}
     outputs = damping.apply(base).simulate(trial_of(stage.scene, one, one.outputs), values).T
-    alone = misfit(stage.scene, stage, outputs, None, stage.scene.theta)
-    assert misfit(stage.scene, stage, outputs, damping, stage.scene.theta) < 1e-4 * alone
+    alone = misfit(stage.scene, stage, [outputs], None, stage.scene.theta)
+    assert misfit(stage.scene, stage, [outputs], damping, stage.scene.theta) < 1e-4 * alone
 
 
 def test_scenes_here_are_plain(stages):

@@ -48,7 +48,7 @@ def test_it_shares_nothing_with_the_candidates():
 
 
 def test_every_file_says_what_is_planted_and_what_the_candidate_does():
-    assert len({name for name, *_ in TABLE}) == len(TABLE) == 22
+    assert len({name for name, *_ in TABLE}) == len(TABLE) == 23
     for name, equation, candidate in TABLE:
         text = (Path(planted.__file__).parent / "effects" / f"{name}.py").read_text()
         assert "planted:" in text and "candidate:" in text and equation != candidate
@@ -61,7 +61,7 @@ def stages():
     for system, make in SCENES.items():
         rng = np.random.default_rng(4)
         scene = make(rng, shifted=False)
-        found[system] = prepared(scene, [scene.path(rng) for _ in range(2)], "single")
+        found[system] = prepared(scene, [scene.path(rng, i) for i in range(2)], "single")
     return found
 
 

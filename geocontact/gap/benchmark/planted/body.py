@@ -45,6 +45,11 @@ class Body:
         Inputs that the base model does not use.
     patchy
         Outputs of which a sample may be missing now and then.
+    passed_on
+        (course, numbers, row of an input, small noise of it "t q") → its part in the outputs "c t q"; None where
+        outputs follow the inputs and their rates of the moment.
+    fine
+        Steps of the truth per sample to begin with.
     recorded
         Outputs as a laboratory has them: NaN where nothing is measured.
     """
@@ -57,4 +62,6 @@ class Body:
     places: tuple[Place, ...] = ()
     spare: tuple[str, ...] = ()
     patchy: tuple[int, ...] = ()
+    passed_on: Callable[[Course, Numbers, int, Values], Values] | None = None
+    fine: int = 10
     recorded: Callable[[Float[np.ndarray, "c t"]], Float[np.ndarray, "c t"]] = np.asarray

@@ -23,12 +23,11 @@ from geocontact.gap.benchmark.planted.interface import NotConvergedError
 from geocontact.gap.benchmark.planted.label import KINDS, Kind, Label, Planted
 from geocontact.gap.benchmark.planted.magnitudes import scale_of
 from geocontact.gap.benchmark.planted.outside.catalogue import outsiders
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Scale
+from geocontact.gap.benchmark.planted.plan import Draw, NotFoundError, Plan, Scale
 from geocontact.gap.benchmark.planted.reach import Reach, reach
 from geocontact.gap.benchmark.planted.scene import Rng, Scene
 from geocontact.gap.benchmark.planted.scenes import SCENES
 from geocontact.gap.benchmark.planted.trials import (
-    FINE,
     NO_FAULT,
     Fault,
     Recording,
@@ -60,7 +59,7 @@ class Stage:
     floor: Float[np.ndarray, " c"]
     scale: Scale
 
-    def sight(self, hooks: Hooks, faults: Sequence[Fault] = (), fine: int = FINE) -> Sight:
+    def sight(self, hooks: Hooks, faults: Sequence[Fault] = ()) -> Sight:
         """Visibility of what is hooked in and of mistakes in the data, by calibration trial."""
         planted: list[Outputs] = []
         trials = list(self.trials)
@@ -74,7 +73,7 @@ class Stage:
                     rate=fault.inputs(self.scene, course.rate),
                 )
                 trials[i] = replace(one, model=self.scene.base_model(wrong))
-            clean = truth(self.scene, one.path, one.count, self.scene.theta, hooks, fine)
+            clean = truth(self.scene, one.path, one.count, self.scene.theta, hooks, self.scene.body.fine)
             planted.append(fault.outputs(self.scene, clean))
         return sight(self.scene, trials, planted, self.floor)
 
@@ -90,10 +89,6 @@ class Found:
     fault: Fault = NO_FAULT
     faulty: frozenset[int] = frozenset()
     details: Mapping[str, str | float] | None = None
-
-
-class NotFoundError(RuntimeError):
-    """No amplitude of this draw gives what is asked for."""
 
 
 def plant(
@@ -137,16 +132,18 @@ def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: floa
     """One draw; raises where it does not give what the kind asks for."""
     scene = SCENES[system](rng, shifted=kind == "shift")
     learn, hold = [(3, 2), (3, 2), (3, 2), (4, 2), (3, 3)][rng.integers(5)]
-    stage = prepared(scene, [scene.path(rng) for _ in range(learn)], kind)
+    stage = prepared(scene, [scene.path(rng, i) for i in range(learn)], kind)
     found = FINDERS[kind](rng, stage, effect, nats)
     fine = fine_enough(scene, stage.trials[0].path, found.hooks)
     gaps = lost_rows if rng.random() < 0.2 else None
     faults = [found.fault if i in found.faulty else NO_FAULT for i in range(learn + hold)]
-    paths = [one.path for one in stage.trials] + [scene.later(rng) for _ in range(hold)]
+    paths = [one.path for one in stage.trials] + [scene.later(rng, i) for i in range(hold)]
     recordings = [record(scene, p, rng, found.hooks, f, fine, gaps) for p, f in zip(paths, faults, strict=True)]
     share = sum(f is not NO_FAULT for f in faults[learn:]) / hold
     fresh = [
-        record(scene, scene.later(rng), rng, found.hooks, found.fault if (i + 0.5) / FRESH < share else NO_FAULT, fine)
+        record(
+            scene, scene.later(rng, i), rng, found.hooks, found.fault if (i + 0.5) / FRESH < share else NO_FAULT, fine
+        )
         for i in range(FRESH)
     ]
     theta = fitted(scene, recordings[:learn], stage.floor, rng)
@@ -331,7 +328,7 @@ def case_of(
                 outputs[row, rng.random(outputs.shape[1]) < 0.02] = np.nan
         values = np.column_stack([*one.inputs, *outputs])
         signals = Signals(one.time, values, (*scene.inputs, *scene.outputs), scene.units)
-        trials.append(CaseTrial(f"t{i + 1:02d}", signals))
+        trials.append(CaseTrial(f"t{i + 1:02d}", signals, one.setting))
     known = {c: noise.sd for c, noise in zip(scene.outputs, scene.noise, strict=True)}
     lot = rng.random()
     if lot < 0.25:

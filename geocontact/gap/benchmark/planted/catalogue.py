@@ -10,6 +10,7 @@ from geocontact.gap.benchmark.planted.effects.damping import DAMPING
 from geocontact.gap.benchmark.planted.effects.dead_zone import DEAD_ZONE
 from geocontact.gap.benchmark.planted.effects.dry_friction import DRY_FRICTION
 from geocontact.gap.benchmark.planted.effects.end_stop import END_STOP
+from geocontact.gap.benchmark.planted.effects.event_load import EVENT_LOAD
 from geocontact.gap.benchmark.planted.effects.filter_lag import FILTER_LAG
 from geocontact.gap.benchmark.planted.effects.gravity_load import GRAVITY_LOAD
 from geocontact.gap.benchmark.planted.effects.inertia_load import INERTIA_LOAD
@@ -42,6 +43,7 @@ PLANS: tuple[Plan, ...] = (
     SLIP,
     CONTACT_LOSS,
     ASYMMETRY,
+    EVENT_LOAD,
     GRAVITY_LOAD,
     INERTIA_LOAD,
     SENSOR_GAIN,
@@ -65,6 +67,7 @@ SWALLOWED = {
         "sensor_offset",
     ),
     "foot": ("sensor_gain",),
+    "shoulder": ("damping", "gravity_load", "series_compliance"),
     "knee": ("sensor_gain",),
     "sit_to_stand": ("sensor_gain", "series_compliance"),
 }

@@ -55,8 +55,8 @@ def elbow_scene(rng: Rng, *, shifted: bool) -> Scene:
         np.array([rng.uniform(0.0005, 0.002)]),
         step,
         corner_of(rng, step),
-        lambda r: elbow_path(r, style),
-        lambda r: elbow_path(r, later),
+        lambda r, _: elbow_path(r, style),
+        lambda r, _: elbow_path(r, later),
         elbow.ELBOW,
         ((100.0, 0.01, 0.02), (700.0, 0.07, 0.09)),  # away from the wrong basin at x = y = 0
     )

@@ -120,7 +120,7 @@ def foot_scene(rng: Rng, *, shifted: bool) -> Scene:
         np.array([5.5e-5, 3e-5, 4e-4]) * rng.uniform(0.6, 1.2),
         style.step,
         corner_of(rng, style.step),
-        lambda r: foot_path(r, style, sole),
-        lambda r: foot_path(r, later, sole),
+        lambda r, _: foot_path(r, style, sole),
+        lambda r, _: foot_path(r, later, sole),
         foot.foot(sole),
     )

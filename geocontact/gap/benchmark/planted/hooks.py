@@ -24,6 +24,17 @@ class Pull:
     elastic: Values
 
 
+@dataclass(frozen=True)
+class Swing:
+    """What an arm does at its hinge: angle [rad] with two derivatives, load of its interface [N], over time [s]."""
+
+    time: Float[np.ndarray, " t"]
+    angle: Values
+    rate: Values
+    acceleration: Values
+    load: Values
+
+
 Outputs = Float[np.ndarray, "c t"]
 
 
@@ -36,7 +47,7 @@ class Hooks:
     motion
         From the recorded motion to the true one.
     axis
-        What is added to a length at an angle: x (elbow), R (knee), the lever of a site.
+        What is added to a length at an angle: x (elbow), o_x (shoulder), R (knee), the lever of a site.
     attachment
         Deflection left once the attachment has crept: (time, u, k) → u.
     play
@@ -47,6 +58,8 @@ class Hooks:
         Force in parallel [N].
     series
         How far a spring in series gives way to a force, in the input's unit; needs a law without memory at the elbow.
+    hinge
+        Torque that holds back the arm of an exoskeleton [N m].
     load
         Added to the outputs.
     sensor
@@ -62,6 +75,7 @@ class Hooks:
     spring: tuple[Callable[[Float[np.ndarray, " t"], Values, Values], Values], ...] = ()
     beside: tuple[Callable[[Pull], Values], ...] = ()
     series: tuple[Callable[[Values], Values], ...] = ()
+    hinge: tuple[Callable[[Swing], Values], ...] = ()
     load: tuple[Callable[[Course, Mapping[str, float]], Outputs], ...] = ()
     sensor: tuple[tuple[float, Callable[[Course, Outputs], Outputs]], ...] = ()
 

@@ -59,12 +59,13 @@ def _ideal(scene: Scene, one: Trial, hooks: Hooks, fine: int, name: str) -> Idea
     grid = np.arange(one.count) * scene.step
     outputs = truth(scene, one.path, one.count, scene.theta, hooks, fine)
     without = truth(scene, one.path, one.count, scene.theta, BASE, fine)
-    values = np.column_stack([*one.path(grid).position, *outputs])
+    course = one.path(grid)
+    values = np.column_stack([*course.position, *outputs])
     varied = np.nan_to_num(jacobian(one.model, scene.theta)).reshape(-1, len(scene.theta))
     varied = solve_triangular(one.factor, varied, lower=True) @ np.linalg.cholesky(scene.spread)
     directions, singular, _ = np.linalg.svd(varied, full_matrices=False)
     return IdealTrial(
-        CaseTrial(name, Signals(grid, values, (*scene.inputs, *scene.outputs), scene.units)),
+        CaseTrial(name, Signals(grid, values, (*scene.inputs, *scene.outputs), scene.units), course.setting),
         outputs - without,
         {p.name: float(value) for p, value in zip(scene.parameters, scene.theta, strict=True)},
         one.factor,

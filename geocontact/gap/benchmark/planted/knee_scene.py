@@ -50,8 +50,8 @@ def knee_scene(rng: Rng, *, shifted: bool) -> Scene:
         np.array([1.5e-3, 6e-4, area_sd, area_sd]) * rng.uniform(0.7, 1.2),
         step,
         corner_of(rng, step),
-        lambda r: knee_path(r, style),
-        lambda r: knee_path(r, later),
+        lambda r, _: knee_path(r, style),
+        lambda r, _: knee_path(r, later),
         knee.KNEE,
     )
 

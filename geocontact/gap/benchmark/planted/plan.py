@@ -10,8 +10,14 @@ import numpy as np
 from geocontact.gap.benchmark.planted.hooks import Hooks
 
 Rng = np.random.Generator
+ALL = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
+"""Systems of an effect that any of them may have."""
 EVERYWHERE = 0.25
 """Share of effects that may stand at all places which do."""
+
+
+class NotFoundError(RuntimeError):
+    """No amplitude of this draw gives what is asked for."""
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ class Scene:
     step, corner
         Of the recording [s]; of the low-pass filter that the inputs came through [Hz].
     path, later
-        Draws a movement for a calibration trial; for an evaluation trial.
+        Draws a movement for the calibration trial of a number; for the evaluation trial of one.
     body
         The system itself.
     begin
@@ -53,8 +53,8 @@ class Scene:
     input_noise: Float[np.ndarray, " i"]
     step: float
     corner: float
-    path: Callable[[Rng], Path]
-    later: Callable[[Rng], Path]
+    path: Callable[[Rng, int], Path]
+    later: Callable[[Rng, int], Path]
     body: Body
     begin: tuple[tuple[float, ...], tuple[float, ...]] | None = None
 

@@ -53,8 +53,8 @@ def sit_to_stand_scene(rng: Rng, *, shifted: bool) -> Scene:
         np.tile([6e-5, 8e-5, 8e-4], len(sites)) * rng.uniform(0.6, 1.2),
         style.step,
         corner_of(rng, style.step),
-        lambda r: sit_to_stand_path(r, style),
-        lambda r: sit_to_stand_path(r, later),
+        lambda r, _: sit_to_stand_path(r, style),
+        lambda r, _: sit_to_stand_path(r, later),
         sit_to_stand.sit_to_stand(sites),
     )
 

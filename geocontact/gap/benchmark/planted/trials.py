@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,8 +14,6 @@ from geocontact.gap.benchmark.planted.interface import NotConvergedError
 from geocontact.gap.benchmark.planted.noise import smooth_noise
 from geocontact.gap.benchmark.planted.scene import Rng, Scene
 
-FINE = 10
-"""Steps of the truth per sample."""
 FINEST = 80
 AGREE, AT_MOST = 0.03, 0.25
 """Root mean square and largest change on halving the step, in standard deviations of the sensor noise."""
@@ -72,6 +70,7 @@ class Recording:
     duration: float
     phase: float
     fault: Fault = field(default=NO_FAULT)
+    setting: Mapping[str, float] = field(default_factory=dict)
 
 
 def truth(scene: Scene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int) -> Outputs:
@@ -88,7 +87,7 @@ def samples(scene: Scene, path: Path) -> int:
 def fine_enough(scene: Scene, path: Path, hooks: Hooks) -> int:
     """Steps per sample at which the truth no longer depends on them; raises when even the finest do not do."""
     count = samples(scene, path)
-    fine = FINE
+    fine = scene.body.fine
     coarse = truth(scene, path, count, scene.theta, hooks, fine)
     while fine < FINEST:
         finer = truth(scene, path, count, scene.theta, hooks, 2 * fine)
@@ -106,13 +105,13 @@ def record(
     rng: Rng,
     hooks: Hooks = BASE,
     fault: Fault = NO_FAULT,
-    fine: int = FINE,
+    fine: int | None = None,
     gaps: Callable[[Rng, int], Int[np.ndarray, " s"]] | None = None,
 ) -> Recording:
     """One trial: its own base parameters, noise on outputs and inputs, rows that got lost."""
     count = samples(scene, path)
     theta = vary(scene, rng)
-    outputs = truth(scene, path, count, theta, hooks, fine)
+    outputs = truth(scene, path, count, theta, hooks, fine or scene.body.fine)
     outputs = outputs + np.array([one.draw(rng, count, scene.step) for one in scene.noise])
     outputs = scene.body.recorded(outputs)
     course = path(np.arange(count) * scene.step)
@@ -128,6 +127,7 @@ def record(
         course.duration,
         course.phase,
         fault,
+        course.setting,
     )
 
 
@@ -140,14 +140,14 @@ def vary(scene: Scene, rng: Rng) -> Float[np.ndarray, " p"]:
 
 def as_measured(recording: Recording) -> Course:
     """The recorded inputs at the recorded samples."""
-    path = through(recording.time, recording.inputs, recording.duration, recording.phase)
+    path = through(recording.time, recording.inputs, recording.duration, recording.phase, recording.setting)
     return path(recording.time)
 
 
 def predicted(scene: Scene, recording: Recording, hooks: Hooks, fine: int) -> Outputs:
     """What the true simulator at its nominal parameters makes of the recorded inputs."""
     mended = recording.fault.mended(scene, recording.inputs)
-    path = through(recording.time, mended, recording.duration, recording.phase)
+    path = through(recording.time, mended, recording.duration, recording.phase, recording.setting)
     count = int(recording.rows[-1]) + 1
     outputs = truth(scene, path, count, scene.theta, hooks, fine)[:, recording.rows]
     return recording.fault.outputs(scene, outputs)

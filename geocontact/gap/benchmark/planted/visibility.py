@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,12 +10,15 @@ from jaxtyping import Bool, Float
 from scipy.linalg import cho_factor, cho_solve, solve_triangular
 
 from geocontact.gap.benchmark.planted.base_fit import Model, jacobian, refit
-from geocontact.gap.benchmark.planted.course import Path
+from geocontact.gap.benchmark.planted.body import Numbers
+from geocontact.gap.benchmark.planted.course import Course, Path
 from geocontact.gap.benchmark.planted.hooks import Outputs, Values
 from geocontact.gap.benchmark.planted.noise import smooth_covariance
 from geocontact.gap.benchmark.planted.scene import Scene
 from geocontact.gap.benchmark.planted.trials import samples
 
+FAINT = 1e-7
+"""White part of the variance of input noise, for the sake of arithmetic."""
 HIDDEN = 1e6
 """Standard deviations added where nothing is measured."""
 
@@ -57,6 +60,10 @@ def whitener(scene: Scene, path: Path) -> Trial:
         part = slice(c * count, (c + 1) * count)
         total[part, part] = noise.covariance(count, scene.step)
     for i, sd in enumerate(scene.input_noise):
+        if scene.body.passed_on is not None:
+            passed = passed_on(scene, course, i, scene.body.passed_on)
+            total += passed @ passed.T
+            continue
         place, cross, rate = smooth_covariance(float(sd), count, scene.step, scene.corner)
         a, b = slopes(scene, path, count, i)
         if not a.any() and not b.any():
@@ -76,6 +83,17 @@ def whitener(scene: Scene, path: Path) -> Trial:
     sd_all = np.repeat([one.sd for one in scene.noise], count)
     total[np.diag_indices(size)] += np.where(gone.ravel(), (HIDDEN * sd_all) ** 2, (1e-3 * sd_all) ** 2)
     return Trial(path, count, model, outputs, np.linalg.cholesky(total), diagonal)
+
+
+def passed_on(
+    scene: Scene, course: Course, i: int, respond: Callable[[Course, Numbers, int, Values], Values]
+) -> Float[np.ndarray, "n q"]:
+    """What the base model makes of the noise of input i where it remembers: each column times a number from N(0, 1)."""
+    count = len(course.time)
+    place, _, _ = smooth_covariance(1.0, count, scene.step, scene.corner)
+    root = np.linalg.cholesky(place + FAINT * np.eye(count))
+    passed = respond(course, scene.numbers(scene.theta), i, float(scene.input_noise[i]) * root)
+    return np.asarray(passed.reshape(-1, count))
 
 
 def slopes(scene: Scene, path: Path, count: int, i: int) -> tuple[Outputs, Outputs]:

@@ -13,8 +13,11 @@ from jaxtyping import Float
 
 from geocontact.gap.benchmark.planted.compile import loop
 from geocontact.gap.benchmark.planted.hooks import Hooks, Values
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import Draw, NotFoundError, Plan, Rng, Scale
 
+LIFTED = 0.3
+"""Of the largest deflection, how far the other way an interface may be moved that cannot pull: further, and the arm of
+an exoskeleton would fall off."""
 STRIPS = 24
 """Of the pad; more change nothing."""
 
@@ -35,22 +38,28 @@ def seated(u: Float[np.ndarray, " t"], gap: float) -> Float[np.ndarray, " t"]:
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: mean gap g [m], within the range of the deflection."""
     spread, lean, closer = rng.uniform(0.3, 0.45), rng.uniform(1.3, 1.8), rng.uniform(0.2, 0.35)
+    side = 1.0 if scale.high >= -scale.low else -1.0
+    low, high = (scale.low, scale.high) if side > 0.0 else (-scale.high, -scale.low)
+    if low < -LIFTED * high:
+        raise NotFoundError("the interface pulls as well as it pushes")
     at = (np.arange(STRIPS) + 0.5) / STRIPS
 
     def hooks(gap: float) -> Hooks:
         heights = gap * (1.0 + spread * (2.0 * at**lean - 1.0))
 
         def closed(u: Values) -> Values:
-            overlap = np.maximum((u + closer * gap * seated(u, gap))[:, None] - heights, 0.0)
-            return np.asarray(overlap.mean(axis=1))
+            pressed = side * u
+            overlap = np.maximum((pressed + closer * gap * seated(pressed, gap))[:, None] - heights, 0.0)
+            return np.asarray(side * overlap.mean(axis=1))
 
         return Hooks(play=(closed,))
 
-    least = max(scale.low, 0.02 * scale.high)
-    most = max(least + 0.6 * (scale.high - least), 0.9 * least)
-    return Draw(0.8 * least, most, hooks, lambda g: f"the pad opens strip by strip, by {g:.3g} m in the mean")
+    least = max(low, 0.02 * high)
+    most = max(least + 0.6 * (high - least), 0.9 * least)
+    variant = "" if scale.system == "sit_to_stand" else ("positive" if side > 0.0 else "negative")
+    return Draw(0.8 * least, most, hooks, lambda g: f"the pad opens strip by strip, by {g:.3g} m in the mean", variant)
 
 
 CONTACT_LOSS = Plan(
-    "contact_loss", ("sit_to_stand",), "strips, closer once pressed", "rounded corner", draw, placed=True
+    "contact_loss", ("shoulder", "sit_to_stand"), "strips, closer once pressed", "rounded corner", draw, placed=True
 )

@@ -12,14 +12,16 @@ import numpy as np
 from geocontact.gap.benchmark.planted.hooks import Hooks, Pull, Values
 from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
-THINNING = {"elbow": (4.0, 8.0), "foot": (1.2, 2.5), "sit_to_stand": (2.5, 4.5)}
+THINNING = {"elbow": (4.0, 8.0), "foot": (1.2, 2.5), "shoulder": (1.5, 3.0), "sit_to_stand": (2.5, 4.5)}
 """Range of v1 in units of the rms rate."""
 
 
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: b at small rates [N s/m]."""
     thinning = (rng.uniform(*THINNING[scale.system])) * scale.rate
-    lean = rng.uniform(0.45, 0.65) * (1.5 if scale.system == "sit_to_stand" else 1.0)
+    if scale.system == "shoulder":  # where base parameters take a plain damper away
+        thinning /= scale.departure
+    lean = rng.uniform(0.45, 0.65) * (1.5 if scale.system == "sit_to_stand" else scale.departure)
     reach = rng.uniform(0.25, 0.5) * scale.stroke
     harder = rng.uniform(0.18, 0.28) if scale.system == "foot" else 0.0
 
@@ -43,7 +45,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 DAMPING = Plan(
     "damping",
-    ("elbow", "foot", "sit_to_stand"),
+    ("elbow", "foot", "shoulder", "sit_to_stand"),
     "rate-thinning, deflection-dependent, uneven",
     "power of rate or depth",
     draw,

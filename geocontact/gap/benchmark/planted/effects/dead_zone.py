@@ -1,7 +1,7 @@
 """Slack that is taken up smoothly: padding at its edges.
 
 planted:   u -> s log(1 + exp((u - w+)/s)) - s log(1 + exp((-u - w-)/s)), less its value at 0; s = 0.15..0.21 of w
-           (straps 1.5 times that)
+           (shoulder, straps 1.5 times that)
 candidate: u - min(max(u, -(1 - a) w), a w)
 """
 
@@ -15,7 +15,8 @@ from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: whole play w [m]."""
-    share, soft = rng.uniform(0.2, 0.8), rng.uniform(0.15, 0.21) * (1.5 if scale.system == "sit_to_stand" else 1.0)
+    softer = 1.5 if scale.system in ("shoulder", "sit_to_stand") else 1.0
+    share, soft = rng.uniform(0.2, 0.8), softer * rng.uniform(0.15, 0.21)
     if scale.low > 0.0:  # all of it on the side where the strap moves
         share = 1.0 - 0.25 * share
 
@@ -36,4 +37,6 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(least, most, hooks, lambda w: f"play of {w:.3g} m with soft edges")
 
 
-DEAD_ZONE = Plan("dead_zone", ("elbow", "sit_to_stand"), "softplus edges", "piecewise linear", draw, placed=True)
+DEAD_ZONE = Plan(
+    "dead_zone", ("elbow", "shoulder", "sit_to_stand"), "softplus edges", "piecewise linear", draw, placed=True
+)

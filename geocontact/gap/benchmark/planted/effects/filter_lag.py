@@ -13,7 +13,7 @@ from jaxtyping import Float
 from geocontact.gap.benchmark.planted.compile import loop
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
 
 @loop
@@ -63,7 +63,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 FILTER_LAG = Plan(
     "filter_lag",
-    ("elbow", "foot", "knee", "sit_to_stand"),
+    ALL,
     "direction-dependent first order, then Butterworth",
     "two linear stages",
     draw,

@@ -1,7 +1,7 @@
 """One input is biased, by more at one end of its range than at the other: soft tissue.
 
-planted:   recorded + o (1 + e sin((q - middle)/w)), e = 0.2..0.3, q the angle (elbow), the pitch (foot), flexion (knee,
-           whose areas are biased) or the rotation of the site
+planted:   recorded + o (1 + e sin((q - middle)/w)), e = 0.2..0.3, q the angle (elbow, shoulder), the pitch (foot),
+           flexion (knee, whose areas are biased) or the rotation of the site
 candidate: recorded + o
 """
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,8 @@ def known(scale: Scale) -> tuple[Biased, ...]:
     """Inputs of a system that may be biased."""
     if scale.system == "elbow":
         return (Biased("beta", 0, 0.3, "rad", 0, scale.middle, 0.5),)
+    if scale.system == "shoulder":
+        return (Biased("arm", 0, 0.15, "rad", 0, scale.middle, 0.7 * scale.span),)
     if scale.system == "foot":
         return Biased("y", 1, 0.004, "m", 2, -0.1, 0.25), Biased("pitch", 2, 0.06, "rad", 2, -0.1, 0.25)
     if scale.system == "knee":
@@ -70,5 +72,9 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 
 MOTION_OFFSET = Plan(
-    "motion_offset", ("elbow", "foot", "knee", "sit_to_stand"), "bias that varies with the angle", "constant bias", draw
+    "motion_offset",
+    ALL,
+    "bias that varies with the angle",
+    "constant bias",
+    draw,
 )

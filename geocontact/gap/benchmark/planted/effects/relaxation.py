@@ -1,8 +1,8 @@
 """A viscoelastic solid with two times.
 
-planted:   F += sum g_j (F_el - z_j), z_j' = (F_el - z_j)/tau_j, two branches a factor 7..14 apart in time (knee, straps
-           15..30)
-           knee, straps: of F_el (1 + e (|F_el|/F - 1/2)), e = 0.5..0.8
+planted:   F += sum g_j (F_el - z_j), z_j' = (F_el - z_j)/tau_j, two branches a factor 7..14 apart in time (knee,
+           shoulder, straps 15..30)
+           knee, shoulder, straps: of F_el (1 + e (|F_el|/F - 1/2)), e = 0.5..0.8
 candidate: one Maxwell branch
 """
 
@@ -13,11 +13,23 @@ from jaxtyping import Float
 
 from geocontact.gap.benchmark.planted.compile import loop
 from geocontact.gap.benchmark.planted.hooks import Hooks, Pull, Values
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
-QUICK = {"elbow": (0.1, 0.5), "foot": (0.01, 0.03), "knee": (0.02, 0.04), "sit_to_stand": (0.04, 0.08)}
+QUICK = {
+    "elbow": (0.1, 0.5),
+    "foot": (0.01, 0.03),
+    "shoulder": (0.06, 0.12),
+    "knee": (0.02, 0.04),
+    "sit_to_stand": (0.04, 0.08),
+}
 """Range of the shorter time [s]."""
-APART = {"elbow": (7.0, 14.0), "foot": (7.0, 14.0), "knee": (15.0, 30.0), "sit_to_stand": (15.0, 30.0)}
+APART = {
+    "elbow": (7.0, 14.0),
+    "foot": (7.0, 14.0),
+    "shoulder": (15.0, 30.0),
+    "knee": (15.0, 30.0),
+    "sit_to_stand": (15.0, 30.0),
+}
 
 
 @loop
@@ -37,7 +49,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     apart = rng.uniform(*APART[scale.system])
     quick = rng.uniform(*QUICK[scale.system])
     first = rng.uniform(0.4, 0.65)
-    bend = rng.uniform(0.5, 0.8) if scale.system in ("knee", "sit_to_stand") else 0.0
+    bend = rng.uniform(0.5, 0.8) if scale.system in ("shoulder", "knee", "sit_to_stand") else 0.0
 
     def hooks(g: float) -> Hooks:
         def branches(p: Pull) -> Values:
@@ -58,7 +70,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 RELAXATION = Plan(
     "relaxation",
-    ("elbow", "foot", "knee", "sit_to_stand"),
+    ALL,
     "two Prony branches",
     "one Maxwell branch",
     draw,

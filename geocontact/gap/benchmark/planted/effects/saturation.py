@@ -12,9 +12,15 @@ import numpy as np
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.effects.relaxation import settled
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs, Values
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
-LAG = {"elbow": (0.05, 0.12), "foot": (0.008, 0.014), "knee": (0.05, 0.07), "sit_to_stand": (0.05, 0.09)}
+LAG = {
+    "elbow": (0.05, 0.12),
+    "foot": (0.008, 0.014),
+    "shoulder": (0.05, 0.09),
+    "knee": (0.05, 0.07),
+    "sit_to_stand": (0.05, 0.09),
+}
 """Range of the recovery time [s]."""
 
 
@@ -55,7 +61,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 SATURATION = Plan(
     "saturation",
-    ("elbow", "foot", "knee", "sit_to_stand"),
+    ALL,
     "soft knee, uneven rails, slow recovery",
     "rounded symmetric clip",
     draw,

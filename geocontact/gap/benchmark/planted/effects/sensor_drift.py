@@ -10,7 +10,7 @@ import numpy as np
 
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
 
 def draw(rng: Rng, scale: Scale) -> Draw:
@@ -42,7 +42,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 SENSOR_DRIFT = Plan(
     "sensor_drift",
-    ("elbow", "foot", "knee", "sit_to_stand"),
+    ALL,
     "power of time with a wander",
     "linear or exponential",
     draw,

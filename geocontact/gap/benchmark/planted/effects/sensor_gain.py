@@ -11,9 +11,15 @@ import numpy as np
 
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
-BEND = {"elbow": (0.6,), "foot": (0.6, 0.09, 1.3), "knee": (0.9, 0.9), "sit_to_stand": (0.6, 0.6, 0.6)}
+BEND = {
+    "elbow": (0.6,),
+    "foot": (0.6, 0.09, 1.3),
+    "shoulder": (0.6, 0.6),
+    "knee": (0.9, 0.9),
+    "sit_to_stand": (0.6, 0.6, 0.6),
+}
 """About e, by output."""
 
 
@@ -42,7 +48,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 SENSOR_GAIN = Plan(
     "sensor_gain",
-    ("elbow", "foot", "knee", "sit_to_stand"),
+    ALL,
     "gain that changes with load",
     "constant gain",
     draw,

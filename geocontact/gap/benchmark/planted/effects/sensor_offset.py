@@ -10,7 +10,7 @@ import numpy as np
 
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
 WANDER = {"sit_to_stand": (0.05, 0.08)}
 """Range of e where base parameters take most of a plain offset away."""
@@ -39,7 +39,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 SENSOR_OFFSET = Plan(
     "sensor_offset",
-    ("elbow", "foot", "knee", "sit_to_stand"),
+    ALL,
     "offset that wanders",
     "constant offset",
     draw,

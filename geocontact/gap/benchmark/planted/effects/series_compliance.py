@@ -18,7 +18,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     share, limit = rng.uniform(0.16, 0.31), rng.uniform(0.2, 0.35) * force
     if scale.system == "elbow":  # where base parameters take most of a linear spring away
         share += 0.39 + 0.3 * (1.0 - scale.departure)
-    if scale.system == "sit_to_stand":  # likewise
+    if scale.system in ("shoulder", "sit_to_stand"):  # likewise
         share = 1.0 - scale.departure * (1.0 - share)
 
     def hooks(soft: float) -> Hooks:
@@ -37,7 +37,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 SERIES_COMPLIANCE = Plan(
     "series_compliance",
-    ("elbow", "foot", "sit_to_stand"),
+    ("elbow", "foot", "shoulder", "sit_to_stand"),
     "two springs, one bottoms out",
     "power of load",
     draw,

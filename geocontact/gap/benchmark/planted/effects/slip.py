@@ -68,7 +68,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 SLIP = Plan(
     "slip",
-    ("elbow", "sit_to_stand"),
+    ("elbow", "shoulder", "sit_to_stand"),
     "Norton creep that grows with time",
     "Bingham above a limit",
     draw,

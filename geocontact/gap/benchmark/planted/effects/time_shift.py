@@ -11,7 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
 
 def draw(rng: Rng, scale: Scale) -> Draw:
@@ -35,7 +35,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
 
 TIME_SHIFT = Plan(
     "time_shift",
-    ("elbow", "foot", "knee", "sit_to_stand"),
+    ALL,
     "delay that wanders by a quarter through a trial",
     "constant delay",
     draw,

@@ -6,7 +6,7 @@ import numpy as np
 
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
 
 def draw(rng: Rng, scale: Scale) -> Draw:
@@ -26,4 +26,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4 * scale.force, 0.5 * scale.force, hooks, lambda a: f"a push of {sign * a:.3g} N around {at:.0%}")
 
 
-BURST = Plan("burst", ("elbow", "foot", "knee", "sit_to_stand"), "push in a part of the trial", "", draw)
+BURST = Plan("burst", ALL, "push in a part of the trial", "", draw)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from geocontact.gap.benchmark.planted.outside.burst import BURST
+from geocontact.gap.benchmark.planted.outside.catch import CATCH
 from geocontact.gap.benchmark.planted.outside.held_samples import HELD_SAMPLES
 from geocontact.gap.benchmark.planted.outside.jump import JUMP
 from geocontact.gap.benchmark.planted.outside.other_carrier import OTHER_CARRIER
@@ -23,6 +24,7 @@ OUTSIDERS: tuple[Plan, ...] = (
     WANDER,
     RINGING,
     SWELLING,
+    CATCH,
 )
 
 

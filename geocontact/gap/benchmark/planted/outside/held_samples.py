@@ -6,7 +6,7 @@ import numpy as np
 
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
 
 def draw(rng: Rng, scale: Scale) -> Draw:
@@ -30,4 +30,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(0.002, 0.12, hooks, lambda s: f"{count} stretches of {s:.2%} of a trial in which values are repeated")
 
 
-HELD_SAMPLES = Plan("held_samples", ("elbow", "foot", "knee", "sit_to_stand"), "held samples", "", draw)
+HELD_SAMPLES = Plan("held_samples", ALL, "held samples", "", draw)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap.benchmark.planted.hooks import Hooks, Values
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
 
 def draw(rng: Rng, scale: Scale) -> Draw:
@@ -23,4 +23,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-3, 0.5, hooks, lambda s: f"the stiffness changes by {sign * s:.2%} at {at:.2g} s")
 
 
-JUMP = Plan("jump", ("elbow", "foot", "knee", "sit_to_stand"), "stiffness changes mid trial", "", draw, placed=True)
+JUMP = Plan("jump", ALL, "stiffness changes mid trial", "", draw, placed=True)

@@ -6,7 +6,7 @@ import numpy as np
 
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
 
 def draw(rng: Rng, scale: Scale) -> Draw:
@@ -27,4 +27,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-3 * most, 0.3 * most, hooks, lambda s: f"{names[row]} comes in steps of {s:.3g}")
 
 
-QUANTISATION = Plan("quantisation", ("elbow", "foot", "knee", "sit_to_stand"), "coarse steps", "", draw)
+QUANTISATION = Plan("quantisation", ALL, "coarse steps", "", draw)

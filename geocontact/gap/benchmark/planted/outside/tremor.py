@@ -1,4 +1,4 @@
-"""A narrow line in the force: tremor or a resonance of the frame, 3..9 Hz at the elbow and straps, higher elsewhere."""
+"""A narrow line in the force: tremor or a resonance of the frame, 3..9 Hz at arms and straps, higher elsewhere."""
 
 from __future__ import annotations
 
@@ -6,9 +6,15 @@ import numpy as np
 
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
-PITCH = {"elbow": (3.0, 9.0), "foot": (15.0, 40.0), "knee": (7.0, 25.0), "sit_to_stand": (3.5, 9.0)}
+PITCH = {
+    "elbow": (3.0, 9.0),
+    "foot": (15.0, 40.0),
+    "shoulder": (3.5, 9.0),
+    "knee": (7.0, 25.0),
+    "sit_to_stand": (3.5, 9.0),
+}
 """Range [Hz]; a third of the sampling frequency at most."""
 
 
@@ -32,4 +38,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4 * scale.force, 0.3 * scale.force, hooks, lambda a: f"a tremor of {a:.3g} N at {pitch:.1f} Hz")
 
 
-TREMOR = Plan("tremor", ("elbow", "foot", "knee", "sit_to_stand"), "narrow line", "", draw)
+TREMOR = Plan("tremor", ALL, "narrow line", "", draw)

@@ -6,7 +6,7 @@ import numpy as np
 
 from geocontact.gap.benchmark.planted.course import Course
 from geocontact.gap.benchmark.planted.hooks import Hooks, Outputs
-from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
+from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 
 
 def draw(rng: Rng, scale: Scale) -> Draw:
@@ -28,4 +28,4 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4 * most, 0.2 * most, hooks, lambda a: f"{names[row]} wanders up and down by {a:.3g}")
 
 
-WANDER = Plan("wander", ("elbow", "foot", "knee", "sit_to_stand"), "up and down, other in every trial", "", draw)
+WANDER = Plan("wander", ALL, "up and down, other in every trial", "", draw)
