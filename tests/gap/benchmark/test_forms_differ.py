@@ -33,7 +33,7 @@ EFFECTS = [(system, one.name) for system in SCENES for one in plans(system) if o
 def stages():
     found = {}
     for system, make in SCENES.items():
-        rng = np.random.default_rng({"elbow": 12, "foot": 1, "shoulder": 8, "knee": 2, "sit_to_stand": 1}[system])
+        rng = np.random.default_rng({"elbow": 12, "foot": 1, "shoulder": 59, "knee": 2, "sit_to_stand": 1}[system])
         scene = make(rng, shifted=False)
         found[system] = prepared(scene, [scene.path(rng, i) for i in range(TRIALS.get(system, 1))], "single")
     return found

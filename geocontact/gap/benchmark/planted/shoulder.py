@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from scipy.interpolate import CubicSpline
 
 from geocontact.gap.benchmark.planted.body import Body
@@ -127,7 +127,7 @@ def respond(course: Course, numbers: Numbers, hooks: Hooks, table: Table) -> Flo
     return read(hooks, course, outputs)
 
 
-def finer(course: Course) -> tuple[Course, Values]:
+def finer(course: Course) -> tuple[Course, Int[np.ndarray, " s"]]:
     """Steps of at most `COARSEST`, evenly apart also where rows were lost; and which of them are the course's."""
     step = float(np.diff(course.time).min())
     h = step / np.ceil(step / COARSEST - 1e-6)

@@ -78,7 +78,7 @@ def style_of(rng: Rng, *, typical: bool) -> ShoulderStyle:
     kind = str(rng.choice(["raise", "heights", "cycle"]))
     step = float(rng.choice([0.01, 0.02]))
     hanging, raised = rng.uniform(0.15, 0.4), rng.uniform(1.2, 2.0)
-    pace = float(np.exp(rng.uniform(np.log(0.6), np.log(2.0))))
+    pace = float(np.exp(rng.uniform(np.log(1.4 if kind == "cycle" else 0.7), np.log(2.0))))
     return ShoulderStyle(
         kind, hanging, raised, pace, rng.uniform(6.0, 9.0), step, LEVELS[int(rng.integers(len(LEVELS)))]
     )

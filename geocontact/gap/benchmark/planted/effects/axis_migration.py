@@ -2,7 +2,7 @@
 
 planted:   x + a w tanh(phi/w) + c a sin(3 phi), phi = beta - middle, w = 0.9..1.3 rad; R of the knee with flexion, the
            lever of a site with its rotation: phi in units of half their range
-           shoulder: o_x, phi = arm, because o_x is that of the hanging arm; c half as much again
+           shoulder: o_x, phi = arm, because o_x is that of the hanging arm; c 2.5 times that
 candidate: x + a phi + c phi^2
 """
 
@@ -30,7 +30,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     ripple = scale.departure * rng.uniform(0.06, 0.1) * (1.0 if scale.system == "elbow" else 1.8)
     middle = scale.middle
     if scale.system == "shoulder":
-        middle, ripple = 0.0, 1.5 * ripple
+        middle, ripple = 0.0, 2.5 * ripple
 
     def hooks(slope: float) -> Hooks:
         def wander(angle: Values) -> Values:

@@ -1,7 +1,7 @@
 """A stop with a rubber buffer.
 
 planted:   P (0.6 v + 0.4 v^2)/(that at D) (1 + e u'/hypot(u', V)), v = b log(1 + exp((u - u1)/(b (D - u1)))),
-           b = 0.12..0.2; rubber gives back less than it took, e = 0.12..0.2, shoulder, straps 2.5 times that
+           b = 0.12..0.2; rubber gives back less than it took, e = 0.12..0.2, straps 2.5, shoulder 4 times that
 candidate: K max(u - u1, 0), or K D (max(u - u1, 0)/D)^1.5
 """
 
@@ -18,7 +18,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     side = 1.0 if rng.random() < 0.7 else -1.0
     beyond = rng.uniform(0.1, 0.28) * (scale.high - scale.low)
     limit = scale.high - beyond if side > 0.0 else scale.low + beyond
-    lossy = 2.5 if scale.system in ("shoulder", "sit_to_stand") else 1.0
+    lossy = {"shoulder": 4.0, "sit_to_stand": 2.5}.get(scale.system, 1.0)
     buffer, loss = rng.uniform(0.12, 0.2), lossy * rng.uniform(0.12, 0.2)
 
     def swell(depth: Values) -> Values:

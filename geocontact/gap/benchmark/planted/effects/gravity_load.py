@@ -1,7 +1,7 @@
 """Weight of a body whose centre does not lie on the link; at the shoulder it hangs on either arm.
 
-planted:   W (sin(beta + phi) + e sin(3 beta)): a second mass that swings on its strap, e = 0.04..0.08;
-           shoulder: so at the sensor, or W l (sin(e + phi) + e sin(3 e)) at the exoskeleton's hinge, l = 0.25 m
+planted:   W (sin(beta + phi) + e sin(3 beta)): a second mass that swings on its strap, e = 0.04..0.08,
+           shoulder 2.5 times that; or W l (sin(e + phi) + e sin(3 e)) at the exoskeleton's hinge, l = 0.25 m
 candidate: W sin(beta + phi); or at the hinge
 """
 
@@ -22,7 +22,7 @@ LEVER = 0.25
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: weight W [N], of either sense."""
     sign, phase = rng.choice([-1.0, 1.0]), rng.uniform(-0.15, 0.15)
-    hanging = scale.departure * rng.uniform(0.04, 0.08)
+    hanging = scale.departure * rng.uniform(0.04, 0.08) * (2.5 if scale.system == "shoulder" else 1.0)
     on_exo = scale.system == "shoulder" and (scale.departure < 1.0 or rng.random() < 0.3)
     if on_exo:
         sign, phase = 1.0, scale.departure * rng.uniform(-0.45, 0.45)

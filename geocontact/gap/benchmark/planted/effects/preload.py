@@ -1,6 +1,7 @@
 """Strap tension that relaxes a little and falls as the strap is let out.
 
-planted:   T (1 - r (1 - exp(-t/tau))) (1 + s tanh(2 u/D)), r = 0.05..0.12, s = 0.05..0.1; shoulder, straps twice that
+planted:   T (1 - r (1 - exp(-t/tau))) (1 + s tanh(2 u/D)), r = 0.05..0.12, s = 0.05..0.1; straps twice that,
+           shoulder 4 times
 candidate: T min(max(1 + c u, 0), 1)
 """
 
@@ -14,7 +15,7 @@ from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: tension at rest T [N]."""
-    more = 2.0 if scale.system in ("shoulder", "sit_to_stand") else 1.0
+    more = {"shoulder": 4.0, "sit_to_stand": 2.0}.get(scale.system, 1.0)
     lost, tau = more * scale.departure * rng.uniform(0.05, 0.12), scale.duration * rng.uniform(0.1, 0.3)
     pull = more * scale.departure * rng.uniform(0.05, 0.1)
     sign = rng.choice([-1.0, 1.0])

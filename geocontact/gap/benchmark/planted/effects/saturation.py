@@ -17,7 +17,7 @@ from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 LAG = {
     "elbow": (0.05, 0.12),
     "foot": (0.008, 0.014),
-    "shoulder": (0.05, 0.09),
+    "shoulder": (0.08, 0.14),
     "knee": (0.05, 0.07),
     "sit_to_stand": (0.05, 0.09),
 }

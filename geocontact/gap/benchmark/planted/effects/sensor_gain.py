@@ -1,7 +1,7 @@
 """A sensor that is off in gain, a little more at high loads.
 
-planted:   y (1 + g (1 + e (|y|/Y - 1/2))), e = 0.54..0.72; 0.8..1.1 at the knee; 1.2..1.6 for cop_x; 0.08..0.11 for
-           force_y, because base parameters nearly take a plain gain of it away
+planted:   y (1 + g (1 + e (|y|/Y - 1/2))), e = 0.54..0.72; 0.8..1.1 at knee and shoulder; 1.2..1.6 for cop_x;
+           0.08..0.11 for force_y, because base parameters nearly take a plain gain of it away
 candidate: (1 + g) y
 """
 
@@ -16,7 +16,7 @@ from geocontact.gap.benchmark.planted.plan import ALL, Draw, Plan, Rng, Scale
 BEND = {
     "elbow": (0.6,),
     "foot": (0.6, 0.09, 1.3),
-    "shoulder": (0.6, 0.6),
+    "shoulder": (0.9, 0.9),
     "knee": (0.9, 0.9),
     "sit_to_stand": (0.6, 0.6, 0.6),
 }

@@ -1,7 +1,7 @@
 """Tissue that stiffens exponentially (elbow, straps); foam whose cells are taken up one after the other (foot).
 
 planted:   elbow, straps: k u (1 + x (1 + e v/hypot(v, V))), x = (exp(a s) - 1)/(a s) - 1, s = |u|/D, with a little
-           hysteresis, e = 0.015..0.026 (straps 0.06..0.1, shoulder 0.09..0.16)
+           hysteresis, e = 0.015..0.026 (straps 0.06..0.1, shoulder 0.14..0.23)
            foot: k d^n (1 + a r(s)/r(1)), r(s) = s^m/(s^m + w^m), m = 3..4.5, w = 0.4..0.6
 candidate: k u (1 + g (|u|/D)^p)
 """
@@ -17,7 +17,7 @@ from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: share a of stiffness gained, about, at the largest deflection [-]."""
     m, middle = rng.uniform(3.0, 4.5), rng.uniform(0.4, 0.6)
-    lag = rng.uniform(0.015, 0.026) * {"shoulder": 6.0, "sit_to_stand": 4.0}.get(scale.system, 1.0)
+    lag = rng.uniform(0.015, 0.026) * {"shoulder": 9.0, "sit_to_stand": 4.0}.get(scale.system, 1.0)
 
     def hooks(a: float) -> Hooks:
         def tissue(_: Values, u: Values, rate: Values) -> Values:
