@@ -1,7 +1,7 @@
 """An attachment that creeps along the limb by a power of its load, the more easily the longer it is worn; no threshold.
 
-planted:   s' = c sign(f) (|f|/F)^m (e + (t/T)^2) - r s, f = k (u - s), m = 3..5, e = 0.08..0.2: sweat lets it go
-           (Norton); r = 0 (elbow), 2..3 of 1/T: skin under a strap creeps back
+planted:   s' = c sign(f) (|f|/F)^m (e + (t/T)^2) - r s, f = k (u - s), m = 3..5, e = 0.08..0.2, shoulder 0.88..1:
+           sweat lets it go (Norton); r = 0 (elbow), 2..3 of 1/T: skin under a strap creeps back
 candidate: s' = m sign(f) max(|f| - L, 0)
 """
 
@@ -53,7 +53,8 @@ def crept(
 def draw(rng: Rng, scale: Scale) -> Draw:
     """Amplitude: creep rate c at the largest load in the end [m/s]."""
     m, begin = rng.uniform(3.0, 5.0), rng.uniform(0.08, 0.2)
-
+    if scale.system == "shoulder":
+        begin += 0.8
     back = rng.uniform(2.0, 3.0) / scale.duration if scale.system == "sit_to_stand" else 0.0
 
     def hooks(rate: float) -> Hooks:
