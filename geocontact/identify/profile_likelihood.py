@@ -67,17 +67,45 @@ def profile(
     half = memory.half_width(np.sqrt(sandwich(memory, time, jacobian)[:, j, j]), level)
     if half <= 1e-12 * abs(best):
         return Profile(name, best, best, best, False, False, np.array([best]), np.zeros(1))
-    cut = half**2 / float(spread(jacobian)[j, j])
     least = float(fit.residuals[0][:, 0] @ fit.residuals[0][:, 0])
 
+    def held(value: float) -> float:
+        return _held(predict, measured, parameters, fit, name, value)
+
+    return profile_of(held, least, parameter, best, half, float(spread(jacobian)[j, j]), points)
+
+
+def profile_of(
+    held: Callable[[float], float],
+    least: float,
+    parameter: Parameter,
+    best: float,
+    half: float,
+    inverse: float,
+    points: int = POINTS,
+) -> Profile:
+    """Profile of a parameter where an interval of half-width `half` would hold it if the model were linear.
+
+    Parameters
+    ----------
+    held
+        Least sum of squares with the parameter held at a value.
+    least
+        The same with the parameter free, at `best`.
+    inverse
+        Entry of the parameter in (J'J)^-1, J being the derivatives of what is squared.
+    """
+    cut = half**2 / inverse
+
     def rise(value: float) -> float:
-        return (_held(predict, measured, parameters, fit, name, value) - least) / cut
+        return (held(value) - least) / cut
 
     ends = [_end(rise, best, way * half, parameter) for way in (-1.0, 1.0)]
     span = [best + 1.3 * (end - best) for end, _ in ends]
     values = np.linspace(max(span[0], parameter.lower), min(span[1], parameter.upper), points)
     (lower, lower_open), (upper, upper_open) = ends
-    return Profile(name, best, lower, upper, lower_open, upper_open, values, np.array([rise(v) for v in values]))
+    curve = np.array([rise(v) for v in values])
+    return Profile(parameter.name, best, lower, upper, lower_open, upper_open, values, curve)
 
 
 def _held(

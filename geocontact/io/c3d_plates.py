@@ -36,24 +36,29 @@ def read_c3d_plates(path: str | PathLike[str]) -> Arrays:
     `frames`, `rate` [Hz] and `start` [s]; for plate k = 0, 1 …: `force_k`, `moment_k`, `corners_k` in the file's units,
     and those in `units_k` (force, position, moment).
     """
+    return read_apart(path, __name__)
+
+
+def read_apart(path: str | PathLike[str], module: str) -> Arrays:
+    """Arrays that `python -m module FILE` writes of a .c3d file, `frames` among them, in another process."""
     file = fspath(path)
     data = read_bytes(path)
     if len(data) < 512 or data[1] != 0x50:
         raise InputError(file, "", "is not a .c3d file although its name says so", "export or download it again")
     if len(data) > LARGEST:
         raise InputError(file, "", f"{len(data) / 1e6:.0f} MB is more than the {LARGEST / 1e6:.0f} MB limit", "cut it")
-    arrays = _read_apart(file, PATIENCE[0] + PATIENCE[1] * len(data))
+    arrays = _run(file, module, PATIENCE[0] + PATIENCE[1] * len(data))
     declared, found = _frames_declared(data), int(arrays["frames"])
     if found < declared:  # ezc3d passes over what is missing without a word
         raise InputError(file, "", f"holds {found} of the {declared} frames it declares", "is it complete?")
     return arrays
 
 
-def _read_apart(file: str, patience: float) -> Arrays:
-    """`plates_of` in another process, which finds the modules that this one finds."""
+def _run(file: str, module: str, patience: float) -> Arrays:
+    """The module in another process, which finds the modules that this one finds."""
     here = str(Path(__file__).resolve().parents[2])
     paths = os.pathsep.join(dict.fromkeys([*(path for path in sys.path if path), here]))
-    command = [sys.executable, "-P", "-W", "ignore", "-m", __name__, str(Path(file).absolute())]
+    command = [sys.executable, "-P", "-W", "ignore", "-m", module, str(Path(file).absolute())]
     try:
         child = subprocess.run(
             command, env={**os.environ, "PYTHONPATH": paths}, capture_output=True, timeout=patience, check=False

@@ -39,6 +39,22 @@ NEAR_POLE = 1e-6
 
 
 @kernel
+def closure(s: float, c: float, l: float, x: float, y: float) -> tuple[float, float, float, float, float]:
+    """Attachment seen from the joint's axis at an elbow angle of sine `s` and cosine `c` [m, m, m, m, m].
+
+    How far it lies across, its distance, its distance at the stretched limb, and top and bottom of tan γ. Where |x| > l
+    the root is taken as 0; the bottom keeps a magnitude of 1 µm.
+    """
+    across, along = l * s - x, y + l * c
+    reach = max(hypot(across, along), NEAR_POLE)
+    height = sqrt(max(l * l - x * x, NEAR_POLE * NEAR_POLE))
+    top, bottom = x * c + y * s, l + y * c - x * s
+    if abs(bottom) < NEAR_POLE:
+        bottom = NEAR_POLE if bottom >= 0.0 else -NEAR_POLE
+    return across, reach, height, top, bottom
+
+
+@kernel
 def misalignment(beta: float, rate: float, n: Float[np.ndarray, " slots"]) -> tuple[float, float]:
     """Deflection d_tot [m] and its rate [m/s] at elbow angle `beta` [rad].
 
@@ -51,12 +67,7 @@ def misalignment(beta: float, rate: float, n: Float[np.ndarray, " slots"]) -> tu
     x = n[2] + angle * (n[4] + n[5] * angle)
     x_rate = rate * (n[4] + 2.0 * n[5] * angle)
     s, c = sin(beta), cos(beta)
-    across, along = l * s - x, y + l * c
-    reach = max(hypot(across, along), NEAR_POLE)
-    height = sqrt(max(l * l - x * x, NEAR_POLE * NEAR_POLE))
-    top, bottom = x * c + y * s, l + y * c - x * s
-    if abs(bottom) < NEAR_POLE:
-        bottom = NEAR_POLE if bottom >= 0.0 else -NEAR_POLE
+    across, reach, height, top, bottom = closure(s, c, l, x, y)
     deflection = y + height - reach - z * top / bottom
     by_beta = l * top / reach - z * ((y * c - x * s) * bottom + top * top) / (bottom * bottom)
     by_x = across / reach - x / height - z * (c * bottom + s * top) / (bottom * bottom)

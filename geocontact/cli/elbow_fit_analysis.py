@@ -1,0 +1,285 @@
+"""The identification at an elbow: reads, computes, writes, says what it found."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.cli.elbow_fit import ElbowFitOptions
+from geocontact.cli.elbow_inputs import recordings, require_bins, require_locked
+from geocontact.cli.elbow_numbers import PER_SI, TYPED
+from geocontact.cli.elbow_unknowns import SCALE_WORDS, checked_widths, unknowns
+from geocontact.cli.output import written_whole
+from geocontact.cli.record import Record
+from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.data.errors import InputError
+from geocontact.identify.bin_tests import BinTest, Normality, between_bins, lilliefors
+from geocontact.identify.profile_likelihood import Profile
+from geocontact.io.elbow_recording import DISPLACEMENT
+from geocontact.io.elbow_recording import FORCE as FORCE_CHANNEL
+from geocontact.systems.elbow_bins import FORCE, Binned, binned
+from geocontact.systems.elbow_end_stop import Stiffness, Stroke, curve_of, stiffness_by_displacement, stroke_of
+from geocontact.systems.elbow_explicit import require_no_pole, require_reach
+from geocontact.systems.elbow_fit import Estimate, estimated, law_at, problem_of, r_squared
+from geocontact.systems.elbow_law import offsets_of
+from geocontact.systems.elbow_uncertainty import (
+    SCALED,
+    Direction,
+    along_the_scale,
+    covariance,
+    direction,
+    profiled,
+    wild_bootstrap,
+)
+
+FEW_STRETCHES = 12
+FACTORS = np.geomspace(0.5, 2.0, 41)
+BETTER = 0.02  # of R² that the mirrored force must gain to be worth a word
+TAILS = (2.5, 97.5)
+AGAINST = 3.0  # standard errors below 0 from which a stiffness is a turned sign
+
+
+@dataclass(frozen=True, eq=False)
+class Held:
+    """R² of bin means that were not fitted, by what was held out."""
+
+    name: str
+    r2: float
+    rmse: float
+    bins: int
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """Everything found of the locked recordings.
+
+    Parameters
+    ----------
+    profiles, drawn
+        By free number; `drawn` are ends of the bootstrap's 95 %, empty without.
+    told_least
+        Of k and the lengths, and of those of them that are free.
+    scale_free
+        Whether nothing known sets the scale: the numbers are then one point of a line.
+    held
+        Of every trial left out, or of the recordings that were held out.
+    """
+
+    recordings: Sequence[ElbowRecording]
+    data: Binned
+    boxes: Binned
+    estimate: Estimate
+    profiles: Mapping[str, Profile]
+    drawn: Mapping[str, tuple[float, float]]
+    stretches: int
+    all_directions: Direction
+    free_directions: Direction | None
+    scale_free: bool
+    line: Float[np.ndarray, "m 7"]
+    line_r2: Float[np.ndarray, " m"]
+    held: Sequence[Held]
+    bins_differ: BinTest | None
+    normality: Normality
+    r2: float
+    mirrored_r2: float
+
+
+@dataclass(frozen=True, eq=False)
+class Free:
+    """What the recordings with a free joint tell."""
+
+    recordings: Sequence[ElbowRecording]
+    stroke: Stroke
+    stiffness: Stiffness | None
+    bins_differ: BinTest | None
+
+
+def analyse(paths: tuple[Path, ...], o: ElbowFitOptions) -> int:
+    """Run the whole analysis."""
+    from geocontact.cli.elbow_fit_results import describe, write_results
+
+    record = Record("elbow fit", {"recordings": list(paths), **asdict(o)})
+    checked_widths(o)
+    parameters, priors = unknowns(o)
+    with record.catching_warnings(), written_whole(o.out) as draft:
+        locked = recordings(record, "locked", paths, o.map, o.angles, o.unit, o.cutoff)
+        require_locked(paths, locked)
+        data = binned(locked, float(np.radians(o.bin_deg)))
+        require_bins(record, paths, data)
+        if not any(p.name == "s" and p.fixed for p in parameters) and data.pressure == 0.0:
+            raise InputError(paths[0], "", "--free s needs a column pressure", "name it: --map pressure=…")
+        apart = _held_out(record, o)
+        found = _fitted(locked, data, estimated(problem_of(data, parameters, priors)), apart, o)
+        free = None if o.unlocked is None else _free(record, o, found)
+        _reserve(record, found)
+        record.results["elbow"] = describe(found, free)
+        write_results(record, found, free, o, draft)
+        record.write(draft)
+        written = sorted(file.name for file in draft.iterdir())
+    _tell(record, found, free)
+    record.say(f"results in {o.out}: {', '.join(written)}")
+    record.speak()
+    return 0
+
+
+def _held_out(record: Record, o: ElbowFitOptions) -> list[ElbowRecording]:
+    paths = o.held_out or []
+    found = recordings(record, "held out", paths, o.map, o.angles, o.unit, o.cutoff)
+    require_locked(paths, found)
+    return found
+
+
+def _fitted(
+    locked: Sequence[ElbowRecording],
+    data: Binned,
+    e: Estimate,
+    apart: Sequence[ElbowRecording],
+    o: ElbowFitOptions,
+) -> Fitted:
+    _refuse_beyond(e)
+    c = covariance(data, e)
+    free = tuple(name for name in e.problem.names if name in SCALED)
+    scale_free = set(free) == set(SCALED) and not set(e.problem.priors) & set(SCALED)
+    profiles = {name: profiled(e, c, name) for name in e.problem.names}
+    drawn: dict[str, tuple[float, float]] = {}
+    if o.bootstrap and not scale_free:
+        rows = np.percentile(wild_bootstrap(data, e, o.bootstrap), TAILS, axis=0)
+        drawn = {name: (float(rows[0, k]), float(rows[1, k])) for k, name in enumerate(e.problem.names)}
+    line = along_the_scale(e, FACTORS)
+    measured = data.cells.means[:, FORCE]
+    boxes = binned(locked, float(np.radians(o.box_deg)))
+    return Fitted(
+        recordings=locked,
+        data=data,
+        boxes=boxes,
+        estimate=e,
+        profiles=profiles,
+        drawn=drawn,
+        stretches=len(np.unique(data.visits.stretch)),
+        all_directions=direction(e),
+        free_directions=direction(e, free) if len(free) > 1 else None,
+        scale_free=scale_free,
+        line=line,
+        line_r2=np.array([r_squared(measured, e.problem.law.force(theta)) for theta in line]),
+        held=_apart(data, e, apart, o) if apart else _each_left_out(data, e),
+        bins_differ=between_bins(boxes.visits, FORCE),
+        normality=lilliefors(residual_by_bin(data, e)[1]),
+        r2=r_squared(measured, e.predicted),
+        mirrored_r2=_mirrored(e, measured),
+    )
+
+
+def residual_by_bin(data: Binned, e: Estimate) -> tuple[Float[np.ndarray, " b"], Float[np.ndarray, " b"]]:
+    """Angle [rad] and measured less fitted force [N] of each bin, all trials together."""
+    cells = data.cells
+    bins = len(data.visits.edges) - 1
+    count = np.bincount(cells.place, cells.count, bins)
+    there = count > 0.0
+    off = cells.means[:, FORCE] - e.predicted
+    return data.centres[there], np.bincount(cells.place, cells.count * off, bins)[there] / count[there]
+
+
+def _refuse_beyond(e: Estimate) -> None:
+    """A fit that ended where the model has a pole or folds."""
+    offsets = offsets_of(e.theta)
+    try:
+        require_reach(offsets)
+        require_no_pole(e.problem.law.beta, offsets)
+    except ValueError as error:
+        raise InputError("", "", f"the best numbers are beyond the model: {error}", "narrow --bounds") from error
+
+
+def _mirrored(e: Estimate, measured: Float[np.ndarray, " n"]) -> float:
+    """R² that the same model reaches on the force turned over."""
+    turned = estimated(e.problem.measuring(-e.problem.force, e.problem.priors))
+    return r_squared(-measured, turned.predicted)
+
+
+def _each_left_out(data: Binned, e: Estimate) -> list[Held]:
+    """Each trial in turn, predicted by what the others give."""
+    if len(data.names) < 2:
+        return []
+    found = []
+    for trial, name in enumerate(data.names):
+        problem = problem_of(data.without(trial), e.problem.parameters, e.problem.priors)
+        theta = problem.theta(problem.searched(e.values).values)
+        found.append(_held(name, data.only(trial), theta))
+    return found
+
+
+def _apart(data: Binned, e: Estimate, apart: Sequence[ElbowRecording], o: ElbowFitOptions) -> list[Held]:
+    """Recordings of their own."""
+    width = float(np.radians(o.bin_deg))
+    return [_held(r.name, binned([r], width, data.pressure), e.theta) for r in apart]
+
+
+def _held(name: str, data: Binned, theta: Float[np.ndarray, " 7"]) -> Held:
+    measured, predicted = data.cells.means[:, FORCE], law_at(data.cells.means).force(theta)
+    rmse = float(np.sqrt(np.mean((measured - predicted) ** 2)))
+    return Held(name, r_squared(measured, predicted), rmse, len(measured))
+
+
+def _free(record: Record, o: ElbowFitOptions, found: Fitted) -> Free:
+    paths = o.unlocked or []
+    needed = (FORCE_CHANNEL, DISPLACEMENT)
+    free = recordings(record, "unlocked", paths, o.map, o.angles, o.unit, o.cutoff, needed)
+    width = float(np.radians(o.bin_deg))
+    data = binned(free, width)
+    require_bins(record, paths, data)
+    stroke = stroke_of(curve_of(data))
+    if stroke is None:
+        raise InputError(paths[0], "", "the compensation joint slides over fewer than three bins", "was it free?")
+    each = [curve_of(found.data.only(trial)) for trial in range(len(found.data.names))]
+    stiffness = stiffness_by_displacement(each, stroke, width)
+    if stiffness is not None and stiffness.value + AGAINST * np.nan_to_num(stiffness.error) < 0.0:
+        what = f"displacement and locked force run against each other ({stiffness.value:.4g} N/m)"
+        raise InputError(paths[0], "", what, "one of them has its sign turned: --map displacement=-… or force=-…")
+    boxes = binned(free, float(np.radians(o.box_deg)))
+    return Free(free, stroke, stiffness, between_bins(boxes.visits, FORCE))
+
+
+def _reserve(record: Record, found: Fitted) -> None:
+    """What has to be said."""
+    e = found.estimate
+    if found.scale_free:
+        record.warn(SCALE_WORDS)
+    open_ends = [name for name, p in found.profiles.items() if p.lower_open or p.upper_open]
+    if open_ends:
+        record.warn(f"no limit within the bounds to {', '.join(open_ends)}, on one side or both")
+    if found.stretches < FEW_STRETCHES:
+        record.warn(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are rough")
+    if not e.converged:
+        record.warn("the search did not end by itself; see --start and --bounds")
+    if found.mirrored_r2 > found.r2 + BETTER:
+        told = f"the force turned over fits better (R² {found.mirrored_r2:.3f} instead of {found.r2:.3f})"
+        record.warn(f"{told}: is its sign turned? see --map force=-…")
+
+
+def _tell(record: Record, found: Fitted, free: Free | None) -> None:
+    e = found.estimate
+    for name in e.problem.names:
+        p, per = found.profiles[name], PER_SI[name]
+        ends = " … ".join(("open" if is_open else f"{end * per:.4g}") for end, is_open in
+                          ((p.lower, p.lower_open), (p.upper, p.upper_open)))  # fmt: skip
+        record.say(f"{name} {p.best * per:.4g} {TYPED[name]} (95 % {ends})")
+    told = [f"R² {found.r2:.3f} of {len(e.problem.force)} bin means"]
+    if found.held:
+        worst = min(each.r2 for each in found.held)
+        told.append(f"not used: {worst:.3f} at least over {len(found.held)}")
+    record.say("; ".join(told))
+    record.say(f"residuals: {found.normality.words}")
+    if free is None:
+        return
+    for stop in free.stroke.stops:
+        span = f"{np.degrees(stop.first):.0f} … {np.degrees(stop.last):.0f}°"
+        record.say(
+            f"free joint: stands at its {stop.side} end, {stop.position * 1e3:.1f} mm, over {span} under "
+            f"{stop.force:+.1f} N; it slides from {np.degrees(stop.leaves):.0f}°, and the force levels off"
+        )
+    if free.stiffness is not None:
+        s = free.stiffness
+        record.say(f"k by the free joint's displacement: {s.value:.4g} N/m (SE {s.error:.2g}, {s.trials} trials)")

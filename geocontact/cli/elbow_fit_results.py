@@ -1,0 +1,314 @@
+"""Everything that an identification at an elbow writes."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pandas as pd
+
+from geocontact.cli.elbow_fit import ElbowFitOptions
+from geocontact.cli.elbow_numbers import PER_SI, TYPED, unit_in_key
+from geocontact.cli.elbow_unknowns import SCALE_WORDS
+from geocontact.cli.figures import save_both
+from geocontact.cli.provenance import options_table
+from geocontact.cli.record import Record
+from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.identify.bin_tests import BinTest
+from geocontact.io.results import write_table
+from geocontact.systems.elbow_bins import Binned
+from geocontact.systems.elbow_end_stop import curve_of
+from geocontact.systems.elbow_fit import r_squared
+from geocontact.systems.elbow_law import LENGTHS, NAMES
+from geocontact.view.contact_tables import inputs_table
+from geocontact.view.elbow_figures import (
+    Boxes,
+    Over,
+    conditions_figure,
+    force_figure,
+    residual_figure,
+    told_figure,
+)
+from geocontact.view.elbow_page import CONDITIONS, FORCES, RESIDUALS, TOLD, write_fit_report
+from geocontact.view.page.content import Table
+
+if TYPE_CHECKING:
+    from geocontact.cli.elbow_fit_analysis import Fitted, Free
+
+QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
+
+
+def write_results(record: Record, found: Fitted, free: Free | None, o: ElbowFitOptions, folder: Path) -> None:
+    """Numbers, tables, figures, page."""
+    from geocontact.cli.elbow_fit_analysis import residual_by_bin
+
+    text = json.dumps(describe(found, free), indent=2, ensure_ascii=False, allow_nan=False)
+    (folder / "elbow.json").write_text(text + "\n", encoding="utf-8")
+    bins = _with_fit(spread_table(found.recordings, found.data), found)
+    boxes = spread_table(found.recordings, found.boxes)
+    tables = {"bins": bins, "boxes": boxes, "intervals": interval_table(found), "scale_line": line_table(found),
+              "held_out": held_table(found)}  # fmt: skip
+    if free is not None:
+        tables["conditions"] = condition_table(found, free)
+    for name, table in tables.items():
+        write_table(table, folder, o.parquet, name)
+    told_in = save_both(_told_figure(found), folder, "identifiability")
+    drawings = [
+        ("Force over the angle", FORCES, save_both(force_figure(_over(found), _boxes(boxes, found)), folder, "forces")),
+        ("What the recordings tell apart", TOLD, told_in),
+        ("Residuals", RESIDUALS, save_both(residual_figure(*residual_by_bin(found.data, found.estimate)), folder,
+                                           "residuals")),
+    ]  # fmt: skip
+    if free is not None:
+        drawing = save_both(conditions_figure(curve_of(found.data), free.stroke), folder, "conditions")
+        drawings.append(("Joint locked and free", CONDITIONS, drawing))
+    shown = [
+        _shown("What was identified", tables["intervals"]), _shown("Force that was not used", tables["held_out"]),
+        _shown("Along the scale: numbers that give the same force", tables["scale_line"].iloc[::5]),
+        inputs_table(record.inputs), options_table(record),
+    ]  # fmt: skip
+    there = bins["mean [N]"].notna()
+    write_fit_report(
+        folder / "report.html",
+        f"Offsets and stiffness at an elbow from {len(found.recordings)} recordings",
+        np.radians(bins["beta [deg]"][there].to_numpy()),
+        bins["mean [N]"][there].to_numpy(),
+        bins["fitted [N]"][there].to_numpy(),
+        _headline(found),
+        _sentences(found, free),
+        drawings,
+        shown,
+        record.warnings,
+    )
+
+
+def describe(found: Fitted, free: Free | None) -> dict[str, Any]:
+    """`elbow.json`."""
+    e = found.estimate
+    directions = {"k_and_lengths": found.all_directions}
+    if found.free_directions is not None:
+        directions["free"] = found.free_directions
+    content: dict[str, Any] = {
+        "numbers": {f"{n}_{unit_in_key(n)}": v * PER_SI[n] for n, v in e.named.items()},
+        "free": list(e.problem.names),
+        "scale_free": found.scale_free,
+        "ratios": ratios(found),
+        "intervals": {
+            name: {
+                "unit": TYPED[name],
+                "value": p.best * PER_SI[name],
+                "profile_likelihood": [p.lower * PER_SI[name], p.upper * PER_SI[name]],
+                "open": [p.lower_open, p.upper_open],
+                "wild_bootstrap": [end * PER_SI[name] for end in found.drawn[name]] if name in found.drawn else None,
+            }
+            for name, p in found.profiles.items()
+        },
+        "identifiability": {
+            key: {
+                "numbers": list(d.names),
+                "singular_values_N": d.singular_values.tolist(),
+                "told_least": d.least.tolist(),
+                "flat": d.flat,
+            }
+            for key, d in directions.items()
+        },
+        "r2": _finite(found.r2),
+        "r2_along_the_scale": [float(found.line_r2.min()), float(found.line_r2.max())],
+        "r2_of_the_force_turned_over": _finite(found.mirrored_r2),
+        "held_out": [{"name": h.name, "r2": _finite(h.r2), "rmse_N": h.rmse, "bins": h.bins} for h in found.held],
+        "between_bins": _tested(found.bins_differ),
+        "residuals": {"p_lilliefors": found.normality.p, "in_words": found.normality.words},
+        "noise": {"sd_N": float(found.data.noise.sd[0]), "correlation_time_s": float(found.data.noise.tau[0])},
+        "stretches": {"count": found.stretches, "length_s": found.data.stretch},
+        "pressure_mmHg": found.data.pressure * PER_SI["s"] if found.data.pressure else None,
+        "starts": {"count": len(e.costs), "costs": list(e.costs)},
+    }
+    if free is not None:
+        content["free_joint"] = _free_joint(found, free)
+    return content
+
+
+def ratios(found: Fitted) -> dict[str, float]:
+    """What no scale changes: the force k l, and lengths over the link."""
+    n = found.estimate.named
+    lengths = {f"{name}_over_l": n[name] / n["l"] for name in LENGTHS if name != "l"}
+    return {"k_times_l_N": n["k"] * n["l"], **lengths}
+
+
+def _free_joint(found: Fitted, free: Free) -> dict[str, Any]:
+    s, k = free.stiffness, found.estimate.named["k"]
+    return {
+        "stops": [
+            {
+                "side": stop.side, "position_mm": stop.position * 1e3, "leaves_at_deg": math.degrees(stop.leaves),
+                "from_deg": math.degrees(stop.first), "to_deg": math.degrees(stop.last), "force_N": stop.force,
+                "stroke_wanting_mm": abs(stop.force) / k * 1e3,
+            }
+            for stop in free.stroke.stops
+        ],
+        "level_while_sliding_N": free.stroke.level,
+        "spread_while_sliding_N": free.stroke.spread,
+        "k_by_displacement_N_per_m": None if s is None else {
+            "value": s.value, "se": _finite(s.error), "trials": s.trials, "bins": s.bins,
+        },
+        "between_bins": _tested(free.bins_differ),
+    }  # fmt: skip
+
+
+def _tested(test: BinTest | None) -> dict[str, Any] | None:
+    if test is None:
+        return None
+    return {"kruskal_wallis": test.statistic, "p": test.p, "bins": test.bins, "counted_visits": test.counted,
+            "samples": test.samples}  # fmt: skip
+
+
+def spread_table(recordings: Sequence[ElbowRecording], data: Binned) -> pd.DataFrame:
+    """Samples of all trials by bin: counts, mean, SD, quantiles; empty where nothing was recorded."""
+    edges = data.visits.edges
+    place = np.concatenate([np.clip(np.searchsorted(edges, r.beta, side="right") - 1, 0, len(edges) - 2)
+                            for r in recordings])  # fmt: skip
+    force = np.concatenate([r.force for r in recordings])
+    order = np.argsort(place, kind="stable")
+    groups = np.split(force[order], np.searchsorted(place[order], np.arange(1, len(edges) - 1)))
+    cells = data.cells
+    rows = []
+    for k, values in enumerate(groups):
+        there = len(values) > 0
+        q = np.quantile(values, QUANTILES) if there else np.full(len(QUANTILES), np.nan)
+        rows.append({
+            "beta [deg]": math.degrees(data.centres[k]), "trials": int((cells.place == k).sum()),
+            "visits": int((data.visits.place == k).sum()), "samples": len(values),
+            "mean [N]": float(values.mean()) if there else np.nan,
+            "sd [N]": float(values.std(ddof=1)) if len(values) > 1 else np.nan,
+            **{f"{share:.0%} [N]": float(v) for share, v in zip(QUANTILES, q, strict=True)},
+        })  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def _with_fit(table: pd.DataFrame, found: Fitted) -> pd.DataFrame:
+    from geocontact.cli.elbow_fit_analysis import residual_by_bin
+
+    beta, residual = residual_by_bin(found.data, found.estimate)
+    off = dict(zip(np.round(np.degrees(beta), 6), residual, strict=True))
+    table["residual [N]"] = [off.get(round(value, 6), np.nan) for value in table["beta [deg]"]]
+    table["fitted [N]"] = table["mean [N]"] - table["residual [N]"]
+    return table
+
+
+def interval_table(found: Fitted) -> pd.DataFrame:
+    """Every number of the law with its intervals; known ones without."""
+    rows = []
+    for name, value in found.estimate.named.items():
+        p, drawn = found.profiles.get(name), found.drawn.get(name)
+        ends = (np.nan, np.nan) if p is None else (
+            np.nan if p.lower_open else p.lower, np.nan if p.upper_open else p.upper,
+        )  # fmt: skip
+        low, high = (np.nan, np.nan) if drawn is None else drawn
+        rows.append({
+            "number": name, "unit": TYPED[name], "known": p is None, "value": value * PER_SI[name],
+            "profile lower": ends[0] * PER_SI[name], "profile upper": ends[1] * PER_SI[name],
+            "bootstrap lower": low * PER_SI[name], "bootstrap upper": high * PER_SI[name],
+        })  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def line_table(found: Fitted) -> pd.DataFrame:
+    """Numbers along the scale and R² of each row."""
+    columns = {f"{n} [{TYPED[n]}]": found.line[:, k] * PER_SI[n] for k, n in enumerate(NAMES[:5])}
+    return pd.DataFrame({"scale [-]": found.line[:, 3] / found.estimate.theta[3], **columns, "r2 [-]": found.line_r2})
+
+
+def held_table(found: Fitted) -> pd.DataFrame:
+    """R² and RMSE of what was not fitted."""
+    columns = ["trial", "r2 [-]", "rmse [N]", "bins"]
+    return pd.DataFrame([(h.name, h.r2, h.rmse, h.bins) for h in found.held], columns=columns)
+
+
+def condition_table(found: Fitted, free: Free) -> pd.DataFrame:
+    """Bin means with the joint locked and free."""
+    locked, curve = curve_of(found.data), free.stroke.curve
+    one = pd.DataFrame({"beta [deg]": np.degrees(locked.beta).round(6), "place": _places(locked.beta, found.data),
+                        "locked [N]": locked.force})  # fmt: skip
+    other = pd.DataFrame({"place": _places(curve.beta, found.data), "free beta [deg]": np.degrees(curve.beta),
+                          "free [N]": curve.force, "displacement [mm]": curve.joint * 1e3})  # fmt: skip
+    both = one.merge(other, on="place", how="outer").sort_values("place")
+    both["beta [deg]"] = both["beta [deg]"].fillna(both["free beta [deg]"])
+    return both[["beta [deg]", "locked [N]", "free [N]", "displacement [mm]"]]
+
+
+def _places(beta: np.ndarray, data: Binned) -> np.ndarray:
+    width = float(data.visits.edges[1] - data.visits.edges[0])
+    return np.floor(beta / width).astype(int)
+
+
+def _over(found: Fitted) -> Over:
+    cells, law = found.data.cells, found.estimate.problem.law
+    order = np.argsort(law.beta)
+    return Over(law.beta, found.estimate.problem.force, cells.trial, law.beta[order],
+                found.estimate.predicted[order])  # fmt: skip
+
+
+def _boxes(table: pd.DataFrame, found: Fitted) -> Boxes:
+    there = table["samples"] > 0
+    columns = [f"{share:.0%} [N]" for share in QUANTILES]
+    edges = found.boxes.visits.edges
+    return Boxes(np.radians(table["beta [deg]"][there].to_numpy()), table[columns][there].to_numpy(),
+                 float(edges[1] - edges[0]))  # fmt: skip
+
+
+def _told_figure(found: Fitted) -> Any:
+    e = found.estimate
+    alone = np.tile(e.theta, (len(found.line), 1))
+    alone[:, 0] = found.line[:, 0]
+    r2 = np.array([r_squared(e.problem.force, e.problem.law.force(theta)) for theta in alone])
+    return told_figure(found.all_directions, found.line, found.line_r2, r2, found.profiles, e.named)
+
+
+def _headline(found: Fitted) -> list[tuple[str, str]]:
+    lines = []
+    for name, p in found.profiles.items():
+        low, high = (("open" if is_open else f"{end * PER_SI[name]:.4g}") for end, is_open in
+                     ((p.lower, p.lower_open), (p.upper, p.upper_open)))  # fmt: skip
+        lines.append((name, f"{p.best * PER_SI[name]:.4g} {TYPED[name]} ({low} … {high})"))
+    return [*lines, ("R² of bin means", f"{found.r2:.3f}")]
+
+
+def _sentences(found: Fitted, free: Free | None) -> list[str]:
+    told = []
+    if found.scale_free:
+        r = ratios(found)
+        shares = ", ".join(f"{key.replace('_over_', '/')} {value:.3f}" for key, value in r.items() if "over" in key)
+        told.append(f"{SCALE_WORDS}. What no scale changes: k l = {r['k_times_l_N']:.4g} N, {shares}.")
+    else:
+        told.append("The scale of k and the lengths is set by what was known beforehand, not by these recordings.")
+    told.append(f"Residuals are {found.normality.words}." if found.normality.p < 0.05 else
+                f"Residuals: {found.normality.words}.")  # fmt: skip
+    if found.bins_differ is not None:
+        b = found.bins_differ
+        told.append(
+            f"Bins of the box plots differ with p = {b.p:.2g} (Kruskal-Wallis over {b.counted} visits, one for each "
+            f"stretch of {found.boxes.stretch:.2g} s in a bin, not {b.samples} samples)."
+        )
+    if free is not None:
+        k = found.estimate.named["k"]
+        for stop in free.stroke.stops:
+            side = "lower" if stop.side == "lower" else "raise"
+            told.append(
+                f"The free joint stands at its {stop.side} end to one side of {math.degrees(stop.leaves):.0f}°, "
+                f"under {stop.force:+.1f} N: {side} that end by {abs(stop.force) / k * 1e3:.1f} mm for k = {k:.4g} N/m."
+            )
+    return told
+
+
+def _shown(title: str, rows: pd.DataFrame) -> Table:
+    texts = rows.map(lambda value: ("" if math.isnan(value) else f"{value:.4g}") if isinstance(value, float)
+                     else str(value))  # fmt: skip
+    return Table(title, tuple(map(str, rows.columns)), texts.to_numpy().tolist())
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

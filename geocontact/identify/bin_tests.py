@@ -1,0 +1,81 @@
+"""Do bins differ, are residuals normal: tests that count what is independent, and what a p-value of theirs says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.identify.visits import Visits
+
+LEVEL = 0.05
+FEWEST = 3  # visits of a bin that is compared
+DRAWS = 1999
+
+
+@dataclass(frozen=True)
+class BinTest:
+    """Kruskal-Wallis test of a channel between bins.
+
+    Parameters
+    ----------
+    statistic, p
+        H, and the probability of one as large where the bins do not differ.
+    bins, counted, samples
+        Bins compared; visits that count as independent values; samples that they were averaged from.
+    """
+
+    statistic: float
+    p: float
+    bins: int
+    counted: int
+    samples: int
+
+
+@dataclass(frozen=True)
+class Normality:
+    """Lilliefors' test: the distance of the distribution from the normal one of its own mean and SD, and its p-value.
+
+    A small p is evidence against normal residuals; a large one is no evidence for them, only none against.
+    """
+
+    distance: float
+    p: float
+    count: int
+
+    @property
+    def words(self) -> str:
+        """What the p-value says."""
+        shown = "p < 0.001" if self.p < 1e-3 else f"p = {self.p:.3f}"
+        if self.p < LEVEL:
+            return f"not normal: Lilliefors' test rejects it ({shown}; a small p speaks against)"
+        return f"no evidence against normal residuals (Lilliefors, {shown}; this does not prove them)"
+
+
+def between_bins(v: Visits, channel: int) -> BinTest | None:
+    """Kruskal-Wallis test of one channel's visit means between bins; None where fewer than two bins have enough.
+
+    Samples of a recording follow each other, and a test that counts each of them finds anything. A visit (one stretch
+    of time in one bin) counts once. Bins share stretches, which makes them more alike than independent ones: p errs on
+    the side of no difference.
+    """
+    from scipy.stats import kruskal
+
+    places = [place for place in np.unique(v.place) if (v.place == place).sum() >= FEWEST]
+    if len(places) < 2:
+        return None
+    groups = [v.means[v.place == place, channel] for place in places]
+    found = kruskal(*groups)
+    used = np.isin(v.place, places)
+    return BinTest(
+        float(found.statistic), float(found.pvalue), len(places), int(used.sum()), round(float(v.count[used].sum()))
+    )
+
+
+def lilliefors(residual: Float[np.ndarray, " n"], seed: int = 0) -> Normality:
+    """Lilliefors (1967), JASA 62, 399; the p-value from normal samples of the same size, 1/2000 at least."""
+    from scipy.stats import goodness_of_fit, norm
+
+    found = goodness_of_fit(norm, residual, statistic="ks", n_mc_samples=DRAWS, rng=np.random.default_rng(seed))
+    return Normality(float(found.statistic), float(found.pvalue), len(residual))

@@ -1,0 +1,160 @@
+"""Intervals of what was identified at an elbow, and the direction in which nothing is identified.
+
+Stretches of time are what varies independently. Their scores give the sandwich covariance (Liang and Zeger 1986,
+Biometrika 73, 13); the profile is cut where its parabola would have that width (Chandler and Bate 2007, as in
+`profile_likelihood`); and in the wild bootstrap (Cameron, Gelbach and Miller 2008, Review of Economics and Statistics
+90, 414) the residuals of a stretch keep or turn their sign together.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.stats import t as student
+
+from geocontact.identify.memory import spread
+from geocontact.identify.profile_likelihood import POINTS, Profile, profile_of
+from geocontact.systems.elbow_bins import FORCE, Binned
+from geocontact.systems.elbow_fit import Estimate, Prior, law_at
+from geocontact.systems.elbow_law import LENGTHS, NAMES
+
+SCALED = ("k", *LENGTHS)
+"""Numbers that one factor changes without changing any force: k/s and s times the lengths."""
+FLAT = 1e-6  # of the largest singular value: below, the data say nothing in this direction
+
+
+@dataclass(frozen=True, eq=False)
+class Covariance:
+    """Of the free numbers, by stretches.
+
+    Parameters
+    ----------
+    matrix
+        In their units.
+    inverse
+        (J'J)^-1 of the weighted derivatives, priors included.
+    freedom
+        Stretches less free numbers.
+    """
+
+    matrix: Float[np.ndarray, "p p"]
+    inverse: Float[np.ndarray, "p p"]
+    freedom: int
+
+    def half_width(self, k: int, level: float = 0.95) -> float:
+        """Half the interval of the k-th free number if the law were linear."""
+        return float(student.ppf(0.5 + 0.5 * level, self.freedom) * np.sqrt(self.matrix[k, k]))
+
+
+@dataclass(frozen=True, eq=False)
+class Direction:
+    """What the data tell of numbers when each is changed by a share of itself.
+
+    Parameters
+    ----------
+    names
+        Of the numbers.
+    singular_values
+        Of the derivatives with respect to their logarithms, largest first [N].
+    least
+        Unit vector of the direction told least; where it is (-1, 1, 1, 1, 1)/sqrt(5) in k, x, y, l, z it is the scale.
+    """
+
+    names: tuple[str, ...]
+    singular_values: Float[np.ndarray, " p"]
+    least: Float[np.ndarray, " p"]
+
+    @property
+    def flat(self) -> bool:
+        """Whether nothing is told in that direction."""
+        return bool(self.singular_values[-1] <= FLAT * self.singular_values[0])
+
+
+def covariance(data: Binned, e: Estimate) -> Covariance:
+    """Sandwich of the stretches' scores; priors count as one stretch each that meets its mean."""
+    jacobian = e.problem.jacobian(e.values)
+    inverse = spread(jacobian)
+    scores, stretches = _scores(data, e)
+    middle = scores.T @ scores * stretches / max(stretches - 1, 1)
+    known = jacobian[len(data.cells.count) :]
+    matrix = inverse @ (middle + known.T @ known) @ inverse
+    return Covariance(matrix, inverse, max(stretches - len(e.values), 1))
+
+
+def profiled(e: Estimate, c: Covariance, name: str, level: float = 0.95, points: int = POINTS) -> Profile:
+    """Profile of one free number, and its interval of probability `level`."""
+    k = e.problem.names.index(name)
+    parameter = e.problem.parameters[NAMES.index(name)]
+    others = np.delete(e.values, k)
+    prior = e.problem.priors.get(name)
+
+    def held(value: float) -> float:
+        problem = e.problem.held(name, value)
+        apart = 0.0 if prior is None else ((value - prior.mean) / prior.sd) ** 2
+        cost = problem.searched(others).cost if len(others) else _cost(e, value)
+        return 2.0 * cost + apart
+
+    half = max(c.half_width(k, level), 1e-9 * abs(float(e.values[k])))
+    return profile_of(held, 2.0 * e.cost, parameter, float(e.values[k]), half, float(c.inverse[k, k]), points)
+
+
+def _cost(e: Estimate, value: float) -> float:
+    off = (e.problem.law.force(e.problem.theta(np.array([value]))) - e.problem.force) * e.problem.weight
+    return 0.5 * float(off @ off)
+
+
+def wild_bootstrap(data: Binned, e: Estimate, count: int, seed: int = 0) -> Float[np.ndarray, "b p"]:
+    """Free numbers refitted to `count` replicates: stretches keep or turn the sign of their residuals.
+
+    Residuals are widened by the root of G/(G - p) for G stretches and p free numbers; means of priors are drawn from
+    the priors.
+    """
+    v = data.visits
+    rng = np.random.default_rng(seed)
+    numbers, stretch = np.unique(v.stretch, return_inverse=True)
+    stretches = len(numbers)
+    off = v.means[:, FORCE] - law_at(v.means).force(e.theta)
+    share = v.count / data.cells.count[data.cells.of_visit] * off
+    wider = np.sqrt(stretches / max(stretches - len(e.values), 1))
+    found = np.empty((count, len(e.values)))
+    for k in range(count):
+        signs = rng.choice([-1.0, 1.0], stretches)[stretch]
+        drawn = np.bincount(data.cells.of_visit, wider * signs * share, len(data.cells.count))
+        priors = {n: Prior(float(rng.normal(p.mean, p.sd)), p.sd) for n, p in e.problem.priors.items()}
+        found[k] = e.problem.measuring(e.predicted + drawn, priors).searched(e.values).values
+    return found
+
+
+def _scores(data: Binned, e: Estimate) -> tuple[Float[np.ndarray, "g p"], int]:
+    """Gradient of half the sum of squares, stretch by stretch, and how many stretches there are."""
+    v = data.visits
+    off = v.means[:, FORCE] - law_at(v.means).force(e.theta)
+    cell = data.cells.of_visit
+    slopes = e.problem.jacobian(e.values)[: len(data.cells.count)]
+    share = (v.count / data.cells.count[cell] * off * e.problem.weight[cell])[:, None] * slopes[cell]
+    numbers, stretch = np.unique(v.stretch, return_inverse=True)
+    return np.column_stack([np.bincount(stretch, column) for column in share.T]), len(numbers)
+
+
+def direction(e: Estimate, names: tuple[str, ...] = SCALED) -> Direction:
+    """Singular values and the direction told least, of numbers that need not be free, in their logarithms.
+
+    The derivative with respect to the logarithm of a number is the number times the derivative: it has no unit to
+    choose, and a number may be negative. Priors do not count: this is what the recordings tell.
+    """
+    places = [NAMES.index(name) for name in names]
+    slopes = e.problem.law.slopes(e.theta)[:, places] * e.theta[places]
+    _, values, rows = np.linalg.svd(slopes, full_matrices=False)
+    least = rows[-1]
+    return Direction(names, values, np.asarray(least if least[-1] >= 0.0 else -least))
+
+
+def along_the_scale(e: Estimate, factors: Float[np.ndarray, " m"]) -> Float[np.ndarray, "m 7"]:
+    """Numbers (k/s, s times the lengths) for each factor s; every row gives the same force."""
+    rows = np.tile(e.theta, (len(factors), 1))
+    rows[:, 0] /= factors
+    rows[:, 1:5] *= factors[:, None]
+    rows[:, 5] /= factors
+    return rows
