@@ -37,6 +37,13 @@ GAP = (
     *(f"{name}.csv" for name in ("gap_map", "ranking", "held_out", "trials", "surface", "summary")),
     "report.html",
 )
+ELBOW = (
+    "elbow.json", "truth.json", "report.html",
+    *(f"{name}.{ending}" for name in ("bins", "boxes", "intervals", "scale_line", "held_out", "conditions", "surfaces",
+                                      "comparison") for ending in ("csv", "parquet")),
+    *(f"{name}.{ending}" for name in ("forces", "identifiability", "residuals", "conditions", "surfaces",
+                                      "comparison_force", "comparison_displacement") for ending in ("png", "svg")),
+)  # fmt: skip
 TABLES = ("wrench", "uncertainty", "cells", "frames_cells", "segments", "registration", "agreement")
 MAT = (
     *(f"{name}.{ending}" for name in TABLES for ending in ("csv", "parquet")),
@@ -44,10 +51,11 @@ MAT = (
 )  # fmt: skip
 ASKED = ("confuse.json", "separability.csv", "detectability.csv", "planted.json", "report.html")
 BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
-NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *MODULUS, *MAT, *GAP, *ASKED, *BENCHMARK, RUN})
+NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *MODULUS, *ELBOW, *MAT, *GAP, *ASKED, *BENCHMARK, RUN})
 PARAVIEW = "paraview"
 PICTURES = re.compile(
     r"(gap_map|ranking|separability|detectability|gap_residuals|before_after_\w+|gap_surface_\w+)\.(png|svg)"
+    r"|((locked|free)_\d+|simulated_[^/]+)\.(csv|parquet)"
     r"|still_[a-z_0-9.,−-]+\.png|paraview/(both|fixed|moving)\.pvd|paraview/frames/(fixed|moving)_\d+\.vtp"
 )
 """The only files that are ever removed: those that a run writes, and only where its run.json lists them."""

@@ -22,6 +22,7 @@ from jaxtyping import Float
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.systems.elbow_misalignment import ELBOW_GEOMETRY, closure, deflect
 
+NEUTRAL = ELBOW_GEOMETRY.numbers({})  # l_ex, z_ex, x, y come first
 NEAR = 1e-3  # of the link: so close to its pole tan γ is refused
 
 
@@ -37,7 +38,9 @@ class Offsets:
     @property
     def numbers(self) -> Float[np.ndarray, " slots"]:
         """As the kernels take them."""
-        return ELBOW_GEOMETRY.having({"l_ex": self.l, "z_ex": self.z, "x": self.x, "y": self.y}).numbers({})
+        n = NEUTRAL.copy()
+        n[:4] = self.l, self.z, self.x, self.y
+        return n
 
     @property
     def words(self) -> str:

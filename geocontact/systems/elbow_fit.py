@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float
@@ -56,19 +57,19 @@ class Problem:
     parameters: tuple[Parameter, ...]
     priors: Mapping[str, Prior]
 
-    @property
+    @cached_property
     def free(self) -> list[int]:
         """Places of the free numbers in NAMES."""
         return [k for k, p in enumerate(self.parameters) if not p.fixed]
 
-    @property
+    @cached_property
     def names(self) -> tuple[str, ...]:
         """Free numbers."""
         return tuple(NAMES[k] for k in self.free)
 
     def theta(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " 7"]:
         """All numbers, given the free ones."""
-        full = np.array([p.start for p in self.parameters])
+        full = self._starts.copy()
         full[self.free] = values
         return full
 
@@ -99,15 +100,19 @@ class Problem:
         scale = np.array([_scale(p) for p in free])
         return levenberg_marquardt(self.residual, self.jacobian, start, lower, upper, scale)
 
-    @property
+    @cached_property
+    def _starts(self) -> Float[np.ndarray, " 7"]:
+        return np.array([p.start for p in self.parameters])
+
+    @cached_property
     def _prior_mean(self) -> Float[np.ndarray, " p"]:
         return np.array([self.priors[n].mean if n in self.priors else 0.0 for n in self.names])
 
-    @property
+    @cached_property
     def _prior_sd(self) -> Float[np.ndarray, " p"]:
         return np.array([self.priors[n].sd if n in self.priors else np.inf for n in self.names])
 
-    @property
+    @cached_property
     def _known(self) -> list[int]:
         return [k for k, n in enumerate(self.names) if n in self.priors]
 

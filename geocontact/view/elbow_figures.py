@@ -77,8 +77,8 @@ def force_figure(over: Over, boxes: Boxes) -> Figure:
     line = left.plot(np.degrees(over.curve_beta), over.curve_force, color=BLACK)[0]
     legend(left, [(dots, "bin means of the trials"), (line, "explicit model")])
     width = 0.7 * np.degrees(boxes.width)
-    stats: list[dict[str, Any]] = [dict(zip(("whislo", "q1", "med", "q3", "whishi"), map(float, row), strict=True)) | {"fliers": []}
-             for row in boxes.quantiles]  # fmt: skip
+    names = ("whislo", "q1", "med", "q3", "whishi")
+    stats: list[dict[str, Any]] = [dict(zip(names, map(float, row), strict=True)) for row in boxes.quantiles]
     right.bxp(
         stats, positions=list(np.degrees(boxes.centre)), widths=width, showfliers=False, manage_ticks=False,
         boxprops={"color": PALETTE[0]}, medianprops={"color": BLACK},

@@ -1,0 +1,134 @@
+"""The elbow's identification on synthetic recordings: `python -m benchmarks.elbow [--runs 300]`.
+
+The paper's design: six locked trials of 60 s, multisine of 0.05 to 0.35 Hz, 1 kHz, 12 bits; its five numbers are the
+truth. Noise is an Ornstein-Uhlenbeck force of 0.8 N and 0.3 s. Time of a fit to the binned means from the paper's start,
+and how often intervals of 95 % hold the truth: k, x, y with l and z known; all five with priors on l and z, the true
+lengths drawn from the priors; k, x, y with offsets that change from trial to trial, which the intervals do not know of.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from pathlib import Path
+
+from benchmarks.one_core import pin
+
+HERE = Path(__file__).resolve().parent
+PRIOR = 5e-3  # m, standard deviation of the priors on l and z
+DONNING = 2e-3  # m
+FITS = 300
+
+
+def main() -> None:
+    """Measure, print, write the JSON."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.elbow", description=__doc__.splitlines()[0])
+    parser.add_argument("--runs", type=int, default=300)
+    parser.add_argument("--runs-others", type=int, default=100)
+    parser.add_argument("--replicates", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=5)
+    parser.add_argument("--out", type=Path, default=HERE / "results")
+    options = parser.parse_args()
+    pin()
+    from benchmarks.machine import machine, versions
+
+    timed = seconds_per_fit(options.seed)
+    print(json.dumps(timed), flush=True)
+    rows = [
+        coverage(name, runs, options.replicates, options.seed)
+        for name, runs in (
+            ("l and z known", options.runs), ("priors on l and z", options.runs_others),
+            ("l and z known, donning", options.runs_others),
+        )
+    ]  # fmt: skip
+    report = {
+        "machine": machine(), "versions": versions({"scipy", "numba"}), "seed": options.seed, "fit": timed,
+        "replicates": options.replicates, "prior_sd_mm": PRIOR * 1e3, "donning_sd_mm": DONNING * 1e3, "coverage": rows,
+    }  # fmt: skip
+    options.out.mkdir(parents=True, exist_ok=True)
+    (options.out / "elbow.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+
+
+def seconds_per_fit(seed: int) -> list[dict[str, object]]:
+    """Processor time of one search from the paper's start, over all trials' bins of 2 degrees taken together."""
+    import numpy as np
+
+    from geocontact.systems.elbow_bins import binned
+    from geocontact.systems.elbow_fit import problem_of
+    from geocontact.systems.elbow_synthetic import PAPER, Design
+    from tests.systems.elbow_trials import parameters, trials
+
+    found = binned(trials(PAPER, Design(), seed), np.radians(2.0))
+    rows = []
+    for name, known in (("three", ("l", "z")), ("five", ())):
+        for kind, data in (("all trials together", pooled(found)), ("each trial apart", found)):
+            problem = problem_of(data, parameters({n: PAPER[n] for n in known}), {})
+            start = np.array([problem.parameters[k].start for k in problem.free])
+            problem.searched(start)
+            spent = []
+            for _ in range(FITS):
+                begun = time.process_time()
+                search = problem.searched(start)
+                spent.append(time.process_time() - begun)
+            rows.append({
+                "numbers": name, "bins": kind, "means": len(problem.force), "steps": search.steps,
+                "milliseconds": round(1e3 * float(np.median(spent)), 3),
+                "milliseconds_95": round(1e3 * float(np.quantile(spent, 0.95)), 3),
+            })  # fmt: skip
+    return rows
+
+
+def pooled(data):
+    """The same bins, as if all trials were one: the paper's 42 points."""
+    from dataclasses import replace
+
+    import numpy as np
+
+    visits = replace(data.visits, trial=np.zeros_like(data.visits.trial))
+    return replace(data, visits=visits, cells=visits.cells())
+
+
+def coverage(name: str, runs: int, replicates: int, seed: int) -> dict[str, object]:
+    """Share of runs whose intervals hold the true numbers, by profile and by wild bootstrap."""
+    import numpy as np
+
+    from geocontact.systems.elbow_bins import binned
+    from geocontact.systems.elbow_fit import Prior, estimated, problem_of
+    from geocontact.systems.elbow_synthetic import PAPER, Design
+    from geocontact.systems.elbow_uncertainty import covariance, profiled, wild_bootstrap
+    from tests.systems.elbow_trials import parameters, trials
+
+    by_prior = name.startswith("priors")
+    design = Design(donning=DONNING if name.endswith("donning") else 0.0)
+    rng = np.random.default_rng([seed, runs, by_prior])
+    priors = {n: Prior(PAPER[n], PRIOR) for n in "lz"} if by_prior else {}
+    held: dict[str, list[tuple[bool, bool]]] = {}
+    widths: dict[str, list[float]] = {}
+    begun = time.process_time()
+    for run in range(runs):
+        truth = {**PAPER, **{n: p.mean + p.sd * rng.standard_normal() for n, p in priors.items()}}
+        data = binned(trials(truth, design, [seed, run, by_prior]), np.radians(2.0))
+        known = {} if by_prior else {n: PAPER[n] for n in "lz"}
+        e = estimated(problem_of(data, parameters(known), priors), starts=2)
+        c = covariance(data, e)
+        drawn = np.percentile(wild_bootstrap(data, e, replicates, run), (2.5, 97.5), axis=0)
+        for k, n in enumerate(e.problem.names):
+            p = profiled(e, c, n, points=2)
+            held.setdefault(n, []).append(
+                (p.lower <= truth[n] <= p.upper, bool(drawn[0, k] <= truth[n] <= drawn[1, k]))
+            )
+            widths.setdefault(n, []).append(p.upper - p.lower)
+    seconds = (time.process_time() - begun) / runs
+    shares = {n: [float(share) for share in np.mean(pairs, axis=0)] for n, pairs in held.items()}
+    row: dict[str, object] = {
+        "case": name, "runs": runs, "profile likelihood": {n: s[0] for n, s in shares.items()},
+        "wild bootstrap": {n: s[1] for n, s in shares.items()},
+        "median width": {n: float(np.median(w)) for n, w in widths.items()}, "seconds_per_run": round(seconds, 3),
+    }  # fmt: skip
+    print(json.dumps(row), flush=True)
+    return row
+
+
+if __name__ == "__main__":
+    main()
