@@ -15,6 +15,7 @@ from jaxtyping import Bool, Float
 from geocontact.systems.elbow_bins import BETA, DISPLACEMENT, FORCE, Binned
 
 STILL = 0.05  # of the displacement's range: so close to its extreme the joint stands
+STANDS = 0.005  # of it, median deviation: a smooth extreme has more within STILL of it
 FEWEST = 3  # bins that make up a stand, or a free range
 BUILT_UP = 3.0  # standard deviations of the force while the joint slides
 
@@ -120,9 +121,10 @@ def _stop(curve: Curve, side: str, still: Bool[np.ndarray, " b"], level: float, 
     run = max((r for r in runs if still[r[0]]), key=len)
     built = curve.force[run] - level
     most = float(built[int(np.argmax(np.abs(built)))])
-    if len(run) < FEWEST or abs(most) < BUILT_UP * spread:
-        return None
     position = float(np.median(curve.joint[run]))
+    stands = float(np.median(np.abs(curve.joint[run] - position))) <= STANDS * float(np.ptp(curve.joint))
+    if len(run) < FEWEST or abs(most) < BUILT_UP * spread or not stands:
+        return None
     return EndStop(side, position, float(curve.beta[run[0]]), float(curve.beta[run[-1]]),
                    _leaves(curve, run, position), most)  # fmt: skip
 

@@ -87,17 +87,26 @@ def profiled(e: Estimate, c: Covariance, name: str, level: float = 0.95, points:
     """Profile of one free number, and its interval of probability `level`."""
     k = e.problem.names.index(name)
     parameter = e.problem.parameters[NAMES.index(name)]
-    others = np.delete(e.values, k)
     prior = e.problem.priors.get(name)
 
     def held(value: float) -> float:
         problem = e.problem.held(name, value)
         apart = 0.0 if prior is None else ((value - prior.mean) / prior.sd) ** 2
+        others = np.delete(_near(e, name, value), k)
         cost = problem.searched(others).cost if len(others) else _cost(e, value)
         return 2.0 * cost + apart
 
     half = max(c.half_width(k, level), 1e-9 * abs(float(e.values[k])))
     return profile_of(held, 2.0 * e.cost, parameter, float(e.values[k]), half, float(c.inverse[k, k]), points)
+
+
+def _near(e: Estimate, name: str, value: float) -> Float[np.ndarray, " p"]:
+    """Free numbers from which to search with one held at a value: along the scale where it is free, else the best."""
+    best = e.named[name]
+    if not set(SCALED) <= set(e.problem.names) or name not in SCALED or value * best <= 0.0:
+        return e.values
+    factor = best / value if name == "k" else value / best
+    return np.asarray(along_the_scale(e, np.array([factor]))[0][e.problem.free])
 
 
 def _cost(e: Estimate, value: float) -> float:

@@ -13,7 +13,7 @@ from tests.cli.calls import ROOT, call
 
 HELP = [["--help"], ["area", "--help"], ["demo", "--help"], ["doctor", "--help"], ["view", "--help"]]
 HELP += [["cop", "--help"], ["fit", "--help"], ["loadcells", "--help"], ["--version"]]
-HELP += [["gap", "--help"], ["gap", "diagnose", "--help"]]
+HELP += [["gap", "--help"], ["gap", "diagnose", "--help"], ["elbow", "--help"], ["elbow", "fit", "--help"]]
 HEAVY = {"numba", "trimesh", "pyvista", "vtk", "matplotlib", "igl", "fcl", "pandas", "scipy", "open3d"}
 each_help = pytest.mark.parametrize("arguments", HELP, ids=" ".join)
 
@@ -39,7 +39,7 @@ def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
 
 
 def test_help_names_the_commands_and_every_option_of_the_contract() -> None:
-    commands = ("area", "cop", "demo", "doctor", "fit", "gap", "loadcells", "view")
+    commands = ("area", "cop", "demo", "doctor", "elbow", "fit", "gap", "loadcells", "view")
     assert all(name in call("--help").out for name in commands)
     promised = (
         "motion unit threshold out osim joint moving map order angles sweep axis place-moving place-fixed convention "

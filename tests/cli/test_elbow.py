@@ -1,0 +1,298 @@
+"""`geocontact elbow simulate`, `fit` and `compare` on synthetic recordings: what they write, say and refuse."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from geocontact.cli.left_over import NAMES, PICTURES
+from tests.cli.calls import Call, call, done, inventory, written
+
+QUICK = ("--seconds", 20, "--rate", 50, "--noise", 0.2, "--memory", 0.1, "--trials", 3)
+KNOWN = ("--known", "l=169,z=127", "--bootstrap", 0)
+FIT = {
+    "elbow.json", "bins.csv", "boxes.csv", "intervals.csv", "scale_line.csv", "held_out.csv", "report.html", "run.json",
+    *(f"{name}.{ending}" for name in ("forces", "identifiability", "residuals") for ending in ("png", "svg")),
+}  # fmt: skip
+
+
+@contextmanager
+def unpictured() -> Iterator[None]:
+    """Neither figures nor pages are made; most of the time goes into them, and few tests look at them."""
+    places = (
+        "elbow_simulation.surface_figure", "elbow_simulation.save_both", "elbow_simulation.write_simulation_report",
+        "elbow_fit_results.save_both", "elbow_fit_results.force_figure", "elbow_fit_results.told_figure",
+        "elbow_fit_results.residual_figure", "elbow_fit_results.conditions_figure",
+        "elbow_fit_results.write_fit_report", "elbow_comparison.save_both", "elbow_comparison.comparison_figure",
+        "elbow_comparison.write_comparison_report",
+    )  # fmt: skip
+    with ExitStack() as stack:
+        for place in places:
+            stack.enter_context(mock.patch(f"geocontact.cli.{place}", return_value=b""))
+        yield
+
+
+def elbow(command: str, folder: Path, *arguments: object, picture: bool = False) -> Call:
+    with ExitStack() as stack:
+        if not picture:
+            stack.enter_context(unpictured())
+        return call("elbow", command, *arguments, "--out", folder, folder=folder)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Three locked and three free trials."""
+    folder = tmp_path_factory.mktemp("made")
+    done(elbow("simulate", folder, *QUICK, "--stroke-mm=-10:60", "--pressure", "10:60"))
+    return folder
+
+
+def locked(made: Path) -> list[Path]:
+    return sorted(made.glob("locked_*.csv"))
+
+
+def told(result: Call) -> dict:
+    return json.loads(result.bytes("elbow.json"))
+
+
+def test_simulated_trials_say_what_they_are_and_are_as_asked(made: Path) -> None:
+    assert {p.name for p in made.glob("*.csv")} >= {"locked_3.csv", "free_1.csv", "surfaces.csv"}
+    for file in made.glob("*_1.csv"):
+        assert file.read_text(encoding="utf-8").startswith("# synthetic: ")
+    table = pd.read_csv(made / "free_1.csv", comment="#")
+    assert list(table) == ["time [s]", "beta [deg]", "force [N]", "displacement [mm]", "pressure [mmHg]"]
+    assert len(table) == 1001 and table["displacement [mm]"].min() == pytest.approx(-10.0, abs=0.05)
+    assert table["beta [deg]"].min() == pytest.approx(8.0, abs=0.05)
+    assert 10.0 < table["pressure [mmHg]"].iloc[0] < 60.0
+    truth = json.loads((made / "truth.json").read_text(encoding="utf-8"))
+    assert truth["synthetic"] is True and truth["stroke_mm"] == [-10.0, 60.0]
+    assert truth["numbers"] == pytest.approx(
+        {"k_N_per_m": 222.43, "x_mm": 48.0, "y_mm": 59.0, "l_mm": 169.0, "z_mm": 127.0, "b_N_s_per_m": 0.0,
+         "s_per_mmHg": 0.0}
+    )  # fmt: skip
+
+
+def test_the_same_seed_gives_the_same_recordings(tmp_path: Path) -> None:
+    seeds = {"a": 4, "b": 4, "c": 5}
+    one, two, other = (elbow("simulate", tmp_path / n, *QUICK, "--seed", seed) for n, seed in seeds.items())
+    assert one.bytes("locked_1.csv") == two.bytes("locked_1.csv") != other.bytes("locked_1.csv")
+    assert one.bytes("locked_1.csv") != one.bytes("locked_2.csv")
+
+
+def test_forces_along_recorded_angles(tmp_path: Path, made: Path) -> None:
+    source = written(tmp_path / "walk.csv", "time [s],hinge [deg]\n0,20\n1,60\n2,90\n3,120\n")
+    numbers = "k=300,x=30,y=40,l=170,z=100"
+    result = done(elbow("simulate", tmp_path / "out", source, "--map", "beta=hinge", "--numbers", numbers))
+    table = pd.read_csv(result.folder / "simulated_walk.csv", comment="#")
+    assert table["force [N]"].iloc[2] == pytest.approx(9.947513684, rel=1e-6)  # the right angle worked by hand
+    record = result.record()
+    assert record["inputs"][0]["role"] == "angle" and "simulated_walk.csv" in record["files"]
+    again = done(elbow("simulate", tmp_path / "out", *QUICK))
+    assert not (again.folder / "simulated_walk.csv").exists(), "left over from the first run"
+
+
+def test_with_the_link_known_the_numbers_are_found(tmp_path: Path, made: Path) -> None:
+    free = [part for file in sorted(made.glob("free_*.csv")) for part in ("--unlocked", file)]
+    result = done(elbow("fit", tmp_path, *locked(made), "--known", "l=169,z=127", "--bootstrap", 100, *free))
+    found = told(result)
+    assert found["free"] == ["k", "x", "y"] and not found["scale_free"]
+    for name, true in (("k", 222.43), ("x", 48.0), ("y", 59.0)):
+        one = found["intervals"][name]
+        for low, high in (one["profile_likelihood"], one["wild_bootstrap"]):
+            assert low < one["value"] < high and low < true < high, name
+    assert found["r2"] > 0.98 and len(found["held_out"]) == 3 and min(h["r2"] for h in found["held_out"]) > 0.95
+    assert found["between_bins"]["p"] < 0.01
+    assert found["between_bins"]["counted_visits"] < found["between_bins"]["samples"] / 5
+    (stop,) = found["free_joint"]["stops"]
+    assert stop["side"] == "lower" and stop["force_N"] < -5.0 and 50.0 < stop["leaves_at_deg"] < 70.0
+    assert stop["stroke_wanting_mm"] == pytest.approx(-stop["force_N"] / found["numbers"]["k_N_per_m"] * 1e3)
+    assert found["free_joint"]["k_by_displacement_N_per_m"]["value"] == pytest.approx(222.43, rel=0.15)
+    bins = result.table("bins.csv")
+    assert list(bins)[:5] == ["beta [deg]", "trials", "visits", "samples", "mean [N]"]
+    np.testing.assert_allclose(bins["fitted [N]"] + bins["residual [N]"], bins["mean [N]"])
+    assert bins["samples"].sum() == 3 * 1001 and np.allclose(np.diff(bins["beta [deg]"]), 2.0)
+    boxes = result.table("boxes.csv")
+    assert (boxes["25% [N]"] <= boxes["50% [N]"]).all() and (boxes["50% [N]"] <= boxes["75% [N]"]).all()
+    both = result.table("conditions.csv")
+    assert list(both) == ["beta [deg]", "locked [N]", "free [N]", "displacement [mm]"]
+
+
+def test_without_anything_known_the_scale_is_named_and_shown(tmp_path: Path, made: Path) -> None:
+    result = done(elbow("fit", tmp_path, *locked(made), "--bootstrap", 0))
+    found = told(result)
+    assert found["scale_free"] and found["identifiability"]["k_and_lengths"]["flat"]
+    np.testing.assert_allclose(
+        np.array(found["identifiability"]["k_and_lengths"]["told_least"]) * np.sqrt(5), [-1, 1, 1, 1, 1], atol=1e-5
+    )
+    assert any("F(k/s, s × lengths) = F" in line and "--known" in line for line in result.warnings)
+    line = result.table("scale_line.csv")
+    assert np.ptp(line["r2 [-]"]) < 1e-9 and line["k [N/m]"].max() / line["k [N/m]"].min() == pytest.approx(4.0)
+    np.testing.assert_allclose(line["k [N/m]"] * line["l [mm]"] * 1e-3, found["ratios"]["k_times_l_N"], rtol=1e-9)
+    low, high = found["intervals"]["k"]["profile_likelihood"]
+    assert high / low > 3.0
+
+
+def test_a_prior_and_bounds_as_the_papers(tmp_path: Path, made: Path) -> None:
+    arguments = ("--prior", "l=185:1", "--bounds", "l=160:210,z=60:130", "--start", "k=300,x=30,y=40,l=200,z=120")
+    found = told(done(elbow("fit", tmp_path, *locked(made), *arguments, "--bootstrap", 0)))
+    assert found["numbers"]["l_mm"] == pytest.approx(185.0, abs=3.0) and not found["scale_free"]
+    assert 60.0 <= found["numbers"]["z_mm"] <= 130.0
+
+
+def test_recordings_that_were_held_out_tell_r2(tmp_path: Path, made: Path) -> None:
+    first, *rest = locked(made)
+    found = told(done(elbow("fit", tmp_path, first, rest[0], "--held-out", rest[1], *KNOWN)))
+    assert [h["name"] for h in found["held_out"]] == ["locked_3"] and found["held_out"][0]["r2"] > 0.95
+
+
+def test_the_page_and_its_figures(tmp_path: Path, made: Path) -> None:
+    free = ("--unlocked", made / "free_1.csv")
+    result = done(elbow("fit", tmp_path / "fit", *locked(made), *KNOWN, "--cutoff", 5, *free, picture=True))
+    files = set(inventory(result.folder))
+    assert files == FIT | {"conditions.csv", "conditions.png", "conditions.svg"} and files <= NAMES
+    page = (result.folder / "report.html").read_text(encoding="utf-8")
+    for words in ("What the data tell", "set by what was known beforehand", "Lilliefors", "Joint locked and free"):
+        assert words in page
+    simulated = done(elbow("simulate", tmp_path / "sim", *QUICK, picture=True))
+    assert {"surfaces.png", "report.html"} <= set(inventory(simulated.folder))
+    assert all(name in NAMES or PICTURES.fullmatch(name) for name in inventory(simulated.folder))
+    assert "These recordings are synthetic" in (simulated.folder / "report.html").read_text(encoding="utf-8")
+    fit = result.folder / "elbow.json"
+    beside = done(elbow("compare", tmp_path / "cmp", *locked(made)[:1], "--fit", fit, picture=True))
+    assert set(inventory(beside.folder)) == {
+        "comparison.csv", "comparison_force.png", "comparison_force.svg", "report.html", "run.json",
+    }  # fmt: skip
+
+
+def test_a_fit_is_compared_trial_by_trial_and_channel_by_channel(tmp_path: Path, made: Path) -> None:
+    law = {"numbers": json.loads((made / "truth.json").read_text(encoding="utf-8"))["numbers"], "pressure_mmHg": None}
+    fit = written(tmp_path / "elbow.json", json.dumps(law))
+    free = sorted(made.glob("free_*.csv"))
+    table = done(elbow("compare", tmp_path / "o", *free, "--fit", fit, "--stroke-mm=-10:60")).table("comparison.csv")
+    assert list(table["channel"]) == ["force", "displacement"] * 3 and list(table["unit"]) == ["N", "mm"] * 3
+    force, slide = table[table["channel"] == "force"], table[table["channel"] == "displacement"]
+    np.testing.assert_allclose(force["rmse"], 0.2, rtol=0.2)  # the noise alone
+    assert (force["mae"] < force["rmse"]).all() and (slide["r2 [-]"] > 0.9999).all() and (slide["rmse"] < 0.1).all()
+
+
+def test_two_sets_of_recordings_are_compared(tmp_path: Path, made: Path) -> None:
+    one = locked(made)[0]
+    table = done(elbow("compare", tmp_path, one, "--simulated", one)).table("comparison.csv")
+    assert table["mae"].item() == 0.0 and table["r2 [-]"].item() == 1.0
+
+
+REFUSED = {
+    "known twice": (("--known", "l=169,l=170"), "l is given twice"),
+    "no such number": (("--known", "q=3"), "one of k, x, y"),
+    "not a number": (("--known", "l=long"), "'long' is not a finite number"),
+    "prior of a known one": (("--known", "l=169", "--prior", "l=169:5"), "l is known already"),
+    "prior without SD": (("--prior", "l=169"), "not a pair"),
+    "SD of 0": (("--prior", "l=169:0"), "not above 0"),
+    "bounds without room": (("--bounds", "x=60:-60"), "no room between its bounds"),
+    "start outside": (("--bounds", "x=0:10", "--start", "x=20"), "not between its bounds"),
+    "everything known": (("--known", "k=222,x=48,y=59,l=169,z=127"), "leaves nothing"),
+    "negative link": (("--known", "l=-169"), "l is not positive"),
+    "free what is free": (("--free", "k"), "not b or s"),
+    "pressure that is not there": (("--free", "s", "--map", "pressure=cuff"), "cuff"),
+    "damping bounds unasked": (("--bounds", "b=0:10"), "b is not free"),
+    "bins of nothing": (("--bin-deg", "0"), "0.1 to 30"),
+    "wide bins": (("--bin-deg", "20"), "bins are reached"),
+    "few replicates": (("--bootstrap", "5"), "100 to 100000"),
+    "cut-off beyond": (("--cutoff", "40"), "cut-off of 40 Hz"),
+    "a fold": (("--known", "l=40,x=48,y=0,z=0"), "beyond the model: |x| = 48 mm"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_fits_that_cannot_be_are_refused_in_one_line(tmp_path: Path, made: Path, name: str) -> None:
+    options, said = REFUSED[name]
+    result = elbow("fit", tmp_path / "out", *locked(made), *options)
+    assert result.code == 2 and len(result.complaints) == 1 and said in result.err, result.err
+    assert not (tmp_path / "out").exists()
+
+
+def table_of(file: Path) -> pd.DataFrame:
+    return pd.read_csv(file, comment="#")
+
+
+def test_recordings_that_contradict_each_other_are_refused(tmp_path: Path, made: Path) -> None:
+    turned = table_of(locked(made)[1])
+    turned["force [N]"] *= -1.0
+    turned.to_csv(tmp_path / "turned.csv", index=False)
+    rest = locked(made)[:1] + locked(made)[2:]
+    result = elbow("fit", tmp_path / "o", *rest, tmp_path / "turned.csv")
+    assert result.code == 2 and "turned.csv: its force mirrors that of the other trials" in result.err
+    free = table_of(made / "free_1.csv")
+    free["displacement [mm]"] *= -1.0
+    free.to_csv(tmp_path / "against.csv", index=False)
+    result = elbow("fit", tmp_path / "o", *locked(made), "--unlocked", tmp_path / "against.csv", *KNOWN)
+    assert result.code == 2 and "run against each other" in result.err
+    result = elbow("fit", tmp_path / "o", *locked(made), made / "free_1.csv")
+    assert result.code == 2 and "the compensation joint slides by" in result.err and "--unlocked" in result.err
+    result = elbow("fit", tmp_path / "o", locked(made)[0], locked(made)[0])
+    assert result.code == 2 and "second recording named" in result.err
+
+
+def test_missing_bins_are_named(tmp_path: Path, made: Path) -> None:
+    names = []
+    for file in locked(made):
+        table = table_of(file)
+        gap = (table["beta [deg]"] > 30.0) & (table["beta [deg]"] < 40.0)
+        table[~gap].to_csv(tmp_path / file.name, index=False)
+        names.append(tmp_path / file.name)
+    result = done(elbow("fit", tmp_path / "out", *names, *KNOWN))
+    assert any("no sample in 5 bins inside the range reached: 30…40°" in line for line in result.warnings)
+    bins = result.table("bins.csv").set_index("beta [deg]")
+    assert bins.loc[31.0, "samples"] == 0 and np.isnan(bins.loc[35.0, "mean [N]"])
+
+
+def test_a_force_that_is_turned_over_throughout_is_doubted(tmp_path: Path, made: Path) -> None:
+    """Offsets of the other sign make nearly the same curve: where the turned one fits better, it is said."""
+    known = ("--known", "l=169,z=127", "--bounds", "x=0:100,y=0:100", "--bootstrap", 0)
+    result = done(elbow("fit", tmp_path, *locked(made), *known, "--map", "force=-force"))
+    assert any("the force turned over fits better" in line for line in result.warnings)
+
+
+SIMULATED = {
+    "a fold": (("--numbers", "x=180"), "|x| = 180 mm is more than the link's l = 169 mm"),
+    "a pole": (("--numbers", "x=150,y=150", "--range", "0:140"), "its pole is at"),
+    "no stiffness": (("--numbers", "k=0"), "not positive"),
+    "a stroke that ends first": (("--stroke-mm=10:-10",), "no room"),
+    "no trials": (("--trials", 0), "1 to 1000"),
+    "negative noise": (("--noise", -1), "0 or more"),
+    "a map of nothing": (("--map", "beta=b"), "without a recording"),
+    "a band from 0": (("--band", "0:0.3"), "not above 0 Hz"),
+}
+
+
+@pytest.mark.parametrize("name", SIMULATED)
+def test_simulations_that_cannot_be_are_refused_in_one_line(tmp_path: Path, name: str) -> None:
+    options, said = SIMULATED[name]
+    result = elbow("simulate", tmp_path / "out", *options)
+    assert result.code == 2 and len(result.complaints) == 1 and said in result.err, result.err
+    assert not (tmp_path / "out").exists()
+
+
+def test_comparisons_that_cannot_be_are_refused(tmp_path: Path, made: Path) -> None:
+    one, bad = locked(made)[0], written(tmp_path / "elbow.json", "{}")
+    for options, said in (
+        ((), "exactly one is compared with"),
+        (("--fit", bad), "holds no law of an elbow"),
+        (("--simulated", one, "--simulated", one), "given 2 times for 1 recordings"),
+        (("--simulated", one, "--stroke-mm=0:1"), "does nothing without --fit"),
+        (("--fit", tmp_path / "none.json"), "none.json"),
+    ):
+        result = elbow("compare", tmp_path / "out", one, *options)
+        assert result.code == 2 and said in result.err, result.err
+    with_s = {"k_N_per_m": 222, "x_mm": 1, "y_mm": 1, "l_mm": 169, "z_mm": 1, "b_N_s_per_m": 0, "s_per_mmHg": 0.01}
+    fit = written(tmp_path / "s.json", json.dumps({"numbers": with_s, "pressure_mmHg": 30.0}))
+    table_of(one)[["time [s]", "beta [deg]", "force [N]"]].to_csv(tmp_path / "bare.csv", index=False)
+    result = elbow("compare", tmp_path / "out", tmp_path / "bare.csv", "--fit", fit)
+    assert result.code == 2 and "follows the cuff's pressure" in result.err

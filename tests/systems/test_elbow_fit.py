@@ -1,0 +1,227 @@
+"""What is identified at an elbow on synthetic trials: numbers, intervals, and the line where nothing changes."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from geocontact.systems.elbow_bins import FORCE, Binned, binned
+from geocontact.systems.elbow_end_stop import curve_of, stiffness_by_displacement, stroke_of
+from geocontact.systems.elbow_fit import Estimate, Prior, estimated, problem_of, r_squared
+from geocontact.systems.elbow_law import NAMES, ElbowLaw
+from geocontact.systems.elbow_synthetic import PAPER, Design, ideal, multisine
+from geocontact.systems.elbow_uncertainty import (
+    along_the_scale,
+    covariance,
+    direction,
+    profiled,
+    wild_bootstrap,
+)
+from tests.systems.elbow_trials import QUICK, parameters, trials
+
+WIDTH = np.radians(2.0)
+CLEAN = Design(seconds=30.0, rate=100.0, noise=1e-6, memory=0.1, bits=0)
+LINK = {"l": PAPER["l"], "z": PAPER["z"]}
+SCALE = np.array([-1.0, 1.0, 1.0, 1.0, 1.0]) / np.sqrt(5.0)
+
+
+@cache
+def noisy() -> Binned:
+    return binned(trials(), WIDTH)
+
+
+@cache
+def three() -> Estimate:
+    return estimated(problem_of(noisy(), parameters(LINK), {}))
+
+
+@cache
+def five() -> Estimate:
+    return estimated(problem_of(noisy(), parameters({}), {}))
+
+
+def test_the_design_is_the_papers() -> None:
+    time = np.arange(60001) / 1000.0
+    beta = multisine(time, Design(), np.random.default_rng(0))
+    np.testing.assert_allclose(np.degrees([beta.min(), beta.max()]), [8.0, 92.0])
+    power = np.abs(np.fft.rfft((beta - beta.mean()) * np.hanning(len(beta)))) ** 2
+    frequency = np.fft.rfftfreq(len(beta), 1e-3)
+    assert power[frequency < 0.4].sum() > 0.999 * power.sum()
+    assert power[(frequency > 0.03) & (frequency < 0.37)].sum() > 0.95 * power.sum()
+    (one,) = trials(design=Design(seconds=2.0), count=1)
+    steps = one.force / (100.0 / 2**12)
+    np.testing.assert_allclose(steps, np.round(steps), atol=1e-6)
+
+
+@pytest.mark.parametrize("signs", [(1, 1), (1, -1), (-1, 1), (-1, -1)])
+def test_offsets_of_either_sign_are_found_without_noise(signs: tuple[int, int]) -> None:
+    truth = {**PAPER, "x": signs[0] * 0.035, "y": signs[1] * 0.045}
+    data = binned(trials(truth, CLEAN, count=2), np.radians(0.5))
+    found = estimated(problem_of(data, parameters(LINK), {})).named
+    for name in ("k", "x", "y"):
+        assert found[name] == pytest.approx(truth[name], rel=2e-3), name
+
+
+def test_damping_is_found_from_the_directions_of_movement() -> None:
+    """Bins mix flexion and extension; their mean rates tell damping only as far as these are uneven."""
+    truth = {**PAPER, "b": 40.0}
+    data = binned(trials(truth, CLEAN, count=6), np.radians(0.5))
+    found = estimated(problem_of(data, parameters(LINK, "kxyb"), {})).named
+    assert found["b"] == pytest.approx(40.0, rel=0.05) and found["k"] == pytest.approx(PAPER["k"], rel=0.01)
+
+
+def test_stiffness_over_cuff_pressure() -> None:
+    mmhg = 133.322
+    design = Design(seconds=30.0, rate=100.0, noise=1e-6, bits=0, pressures=(10 * mmhg, 60 * mmhg))
+    truth = {**PAPER, "s": 0.01 / mmhg}
+    data = binned(trials(truth, design, mean_pressure=35 * mmhg), np.radians(0.5))
+    found = estimated(problem_of(data, parameters(LINK, "kxys"), {})).named
+    at_mean = PAPER["k"] * (1.0 + truth["s"] * (data.pressure - 35 * mmhg))
+    assert found["k"] == pytest.approx(at_mean, rel=2e-3)
+    assert found["s"] * found["k"] == pytest.approx(PAPER["k"] * truth["s"], rel=0.01)
+
+
+def test_derivatives_are_those_of_the_force() -> None:
+    rng = np.random.default_rng(2)
+    law = ElbowLaw(np.linspace(0.1, 1.6, 30), rng.normal(size=30), rng.normal(size=30))
+    theta = np.array([222.0, 0.04, -0.03, 0.17, 0.12, 7.0, 0.1])
+    slopes = law.slopes(theta)
+    for k in range(len(NAMES)):
+        step = np.zeros(7)
+        step[k] = 1e-5 * abs(theta[k])
+        secant = (law.force(theta + step) - law.force(theta - step)) / (2.0 * step[k])
+        np.testing.assert_allclose(slopes[:, k], secant, rtol=1e-6, atol=1e-6 * np.abs(secant).max())
+
+
+def test_the_scale_is_the_direction_that_nothing_tells() -> None:
+    """Also where the numbers are not the best ones: it is exact, not a matter of the fit."""
+    for e in (three(), five()):
+        told = direction(e)
+        assert told.flat and told.singular_values[-2] > 1e-4 * told.singular_values[0]
+        np.testing.assert_allclose(told.least, SCALE, atol=1e-6)
+    rest = direction(three(), ("k", "x", "y"))
+    assert not rest.flat and rest.singular_values[-1] > 0.01 * rest.singular_values[0]
+
+
+def test_the_papers_numbers_are_one_point_of_a_line() -> None:
+    e = estimated(problem_of(binned(trials(design=CLEAN, count=2), np.radians(0.5)), parameters({}), {}))
+    line = along_the_scale(e, np.geomspace(0.3, 3.0, 9))
+    force = np.array([e.problem.law.force(theta) for theta in line])
+    np.testing.assert_allclose(force, np.tile(e.predicted, (9, 1)), rtol=1e-9, atol=1e-9)
+    (point,) = along_the_scale(e, np.array([PAPER["l"] / e.named["l"]]))
+    for k, name in enumerate(("k", "x", "y", "l", "z")):
+        assert point[k] == pytest.approx(PAPER[name], rel=0.1), name
+
+
+def test_a_start_elsewhere_ends_elsewhere_on_the_line() -> None:
+    """What the paper's 222 N/m rest on: its start and its bounds for l and z."""
+    data, ends = noisy(), []
+    for factor in (1.0, 0.6):
+        known = parameters({})
+        moved = [p if p.fixed else type(p)(p.name, p.unit, p.start * factor, p.lower, p.upper) for p in known]
+        ends.append(estimated(problem_of(data, moved, {}), starts=0))
+    assert ends[1].cost == pytest.approx(ends[0].cost, rel=1e-5)
+    assert ends[1].named["k"] > 1.3 * ends[0].named["k"]
+
+
+def test_profile_along_the_scale_is_flat_and_one_length_known_ends_that() -> None:
+    e = five()
+    flat = profiled(e, covariance(noisy(), e), "l", points=9)
+    middle = np.abs(flat.values / e.named["l"] - 1.0) < 0.3
+    assert flat.upper / flat.lower > 3.0 and (np.abs(flat.rise[middle]) < 0.01).all()
+    known = three()
+    sharp = profiled(known, covariance(noisy(), known), "k", points=5)
+    assert sharp.upper / sharp.lower < 1.5 and not (sharp.lower_open or sharp.upper_open)
+    assert sharp.lower < PAPER["k"] < sharp.upper
+
+
+def test_a_prior_sets_the_scale_and_no_more() -> None:
+    sd = 0.01
+    e = estimated(problem_of(noisy(), parameters({"z": PAPER["z"]}), {"l": Prior(0.15, sd)}))
+    c = covariance(noisy(), e)
+    k = e.problem.names.index("l")
+    assert np.sqrt(c.matrix[k, k]) <= 1.001 * sd
+    sharper = estimated(problem_of(noisy(), parameters({}), {"l": Prior(0.15, 1e-6)}))
+    assert sharper.named["l"] == pytest.approx(0.15, abs=1e-5)
+    off = estimated(problem_of(noisy(), parameters({"l": 0.15}), {}))
+    assert sharper.named["k"] == pytest.approx(off.named["k"], rel=1e-2)
+
+
+def test_profile_of_a_linear_number_is_its_standard_error() -> None:
+    """With the lengths known F is linear in k: the profile is the sandwich's interval."""
+    e = estimated(problem_of(noisy(), parameters({n: PAPER[n] for n in ("x", "y", "l", "z")}), {}))
+    c = covariance(noisy(), e)
+    p = profiled(e, c, "k")
+    np.testing.assert_allclose([p.lower, p.upper], e.named["k"] + np.array([-1, 1]) * c.half_width(0), rtol=1e-6)
+    drawn = wild_bootstrap(noisy(), e, 400)[:, 0]
+    assert drawn.std() == pytest.approx(np.sqrt(c.matrix[0, 0]), rel=0.15)
+    assert drawn.mean() == pytest.approx(e.named["k"], rel=0.01)
+
+
+def test_intervals_hold_the_truth_about_as_often_as_they_say() -> None:
+    """80 recordings; with 95 % right, fewer than 68 hits happen once in 10 000. The benchmark counts more."""
+    quick = Design(seconds=20.0, rate=50.0, noise=0.5, memory=0.1)
+    hits = np.zeros(3)
+    for run in range(80):
+        data = binned(trials(design=quick, seed=[9, run], count=3), np.radians(4.0))
+        e = estimated(problem_of(data, parameters(LINK), {}), starts=0)
+        c = covariance(data, e)
+        half = np.array([c.half_width(k) for k in range(3)])
+        hits += np.abs(e.values - [PAPER[n] for n in "kxy"]) <= half
+    assert (hits >= 68).all(), hits
+
+
+def test_a_trial_that_was_left_out_is_predicted() -> None:
+    data = noisy()
+    problem = problem_of(data.without(2), parameters(LINK), {})
+    e, rest = estimated(problem), data.only(2)
+    assert set(data.without(2).cells.trial) == {0, 1, 3, 4, 5}
+    law = problem_of(rest, parameters(LINK), {}).law
+    assert r_squared(rest.cells.means[:, FORCE], law.force(e.theta)) > 0.95
+
+
+def test_noise_is_told_without_a_model() -> None:
+    design = Design(seconds=60.0, rate=100.0, noise=0.8, memory=0.3)
+    noise = binned(trials(design=design), WIDTH).noise
+    assert noise.sd[0] == pytest.approx(0.8, rel=0.15) and 0.2 < noise.tau[0] < 0.6
+
+
+def test_the_joint_slides_where_the_force_levels_off() -> None:
+    """The paper's Fig. 8: a negative force up to an angle at which the joint, until then at its end, starts to move."""
+    stroke = (-0.010, 0.060)
+    free = curve_of(binned(trials(design=QUICK, stroke=stroke), WIDTH))
+    found = stroke_of(free)
+    assert found is not None
+    (stop,) = found.stops
+    assert stop.side == "lower" and stop.position == pytest.approx(-0.010, abs=2e-4) and stop.force < -5.0
+    time = np.arange(2000) * 1e-3
+    beta = np.linspace(0.2, 1.6, 2000)
+    _, joint = ideal(time, beta, PAPER, stroke)
+    leaves = beta[int(np.argmax(joint > -0.010))]
+    assert stop.leaves == pytest.approx(leaves, abs=np.radians(2.5))
+    beyond = free.beta > stop.leaves + np.radians(4.0)
+    assert abs(free.force[beyond].mean()) < 0.2 and abs(found.level) < 0.2
+    # lowered by what is wanting, the end is not reached any more
+    lower = (stroke[0] + stop.force / PAPER["k"] - 0.003, stroke[1])
+    eased, _ = ideal(time, beta, PAPER, lower)
+    assert np.abs(eased).max() < 1e-9
+
+
+def test_an_extreme_of_a_joint_that_slides_is_no_end() -> None:
+    found = stroke_of(curve_of(binned(trials(design=QUICK, stroke=(-0.2, 0.2)), WIDTH)))
+    assert found is not None and not found.stops
+    (stuck,) = trials(design=QUICK, stroke=(0.0, 0.0), count=1)
+    assert stroke_of(curve_of(binned([stuck], WIDTH))) is None
+
+
+def test_free_displacement_and_locked_force_tell_the_stiffness() -> None:
+    """The one number that angle and force alone leave open."""
+    data = binned(trials(seed=3), WIDTH)
+    stroke = stroke_of(curve_of(binned(trials(seed=4, stroke=(-0.010, 0.060)), WIDTH)))
+    assert stroke is not None
+    locked = [curve_of(data.only(k)) for k in range(6)]
+    found = stiffness_by_displacement(locked, stroke, WIDTH)
+    assert found is not None and found.trials == 6
+    assert abs(found.value - PAPER["k"]) < 4.0 * found.error and found.error < 0.05 * PAPER["k"]
