@@ -24,7 +24,7 @@ from geocontact.io.elbow_recording import FORCE as FORCE_CHANNEL
 from geocontact.systems.elbow_bins import FORCE, Binned, binned
 from geocontact.systems.elbow_end_stop import Stiffness, Stroke, curve_of, stiffness_by_displacement, stroke_of
 from geocontact.systems.elbow_explicit import require_no_pole, require_reach
-from geocontact.systems.elbow_fit import Estimate, estimated, law_at, problem_of, r_squared
+from geocontact.systems.elbow_fit import Estimate, estimated, law_at, problem_of, r_squared, residual_by_bin
 from geocontact.systems.elbow_law import offsets_of
 from geocontact.systems.elbow_uncertainty import (
     SCALED,
@@ -171,16 +171,6 @@ def _fitted(
         r2=r_squared(measured, e.predicted),
         mirrored_r2=_mirrored(e, measured),
     )
-
-
-def residual_by_bin(data: Binned, e: Estimate) -> tuple[Float[np.ndarray, " b"], Float[np.ndarray, " b"]]:
-    """Angle [rad] and measured less fitted force [N] of each bin, all trials together."""
-    cells = data.cells
-    bins = len(data.visits.edges) - 1
-    count = np.bincount(cells.place, cells.count, bins)
-    there = count > 0.0
-    off = cells.means[:, FORCE] - e.predicted
-    return data.centres[there], np.bincount(cells.place, cells.count * off, bins)[there] / count[there]
 
 
 def _refuse_beyond(e: Estimate) -> None:

@@ -22,7 +22,7 @@ from geocontact.identify.bin_tests import BinTest
 from geocontact.io.results import write_table
 from geocontact.systems.elbow_bins import Binned
 from geocontact.systems.elbow_end_stop import curve_of
-from geocontact.systems.elbow_fit import r_squared
+from geocontact.systems.elbow_fit import r_squared, residual_by_bin
 from geocontact.systems.elbow_law import LENGTHS, NAMES
 from geocontact.view.contact_tables import inputs_table
 from geocontact.view.elbow_figures import (
@@ -44,8 +44,6 @@ QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 def write_results(record: Record, found: Fitted, free: Free | None, o: ElbowFitOptions, folder: Path) -> None:
     """Numbers, tables, figures, page."""
-    from geocontact.cli.elbow_fit_analysis import residual_by_bin
-
     text = json.dumps(describe(found, free), indent=2, ensure_ascii=False, allow_nan=False)
     (folder / "elbow.json").write_text(text + "\n", encoding="utf-8")
     bins = _with_fit(spread_table(found.recordings, found.data), found)
@@ -190,8 +188,6 @@ def spread_table(recordings: Sequence[ElbowRecording], data: Binned) -> pd.DataF
 
 
 def _with_fit(table: pd.DataFrame, found: Fitted) -> pd.DataFrame:
-    from geocontact.cli.elbow_fit_analysis import residual_by_bin
-
     beta, residual = residual_by_bin(found.data, found.estimate)
     off = dict(zip(np.round(np.degrees(beta), 6), residual, strict=True))
     table["residual [N]"] = [off.get(round(value, 6), np.nan) for value in table["beta [deg]"]]

@@ -31,8 +31,8 @@ def run(tmp_path, monkeypatch):
     return executed
 
 
-def test_there_is_one_for_the_contact_area_the_gap_the_knee_and_the_mat():
-    assert {"contact_area", "gap", "knee", "mat"} <= {notebook.stem for notebook in NOTEBOOKS}
+def test_there_is_one_for_the_contact_area_the_gap_the_knee_the_mat_and_the_elbow():
+    assert {"contact_area", "gap", "knee", "mat", "elbow"} <= {notebook.stem for notebook in NOTEBOOKS}
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
@@ -60,6 +60,19 @@ def test_contact_area_runs_on_the_shipped_meshes(run, tmp_path):
 def test_mat_runs_on_the_shipped_recording(run):
     said = run(ROOT / "notebooks" / "mat.ipynb")
     assert "151 frames of 16 x 8 cells" in said and "exactly" in said
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")  # of the notebook machinery itself
+def test_elbow_shows_the_line_and_finds_the_numbers_that_were_planted(run):
+    said = run(ROOT / "notebooks" / "elbow.ipynb")
+    assert "d_lin 153 mm, d_tot 109 mm" in said
+    assert re.search(r"direction told least: \[-1\. +1\. +1\. +1\. +1\.\]", said)
+    low, high = map(float, re.findall(r"R² along the line ([\d.]+) to ([\d.]+)", said)[0])
+    assert low == high > 0.98
+    leaves = float(re.findall(r"slides from (\d+)°", said)[0])
+    assert 60.0 <= leaves <= 68.0
+    assert 190.0 < float(re.findall(r"k by displacement (\d+) N/m", said)[0]) < 255.0
 
 
 @pytest.mark.slow
