@@ -93,6 +93,7 @@ def pooled(data):
 def coverage(name: str, runs: int, replicates: int, seed: int) -> dict[str, object]:
     """Share of runs whose intervals hold the true numbers, by profile and by wild bootstrap."""
     import numpy as np
+    from scipy.stats import norm, qmc
 
     from geocontact.systems.elbow_bins import binned
     from geocontact.systems.elbow_fit import Prior, estimated, problem_of
@@ -102,13 +103,14 @@ def coverage(name: str, runs: int, replicates: int, seed: int) -> dict[str, obje
 
     by_prior = name.startswith("priors")
     design = Design(donning=DONNING if name.endswith("donning") else 0.0)
-    rng = np.random.default_rng([seed, runs, by_prior])
     priors = {n: Prior(PAPER[n], PRIOR) for n in "lz"} if by_prior else {}
     held: dict[str, list[tuple[bool, bool]]] = {}
     widths: dict[str, list[float]] = {}
     begun = time.process_time()
+    drawn_from = qmc.LatinHypercube(2, rng=seed).random(runs)  # evenly over the priors: 60 draws at random are uneven
     for run in range(runs):
-        truth = {**PAPER, **{n: p.mean + p.sd * rng.standard_normal() for n, p in priors.items()}}
+        apart = norm.ppf(drawn_from[run])
+        truth = {**PAPER, **{n: p.mean + p.sd * float(apart[k]) for k, (n, p) in enumerate(priors.items())}}
         data = binned(trials(truth, design, [seed, run, by_prior]), np.radians(2.0))
         known = {} if by_prior else {n: PAPER[n] for n in "lz"}
         e = estimated(problem_of(data, parameters(known), priors), starts=2)

@@ -8,6 +8,7 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 MINUS = "\N{MINUS SIGN}"
+LEAST_COVERAGE = 0.88  # of the elbow's intervals of 95 %: 60 to 200 runs tell them to 3 %
 
 
 def results(name: str) -> Any:
@@ -145,3 +146,19 @@ def test_detectability_and_the_next_experiment() -> None:
             ends = interval.strip("]% ").split(",")
             assert all(near(text, end, 100.0) for text, end in zip(ends, one["interval"], strict=True)), cells
             assert cells[1] == str(one["cases"])
+
+
+def test_time_and_coverage_of_the_elbow() -> None:
+    page, told = "theory/elbow_misalignment.md", results("elbow")
+    for one in told["fit"]:
+        cells = row(page, one["numbers"], one["bins"])
+        assert int(cells[0]) == one["means"] and near(cells[1], one["milliseconds"]) and one["milliseconds"] < 5.0
+    for one in told["coverage"]:
+        cells = row(page, one["case"])
+        assert int(cells[0]) == one["runs"]
+        for cell, kind in zip(cells[1:], ("profile likelihood", "wild bootstrap"), strict=True):
+            shown = dict(part.split() for part in cell.split(", "))
+            assert set(shown) == set(one[kind]) and all(near(shown[n], one[kind][n]) for n in shown), cells
+    known, prior, _ = told["coverage"]
+    for one in (known, prior):
+        assert min(*one["profile likelihood"].values(), *one["wild bootstrap"].values()) >= LEAST_COVERAGE
