@@ -73,8 +73,8 @@ def fit(recording: Path, /, *more_recordings: Path, options: ElbowFitOptions) ->
     """Stiffness, link and offsets of an exoskeleton from force and angle, and what these recordings cannot tell.
 
     Writes elbow.json, bins.csv, boxes.csv, intervals.csv, scale_line.csv, held_out.csv, figures (.png, .svg),
-    report.html and run.json into OUT, and conditions.csv with --unlocked. k, x, y, l and z are known up to one factor
-    only, unless one of them comes from elsewhere.
+    report.html and run.json into OUT, with --unlocked also conditions.csv and boxes_free.csv. k, x, y, l and z are
+    known up to one factor only, unless one of them comes from elsewhere.
 
     Parameters
     ----------

@@ -93,6 +93,7 @@ class Free:
     """What the recordings with a free joint tell."""
 
     recordings: Sequence[ElbowRecording]
+    boxes: Binned
     stroke: Stroke
     stiffness: Stiffness | None
     bins_differ: BinTest | None
@@ -229,7 +230,7 @@ def _free(record: Record, o: ElbowFitOptions, found: Fitted) -> Free:
         what = f"displacement and locked force run against each other ({stiffness.value:.4g} N/m)"
         raise InputError(paths[0], "", what, "one of them has its sign turned: --map displacement=-… or force=-…")
     boxes = binned(free, float(np.radians(o.box_deg)))
-    return Free(free, stroke, stiffness, between_bins(boxes.visits, FORCE))
+    return Free(free, boxes, stroke, stiffness, between_bins(boxes.visits, FORCE))
 
 
 def _reserve(record: Record, found: Fitted) -> None:

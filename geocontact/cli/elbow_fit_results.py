@@ -52,6 +52,7 @@ def write_results(record: Record, found: Fitted, free: Free | None, o: ElbowFitO
               "held_out": held_table(found)}  # fmt: skip
     if free is not None:
         tables["conditions"] = condition_table(found, free)
+        tables["boxes_free"] = spread_table(free.recordings, free.boxes)
     for name, table in tables.items():
         write_table(table, folder, o.parquet, name)
     told_in = save_both(_told_figure(found), folder, "identifiability")

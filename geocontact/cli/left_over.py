@@ -39,7 +39,8 @@ GAP = (
 )
 ELBOW = (
     "elbow.json", "truth.json", "report.html",
-    *(f"{name}.{ending}" for name in ("bins", "boxes", "intervals", "scale_line", "held_out", "conditions", "surfaces",
+    *(f"{name}.{ending}" for name in ("bins", "boxes", "intervals", "scale_line", "held_out", "conditions",
+                                      "boxes_free", "surfaces",
                                       "comparison") for ending in ("csv", "parquet")),
     *(f"{name}.{ending}" for name in ("forces", "identifiability", "residuals", "conditions", "surfaces",
                                       "comparison_force", "comparison_displacement") for ending in ("png", "svg")),

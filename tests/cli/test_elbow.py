@@ -120,6 +120,9 @@ def test_with_the_link_known_the_numbers_are_found(tmp_path: Path, made: Path) -
     assert bins["samples"].sum() == 3 * 1001 and np.allclose(np.diff(bins["beta [deg]"]), 2.0)
     boxes = result.table("boxes.csv")
     assert (boxes["25% [N]"] <= boxes["50% [N]"]).all() and (boxes["50% [N]"] <= boxes["75% [N]"]).all()
+    free_boxes = result.table("boxes_free.csv").set_index("beta [deg]")
+    assert free_boxes["samples"].sum() == 3 * 1001
+    assert abs(free_boxes.loc[85.0, "50% [N]"]) < 0.2 < boxes.set_index("beta [deg]").loc[85.0, "50% [N]"]
     both = result.table("conditions.csv")
     assert list(both) == ["beta [deg]", "locked [N]", "free [N]", "displacement [mm]"]
 
@@ -156,7 +159,7 @@ def test_the_page_and_its_figures(tmp_path: Path, made: Path) -> None:
     free = ("--unlocked", made / "free_1.csv")
     result = done(elbow("fit", tmp_path / "fit", *locked(made), *KNOWN, "--cutoff", 5, *free, picture=True))
     files = set(inventory(result.folder))
-    assert files == FIT | {"conditions.csv", "conditions.png", "conditions.svg"} and files <= NAMES
+    assert files == FIT | {"conditions.csv", "boxes_free.csv", "conditions.png", "conditions.svg"} and files <= NAMES
     page = (result.folder / "report.html").read_text(encoding="utf-8")
     for words in ("What the data tell", "set by what was known beforehand", "Lilliefors", "Joint locked and free"):
         assert words in page
