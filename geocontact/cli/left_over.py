@@ -45,6 +45,14 @@ ELBOW = (
     *(f"{name}.{ending}" for name in ("forces", "identifiability", "residuals", "conditions", "surfaces",
                                       "comparison_force", "comparison_displacement") for ending in ("png", "svg")),
 )  # fmt: skip
+ELBOW_DESIGN = (
+    "design.json", "design.png", "design.svg", "report.html",
+    *(f"{name}.{ending}" for name in ("map", "boundary", "sensitivity", "force") for ending in ("csv", "parquet")),
+)  # fmt: skip
+ELBOW_POPULATION = (
+    "population.json", "population.png", "population.svg", "report.html",
+    *(f"{name}.{end}" for name in ("quantiles", "exceedance", "influence", "samples") for end in ("csv", "parquet")),
+)  # fmt: skip
 TABLES = ("wrench", "uncertainty", "cells", "frames_cells", "segments", "registration", "agreement")
 MAT = (
     *(f"{name}.{ending}" for name in TABLES for ending in ("csv", "parquet")),
@@ -52,7 +60,10 @@ MAT = (
 )  # fmt: skip
 ASKED = ("confuse.json", "separability.csv", "detectability.csv", "planted.json", "report.html")
 BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
-NAMES = frozenset({*AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *MODULUS, *ELBOW, *MAT, *GAP, *ASKED, *BENCHMARK, RUN})
+NAMES = frozenset({
+    *AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *MODULUS, *ELBOW, *ELBOW_DESIGN, *ELBOW_POPULATION, *MAT, *GAP, *ASKED,
+    *BENCHMARK, RUN,
+})  # fmt: skip
 PARAVIEW = "paraview"
 PICTURES = re.compile(
     r"(gap_map|ranking|separability|detectability|gap_residuals|before_after_\w+|gap_surface_\w+)\.(png|svg)"

@@ -162,3 +162,22 @@ def test_time_and_coverage_of_the_elbow() -> None:
     known, prior, _ = told["coverage"]
     for one in (known, prior):
         assert min(*one["profile likelihood"].values(), *one["wild bootstrap"].values()) >= LEAST_COVERAGE
+
+
+def test_largest_forces_of_a_population() -> None:
+    page, told = "how-to/elbow_design.md", results("elbow_population")
+    for one in told["convergence"]:
+        cells = row(page, f"{one['step_deg']:.0f}°")
+        keys = ("largest_error_N", "rms_error_N", "grid_only_largest_error_N", "grid_only_rms_error_N")
+        assert cells == [f"{one[key]:.1e}" for key in keys]
+    for one in told["drawing"]:
+        cells = row(page, str(one["people"]))
+        assert cells == [f"{one[key]:.2f}" for key in ("quantile_N", "lower_N", "upper_N")]
+    text, speed = (ROOT / "docs" / page).read_text(encoding="utf-8"), told["speed"]
+    assert f"{speed['samples_per_second'] / 1e6:.2f} million people per second" in text
+    assert (
+        f"without refinement {speed['numpy_samples_per_second'] / 1e6:.2f} million, ratio {speed['ratio']:.1f}" in text
+    )
+    assert f"{speed['samples_per_second_at_8_deg'] / 1e6:.2f} million, ratio {speed['ratio_at_8_deg']:.1f} to" in text
+    assert speed["samples_per_second"] > 2e5, "a million people in seconds"
+    assert told["convergence"][0]["largest_error_N"] < told["convergence"][-1]["grid_only_largest_error_N"]

@@ -14,6 +14,7 @@ from tests.cli.calls import ROOT, call
 HELP = [["--help"], ["area", "--help"], ["demo", "--help"], ["doctor", "--help"], ["view", "--help"]]
 HELP += [["cop", "--help"], ["fit", "--help"], ["loadcells", "--help"], ["--version"]]
 HELP += [["gap", "--help"], ["gap", "diagnose", "--help"], ["elbow", "--help"], ["elbow", "fit", "--help"]]
+HELP += [["elbow", "design", "--help"], ["elbow", "population", "--help"]]
 HEAVY = {"numba", "trimesh", "pyvista", "vtk", "matplotlib", "igl", "fcl", "pandas", "scipy", "open3d"}
 each_help = pytest.mark.parametrize("arguments", HELP, ids=" ".join)
 
