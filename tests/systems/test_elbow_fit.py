@@ -64,7 +64,7 @@ def test_offsets_of_either_sign_are_found_without_noise(signs: tuple[int, int]) 
         assert found[name] == pytest.approx(truth[name], rel=2e-3), name
 
 
-def test_damping_is_found_from_the_directions_of_movement() -> None:
+def test_damping_is_found_without_noise() -> None:
     """Bins mix flexion and extension; their mean rates tell damping only as far as these are uneven."""
     truth = {**PAPER, "b": 40.0}
     data = binned(trials(truth, CLEAN, count=6), np.radians(0.5))
