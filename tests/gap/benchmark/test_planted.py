@@ -26,6 +26,7 @@ from geocontact.gap.benchmark.planted.scenes import SCENES
 from geocontact.gap.benchmark.planted.shoulder import shoulder
 from geocontact.gap.benchmark.planted.sit_to_stand import inputs as inputs_of
 from geocontact.gap.benchmark.planted.sit_to_stand import sit_to_stand
+from geocontact.gap.benchmark.planted.swing import at_rest
 from geocontact.gap.benchmark.planted.trials import Fault, as_measured, fine_enough, record, samples, truth
 from geocontact.systems.catalogue import system_of
 
@@ -285,6 +286,48 @@ def test_medial_and_lateral_sides_share_what_the_knee_carries(stages):
     np.testing.assert_allclose(again, force, rtol=1e-12)
     made = stages["knee"].trials[0].outputs
     assert (made > 20.0).all() and 0.4 < made[0].mean() / made.mean(axis=1).sum() < 0.75
+
+
+@pytest.mark.parametrize(
+    ("hooks", "name", "value"),
+    [
+        (Hooks(beside=(lambda p: 500.0 * p.deflection,)), "k_t", 500.0),
+        (Hooks(beside=(lambda p: 9.0 * p.rate,)), "b_t", 9.0),
+        (Hooks(hinge=(lambda p: 0.1 * p.rate,)), "c", 0.1),
+        (Hooks(hinge=(lambda p: 0.03 * p.acceleration,)), "I", 0.03),
+    ],
+)
+def test_what_is_hooked_in_at_the_shoulder_moves_the_arm_as_the_same_number_of_the_base_does(
+    hooks, name, value, stages
+):
+    scene, path = stages["shoulder"].scene, stages["shoulder"].trials[0].path
+    numbers = scene.numbers(scene.theta)
+    course = path(np.arange(2001) * 2.5e-3)
+    hooked = scene.body.respond(course, numbers, hooks)
+    known = scene.body.respond(course, {**numbers, name: numbers[name] + value}, BASE)
+    without = scene.body.respond(course, numbers, BASE)
+    changed = np.abs(known - without).max(axis=1)
+    assert (changed > 1e-5).all()
+    assert (np.abs(hooked - known).max(axis=1) < 0.01 * changed).all()
+
+
+def test_noise_of_the_arm_is_passed_on_as_the_base_model_does(stages):
+    scene, one = stages["shoulder"].scene, stages["shoulder"].trials[0]
+    course = one.path(np.arange(one.count) * scene.step)
+    noise = 1e-4 * (1.0 + np.sin(14.0 * course.time) + np.exp(-(((course.time - 3.0) / 0.05) ** 2)))
+    sides = [
+        through(course.time, course.position + np.array([[size], [0.0]]) * noise, course.duration, 0.0, course.setting)
+        for size in (1.0, -1.0)
+    ]
+    more, less = (scene.base_model(path(course.time))(scene.theta) for path in sides)
+    linear = scene.body.passed_on(course, scene.numbers(scene.theta), 0, noise[:, None])[:, :, 0]
+    off = np.abs(linear - 0.5 * (more - less)).max(axis=1)
+    assert (off < 0.01 * np.abs(linear).max(axis=1)).all()
+
+
+def test_an_arm_that_finds_no_rest_is_not_solved():
+    with pytest.raises(NotConvergedError, match="no rest"):
+        at_rest(lambda _: 1.0, 0.0)
 
 
 def test_a_dashpot_follows_what_reaches_the_spring():
