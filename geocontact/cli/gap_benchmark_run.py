@@ -54,7 +54,7 @@ def _checked(o: BenchmarkOptions) -> tuple[str, ...]:
     unknown = [kind for kind in kinds if kind not in KINDS]
     rows = (
         (bool(unknown), "--kinds", f"unknown kind {unknown[:1]}", f"kinds are {', '.join(KINDS)}"),
-        (o.cases < 1, "--cases", f"{o.cases} is less than one case", "give 1 or more, e.g. 150"),
+        (o.cases < 1, "--cases", f"{o.cases} is less than one case", "give 1 or more, e.g. 200"),
         (o.again < 0, "--again", f"{o.again} is less than none", "give 0 or more"),
         (o.jobs is not None and o.jobs < 1, "--jobs", f"{o.jobs} is less than one process", "give 1 or more"),
         (o.seed is not None and o.seed < 0, "--seed", f"{o.seed} is negative", "give 0 or more"),
