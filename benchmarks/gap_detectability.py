@@ -4,18 +4,16 @@ Cases without an effect (planted ones, or a folder: `benchmarks.gap_sources`) ar
 which amplitude on the diagnosis would see an effect. Then trials are simulated at that amplitude, at half and at one
 and a half times of it, with noise, deviations of the trials and noise of the inputs as fitted, and attributed. Seen is
 an effect where the verdict is not `no_gap`. A statement is what is more probable by the predicted power, at half and at
-one and a half times; it is right where that happens.
+one and a half times; it is right where that happens. Every simulation is kept as it comes (`benchmarks.gap_rows`).
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import sys
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
-from multiprocessing import get_context
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +30,7 @@ def arguments() -> argparse.Namespace:
     """Command line."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.gap_detectability", description=__doc__.splitlines()[0])
     parser.add_argument(
-        "--sources", nargs="+", default=["elbow", "foot", "knee", "sit_to_stand"],
+        "--sources", nargs="+", default=["elbow", "foot", "knee", "sit_to_stand", "shoulder"],
         help="systems with planted cases, or folders of cases without an effect",
     )  # fmt: skip
     parser.add_argument("--cases", type=int, default=1, help="of each source")
@@ -103,15 +101,16 @@ def statements(source: str, place: int, options: argparse.Namespace) -> Iterator
             yield row | {"predicted": chance}, Asked(case, problem, base, there, offer)
 
 
-def rows(source: str, place: int, options: argparse.Namespace) -> list[dict[str, Any]]:
-    """One case: every effect at every amplitude, simulated and attributed."""
+def simulated(options: argparse.Namespace, work: tuple[str, int]) -> None:
+    """One case: every effect at every amplitude, simulated and attributed, kept as it comes."""
     from threadpoolctl import threadpool_limits
 
+    from benchmarks.gap_rows import keep
     from benchmarks.gap_simulated import case_of
     from geocontact.gap.attribute import attribute
     from geocontact.systems.catalogue import system_of
 
-    found = []
+    source, place = work
     with threadpool_limits(limits=1):
         for row, one in statements(source, place, options):
             values = {**one.base.model.values, **one.told.values}
@@ -120,9 +119,8 @@ def rows(source: str, place: int, options: argparse.Namespace) -> list[dict[str,
                 new = case_of(one.case, one.problem, one.base.noise, system, values, 1000 * place + k)
                 said = attribute(new, system_of(new), one.offer).answer
                 done = row | {"seen": said.verdict != "no_gap", "verdict": said.verdict}
-                found.append(done | {"named": one.told.candidate.name in said.ambiguity})
-                print(json.dumps(found[-1]), file=sys.stderr, flush=True)
-    return found
+                done |= {"named": one.told.candidate.name in said.ambiguity}
+                keep(options.out.with_suffix(".rows"), options.seed, done)
 
 
 def right(row: dict[str, Any]) -> bool:
@@ -137,35 +135,43 @@ def summary(found: Sequence[dict[str, Any]]) -> dict[str, Any]:
     seen = {t: Rate.of(row["seen"] for row in found if row["times"] == t) for t in sorted({r["times"] for r in found})}
     rate = Rate.of(right(row) for row in found if row["times"] != 1.0)
     shares = {f"{t:g}": {"seen": one.hits, "of": one.count} for t, one in seen.items()}
-    cases = len({(row["source"], row["case"]) for row in found})
+    cases = len({(row["seed"], row["source"], row["case"]) for row in found})
     return {
         "right": rate.hits, "statements": rate.count, "interval": rate.interval(), "cases": cases, "seen_at": shares,
     }  # fmt: skip
 
 
 def main() -> None:
-    """Simulate, attribute, write the JSON after each case, print the shares."""
-    options = arguments()
-    found: list[dict[str, Any]] = []
-    work = [(source, place) for place in range(options.cases) for source in options.sources]
-    with ProcessPoolExecutor(options.jobs, get_context("spawn")) as pool:
-        for done in as_completed([pool.submit(rows, *one, options) for one in work]):
-            found += done.result()
-            written(options, sorted(found, key=lambda one: (one["source"], one["case"], one["effect"], one["times"])))
-    print(summary(found))
-
-
-def written(options: argparse.Namespace, found: Sequence[dict[str, Any]]) -> None:
-    """The JSON: pooled, by source, then every simulation."""
+    """Simulate, attribute, write the JSON after each case and when interrupted, print the shares."""
+    from benchmarks.gap_rows import begin
     from benchmarks.gap_sources import name_of
     from benchmarks.machine import machine
+    from geocontact.cli.workers import each
 
-    said = {k: v for k, v in vars(options).items() if k != "out"}
+    options = arguments()
+    said = {k: v for k, v in vars(options).items() if k not in ("out", "seed")}
     said |= {key: [name_of(one) for one in said[key]] for key in ("sources", "narrow")}
-    own = {source: summary([row for row in found if row["source"] == source]) for source in said["sources"]}
-    options.out.parent.mkdir(parents=True, exist_ok=True)
-    whole = {"machine": machine(), "options": said, "all": summary(found), "of": own, "rows": list(found)}
-    options.out.write_text(json.dumps(whole, indent=1) + "\n")
+    begin(options.out.with_suffix(".rows"), options.seed, {"machine": machine(), "options": said})
+    work = [(source, place) for place in range(options.cases) for source in options.sources]
+    try:
+        for _, became in each(partial(simulated, options), work, options.jobs):
+            if became is not None:
+                raise became
+            written(options.out)
+    finally:
+        print(written(options.out)["all"])
+
+
+def written(out: Path) -> dict[str, Any]:
+    """The JSON of what is kept so far: pooled, by source, then every simulation."""
+    from benchmarks.gap_rows import kept
+
+    runs, found = kept(out.with_suffix(".rows"))
+    sources = dict.fromkeys(source for run in runs for source in run["options"]["sources"])
+    own = {source: summary([row for row in found if row["source"] == source]) for source in sources}
+    whole = {"runs": runs, "all": summary(found), "of": own, "rows": found}
+    out.write_text(json.dumps(whole, indent=1) + "\n")
+    return whole
 
 
 if __name__ == "__main__":

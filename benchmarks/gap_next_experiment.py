@@ -6,17 +6,15 @@ or none, and are attributed with everything on offer. Then every answer in quest
 the case and on the trials proposed, with noise, deviations of the trials and noise of the inputs, and refitted by
 itself and by every other: what the wrong one leaves more than the right one, in nats, on the old trials and on old and
 new ones together. The smallest of these over all pairs is what the experiment must raise, `TIMES` times or more, a
-separation of less than `NOTHING` nats counting as that much.
+separation of less than `NOTHING` nats counting as that much. Every case is kept as it comes (`benchmarks.gap_rows`).
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import sys
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from multiprocessing import get_context
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -42,7 +40,7 @@ def arguments() -> argparse.Namespace:
         prog="python -m benchmarks.gap_next_experiment", description=__doc__.splitlines()[0]
     )
     parser.add_argument(
-        "--sources", nargs="+", default=["elbow", "foot", "knee", "sit_to_stand"],
+        "--sources", nargs="+", default=["elbow", "foot", "knee", "sit_to_stand", "shoulder"],
         help="systems with planted cases, or folders of cases without an effect that are simulated anew",
     )  # fmt: skip
     parser.add_argument("--cases", type=int, default=10, help="of each source that have an effect")
@@ -225,26 +223,36 @@ def weighings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain:
     return made
 
 
-def one_core(*work: Any) -> dict[str, Any] | None:
-    """`checked` with one thread."""
+def tried(options: argparse.Namespace, work: tuple[str, str, tuple[str, ...], int]) -> None:
+    """`checked` with one thread, kept."""
     from threadpoolctl import threadpool_limits
 
+    from benchmarks.gap_rows import keep
+
     with threadpool_limits(limits=1):
-        return checked(*work)
+        row = checked(*work, options)
+    if row is not None:
+        keep(options.out.with_suffix(".rows"), options.seed, row)
 
 
 def main() -> None:
-    """Ask, simulate, refit, write what there is after each case, print the share."""
+    """Ask, simulate, refit, write what there is after each case and when interrupted, print the share."""
+    from benchmarks.gap_rows import begin
+    from benchmarks.gap_sources import name_of
+    from benchmarks.machine import machine
+    from geocontact.cli.workers import each
+
     options = arguments()
-    found: list[dict[str, Any]] = []
-    with ProcessPoolExecutor(options.jobs, get_context("spawn")) as pool:
-        for done in as_completed([pool.submit(one_core, *one, options) for one in asked(options)]):
-            row = done.result()
-            if row is not None:
-                found.append(row)
-                print(json.dumps(row), file=sys.stderr, flush=True)
-                written(options, sorted(found, key=lambda one: (one["source"], one["case"])))
-    print(f"raised at least {TIMES:g} times: {rate_of(found)}; cases {len(found)}")
+    said = {k: v for k, v in vars(options).items() if k not in ("out", "seed")}
+    said["sources"] = [name_of(one) for one in options.sources]
+    begin(options.out.with_suffix(".rows"), options.seed, {"machine": machine(), "options": said})
+    try:
+        for _, became in each(partial(tried, options), list(asked(options)), options.jobs):
+            if became is not None:
+                raise became
+            written(options.out)
+    finally:
+        print(written(options.out)["all"])
 
 
 def rate_of(rows: Sequence[dict[str, Any]]) -> Any:
@@ -254,22 +262,23 @@ def rate_of(rows: Sequence[dict[str, Any]]) -> Any:
     return Rate.of(row["raised"] for row in rows if "raised" in row)
 
 
-def written(options: argparse.Namespace, found: Sequence[dict[str, Any]]) -> None:
-    """The JSON: shares pooled, by what they are about and by source, then every case."""
-    from benchmarks.gap_sources import name_of
-    from benchmarks.machine import machine
+def summary(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Share of proposals that raised the separation, its interval, and how many cases were asked."""
+    rate = rate_of(rows)
+    return {"raised": rate.hits, "proposals": rate.count, "interval": rate.interval(), "cases": len(rows)}
 
-    def summary(rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
-        rate = rate_of(rows)
-        return {"raised": rate.hits, "proposals": rate.count, "interval": rate.interval(), "cases": len(rows)}
 
-    about = {"machine": machine(), "options": {k: v for k, v in vars(options).items() if k != "out"}}
-    about["options"]["sources"] = sources = [name_of(one) for one in options.sources]
+def written(out: Path) -> dict[str, Any]:
+    """The JSON of what is kept so far: shares pooled, by what they are about and by source, then every case."""
+    from benchmarks.gap_rows import kept
+
+    runs, found = kept(out.with_suffix(".rows"))
+    sources = dict.fromkeys(source for run in runs for source in run["options"]["sources"])
     by = {kind: summary([row for row in found if row.get("about") == kind]) for kind in ("rivals", "absorbed")}
     own = {source: summary([row for row in found if row["source"] == source]) for source in sources}
-    options.out.parent.mkdir(parents=True, exist_ok=True)
-    text = json.dumps({**about, "all": summary(found), "about": by, "of": own, "rows": list(found)}, indent=1)
-    options.out.write_text(text + "\n")
+    whole = {"runs": runs, "all": summary(found), "about": by, "of": own, "rows": found}
+    out.write_text(json.dumps(whole, indent=1) + "\n")
+    return whole
 
 
 if __name__ == "__main__":
