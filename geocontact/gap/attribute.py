@@ -152,7 +152,7 @@ def _with_clipped(
 def _credited(contenders: Sequence[Contender], flat: Sequence[FlatTop]) -> list[Contender]:
     """What a flat top tells counts for the saturation of its channel; best first."""
     told = {one.channel: one.nats for one in flat}
-    beside = [sum(told.get(one.channel, 0.0) for one in c.candidates if one.name == CLIPPED) for c in contenders]
+    beside = [sum((told.get(one.channel, 0.0) for one in c.candidates if one.name == CLIPPED), 0.0) for c in contenders]
     found = [replace(c, beside=nats) for c, nats in zip(contenders, beside, strict=True)]
     return sorted(found, key=lambda c: -c.nats)
 
