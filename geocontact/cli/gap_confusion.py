@@ -29,7 +29,7 @@ from geocontact.io.gap_case import read_gap_case
 from geocontact.io.results import write_table
 from geocontact.systems.catalogue import system_of
 from geocontact.view.confusion_page import confusion_figures, write_confusion_report
-from geocontact.view.confusion_words import confusion_sentences
+from geocontact.view.confusion_words import confusion_sentences, sizes_sentence
 from geocontact.view.contact_tables import inputs_table
 from geocontact.view.curves.save import save
 
@@ -52,8 +52,9 @@ def confused(folder: Path, o: ConfuseOptions) -> int:
         _write(record, case, found, sentences, o, draft)
         record.write(draft)
         written = sorted(file.name for file in draft.iterdir())
-    for sentence in sentences:
-        record.say(sentence)
+    for sentence in [*sentences, sizes_sentence(found)]:
+        if sentence:
+            record.say(sentence)
     record.say(f"results in {o.out}: {', '.join(written)}")
     record.speak()
     return 0

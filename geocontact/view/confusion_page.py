@@ -12,6 +12,7 @@ from geocontact.gap.confuse import Confusion
 from geocontact.gap.detectability import Detectability
 from geocontact.gap.separability import table
 from geocontact.gap.signatures import reach_of, rest_of
+from geocontact.view.confusion_words import size_words
 from geocontact.view.contact_words import NOT_A_DEVICE
 from geocontact.view.curves.detectability import Seen, detectability_figure
 from geocontact.view.curves.separability import separability_figure
@@ -45,12 +46,11 @@ def confusion_figures(found: Confusion) -> dict[str, Figure]:
 
 
 def _seen(one: Detectability) -> Seen:
-    p = one.candidate.parameters[0]
     if one.smallest is None:
         return Seen(one.candidate.label, None, "not to be seen")
     rest = rest_of(one.candidate)
     share = abs((one.smallest - rest) / reach_of(one.candidate, one.candidate.starts[0]))
-    return Seen(one.candidate.label, share, f"{one.smallest:.3g} {p.unit}".replace("-", "−"))
+    return Seen(one.candidate.label, share, size_words(one))
 
 
 def write_confusion_report(
@@ -104,9 +104,13 @@ def _sizes(found: Confusion) -> Table:
         (
             one.candidate.label, one.candidate.parameters[0].name,
             "–" if one.smallest is None else f"{one.smallest:.4g}".replace("-", "−"), one.candidate.parameters[0].unit,
-            number(one.at.visible, 10.0), number(one.at.absorbed, 10.0),
+            _nats(one.at.visible), _nats(one.at.absorbed),
         )
         for one in found.detectabilities
     ]  # fmt: skip
     header = ("effect", "parameter", "smallest", "unit", "visible there [nats]", "absorbed there [nats]")
     return Table("Smallest amplitudes", header, rows)
+
+
+def _nats(value: float) -> str:
+    return number(value, max(value, 10.0))

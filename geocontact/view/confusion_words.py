@@ -1,4 +1,4 @@
-"""What trials can tell, in sentences: from which size on effects are seen, what is swallowed, what is told apart."""
+"""What trials can tell, in sentences: what is seen, what is swallowed, what is told apart, and from which size on."""
 
 from __future__ import annotations
 
@@ -10,12 +10,10 @@ from geocontact.view.gap_words import names, percent, proposal_words
 
 
 def confusion_sentences(c: Confusion) -> list[str]:
-    """One sentence each, without a full stop: seen, never seen, swallowed, confused, what to record next."""
-    seen = [amplitude_words(one) for one in c.detectabilities if one.smallest is not None]
+    """One sentence each, without a full stop: how many are seen, which never, swallowed, confused; what to record."""
     never = [one.candidate.label for one in c.detectabilities if one.smallest is None]
-    said = []
-    if seen:
-        said.append(f"these trials show in {percent(POWER)} of 100 repetitions: {'; '.join(seen)}")
+    count = len(c.detectabilities)
+    said = [f"of {count} effects these trials show {count - len(never)}, if they are large enough"]
     if never:
         said.append(f"not to be seen at any plausible size: {names(never)}")
     if c.absorbed:
@@ -30,10 +28,20 @@ def confusion_sentences(c: Confusion) -> list[str]:
     return said
 
 
+def sizes_sentence(c: Confusion) -> str:
+    """How large every effect that is seen must be; empty where none is."""
+    seen = [amplitude_words(one) for one in c.detectabilities if one.smallest is not None]
+    return f"seen in {percent(POWER)} of 100 repetitions: {'; '.join(seen)}" if seen else ""
+
+
 def amplitude_words(one: Detectability) -> str:
     """ "damping from damping.b = 0.83 N s/m on"; an amplitude that shrinks as the effect grows is an upper limit."""
     p, rest = one.candidate.parameters[0], rest_of(one.candidate)
-    unit = "" if p.unit == "-" else f" {p.unit}"
-    value = f"{one.at.amplitude:.3g}".replace("-", "−")
     on = "down" if one.at.amplitude < rest and p.lower >= 0.0 else "on"
-    return f"{one.candidate.label} from {p.name} = {value}{unit} {on}"
+    return f"{one.candidate.label} from {p.name} = {size_words(one)} {on}"
+
+
+def size_words(one: Detectability) -> str:
+    """ "0.83 N s/m": the amplitude with its unit, if it has one."""
+    unit = one.candidate.parameters[0].unit
+    return f"{one.at.amplitude:.3g}".replace("-", "−") + ("" if unit == "-" else f" {unit}")

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 ROW = 0.0042  # height of a bar with its distance to the next [m]
-LEAST = 1e-4  # share at which the axis begins
+LEAST = 1e-4  # share of the shortest bars
+WORDS = 0.3  # of the width of the longest bar, for the words beside it
 
 
 @dataclass(frozen=True)
@@ -42,9 +43,8 @@ def detectability_figure(effects: Sequence[Seen]) -> Figure:
     for row, (one, width) in enumerate(zip(shown, widths, strict=True)):
         axes.text(1.15 * width, row, plain(one.words, 60), va="center", fontsize=6.0)
     axes.set_xscale("log")
-    axes.set_xlim(0.5 * LEAST, 60.0)
+    axes.set_xlim(0.5 * LEAST, max(widths) * (2.0 * max(widths) / LEAST) ** WORDS)
+    axes.set_ylim(len(shown) - 0.4, -0.6)
     axes.set_yticks(rows, [plain(one.label, 40) for one in shown], fontsize=6.0)
-    axes.set_ylabel("effect")
-    axes.invert_yaxis()
     axes.set_xlabel("smallest amplitude that is seen, share of the plausible range [–]")
     return figure

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}, ".png": None}
+FINE = 300.0  # dots per inch of the layout: with fewer, small letters are hinted to other widths than in the file
 
 
 @in_style
@@ -25,6 +26,9 @@ def save(figure: Figure, path: str | Path) -> None:
     if ending not in UNDATED:
         raise ValueError(f"{Path(path).name}: figures are written as {', '.join(UNDATED)}; end the name in one of them")
     if figure.get_layout_engine() is not None:
+        shown = figure.dpi
+        figure.dpi = FINE
         figure.draw_without_rendering()
+        figure.dpi = shown
         figure.set_layout_engine("none")  # a second pass would move everything by a hair, and so change the file
     figure.savefig(path, format=ending[1:], metadata=UNDATED[ending])

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 CELL = 0.0048  # side of a cell [m]
 MOST = 20.0  # nats at which the colours end: told apart beyond doubt
-FEW = 30  # effects up to which cells carry numbers
+FEW = 40  # effects up to which cells carry numbers
 
 
 @in_style

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
+from geocontact.view.curves.detectability import Seen, detectability_figure
 from geocontact.view.curves.save import save
 
 Specimen = Callable[[str], Figure]
@@ -49,6 +50,17 @@ def test_no_text_is_clipped_or_covers_another(
     for (one, a), (other, b) in itertools.combinations(texts, 2):
         both = Bbox.intersection(a, b)
         assert both is None or both.width * both.height < 1e-6, f"{one!r} and {other!r} overlap"
+
+
+def test_small_letters_of_many_effects_stay_on_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Letters of six points are drawn wider at the resolution of the file than on the screen."""
+    shares = [1e-6 * 10.0**k for k in range(5)] * 6
+    effects = [Seen("contact_loss.negative", share, "1.61e−05 m/(N s)") for share in shares]
+    figure = detectability_figure([*effects, Seen("end_stop.lower.buffer", None, "not to be seen")])
+    drawn = saved_texts(figure, tmp_path / "a.png", monkeypatch)
+    assert len(drawn) > 60
+    for text, box in drawn:
+        assert (box.min >= 0.0).all() and (box.max <= 1.0).all(), f"{text!r} {box} leaves the page"
 
 
 @NAMES
