@@ -146,6 +146,22 @@ def test_detectability_and_the_next_experiment() -> None:
             ends = interval.strip("]% ").split(",")
             assert all(near(text, end, 100.0) for text, end in zip(ends, one["interval"], strict=True)), cells
             assert cells[1] == str(one["cases"])
+            own = [each for each in told["rows"] if label in ("all", each["source"])]
+            assert cells[2:] == (seen(own) if name == "gap_detectability" else unproposed(own)), label
+        versions = {run["version"] for run in told["runs"]}
+        assert len(versions) == 1, "figures of several versions are added up"
+
+
+def seen(own: list[dict[str, Any]]) -> list[str]:
+    """How many of how many simulations were seen, at each amplitude."""
+    at = [[each["seen"] for each in own if each["times"] == times] for times in (0.5, 1.0, 1.5)]
+    return [f"{sum(some)} of {len(some)}" for some in at]
+
+
+def unproposed(own: list[dict[str, Any]]) -> list[str]:
+    """Cases with one answer left or none, and cases with several for which nothing is proposed."""
+    without = [len(each["in_question"]) > 1 for each in own if "raised" not in each]
+    return [str(without.count(False)), str(without.count(True))]
 
 
 def test_time_and_coverage_of_the_elbow() -> None:
