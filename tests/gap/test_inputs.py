@@ -50,3 +50,19 @@ def test_without_noise_nothing_changes() -> None:
     recorded, _ = trial(0.004, 0.25, 5)
     same = denoised(recorded, {"u": 1e-9}, LowPass(6.0, STEP)).column("u")
     assert np.abs(same - recorded.column("u")).max() < 1e-6
+
+
+def test_what_sets_out_sharply_after_a_rest_stays_sharp() -> None:
+    """One spectrum for a whole trial would take what is fast at the few onsets for noise."""
+    time = STEP * np.arange(1000)
+    share = np.clip((time[:, None] - np.array([4.0, 9.0, 14.0])) / 0.5, 0.0, 1.0)
+    clean = (np.array([1.2, -1.2, 1.2]) * share**3 * (10.0 - 15.0 * share + 6.0 * share**2)).sum(axis=1)
+    moves = ((share > 0.0) & (share < 1.0)).any(axis=1)
+    left = []
+    for seed in range(6):
+        raw = filtfilt(*butter(2, 6.0, fs=1.0 / STEP), np.random.default_rng(seed).standard_normal(len(time) + 200))
+        recorded = clean + 0.002 * raw[100:-100] / raw.std()
+        trial = Trial("t", Signals(time, recorded[:, None], ("u",), ("rad",)))
+        left.append(denoised(trial, {"u": 0.002}, LowPass(6.0, STEP)).column("u") - clean)
+    assert np.std(np.array(left)[:, ~moves]) < 0.75 * 0.002
+    assert np.std(np.array(left)[:, moves]) < 0.002
