@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -85,13 +85,14 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
     """The most likely candidates, best first.
 
     Noise fitted to the base model explains away what it misses, so all are fitted under quieter noise first, then under
-    the noise that suits the best of them; the leading ones of both rounds get noise of their own.
+    the noise that suits the best of them; the leading ones of both rounds get noise of their own. What does not promise
+    to be among those that go on is not fitted to the end.
     """
     reference = base.judged.model
     noise = problem.quieter(base.judged.noise)
     rounds: list[dict[str, Refit]] = []
     entered = candidates
-    for _ in range(2):
+    for kept in (SECOND, FINALISTS):
         weighings = problem.fitting(noise, reference)
         found: dict[str, Refit] = {}
         for one in entered:
@@ -101,15 +102,14 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
                 starts = [{**base.judged.model.values, **start} for start in one.starts]
                 if len(free(problem.system)) < FEW and one.parameters:
                     starts.append(one.starts[0])
-            costs = sorted(model.cost for model in found.values())
-            useful = costs[SECOND - 1] if len(costs) >= SECOND else np.inf
+            useful = to_undercut(found.values(), kept)
             found[one.label] = refit(one.apply(problem.system), problem.calibration, weighings, starts, useful=useful)
         rounds.append(found)
-        entered = sorted(entered, key=lambda one: found[one.label].cost)[:SECOND]
+        entered = sorted(entered, key=lambda one: found[one.label].cost)[:kept]
         reference = min(found.values(), key=lambda model: model.cost)
         noise = problem.weighed(reference, base.judged.noise)
     first, second = rounds
-    leading = [one.label for one in sorted(entered, key=lambda one: second[one.label].cost)[:FINALISTS]]
+    leading = [one.label for one in entered]
     others = [one.label for one in sorted(candidates, key=lambda one: first[one.label].cost)[:FORERUNNERS]]
     contenders = [
         finished(problem, (one,), (second if one.label in leading else first)[one.label], noise)
@@ -124,7 +124,7 @@ def pairs(problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Ca
 
     Noise that was fitted to one effect explains away what the other does, so all pairs are fitted under noise no louder
     than was told, the same for all, and the search for their own noise sets out from there; one linear step tells which
-    to fit.
+    to fit, and those that do not promise to be among the `PAIRS` best are not fitted to the end.
     """
     quiet = problem.quieter(firsts[0].judged.noise)
     best: dict[tuple[str, ...], tuple[tuple[Candidate, ...], Refit]] = {}
@@ -133,13 +133,20 @@ def pairs(problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Ca
         weighings = problem.fitting(quiet, model)
         for one in promising(problem, first, weighings, candidates):
             starts = [{**model.values, **start} for start in one.starts]
-            both = refit(one.apply(model.system), problem.calibration, weighings, starts)
+            useful = to_undercut([pair for _, pair in best.values()], PAIRS)
+            both = refit(one.apply(model.system), problem.calibration, weighings, starts, useful=useful)
             names = tuple(sorted((*first.names, one.name)))
             if names not in best or both.cost < best[names][1].cost:
                 best[names] = ((*first.candidates, one), both)
     leading = sorted(best.values(), key=lambda pair: pair[1].cost)[:PAIRS]
     done = [finished(problem, together, model, quiet) for together, model in leading]
     return sorted(done, key=lambda c: -c.judged.nats)
+
+
+def to_undercut(models: Iterable[Refit], kept: int) -> float:
+    """Cost that the next model must come below to be among the `kept` best; infinite while there are fewer."""
+    costs = sorted(model.cost for model in models)
+    return costs[kept - 1] if len(costs) >= kept else float("inf")
 
 
 def promising(

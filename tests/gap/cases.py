@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from unittest.mock import patch
 
 import numpy as np
 from scipy.signal import butter, filtfilt
@@ -15,6 +16,7 @@ from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
+from geocontact.gap import contest
 from geocontact.gap.contest import base_contender, pairs, singles
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.evidence import judged
@@ -24,6 +26,7 @@ from geocontact.gap.locate import Window, gap_map, windows
 from geocontact.gap.map_cell import Cell
 from geocontact.gap.oddities import oddities
 from geocontact.gap.problem import problem_of
+from geocontact.gap.refit import Measured
 from geocontact.gap.surrogate import Surrogate, surrogate
 from geocontact.systems.catalogue import system_of
 
@@ -156,6 +159,27 @@ def paired() -> tuple[list[tuple[str, ...]], list[float]]:
     first = singles(problem, base, [one for one in offered if one.name == "damping"])
     found = pairs(problem, first, offered)
     return [one.names for one in found], [one.nats - first[0].nats for one in found]
+
+
+def contest_work(*, cut: bool) -> tuple[list[str], list[str], int, int]:
+    """Leading singles and pairs where few go on, and simulations in the search for each.
+
+    Without `cut` all are fitted to the end.
+    """
+    case = elbow_case("damping", {"damping.b": 12.0, "damping.exponent": 1.0}, seed=5)
+    problem = problem_of(case, system_of(case))
+    base = base_contender(problem)
+    offered = [one for one in candidates(problem.system) if one.name in ("damping", "inertia_load", "end_stop")]
+    few = {"SECOND": 99, "FINALISTS": 1, "FORERUNNERS": 1, "PAIRS": 1}
+    more = {} if cut else {"to_undercut": lambda *_: np.inf}
+    with (
+        patch.multiple(contest, **few, **more),
+        patch.object(Measured, "residuals", autospec=True, side_effect=Measured.residuals) as simulated,
+    ):
+        first = singles(problem, base, offered)
+        single = simulated.call_count
+        both = pairs(problem, first, offered)
+    return [one.label for one in first], [one.label for one in both], single, simulated.call_count - single
 
 
 def flat(recorded: Change | None) -> tuple[FlatTop, ...]:

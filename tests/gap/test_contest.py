@@ -1,9 +1,9 @@
-"""Pairs of effects are searched for under quiet noise, each two effects once."""
+"""Pairs of effects are searched for under quiet noise, each two effects once; what cannot lead is left early."""
 
 from __future__ import annotations
 
 from tests.elsewhere import Elsewhere
-from tests.gap.cases import paired
+from tests.gap.cases import contest_work, paired
 
 
 def test_two_effects_are_found_and_each_two_are_tried_once(elsewhere: Elsewhere) -> None:
@@ -11,3 +11,11 @@ def test_two_effects_are_found_and_each_two_are_tried_once(elsewhere: Elsewhere)
     assert names == [("damping", "sensor_drift"), ("damping", "end_stop")]
     assert gains[0] > 30.0
     assert gains[0] > gains[1] + 20.0
+
+
+def test_what_cannot_lead_is_left_early_and_the_leaders_stay(elsewhere: Elsewhere) -> None:
+    singles, pairs, simulated, simulated_for_pairs = elsewhere(contest_work, cut=True)
+    all_singles, all_pairs, at_most, at_most_for_pairs = elsewhere(contest_work, cut=False)
+    assert (singles, pairs) == (all_singles, all_pairs)
+    assert simulated < 0.85 * at_most
+    assert simulated_for_pairs < at_most_for_pairs

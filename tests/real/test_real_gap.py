@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -69,6 +70,13 @@ def test_nothing_is_missing_in_practice_cases_without_an_effect(name: str, pract
 @pytest.mark.parametrize("name", UNKNOWN)
 def test_something_unknown_is_called_so(name: str, practice: dict[str, dict[str, Any]]) -> None:
     assert practice[name]["verdict"] == "unknown"
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_probabilities_are_a_distribution(name: str, practice: dict[str, dict[str, Any]]) -> None:
+    found = list(practice[name]["probabilities"].values())
+    assert all(math.isfinite(each) and 0.0 <= each <= 1.0 for each in found)
+    assert math.fsum(found) == pytest.approx(1.0, abs=1e-6)
 
 
 TOO_MUCH = {
