@@ -166,6 +166,7 @@ def _said(
         else max((names for names in joint if names[0] not in ("none", "unknown")), key=lambda names: joint[names])
     )
     chosen = max((c for c in living if c.names == named), key=lambda c: gains[c.label])
+    named = tuple(sorted(named, key=lambda name: -shared[name]))
     if len(alive) > MOST:
         return Answer("unresolved", (), probabilities, alive, chosen)
     ambiguity = (*named, *(name for name in alive if name not in named))

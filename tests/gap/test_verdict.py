@@ -54,6 +54,13 @@ def test_a_second_effect_must_add_its_share() -> None:
     assert set(said(single, much).effects) == {"damping", "sensor_drift"}
 
 
+def test_of_two_that_are_named_the_likelier_comes_first() -> None:
+    both = contender(120.0, "damping", "sensor_drift.force")
+    found = said(contender(100.0, "sensor_drift.force"), both)
+    assert found.probabilities["sensor_drift"] > found.probabilities["damping"]
+    assert found.effects == found.ambiguity == ("sensor_drift", "damping")
+
+
 def test_something_without_a_name_wins_where_it_gains_more() -> None:
     assert said(contender(20.0, "damping"), unnamed=90.0).verdict == "unknown"
     assert said(contender(90.0, "damping"), unnamed=20.0).effects == ("damping",)
