@@ -14,7 +14,7 @@ from jaxtyping import Float
 from geocontact.cli import elbow_numbers
 from geocontact.cli.elbow_compare import ElbowCompareOptions
 from geocontact.cli.elbow_inputs import recordings
-from geocontact.cli.elbow_numbers import PER_SI, unit_in_key
+from geocontact.cli.elbow_numbers import MMHG, PER_SI, unit_in_key
 from geocontact.cli.figures import save_both
 from geocontact.cli.idle import refuse
 from geocontact.cli.output import written_whole
@@ -125,7 +125,7 @@ def _numbers(file: Path) -> tuple[Mapping[str, float], float]:
             raise ValueError("a number is not finite")
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InputError(file, "", f"holds no law of an elbow ({error})", "give elbow.json of elbow fit") from error
-    return numbers, float(centre) / PER_SI["s"]
+    return numbers, float(centre) * MMHG
 
 
 def _pairs(path: Path, measured: ElbowRecording, model: ElbowRecording) -> list[Pair]:

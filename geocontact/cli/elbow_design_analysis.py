@@ -11,7 +11,7 @@ from jaxtyping import Float
 from geocontact.cli import quantities
 from geocontact.cli.elbow_design import DesignOptions
 from geocontact.cli.elbow_design_results import describe, stroke_words, write_results
-from geocontact.cli.elbow_device import above_zero, drift, stroke
+from geocontact.cli.elbow_device import above_zero, drift, link, stroke
 from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
@@ -101,7 +101,7 @@ def _task(record: Record, o: DesignOptions) -> Task:
     if not math.isfinite(o.z_mm):
         raise InputError("", "--z-mm", f"{o.z_mm:g} is not a finite number", "give mm")
     return Task(
-        above_zero(o.l_mm, "--l-mm", "mm") / MM, o.z_mm / MM, start, stop, above_zero(o.limit, "--limit", "N"),
+        link(o.l_mm), o.z_mm / MM, start, stop, above_zero(o.limit, "--limit", "N"),
         Compensation(above_zero(o.k, "--k", "N/m"), *stroke(o.stroke_mm)), drift(record, o.drift, (start, stop)),
     )  # fmt: skip
 

@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 
 from geocontact.cli import quantities
+from geocontact.cli.elbow_numbers import require_link
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.io.axis_drift import read_axis_drift
@@ -19,6 +20,13 @@ def above_zero(value: float, option: str, unit: str) -> float:
     if not (math.isfinite(value) and value > 0.0):
         raise InputError("", option, f"{value:g} is not above 0", f"give {unit}")
     return value
+
+
+def link(millimetres: float) -> float:
+    """Length of the link [m]."""
+    metres = above_zero(millimetres, "--l-mm", "mm") * 1e-3
+    require_link(metres, "--l-mm")
+    return metres
 
 
 def stroke(text: str | None) -> tuple[float, float]:

@@ -41,8 +41,10 @@ class ElbowFitOptions:
         Unit of the angle where its file does not say.
     unit
         Unit of the force where its file does not say.
-    bin_deg, box_deg
-        Width of the bins that are fitted, and of those of the box plots [deg].
+    bin_deg
+        Width of the bins that are fitted [deg].
+    box_deg
+        Width of the bins of the box plots [deg].
     cutoff
         Cut-off of a zero-lag low-pass over force and angle [Hz]; none unless given.
     bootstrap

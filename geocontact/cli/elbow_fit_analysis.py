@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.cli import elbow_numbers
 from geocontact.cli.elbow_fit import ElbowFitOptions
 from geocontact.cli.elbow_inputs import recordings, require_bins, require_locked
-from geocontact.cli.elbow_numbers import PER_SI, TYPED
+from geocontact.cli.elbow_intervals import intervals
+from geocontact.cli.elbow_numbers import MMHG
 from geocontact.cli.elbow_unknowns import SCALE_WORDS, checked_widths, unknowns
 from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
@@ -24,22 +26,32 @@ from geocontact.io.elbow_recording import FORCE as FORCE_CHANNEL
 from geocontact.systems.elbow_bins import FORCE, Binned, binned
 from geocontact.systems.elbow_end_stop import Stiffness, Stroke, curve_of, stiffness_by_displacement, stroke_of
 from geocontact.systems.elbow_explicit import require_no_pole, require_reach
-from geocontact.systems.elbow_fit import Estimate, estimated, law_at, problem_of, r_squared, residual_by_bin
-from geocontact.systems.elbow_law import offsets_of
+from geocontact.systems.elbow_fit import (
+    Estimate,
+    Prior,
+    Problem,
+    estimated,
+    law_at,
+    problem_of,
+    r_squared,
+    standard_residuals,
+)
+from geocontact.systems.elbow_law import LENGTHS, SCALED, offsets_of
 from geocontact.systems.elbow_uncertainty import (
-    SCALED,
     Direction,
     along_the_scale,
     covariance,
     direction,
     profiled,
     wild_bootstrap,
+    with_link_held,
 )
 
 FEW_STRETCHES = 12
 FACTORS = np.geomspace(0.5, 2.0, 41)
 BETTER = 0.02  # of R² that the mirrored force must gain to be worth a word
 TAILS = (2.5, 97.5)
+SAME_PRESSURE = MMHG  # Pa; pressures that differ by less are one
 AGAINST = 3.0  # standard errors below 0 from which a stiffness is a turned sign
 
 
@@ -61,10 +73,10 @@ class Fitted:
     ----------
     profiles, drawn
         By free number; `drawn` are ends of the bootstrap's 95 %, empty without.
+    link_held
+        Profiles with l held at what was found, by free number; empty unless nothing known sets the scale.
     told_least
         Of k and the lengths, and of those of them that are free.
-    scale_free
-        Whether nothing known sets the scale: the numbers are then one point of a line.
     held
         Of every trial left out, or of the recordings that were held out.
     """
@@ -75,10 +87,10 @@ class Fitted:
     estimate: Estimate
     profiles: Mapping[str, Profile]
     drawn: Mapping[str, tuple[float, float]]
+    link_held: Mapping[str, Profile]
     stretches: int
     all_directions: Direction
     free_directions: Direction | None
-    scale_free: bool
     line: Float[np.ndarray, "m 7"]
     line_r2: Float[np.ndarray, " m"]
     held: Sequence[Held]
@@ -111,11 +123,14 @@ def analyse(paths: tuple[Path, ...], o: ElbowFitOptions) -> int:
         require_locked(paths, locked)
         data = binned(locked, float(np.radians(o.bin_deg)))
         require_bins(record, paths, data)
-        if not any(p.name == "s" and p.fixed for p in parameters) and data.pressure == 0.0:
-            raise InputError(paths[0], "", "--free s needs a column pressure", "name it: --map pressure=…")
+        if not all(p.fixed for p in parameters if p.name == "s"):
+            _require_pressures(paths[0], locked)
         apart = _held_out(record, o)
-        found = _fitted(locked, data, estimated(problem_of(data, parameters, priors)), apart, o)
-        free = None if o.unlocked is None else _free(record, o, found)
+        free = None if o.unlocked is None else _free(record, o, data)
+        problem = problem_of(data, parameters, priors)
+        if problem.scale_free and free is not None:
+            problem = _scaled_by(record, problem, free, "k" in elbow_numbers.values(o.start, "--start"))
+        found = _fitted(locked, data, estimated(problem), apart, o)
         _reserve(record, found)
         record.results["elbow"] = describe(found, free)
         write_results(record, found, free, o, draft)
@@ -127,11 +142,37 @@ def analyse(paths: tuple[Path, ...], o: ElbowFitOptions) -> int:
     return 0
 
 
+def _require_pressures(path: Path, locked: Sequence[ElbowRecording]) -> None:
+    """Refuse to look for s where no pressure was recorded or none differs from the others."""
+    known = [r.pressure for r in locked if r.pressure is not None]
+    if len(known) < len(locked):
+        raise InputError(path, "", "--free s needs a column pressure in every trial", "name it: --map pressure=…")
+    reached = float(np.ptp(np.concatenate(known)))
+    if reached < SAME_PRESSURE:
+        what = f"--free s: the cuff's pressure varies by {reached / MMHG:.2g} mmHg only, which tells no s"
+        raise InputError(path, "", what, "leave --free s out, or record trials at other pressures")
+
+
 def _held_out(record: Record, o: ElbowFitOptions) -> list[ElbowRecording]:
     paths = o.held_out or []
     found = recordings(record, "held out", paths, o.map, o.angles, o.unit, o.cutoff)
     require_locked(paths, found)
     return found
+
+
+def _scaled_by(record: Record, problem: Problem, free: Free, start_given: bool) -> Problem:
+    """The problem with the free joint's stiffness as prior on k; as it was where that stiffness has no error."""
+    s = free.stiffness
+    if s is None or not (s.value > 0.0 and s.error > 0.0):
+        record.warn("the free joint's displacement gives no k with a standard error, which takes two locked trials")
+        return problem
+    record.warn(
+        f"the scale is set by k from the free joint's displacement: {s.value:.4g} N/m (SE {s.error:.2g}) is a prior "
+        "on k; it rests on the same locked forces, and on the same offsets while the joint was free"
+    )
+    parameters = [p if p.name != "k" or start_given else replace(p, start=min(max(s.value, p.lower), p.upper))
+                  for p in problem.parameters]  # fmt: skip
+    return replace(problem, parameters=tuple(parameters), priors={**problem.priors, "k": Prior(s.value, s.error)})
 
 
 def _fitted(
@@ -143,13 +184,17 @@ def _fitted(
 ) -> Fitted:
     _refuse_beyond(e)
     c = covariance(data, e)
-    free = tuple(name for name in e.problem.names if name in SCALED)
-    scale_free = set(free) == set(SCALED) and not set(e.problem.priors) & set(SCALED)
+    free = tuple(name for name in e.problem.names if name in SCALED and e.named[name] != 0.0)
     profiles = {name: profiled(e, c, name) for name in e.problem.names}
     drawn: dict[str, tuple[float, float]] = {}
-    if o.bootstrap and not scale_free:
+    if o.bootstrap and not e.problem.scale_free:
         rows = np.percentile(wild_bootstrap(data, e, o.bootstrap), TAILS, axis=0)
         drawn = {name: (float(rows[0, k]), float(rows[1, k])) for k, name in enumerate(e.problem.names)}
+    link_held: dict[str, Profile] = {}
+    if e.problem.scale_free:
+        rest = with_link_held(e)
+        spread = covariance(data, rest)
+        link_held = {name: profiled(rest, spread, name) for name in rest.problem.names}
     line = along_the_scale(e, FACTORS)
     measured = data.cells.means[:, FORCE]
     boxes = binned(locked, float(np.radians(o.box_deg)))
@@ -160,15 +205,15 @@ def _fitted(
         estimate=e,
         profiles=profiles,
         drawn=drawn,
+        link_held=link_held,
         stretches=len(np.unique(data.visits.stretch)),
         all_directions=direction(e),
         free_directions=direction(e, free) if len(free) > 1 else None,
-        scale_free=scale_free,
         line=line,
         line_r2=np.array([r_squared(measured, e.problem.law.force(theta)) for theta in line]),
         held=_apart(data, e, apart, o) if apart else _each_left_out(data, e),
         bins_differ=between_bins(boxes.visits, FORCE),
-        normality=lilliefors(residual_by_bin(data, e)[1]),
+        normality=lilliefors(standard_residuals(data, e)),
         r2=r_squared(measured, e.predicted),
         mirrored_r2=_mirrored(e, measured),
     )
@@ -214,7 +259,7 @@ def _held(name: str, data: Binned, theta: Float[np.ndarray, " 7"]) -> Held:
     return Held(name, r_squared(measured, predicted), rmse, len(measured))
 
 
-def _free(record: Record, o: ElbowFitOptions, found: Fitted) -> Free:
+def _free(record: Record, o: ElbowFitOptions, locked: Binned) -> Free:
     paths = o.unlocked or []
     needed = (FORCE_CHANNEL, DISPLACEMENT)
     free = recordings(record, "unlocked", paths, o.map, o.angles, o.unit, o.cutoff, needed)
@@ -224,7 +269,7 @@ def _free(record: Record, o: ElbowFitOptions, found: Fitted) -> Free:
     stroke = stroke_of(curve_of(data))
     if stroke is None:
         raise InputError(paths[0], "", "the compensation joint slides over fewer than three bins", "was it free?")
-    each = [curve_of(found.data.only(trial)) for trial in range(len(found.data.names))]
+    each = [curve_of(locked.only(trial)) for trial in range(len(locked.names))]
     stiffness = stiffness_by_displacement(each, stroke, width)
     if stiffness is not None and stiffness.value + AGAINST * np.nan_to_num(stiffness.error) < 0.0:
         what = f"displacement and locked force run against each other ({stiffness.value:.4g} N/m)"
@@ -236,11 +281,15 @@ def _free(record: Record, o: ElbowFitOptions, found: Fitted) -> Free:
 def _reserve(record: Record, found: Fitted) -> None:
     """What has to be said."""
     e = found.estimate
-    if found.scale_free:
+    if e.problem.scale_free:
         record.warn(SCALE_WORDS)
-    open_ends = [name for name, p in found.profiles.items() if p.lower_open or p.upper_open]
+    shown = intervals(found)
+    open_ends = [each.words for each in shown if each.lower_open or each.upper_open]
     if open_ends:
         record.warn(f"no limit within the bounds to {', '.join(open_ends)}, on one side or both")
+    signs = [each.words for each in shown if each.key[0] in LENGTHS and each.sign_open]
+    if signs:
+        record.warn(f"the sign of {', '.join(signs)} is not told: values of both signs fit within the interval")
     if found.stretches < FEW_STRETCHES:
         record.warn(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are rough")
     if not e.converged:
@@ -252,11 +301,8 @@ def _reserve(record: Record, found: Fitted) -> None:
 
 def _tell(record: Record, found: Fitted, free: Free | None) -> None:
     e = found.estimate
-    for name in e.problem.names:
-        p, per = found.profiles[name], PER_SI[name]
-        ends = " … ".join(("open" if is_open else f"{end * per:.4g}") for end, is_open in
-                          ((p.lower, p.lower_open), (p.upper, p.upper_open)))  # fmt: skip
-        record.say(f"{name} {p.best * per:.4g} {TYPED[name]} (95 % {ends})")
+    for each in intervals(found):
+        record.say(f"{each.words} {each.value:.4g} {each.unit} (95 % {each.ends})")
     told = [f"R² {found.r2:.3f} of {len(e.problem.force)} bin means"]
     if found.held:
         worst = min(each.r2 for each in found.held)

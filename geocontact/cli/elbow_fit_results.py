@@ -12,7 +12,8 @@ import numpy as np
 import pandas as pd
 
 from geocontact.cli.elbow_fit import ElbowFitOptions
-from geocontact.cli.elbow_numbers import PER_SI, TYPED, unit_in_key
+from geocontact.cli.elbow_intervals import Interval, intervals
+from geocontact.cli.elbow_numbers import MMHG, PER_SI, TYPED, unit_in_key
 from geocontact.cli.elbow_unknowns import SCALE_WORDS
 from geocontact.cli.figures import save_both
 from geocontact.cli.provenance import options_table
@@ -22,7 +23,7 @@ from geocontact.identify.bin_tests import BinTest
 from geocontact.io.results import write_table
 from geocontact.systems.elbow_bins import Binned
 from geocontact.systems.elbow_end_stop import curve_of
-from geocontact.systems.elbow_fit import r_squared, residual_by_bin
+from geocontact.systems.elbow_fit import r_squared, residual_by_bin, standard_residuals
 from geocontact.systems.elbow_law import LENGTHS, NAMES
 from geocontact.view.contact_tables import inputs_table
 from geocontact.view.elbow_figures import (
@@ -59,8 +60,7 @@ def write_results(record: Record, found: Fitted, free: Free | None, o: ElbowFitO
     drawings = [
         ("Force over the angle", FORCES, save_both(force_figure(_over(found), _boxes(boxes, found)), folder, "forces")),
         ("What the recordings tell apart", TOLD, told_in),
-        ("Residuals", RESIDUALS, save_both(residual_figure(*residual_by_bin(found.data, found.estimate)), folder,
-                                           "residuals")),
+        ("Residuals", RESIDUALS, save_both(_residual_figure(found), folder, "residuals")),
     ]  # fmt: skip
     if free is not None:
         drawing = save_both(conditions_figure(curve_of(found.data), free.stroke), folder, "conditions")
@@ -94,17 +94,17 @@ def describe(found: Fitted, free: Free | None) -> dict[str, Any]:
     content: dict[str, Any] = {
         "numbers": {f"{n}_{unit_in_key(n)}": v * PER_SI[n] for n, v in e.named.items()},
         "free": list(e.problem.names),
-        "scale_free": found.scale_free,
+        "scale_free": e.problem.scale_free,
         "ratios": ratios(found),
         "intervals": {
-            name: {
-                "unit": TYPED[name],
-                "value": p.best * PER_SI[name],
-                "profile_likelihood": [p.lower * PER_SI[name], p.upper * PER_SI[name]],
-                "open": [p.lower_open, p.upper_open],
-                "wild_bootstrap": [end * PER_SI[name] for end in found.drawn[name]] if name in found.drawn else None,
+            each.key: {
+                "unit": each.unit,
+                "value": each.value,
+                "profile_likelihood": [each.lower, each.upper],
+                "open": [each.lower_open, each.upper_open],
+                "wild_bootstrap": None if each.drawn is None else list(each.drawn),
             }
-            for name, p in found.profiles.items()
+            for each in intervals(found)
         },
         "identifiability": {
             key: {
@@ -123,7 +123,7 @@ def describe(found: Fitted, free: Free | None) -> dict[str, Any]:
         "residuals": {"p_lilliefors": found.normality.p, "in_words": found.normality.words},
         "noise": {"sd_N": float(found.data.noise.sd[0]), "correlation_time_s": float(found.data.noise.tau[0])},
         "stretches": {"count": found.stretches, "length_s": found.data.stretch},
-        "pressure_mmHg": found.data.pressure * PER_SI["s"] if found.data.pressure else None,
+        "pressure_mmHg": found.data.pressure / MMHG if found.data.pressure else None,
         "starts": {"count": len(e.costs), "costs": list(e.costs)},
     }
     if free is not None:
@@ -138,14 +138,21 @@ def ratios(found: Fitted) -> dict[str, float]:
     return {"k_times_l_N": n["k"] * n["l"], **lengths}
 
 
+def stroke_stiffness(found: Fitted, free: Free) -> float | None:
+    """k that says how much stroke is wanting [N/m]: by displacement, else as fitted; None where the scale is free."""
+    if free.stiffness is not None and free.stiffness.value > 0.0:
+        return free.stiffness.value
+    return None if found.estimate.problem.scale_free else found.estimate.named["k"]
+
+
 def _free_joint(found: Fitted, free: Free) -> dict[str, Any]:
-    s, k = free.stiffness, found.estimate.named["k"]
+    s, k = free.stiffness, stroke_stiffness(found, free)
     return {
         "stops": [
             {
                 "side": stop.side, "position_mm": stop.position * 1e3, "leaves_at_deg": math.degrees(stop.leaves),
                 "from_deg": math.degrees(stop.first), "to_deg": math.degrees(stop.last), "force_N": stop.force,
-                "stroke_wanting_mm": abs(stop.force) / k * 1e3,
+                "stroke_wanting_mm": None if k is None else abs(stop.force) / k * 1e3,
             }
             for stop in free.stroke.stops
         ],
@@ -197,20 +204,23 @@ def _with_fit(table: pd.DataFrame, found: Fitted) -> pd.DataFrame:
 
 
 def interval_table(found: Fitted) -> pd.DataFrame:
-    """Every number of the law with its intervals; known ones without."""
-    rows = []
-    for name, value in found.estimate.named.items():
-        p, drawn = found.profiles.get(name), found.drawn.get(name)
-        ends = (np.nan, np.nan) if p is None else (
-            np.nan if p.lower_open else p.lower, np.nan if p.upper_open else p.upper,
-        )  # fmt: skip
-        low, high = (np.nan, np.nan) if drawn is None else drawn
-        rows.append({
-            "number": name, "unit": TYPED[name], "known": p is None, "value": value * PER_SI[name],
-            "profile lower": ends[0] * PER_SI[name], "profile upper": ends[1] * PER_SI[name],
-            "bootstrap lower": low * PER_SI[name], "bootstrap upper": high * PER_SI[name],
-        })  # fmt: skip
-    return pd.DataFrame(rows)
+    """Every number of the law, then ratios where nothing sets the scale, with the intervals there are."""
+    told = {each.key: each for each in intervals(found)}
+    free = found.estimate.problem.names
+    rows = [_row(name, TYPED[name], "recordings" if name in free else "known beforehand", value * PER_SI[name],
+                 told.pop(name, None)) for name, value in found.estimate.named.items()]  # fmt: skip
+    return pd.DataFrame(rows + [_row(each.words, each.unit, "recordings", each.value, each) for each in told.values()])
+
+
+def _row(name: str, unit: str, source: str, value: float, told: Interval | None) -> dict[str, Any]:
+    ends = (np.nan, np.nan) if told is None else (
+        np.nan if told.lower_open else told.lower, np.nan if told.upper_open else told.upper,
+    )  # fmt: skip
+    low, high = (np.nan, np.nan) if told is None or told.drawn is None else told.drawn
+    return {
+        "number": name, "unit": unit, "from": source, "value": value, "profile lower": ends[0],
+        "profile upper": ends[1], "bootstrap lower": low, "bootstrap upper": high,
+    }  # fmt: skip
 
 
 def line_table(found: Fitted) -> pd.DataFrame:
@@ -265,23 +275,25 @@ def _told_figure(found: Fitted) -> Any:
     return told_figure(found.all_directions, found.line, found.line_r2, r2, found.profiles, e.named)
 
 
+def _residual_figure(found: Fitted) -> Any:
+    beta, residual = residual_by_bin(found.data, found.estimate)
+    standard = standard_residuals(found.data, found.estimate)
+    return residual_figure(beta, residual, standard, f"Lilliefors {found.normality.shown}")
+
+
 def _headline(found: Fitted) -> list[tuple[str, str]]:
-    lines = []
-    for name, p in found.profiles.items():
-        low, high = (("open" if is_open else f"{end * PER_SI[name]:.4g}") for end, is_open in
-                     ((p.lower, p.lower_open), (p.upper, p.upper_open)))  # fmt: skip
-        lines.append((name, f"{p.best * PER_SI[name]:.4g} {TYPED[name]} ({low} … {high})"))
+    lines = [(each.words, f"{each.value:.4g} {each.unit} ({each.ends})") for each in intervals(found)]
     return [*lines, ("R² of bin means", f"{found.r2:.3f}")]
 
 
 def _sentences(found: Fitted, free: Free | None) -> list[str]:
     told = []
-    if found.scale_free:
+    if found.estimate.problem.scale_free:
         r = ratios(found)
         shares = ", ".join(f"{key.replace('_over_', '/')} {value:.3f}" for key, value in r.items() if "over" in key)
         told.append(f"{SCALE_WORDS}. What no scale changes: k l = {r['k_times_l_N']:.4g} N, {shares}.")
     else:
-        told.append("The scale of k and the lengths is set by what was known beforehand, not by these recordings.")
+        told.append(_scale_words(found, free))
     told.append(f"Residuals are {found.normality.words}." if found.normality.p < 0.05 else
                 f"Residuals: {found.normality.words}.")  # fmt: skip
     if found.bins_differ is not None:
@@ -291,14 +303,26 @@ def _sentences(found: Fitted, free: Free | None) -> list[str]:
             f"stretch of {found.boxes.stretch:.2g} s in a bin, not {b.samples} samples)."
         )
     if free is not None:
-        k = found.estimate.named["k"]
+        k = stroke_stiffness(found, free)
         for stop in free.stroke.stops:
             side = "lower" if stop.side == "lower" else "raise"
+            wanting = "" if k is None else (
+                f": {side} that end by {abs(stop.force) / k * 1e3:.1f} mm for k = {k:.4g} N/m"
+            )  # fmt: skip
             told.append(
                 f"The free joint stands at its {stop.side} end to one side of {math.degrees(stop.leaves):.0f}°, "
-                f"under {stop.force:+.1f} N: {side} that end by {abs(stop.force) / k * 1e3:.1f} mm for k = {k:.4g} N/m."
+                f"under {stop.force:+.1f} N{wanting}."
             )
     return told
+
+
+def _scale_words(found: Fitted, free: Free | None) -> str:
+    """What set the scale."""
+    prior = found.estimate.problem.priors.get("k")
+    s = None if free is None else free.stiffness
+    if s is not None and prior is not None and (prior.mean, prior.sd) == (s.value, s.error):
+        return f"The scale is set by k from the free joint's displacement, {s.value:.4g} N/m (SE {s.error:.2g})."
+    return "The scale of k and the lengths is set by what was known beforehand, not by these recordings."
 
 
 def _shown(title: str, rows: pd.DataFrame) -> Table:

@@ -12,6 +12,15 @@ PER_SI = {"k": 1.0, "x": 1e3, "y": 1e3, "l": 1e3, "z": 1e3, "b": 1.0, "s": MMHG}
 TYPED = {"k": "N/m", "x": "mm", "y": "mm", "l": "mm", "z": "mm", "b": "N s/m", "s": "1/mmHg"}
 EXAMPLE = "l=169,z=127 (N/m, mm, N s/m, 1/mmHg)"
 
+SHORTEST_LINK = 20e-3  # m
+
+
+def require_link(length: float, option: str) -> None:
+    """Refuse a link [m] that no arm wears: metres typed where mm are asked for."""
+    if 0.0 < length < SHORTEST_LINK:
+        what = f"l = {length * 1e3:g} mm is no link of an exoskeleton: are these metres?"
+        raise InputError("", option, what, f"give mm, such as {EXAMPLE.split(',', maxsplit=1)[0]}")
+
 
 def assignments(text: str | None, option: str) -> dict[str, str]:
     """ "l=169,z=120:6" to what is written for each name."""

@@ -67,6 +67,9 @@ def _refuse(
     for option, values in (("--known", known), ("--start", start)):
         for name in ("k", "l"):
             refuse((values.get(name, 1.0) <= 0.0, option, f"{name} is not positive", f"write for example {EXAMPLE}"))
+    means, tops = {n: mean for n, (mean, _) in priors.items()}, {n: top for n, (_, top) in bounds.items()}
+    for option, values in (("--known", known), ("--start", start), ("--prior", means), ("--bounds", tops)):
+        elbow_numbers.require_link(values.get("l", 1.0), option)
     for name in ("k", "l"):
         low = bounds.get(name, (1.0, 2.0))[0]
         refuse((low <= 0.0, "--bounds", f"{name} may not be 0 or less", "give a lower bound above 0"))

@@ -37,7 +37,8 @@ class BinTest:
 class Normality:
     """Lilliefors' test: the distance of the distribution from the normal one of its own mean and SD, and its p-value.
 
-    A small p is evidence against normal residuals; a large one is no evidence for them, only none against.
+    A small p is evidence against normal residuals; a large one is no evidence for them, only none against. It supposes
+    independent values; means of neighbouring bins share noise, so p is approximate and somewhat too small.
     """
 
     distance: float
@@ -47,10 +48,15 @@ class Normality:
     @property
     def words(self) -> str:
         """What the p-value says."""
-        shown = "p < 0.001" if self.p < 1e-3 else f"p = {self.p:.3f}"
+        told = f"{self.shown}, approximate as neighbouring bins share noise"
         if self.p < LEVEL:
-            return f"not normal: Lilliefors' test rejects it ({shown}; a small p speaks against)"
-        return f"no evidence against normal residuals (Lilliefors, {shown}; this does not prove them)"
+            return f"not normal: Lilliefors' test rejects it ({told}; a small p speaks against)"
+        return f"no evidence against normal residuals (Lilliefors, {told}; this does not prove them)"
+
+    @property
+    def shown(self) -> str:
+        """The p-value in print."""
+        return "p < 0.001" if self.p < 1e-3 else f"p = {self.p:.3f}"
 
 
 def between_bins(v: Visits, channel: int) -> BinTest | None:

@@ -83,6 +83,7 @@ def profile_of(
     half: float,
     inverse: float,
     points: int = POINTS,
+    others: Sequence[float] = (),
 ) -> Profile:
     """Profile of a parameter where an interval of half-width `half` would hold it if the model were linear.
 
@@ -94,13 +95,17 @@ def profile_of(
         The same with the parameter free, at `best`.
     inverse
         Entry of the parameter in (J'J)^-1, J being the derivatives of what is squared.
+    others
+        Values at further minima. Where the profile is below the cut at some, the interval is the hull: it reaches from
+        the least of them to the largest, and the curve shows what lies between.
     """
     cut = half**2 / inverse
 
     def rise(value: float) -> float:
         return (held(value) - least) / cut
 
-    ends = [_end(rise, best, way * half, parameter) for way in (-1.0, 1.0)]
+    within = [best, *(value for value in others if rise(value) < 1.0)]
+    ends = [_end(rise, edge(within), way * half, parameter) for edge, way in ((min, -1.0), (max, 1.0))]
     span = [best + 1.3 * (end - best) for end, _ in ends]
     values = np.linspace(max(span[0], parameter.lower), min(span[1], parameter.upper), points)
     (lower, lower_open), (upper, upper_open) = ends

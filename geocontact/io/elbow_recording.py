@@ -30,6 +30,8 @@ TURN_OF_ANY_ELBOW = np.radians(3.3)
 """A range [rad] below which a column of degrees may well hold radians."""
 STRONGEST, FARTHEST = 2000.0, 0.5
 """No cuff bears more [N], and no compensation joint slides farther [m]."""
+TIGHTEST = 1000.0 * DIMENSIONS["Pa"]["mmHg"]
+"""No cuff is pumped to more [Pa]."""
 
 
 def read_elbow_recording(
@@ -125,4 +127,9 @@ def _pressure(table: Table, source: tuple[float, str] | None) -> Float[np.ndarra
     if known is None or known[0] != "Pa":
         what = f"'{name}' is in '{said}'" if said else f"'{name}' has no unit"
         raise InputError(table.file, "", what, f"write {name} [mmHg] (one of {', '.join(DIMENSIONS['Pa'])})")
-    return np.asarray(sign * values * known[1])
+    pressure = np.asarray(sign * values * known[1])
+    largest = float(np.abs(pressure).max())
+    if largest > TIGHTEST:
+        what = f"'{name}' reaches {largest / known[1]:.4g} {said}, more than any cuff is pumped to"
+        raise InputError(table.file, "", what, "is it in that unit at all?")
+    return pressure

@@ -19,7 +19,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.identify.levenberg_marquardt import Search, levenberg_marquardt
 from geocontact.identify.quasi_newton import spread_starts
 from geocontact.systems.elbow_bins import BETA, FORCE, PRESSURE, RATE, Binned
-from geocontact.systems.elbow_law import NAMES, ElbowLaw
+from geocontact.systems.elbow_law import NAMES, SCALED, ElbowLaw
 
 STARTS = 8
 SAME = 1e-6  # of the cost: searches that end so close to each other end equally well
@@ -66,6 +66,16 @@ class Problem:
     def names(self) -> tuple[str, ...]:
         """Free numbers."""
         return tuple(NAMES[k] for k in self.free)
+
+    @cached_property
+    def scalable(self) -> bool:
+        """Whether one factor may change k and the lengths: a known number forbids it, unless it is 0."""
+        return not any(p.fixed and p.start != 0.0 for p in self.parameters if p.name in SCALED)
+
+    @cached_property
+    def scale_free(self) -> bool:
+        """Whether nothing known sets that factor, no prior either."""
+        return self.scalable and not set(self.priors) & set(SCALED)
 
     def theta(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " 7"]:
         """All numbers, given the free ones."""
@@ -127,8 +137,8 @@ class Estimate:
         All numbers, in the order of NAMES.
     values
         The free ones.
-    costs
-        Half the sum of squares at the end of every search, in the order of the starts.
+    costs, ends
+        Half the sum of squares and the free numbers at the end of every search, in the order of the starts.
     """
 
     problem: Problem
@@ -137,6 +147,7 @@ class Estimate:
     cost: float
     converged: bool
     costs: tuple[float, ...]
+    ends: tuple[Float[np.ndarray, " p"], ...]
 
     @property
     def named(self) -> dict[str, float]:
@@ -168,18 +179,23 @@ def law_at(means: Float[np.ndarray, "n 5"]) -> ElbowLaw:
 
 
 def estimated(problem: Problem, starts: int = STARTS) -> Estimate:
-    """The best of the searches from the parameters' own start and `starts` more, spread over the bounds.
-
-    Of searches that end equally well the first counts: where only the scale is free, that is the parameters' own start.
-    """
+    """The best of the searches from the parameters' own start and `starts` more, spread over the bounds."""
     names = problem.names
     begins = [np.array([start.get(n, problem.parameters[NAMES.index(n)].start) for n in names])
               for start in spread_starts(problem.parameters, starts)]  # fmt: skip
+    return best_from(problem, begins)
+
+
+def best_from(problem: Problem, begins: Sequence[Float[np.ndarray, " p"]]) -> Estimate:
+    """The best of the searches from some starts.
+
+    Of searches that end equally well the first counts: where only the scale is free, that is the first start.
+    """
     found = [problem.searched(begin) for begin in begins]
     least = min(each.cost for each in found)
     best = next(each for each in found if each.cost <= (1.0 + SAME) * least + np.finfo(float).tiny)
-    costs = tuple(each.cost for each in found)
-    return Estimate(problem, problem.theta(best.values), best.values, best.cost, best.converged, costs)
+    costs, ends = tuple(each.cost for each in found), tuple(each.values for each in found)
+    return Estimate(problem, problem.theta(best.values), best.values, best.cost, best.converged, costs, ends)
 
 
 def r_squared(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"]) -> float:
@@ -198,6 +214,13 @@ def residual_by_bin(data: Binned, e: Estimate) -> tuple[Float[np.ndarray, " b"],
     there = count > 0.0
     off = cells.means[:, FORCE] - e.predicted
     return data.centres[there], np.bincount(cells.place, cells.count * off, bins)[there] / count[there]
+
+
+def standard_residuals(data: Binned, e: Estimate) -> Float[np.ndarray, " b"]:
+    """Residual of each bin times the root of its information: one spread, however long a bin was stayed in."""
+    bins = len(data.visits.edges) - 1
+    information = np.bincount(data.cells.place, data.information, bins)
+    return np.asarray(residual_by_bin(data, e)[1] * np.sqrt(information[information > 0.0]))
 
 
 def _scale(p: Parameter) -> float:

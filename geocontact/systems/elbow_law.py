@@ -18,6 +18,8 @@ from geocontact.systems.elbow_misalignment import misalignment
 NAMES = ("k", "x", "y", "l", "z", "b", "s")
 UNITS = {"k": "N/m", "x": "m", "y": "m", "l": "m", "z": "m", "b": "N s/m", "s": "1/Pa"}
 LENGTHS = ("x", "y", "l", "z")
+SCALED = ("k", "b", *LENGTHS)
+"""Numbers that one factor changes without changing any force: k/s, b/s and s times the lengths."""
 ABSENT = {"b": 0.0, "s": 0.0}
 STEP = 1e-6  # of the link, for derivatives with respect to lengths
 

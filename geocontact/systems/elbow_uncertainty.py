@@ -17,11 +17,10 @@ from scipy.stats import t as student
 from geocontact.identify.memory import spread
 from geocontact.identify.profile_likelihood import POINTS, Profile, profile_of
 from geocontact.systems.elbow_bins import FORCE, Binned
-from geocontact.systems.elbow_fit import Estimate, Prior, law_at
-from geocontact.systems.elbow_law import LENGTHS, NAMES
+from geocontact.systems.elbow_fit import Estimate, Prior, Problem, best_from, law_at
+from geocontact.systems.elbow_law import LENGTHS, NAMES, SCALED
 
-SCALED = ("k", *LENGTHS)
-"""Numbers that one factor changes without changing any force: k/s and s times the lengths."""
+DISTINCT = 1e-2  # of a number: minima that lie closer are one
 FLAT = 1e-6  # of the largest singular value: below, the data say nothing in this direction
 
 
@@ -84,29 +83,57 @@ def covariance(data: Binned, e: Estimate) -> Covariance:
 
 
 def profiled(e: Estimate, c: Covariance, name: str, level: float = 0.95, points: int = POINTS) -> Profile:
-    """Profile of one free number, and its interval of probability `level`."""
+    """Profile of one free number, and its interval of probability `level`.
+
+    Offsets of other signs can fit nearly as well. Each value is searched from every minimum that lies within the cut,
+    and from where the nearest value ended; the interval is the hull of what is found.
+    """
     k = e.problem.names.index(name)
     parameter = e.problem.parameters[NAMES.index(name)]
     prior = e.problem.priors.get(name)
+    half = max(c.half_width(k, level), 1e-9 * abs(float(e.values[k])))
+    minima = _minima(e, half**2 / float(c.inverse[k, k]))
+    ended: dict[float, Float[np.ndarray, " p"]] = {}
 
     def held(value: float) -> float:
         problem = e.problem.held(name, value)
         apart = 0.0 if prior is None else ((value - prior.mean) / prior.sd) ** 2
-        others = np.delete(_near(e, name, value), k)
-        cost = problem.searched(others).cost if len(others) else _cost(e, value)
-        return 2.0 * cost + apart
+        if not problem.free:
+            return 2.0 * _cost(e, value) + apart
+        begins = [_near(e.problem, values, name, value) for values in minima]
+        begins += [ended[near] for near in sorted(ended, key=lambda v: abs(v - value))[:1]]
+        found = min((problem.searched(np.delete(begin, k)) for begin in begins), key=lambda search: search.cost)
+        ended[value] = np.insert(found.values, k, value)
+        return 2.0 * found.cost + apart
 
-    half = max(c.half_width(k, level), 1e-9 * abs(float(e.values[k])))
-    return profile_of(held, 2.0 * e.cost, parameter, float(e.values[k]), half, float(c.inverse[k, k]), points)
+    others = [float(values[k]) for values in minima[1:]]
+    return profile_of(held, 2.0 * e.cost, parameter, float(e.values[k]), half, float(c.inverse[k, k]), points, others)
 
 
-def _near(e: Estimate, name: str, value: float) -> Float[np.ndarray, " p"]:
-    """Free numbers from which to search with one held at a value: along the scale where it is free, else the best."""
-    best = e.named[name]
-    if not set(SCALED) <= set(e.problem.names) or name not in SCALED or value * best <= 0.0:
-        return e.values
-    factor = best / value if name == "k" else value / best
-    return np.asarray(along_the_scale(e, np.array([factor]))[0][e.problem.free])
+def with_link_held(e: Estimate) -> Estimate:
+    """The same with l held where it is: k and the lengths are then, in units of l, what no scale changes."""
+    problem, place = e.problem.held("l", e.named["l"]), e.problem.names.index("l")
+    return best_from(problem, [np.delete(values, place) for values in _minima(e, np.inf)])
+
+
+def _minima(e: Estimate, cut: float) -> list[Float[np.ndarray, " p"]]:
+    """Ends of searches less than `cut` above the least sum of squares, each once; at one l where the scale is free."""
+    found = [e.values]
+    for end, cost in zip(e.ends, e.costs, strict=True):
+        factor = e.named["l"] / e.problem.theta(end)[3] if e.problem.scale_free else 1.0
+        values = _scaled(e.problem.theta(end), np.array([factor]))[0][e.problem.free]
+        if 2.0 * (cost - e.cost) < cut and not any(np.allclose(values, other, rtol=DISTINCT) for other in found):
+            found.append(values)
+    return found
+
+
+def _near(problem: Problem, values: Float[np.ndarray, " p"], name: str, value: float) -> Float[np.ndarray, " p"]:
+    """Where to search from with one number held at a value: along the scale where it is free, else where it was."""
+    best = float(values[problem.names.index(name)])
+    if not problem.scalable or name not in SCALED or value * best <= 0.0:
+        return values
+    factor = value / best if name in LENGTHS else best / value
+    return np.asarray(_scaled(problem.theta(values), np.array([factor]))[0][problem.free])
 
 
 def _cost(e: Estimate, value: float) -> float:
@@ -150,9 +177,12 @@ def _scores(data: Binned, e: Estimate) -> tuple[Float[np.ndarray, "g p"], int]:
 def direction(e: Estimate, names: tuple[str, ...] = SCALED) -> Direction:
     """Singular values and the direction told least, of numbers that need not be free, in their logarithms.
 
+    Numbers that are 0 are left out: they have no logarithm, and no factor changes them.
+
     The derivative with respect to the logarithm of a number is the number times the derivative: it has no unit to
     choose, and a number may be negative. Priors do not count: this is what the recordings tell.
     """
+    names = tuple(name for name in names if e.named[name] != 0.0)
     places = [NAMES.index(name) for name in names]
     slopes = e.problem.law.slopes(e.theta)[:, places] * e.theta[places]
     _, values, rows = np.linalg.svd(slopes, full_matrices=False)
@@ -162,7 +192,11 @@ def direction(e: Estimate, names: tuple[str, ...] = SCALED) -> Direction:
 
 def along_the_scale(e: Estimate, factors: Float[np.ndarray, " m"]) -> Float[np.ndarray, "m 7"]:
     """Numbers (k/s, s times the lengths) for each factor s; every row gives the same force."""
-    rows = np.tile(e.theta, (len(factors), 1))
+    return _scaled(e.theta, factors)
+
+
+def _scaled(theta: Float[np.ndarray, " 7"], factors: Float[np.ndarray, " m"]) -> Float[np.ndarray, "m 7"]:
+    rows = np.tile(theta, (len(factors), 1))
     rows[:, 0] /= factors
     rows[:, 1:5] *= factors[:, None]
     rows[:, 5] /= factors

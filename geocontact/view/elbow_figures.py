@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 Entries = list[tuple["Artist | tuple[Artist, ...]", str]]
 ANGLE = "exoskeleton angle β [°]"
 CONSTRAINT = Quantity("constraint force", "N")
+STANDARD = Quantity("over its SD", "–")
 LEVELS = 13
 
 
@@ -140,15 +141,17 @@ def told_figure(
 
 
 @in_style
-def residual_figure(beta: Float[np.ndarray, " b"], residual: Float[np.ndarray, " b"]) -> Figure:
-    """Draw residuals of the bins over the angle (a), their histogram (b), and their quantiles (c)."""
+def residual_figure(
+    beta: Float[np.ndarray, " b"], residual: Float[np.ndarray, " b"], standard: Float[np.ndarray, " b"], told: str
+) -> Figure:
+    """Draw residuals of bins over the angle (a), and in their SD: histogram (b), quantiles with the test `told` (c)."""
     figure, (over, histogram, quantiles) = panels(1, 3, DOUBLE, 0.075)
     over.plot(np.degrees(beta), residual, "o", color=PALETTE[0], markersize=2.5, markeredgewidth=0.0)
     over.axhline(0.0, color=GREY, lw=0.6)
     over.set_xlabel(ANGLE)
     over.set_ylabel("residual force [N]")
-    residual_histogram(residual, CONSTRAINT, histogram)
-    residual_quantiles(residual, CONSTRAINT, quantiles)
+    residual_histogram(standard, STANDARD, histogram)
+    residual_quantiles(standard, STANDARD, quantiles, told)
     return figure
 
 

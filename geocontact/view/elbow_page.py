@@ -30,7 +30,10 @@ TOLD = (
     "the sum of squares rises when a number is held beside its best value; an interval of 95 % ends at 1."
 )
 FORCES = "Left: bin means of every trial and the explicit model. Right: spread of the samples in wider bins."
-RESIDUALS = "Measured less fitted mean force of each bin, all trials together: over the angle, histogram, quantiles."
+RESIDUALS = (
+    "Measured less fitted mean force of each bin, all trials together: over the angle; over the standard deviation of "
+    "the bin's mean as histogram and quantiles, with the p of Lilliefors' test."
+)
 CONDITIONS = (
     "Force with the compensation joint locked and free, and the free joint's displacement. Shaded: the joint stands at "
     "an end of its stroke, and force builds up."

@@ -79,6 +79,12 @@ def test_simulated_trials_say_what_they_are_and_are_as_asked(made: Path) -> None
     )  # fmt: skip
 
 
+def test_the_help_says_what_each_command_does(tmp_path: Path) -> None:
+    shown = done(call("elbow", "--help", folder=tmp_path)).out
+    for command in ("simulate", "fit", "compare", "design", "population"):
+        assert f"{command}: " in shown, shown
+
+
 def test_the_same_seed_gives_the_same_recordings(tmp_path: Path) -> None:
     seeds = {"a": 4, "b": 4, "c": 5}
     one, two, other = (elbow("simulate", tmp_path / n, *QUICK, "--seed", seed) for n, seed in seeds.items())
@@ -112,8 +118,9 @@ def test_with_the_link_known_the_numbers_are_found(tmp_path: Path, made: Path) -
     assert found["between_bins"]["counted_visits"] < found["between_bins"]["samples"] / 5
     (stop,) = found["free_joint"]["stops"]
     assert stop["side"] == "lower" and stop["force_N"] < -5.0 and 50.0 < stop["leaves_at_deg"] < 70.0
-    assert stop["stroke_wanting_mm"] == pytest.approx(-stop["force_N"] / found["numbers"]["k_N_per_m"] * 1e3)
-    assert found["free_joint"]["k_by_displacement_N_per_m"]["value"] == pytest.approx(222.43, rel=0.15)
+    stiffness = found["free_joint"]["k_by_displacement_N_per_m"]["value"]
+    assert stiffness == pytest.approx(222.43, rel=0.15)
+    assert stop["stroke_wanting_mm"] == pytest.approx(-stop["force_N"] / stiffness * 1e3)
     bins = result.table("bins.csv")
     assert list(bins)[:5] == ["beta [deg]", "trials", "visits", "samples", "mean [N]"]
     np.testing.assert_allclose(bins["fitted [N]"] + bins["residual [N]"], bins["mean [N]"])
@@ -138,8 +145,55 @@ def test_without_anything_known_the_scale_is_named_and_shown(tmp_path: Path, mad
     line = result.table("scale_line.csv")
     assert np.ptp(line["r2 [-]"]) < 1e-9 and line["k [N/m]"].max() / line["k [N/m]"].min() == pytest.approx(4.0)
     np.testing.assert_allclose(line["k [N/m]"] * line["l [mm]"] * 1e-3, found["ratios"]["k_times_l_N"], rtol=1e-9)
+    assert set(found["intervals"]) == {"k_times_l", "x_over_l", "y_over_l", "z_over_l"}
+    true = {"k_times_l": 222.43 * 0.169, "x_over_l": 48.0 / 169.0, "y_over_l": 59.0 / 169.0, "z_over_l": 127.0 / 169.0}
+    for name, value in true.items():
+        low, high = found["intervals"][name]["profile_likelihood"]
+        assert low < value < high, name
+    table = result.table("intervals.csv").set_index("number")
+    assert table.loc[["k", "x", "y", "l", "z"], "profile lower"].isna().all() and "k l" in table.index
+    assert "k l " in result.out and "\nk 3" not in result.out
+
+
+def test_a_known_0_sets_no_scale(tmp_path: Path, made: Path) -> None:
+    result = done(elbow("fit", tmp_path, *locked(made), "--known", "z=0", "--bootstrap", 100))
+    found = told(result)
+    assert found["scale_free"] and found["identifiability"]["k_and_lengths"]["numbers"] == ["k", "x", "y", "l"]
+    assert any("F(k/s, s × lengths) = F" in line for line in result.warnings)
+    assert result.table("intervals.csv")["bootstrap lower"].isna().all(), "of the start's own point of the line"
+
+
+def test_a_stiffness_that_follows_the_pressure_is_told_and_compared_in_mmhg(tmp_path: Path) -> None:
+    """The pressure that s counts from lies among those that were recorded, here as in the comparison."""
+    numbers = "k=222.43,x=48,y=59,l=169,z=127,s=0.01"
+    design = ("--seconds", 20, "--rate", 50, "--noise", 0.01, "--trials", 4, "--bits", 0, "--pressure", "10:60")
+    made = done(elbow("simulate", tmp_path / "made", *design, "--numbers", numbers)).folder
+    result = done(elbow("fit", tmp_path / "fit", *locked(made), *KNOWN, "--free", "s"))
+    found = told(result)
+    means = [table_of(file)["pressure [mmHg]"].mean() for file in locked(made)]
+    assert found["pressure_mmHg"] == pytest.approx(np.mean(means), rel=1e-6) and 10.0 < found["pressure_mmHg"] < 60.0
+    beside = done(elbow("compare", tmp_path / "cmp", *locked(made), "--fit", result.folder / "elbow.json"))
+    np.testing.assert_allclose(beside.table("comparison.csv")["rmse"], 0.01, rtol=0.5)
+    by_hand = {"numbers": found["numbers"], "pressure_mmHg": 20.0 + found["pressure_mmHg"]}
+    moved = written(tmp_path / "moved.json", json.dumps(by_hand))
+    table = done(elbow("compare", tmp_path / "cmp2", *locked(made), "--fit", moved)).table("comparison.csv")
+    assert (table["rmse"] > 0.3).all(), "20 mmHg of 0.01 each are a fifth of the force"
+    assert (table["r2 [-]"] > 0.5).all()
+
+
+def test_the_free_joints_displacement_sets_the_scale(tmp_path: Path, made: Path) -> None:
+    free = [part for file in sorted(made.glob("free_*.csv")) for part in ("--unlocked", file)]
+    result = done(elbow("fit", tmp_path / "all", *locked(made), *free, "--bootstrap", 0))
+    found = told(result)
+    assert not found["scale_free"] and any("the scale is set by k from the free joint" in w for w in result.warnings)
+    by_displacement = found["free_joint"]["k_by_displacement_N_per_m"]
     low, high = found["intervals"]["k"]["profile_likelihood"]
-    assert high / low > 3.0
+    assert low < by_displacement["value"] < high and low < 222.43 < high and high - low < 20.0 * by_displacement["se"]
+    (stop,) = found["free_joint"]["stops"]
+    wanting = -stop["force_N"] / by_displacement["value"] * 1e3
+    assert stop["stroke_wanting_mm"] == pytest.approx(wanting)
+    lone = done(elbow("fit", tmp_path / "one", locked(made)[0], *free, "--bootstrap", 0))
+    assert told(lone)["scale_free"] and any("takes two locked trials" in w for w in lone.warnings)
 
 
 def test_a_prior_and_bounds_as_the_papers(tmp_path: Path, made: Path) -> None:
@@ -202,6 +256,10 @@ REFUSED = {
     "start outside": (("--bounds", "x=0:10", "--start", "x=20"), "not between its bounds"),
     "everything known": (("--known", "k=222,x=48,y=59,l=169,z=127"), "leaves nothing"),
     "negative link": (("--known", "l=-169"), "l is not positive"),
+    "link in metres": (("--known", "l=0.169"), "are these metres?"),
+    "prior on a link in metres": (("--prior", "l=0.185:0.01"), "are these metres?"),
+    "start of a link in metres": (("--start", "l=0.2"), "are these metres?"),
+    "bounds of a link in metres": (("--bounds", "l=0.16:0.21"), "are these metres?"),
     "free what is free": (("--free", "k"), "not b or s"),
     "pressure that is not there": (("--free", "s", "--map", "pressure=cuff"), "cuff"),
     "damping bounds unasked": (("--bounds", "b=0:10"), "b is not free"),
@@ -219,6 +277,20 @@ def test_fits_that_cannot_be_are_refused_in_one_line(tmp_path: Path, made: Path,
     result = elbow("fit", tmp_path / "out", *locked(made), *options)
     assert result.code == 2 and len(result.complaints) == 1 and said in result.err, result.err
     assert not (tmp_path / "out").exists()
+
+
+def test_a_pressure_that_stays_tells_no_stiffness_over_it(tmp_path: Path, made: Path) -> None:
+    names = []
+    for file in locked(made):
+        table = table_of(file)
+        table["pressure [mmHg]"] = 30.0
+        table.to_csv(tmp_path / file.name, index=False)
+        names.append(tmp_path / file.name)
+    result = elbow("fit", tmp_path / "out", *names, *KNOWN, "--free", "s")
+    assert result.code == 2 and "pressure varies by 0 mmHg only" in result.err
+    table.drop(columns="pressure [mmHg]").to_csv(tmp_path / "none.csv", index=False)
+    result = elbow("fit", tmp_path / "out", *names[:2], tmp_path / "none.csv", *KNOWN, "--free", "s")
+    assert result.code == 2 and "needs a column pressure in every trial" in result.err
 
 
 def table_of(file: Path) -> pd.DataFrame:

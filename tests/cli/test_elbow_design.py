@@ -166,6 +166,7 @@ def test_poles_and_folds_of_the_map_are_counted_and_named(tmp_path: Path) -> Non
         ({"--range": "120:0deg"}, "ends before it begins"),
         ({"--k": 0}, "--k: 0 is not above 0"),
         ({"--l-mm": -169}, "--l-mm: -169 is not above 0"),
+        ({"--l-mm": 0.169}, "l = 0.169 mm is no link of an exoskeleton: are these metres?"),
         ({"--limit": "nan"}, "--limit: nan is not above 0"),
         ({"--z-mm": "inf"}, "--z-mm"),
         ({"--stroke-mm": "20:-20"}, "write the lower end first"),

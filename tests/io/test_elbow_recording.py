@@ -109,6 +109,7 @@ def test_what_cannot_be_an_elbows_is_refused_in_one_line(tmp_path: Path, name: s
     [
         ("displacement", FORCE, "has no unit"),
         ("displacement [m]", FORCE, "more than any compensation joint slides"),
+        ("pressure [mmHg]", np.full(200, 4000.0), "reaches 4000 mmHg, more than any cuff"),
         ("pressure", np.full(200, 30.0), "has no unit"),
         ("pressure [mm]", np.full(200, 30.0), "is in 'mm'"),
     ],

@@ -7,9 +7,18 @@ from functools import cache
 import numpy as np
 import pytest
 
+from geocontact.identify.bin_tests import lilliefors
 from geocontact.systems.elbow_bins import FORCE, Binned, binned
 from geocontact.systems.elbow_end_stop import curve_of, stiffness_by_displacement, stroke_of
-from geocontact.systems.elbow_fit import Estimate, Prior, estimated, problem_of, r_squared
+from geocontact.systems.elbow_fit import (
+    Estimate,
+    Prior,
+    estimated,
+    problem_of,
+    r_squared,
+    residual_by_bin,
+    standard_residuals,
+)
 from geocontact.systems.elbow_law import NAMES, ElbowLaw
 from geocontact.systems.elbow_synthetic import PAPER, Design, ideal, multisine
 from geocontact.systems.elbow_uncertainty import (
@@ -18,6 +27,7 @@ from geocontact.systems.elbow_uncertainty import (
     direction,
     profiled,
     wild_bootstrap,
+    with_link_held,
 )
 from tests.systems.elbow_trials import QUICK, parameters, trials
 
@@ -105,6 +115,18 @@ def test_the_scale_is_the_direction_that_nothing_tells() -> None:
     assert not rest.flat and rest.singular_values[-1] > 0.01 * rest.singular_values[0]
 
 
+@pytest.mark.parametrize("name", ["x", "z"])
+def test_a_known_0_sets_no_scale(name: str) -> None:
+    """0 times any factor is 0: the line is there as before, in the numbers that are not 0."""
+    e = estimated(problem_of(noisy(), parameters({name: 0.0}), {}), starts=0)
+    told = direction(e)
+    assert e.problem.scale_free and name not in told.names and told.flat
+    np.testing.assert_allclose(told.least, [-0.5, 0.5, 0.5, 0.5], atol=1e-6)
+    assert not problem_of(noisy(), parameters({name: 1e-3}), {}).scale_free
+    assert not problem_of(noisy(), parameters({name: 0.0}), {"l": Prior(0.17, 0.01)}).scale_free
+    assert problem_of(noisy(), parameters({}, "kxylzs"), {"s": Prior(0.0, 1.0)}).scale_free
+
+
 def test_the_papers_numbers_are_one_point_of_a_line() -> None:
     e = estimated(problem_of(binned(trials(design=CLEAN, count=2), np.radians(0.5)), parameters({}), {}))
     line = along_the_scale(e, np.geomspace(0.3, 3.0, 9))
@@ -135,6 +157,30 @@ def test_profile_along_the_scale_is_flat_and_one_length_known_ends_that() -> Non
     sharp = profiled(known, covariance(noisy(), known), "k", points=5)
     assert sharp.upper / sharp.lower < 1.5 and not (sharp.lower_open or sharp.upper_open)
     assert sharp.lower < PAPER["k"] < sharp.upper
+
+
+def test_intervals_hold_both_signs_where_offsets_of_either_fit() -> None:
+    """Two minima, mirrored in the signs of x and z: whichever is the lower, the interval reaches over both."""
+    data = binned(trials(PAPER, Design(), [51, 0]), WIDTH)
+    both = with_link_held(estimated(problem_of(data, parameters({}), {})))
+    close = [end for end, cost in zip(both.ends, both.costs, strict=True) if cost < both.cost + 0.5]
+    assert {float(np.sign(end[1])) for end in close} == {-1.0, 1.0}, "the recordings tell the sign"
+    c = covariance(data, both)
+    for place, name in ((1, "x"), (3, "z")):
+        p = profiled(both, c, name, points=5)
+        assert all(p.lower <= end[place] <= p.upper for end in close) and p.lower < 0.0 < p.upper, name
+
+
+def test_residuals_of_the_true_model_are_rarely_called_not_normal() -> None:
+    """Bins at the ends of the range hold more time: in newtons their residuals have spreads of their own."""
+    quick = Design(seconds=30.0, rate=50.0, noise=0.5, memory=0.1)
+    rejected = np.zeros(2, int)
+    for run in range(40):
+        data = binned(trials(design=quick, seed=[61, run], count=3), WIDTH)
+        e = estimated(problem_of(data, parameters(LINK), {}), starts=0)
+        both = standard_residuals(data, e), residual_by_bin(data, e)[1]
+        rejected += [lilliefors(each).p < 0.05 for each in both]
+    assert rejected[0] < 4 < rejected[1], "of 40, where 2 are expected of independent normal values"
 
 
 def test_a_prior_sets_the_scale_and_no_more() -> None:

@@ -55,7 +55,9 @@ def residual_histogram(residual: Float[np.ndarray, " n"], quantity: Quantity, ax
 
 
 @in_style
-def residual_quantiles(residual: Float[np.ndarray, " n"], quantity: Quantity, axes: Axes | None = None) -> Figure:
+def residual_quantiles(
+    residual: Float[np.ndarray, " n"], quantity: Quantity, axes: Axes | None = None, told: str | None = None
+) -> Figure:
     """Draw ordered residuals against normal quantiles, with a band that holds 95 % of normal samples entirely.
 
     The band is simultaneous (Aldor-Noiman et al. 2013, see `normal_band`): one point outside is evidence at 5 %
@@ -68,6 +70,8 @@ def residual_quantiles(residual: Float[np.ndarray, " n"], quantity: Quantity, ax
         Measured minus simulated, SI units; NaN is left out.
     quantity
         What was measured; its unit is the one of the axis.
+    told
+        Test and p-value that stand in the legend where another test than the band's is reported.
     """
     q = normal_quantiles(quantity.shown(finite("residual", residual, LEAST)))
     figure, axes = on(axes)
@@ -82,7 +86,7 @@ def residual_quantiles(residual: Float[np.ndarray, " n"], quantity: Quantity, ax
         [
             (dots, f"residual (n = {len(q.ordered)})"),
             (line, "mean + SD × quantile"),
-            (band, f"95 % simultaneous band, {p}"),
+            (band, f"95 % simultaneous band, {p if told is None else told}"),
         ],
     )
     return figure
