@@ -19,7 +19,7 @@ from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.identify.bin_tests import BinTest, Normality, between_bins, lilliefors
+from geocontact.identify.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours, lilliefors
 from geocontact.identify.profile_likelihood import Profile
 from geocontact.io.elbow_recording import DISPLACEMENT
 from geocontact.io.elbow_recording import FORCE as FORCE_CHANNEL
@@ -95,6 +95,7 @@ class Fitted:
     line_r2: Float[np.ndarray, " m"]
     held: Sequence[Held]
     bins_differ: BinTest | None
+    neighbours: Sequence[Pair]
     normality: Normality
     r2: float
     mirrored_r2: float
@@ -109,6 +110,7 @@ class Free:
     stroke: Stroke
     stiffness: Stiffness | None
     bins_differ: BinTest | None
+    neighbours: Sequence[Pair]
 
 
 def analyse(paths: tuple[Path, ...], o: ElbowFitOptions) -> int:
@@ -213,6 +215,7 @@ def _fitted(
         line_r2=np.array([r_squared(measured, e.problem.law.force(theta)) for theta in line]),
         held=_apart(data, e, apart, o) if apart else _each_left_out(data, e),
         bins_differ=between_bins(boxes.visits, FORCE),
+        neighbours=between_neighbours(boxes.visits, FORCE),
         normality=lilliefors(standard_residuals(data, e)),
         r2=r_squared(measured, e.predicted),
         mirrored_r2=_mirrored(e, measured),
@@ -275,7 +278,9 @@ def _free(record: Record, o: ElbowFitOptions, locked: Binned) -> Free:
         what = f"displacement and locked force run against each other ({stiffness.value:.4g} N/m)"
         raise InputError(paths[0], "", what, "one of them has its sign turned: --map displacement=-… or force=-…")
     boxes = binned(free, float(np.radians(o.box_deg)))
-    return Free(free, boxes, stroke, stiffness, between_bins(boxes.visits, FORCE))
+    return Free(
+        free, boxes, stroke, stiffness, between_bins(boxes.visits, FORCE), between_neighbours(boxes.visits, FORCE)
+    )
 
 
 def _reserve(record: Record, found: Fitted) -> None:

@@ -19,7 +19,7 @@ from geocontact.cli.figures import save_both
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
-from geocontact.identify.bin_tests import BinTest
+from geocontact.identify.bin_tests import LEVEL, BinTest, Pair
 from geocontact.io.results import write_table
 from geocontact.systems.elbow_bins import Binned
 from geocontact.systems.elbow_end_stop import curve_of
@@ -57,13 +57,16 @@ def write_results(record: Record, found: Fitted, free: Free | None, o: ElbowFitO
     for name, table in tables.items():
         write_table(table, folder, o.parquet, name)
     told_in = save_both(_told_figure(found), folder, "identifiability")
+    locked_boxes = _boxes(boxes, found.boxes)
     drawings = [
-        ("Force over the angle", FORCES, save_both(force_figure(_over(found), _boxes(boxes, found)), folder, "forces")),
+        ("Force over the angle", FORCES, save_both(force_figure(_over(found), locked_boxes), folder, "forces")),
         ("What the recordings tell apart", TOLD, told_in),
         ("Residuals", RESIDUALS, save_both(_residual_figure(found), folder, "residuals")),
     ]  # fmt: skip
     if free is not None:
-        drawing = save_both(conditions_figure(curve_of(found.data), free.stroke), folder, "conditions")
+        free_boxes = _boxes(tables["boxes_free"], free.boxes)
+        figure = conditions_figure(curve_of(found.data), free.stroke, locked_boxes, free_boxes)
+        drawing = save_both(figure, folder, "conditions")
         drawings.append(("Joint locked and free", CONDITIONS, drawing))
     shown = [
         _shown("What was identified", tables["intervals"]), _shown("Force that was not used", tables["held_out"]),
@@ -119,7 +122,7 @@ def describe(found: Fitted, free: Free | None) -> dict[str, Any]:
         "r2_along_the_scale": [float(found.line_r2.min()), float(found.line_r2.max())],
         "r2_of_the_force_turned_over": _finite(found.mirrored_r2),
         "held_out": [{"name": h.name, "r2": _finite(h.r2), "rmse_N": h.rmse, "bins": h.bins} for h in found.held],
-        "between_bins": _tested(found.bins_differ),
+        "between_bins": _tested(found.bins_differ, found.neighbours, found.boxes),
         "residuals": {"p_lilliefors": found.normality.p, "in_words": found.normality.words},
         "noise": {"sd_N": float(found.data.noise.sd[0]), "correlation_time_s": float(found.data.noise.tau[0])},
         "stretches": {"count": found.stretches, "length_s": found.data.stretch},
@@ -161,15 +164,21 @@ def _free_joint(found: Fitted, free: Free) -> dict[str, Any]:
         "k_by_displacement_N_per_m": None if s is None else {
             "value": s.value, "se": _finite(s.error), "trials": s.trials, "bins": s.bins,
         },
-        "between_bins": _tested(free.bins_differ),
+        "between_bins": _tested(free.bins_differ, free.neighbours, free.boxes),
     }  # fmt: skip
 
 
-def _tested(test: BinTest | None) -> dict[str, Any] | None:
+def _tested(test: BinTest | None, pairs: Sequence[Pair], boxes: Binned) -> dict[str, Any] | None:
     if test is None:
         return None
+    middle = np.degrees(boxes.centres)
+    neighbours = [
+        {"between_deg": [float(middle[k]) for k in pair.places], "mann_whitney": pair.statistic, "p": pair.p,
+         "p_holm": pair.p_holm}
+        for pair in pairs
+    ]  # fmt: skip
     return {"kruskal_wallis": test.statistic, "p": test.p, "bins": test.bins, "counted_visits": test.counted,
-            "samples": test.samples}  # fmt: skip
+            "samples": test.samples, "neighbours": neighbours}  # fmt: skip
 
 
 def spread_table(recordings: Sequence[ElbowRecording], data: Binned) -> pd.DataFrame:
@@ -253,16 +262,16 @@ def _places(beta: np.ndarray, data: Binned) -> np.ndarray:
 
 
 def _over(found: Fitted) -> Over:
-    cells, law = found.data.cells, found.estimate.problem.law
+    law = found.estimate.problem.law
     order = np.argsort(law.beta)
-    return Over(law.beta, found.estimate.problem.force, cells.trial, law.beta[order],
+    return Over(law.beta, found.estimate.problem.force, law.beta[order],
                 found.estimate.predicted[order])  # fmt: skip
 
 
-def _boxes(table: pd.DataFrame, found: Fitted) -> Boxes:
+def _boxes(table: pd.DataFrame, data: Binned) -> Boxes:
     there = table["samples"] > 0
     columns = [f"{share:.0%} [N]" for share in QUANTILES]
-    edges = found.boxes.visits.edges
+    edges = data.visits.edges
     return Boxes(np.radians(table["beta [deg]"][there].to_numpy()), table[columns][there].to_numpy(),
                  float(edges[1] - edges[0]))  # fmt: skip
 
@@ -301,6 +310,13 @@ def _sentences(found: Fitted, free: Free | None) -> list[str]:
         told.append(
             f"Bins of the box plots differ with p = {b.p:.2g} (Kruskal-Wallis over {b.counted} visits, one for each "
             f"stretch of {found.boxes.stretch:.2g} s in a bin, not {b.samples} samples)."
+        )
+        middle = np.degrees(found.boxes.centres)
+        apart = [f"{middle[a]:.0f}|{middle[b]:.0f}°" for a, b in (
+            pair.places for pair in found.neighbours if pair.p_holm < LEVEL)]  # fmt: skip
+        told.append(
+            f"Neighbouring bins that differ (Mann-Whitney, Holm's correction over {len(found.neighbours)} pairs): "
+            f"{', '.join(apart) or 'none'}."
         )
     if free is not None:
         k = stroke_stiffness(found, free)

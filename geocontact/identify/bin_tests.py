@@ -79,6 +79,41 @@ def between_bins(v: Visits, channel: int) -> BinTest | None:
     )
 
 
+@dataclass(frozen=True)
+class Pair:
+    """Mann-Whitney test of a channel between two bins, by their places, and its p after Holm's correction."""
+
+    places: tuple[int, int]
+    statistic: float
+    p: float
+    p_holm: float
+
+
+def between_neighbours(v: Visits, channel: int) -> list[Pair]:
+    """Mann-Whitney test of each bin against the next one, over visit means as `between_bins`.
+
+    Which bins differ, where the omnibus test says only that some do. Holm (1979), Scandinavian Journal of Statistics 6,
+    65, keeps the probability of one false difference among all pairs below the level. Bins with fewer than three visits
+    are left out, and so are pairs across a gap.
+    """
+    from scipy.stats import mannwhitneyu
+
+    groups = {int(place): v.means[v.place == place, channel] for place in np.unique(v.place)}
+    pairs = [(k, k + 1) for k in groups if min(len(groups[k]), len(groups.get(k + 1, ()))) >= FEWEST]
+    tests = [mannwhitneyu(groups[a], groups[b]) for a, b in pairs]
+    holm = _holm(np.array([float(test.pvalue) for test in tests]))
+    return [Pair(pair, float(test.statistic), float(test.pvalue), float(p))
+            for pair, test, p in zip(pairs, tests, holm, strict=True)]  # fmt: skip
+
+
+def _holm(p: Float[np.ndarray, " m"]) -> Float[np.ndarray, " m"]:
+    """Adjusted p-values: the smallest times m, the next times m - 1, never falling, 1 at most."""
+    order = np.argsort(p)
+    adjusted = np.empty(len(p))
+    adjusted[order] = np.minimum(np.maximum.accumulate(p[order] * np.arange(len(p), 0, -1)), 1.0)
+    return adjusted
+
+
 def lilliefors(residual: Float[np.ndarray, " n"], seed: int = 0) -> Normality:
     """Lilliefors (1967), JASA 62, 399; the p-value from normal samples of the same size, 1/2000 at least."""
     from scipy.stats import goodness_of_fit, norm

@@ -22,11 +22,25 @@ class Compensation:
 
     def force(self, deflection: Float[np.ndarray, "*shape"]) -> Float[np.ndarray, "*shape"]:
         """Force on the limb [N], positive where the attachment is deflected towards the joint."""
-        return np.asarray(self.stiffness * (deflection - np.clip(deflection, self.lower, self.upper)))
+        return np.asarray(self.stiffness * taken_up(deflection, (self.lower, self.upper))[1])
 
     def peak(self, extremes: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, " n"]:
         """Largest |F| [N] over a range in which the deflection has these extremes; NaN is kept."""
         return self.stiffness * beyond(extremes, self.lower, self.upper)
+
+
+def taken_up(
+    total: Float[np.ndarray, "*shape"], stroke: tuple[float, float]
+) -> tuple[Float[np.ndarray, "*shape"], Float[np.ndarray, "*shape"]]:
+    """Displacement of a joint that slides freely from `stroke[0]` to `stroke[1]` [m], and what is left for the cuff.
+
+    `total` is d_tot [m]. A locked joint has both ends at 0. ValueError where the stroke ends before it begins.
+    """
+    low, high = stroke
+    if low > high:
+        raise ValueError(f"a stroke from {low * 1e3:g} to {high * 1e3:g} mm ends before it begins")
+    moved = np.clip(total, low, high)
+    return moved, np.asarray(total - moved)
 
 
 def beyond(extremes: Float[np.ndarray, "n 2"], lower: float, upper: float) -> Float[np.ndarray, " n"]:

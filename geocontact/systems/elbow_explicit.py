@@ -20,10 +20,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.systems.elbow_misalignment import ELBOW_GEOMETRY, closure, deflect
+from geocontact.systems.elbow_misalignment import ELBOW_GEOMETRY, POLE_SHARE, closure, deflect
 
 NEUTRAL = ELBOW_GEOMETRY.numbers({})  # l_ex, z_ex, x, y come first
-NEAR = 1e-3  # of the link: so close to its pole tan γ is refused
 
 
 @dataclass(frozen=True)
@@ -101,7 +100,7 @@ def require_reach(offsets: Offsets) -> None:
 
 def require_no_pole(beta: Float[np.ndarray, " n"], offsets: Offsets) -> None:
     """ValueError where tan γ has a pole among the angles or beyond it (γ is then over 90°)."""
-    below = _bottom(beta, offsets) < NEAR * offsets.l
+    below = _closures(beta, offsets.l, offsets.x, offsets.y)[2] <= POLE_SHARE * offsets.l
     if not below.any():
         return
     at = float(beta[int(np.argmax(below))])
@@ -117,10 +116,6 @@ def pole_angles(offsets: Offsets) -> tuple[float, ...]:
         return ()
     turn, half = float(np.arctan2(offsets.x, offsets.y)), float(np.arccos(-offsets.l / size))
     return tuple(sorted({float(np.angle(np.exp(1j * (way * half - turn)))) for way in (-1.0, 1.0)}))
-
-
-def _bottom(beta: Float[np.ndarray, " n"], offsets: Offsets) -> Float[np.ndarray, " n"]:
-    return np.asarray(offsets.l + offsets.y * np.cos(beta) - offsets.x * np.sin(beta))
 
 
 @kernel

@@ -38,6 +38,19 @@ NEAR_POLE = 1e-6
 """Least magnitude of the denominator of tan γ [m]; the pole is a large finite number."""
 
 
+POLE_SHARE = 1e-3
+"""Of the link: where the denominator of tan γ is so small or smaller, tan γ is refused."""
+
+
+@kernel
+def attachment(s: float, c: float, l: float, x: float, y: float) -> tuple[float, float, float, float]:
+    """Attachment seen from the joint's axis at an elbow angle of sine `s` and cosine `c`.
+
+    How far it lies across and along the limb's own frame, and top and bottom of tan γ [m, m, m, m].
+    """
+    return l * s - x, y + l * c, x * c + y * s, l + y * c - x * s
+
+
 @kernel
 def closure(s: float, c: float, l: float, x: float, y: float) -> tuple[float, float, float, float, float]:
     """Attachment seen from the joint's axis at an elbow angle of sine `s` and cosine `c` [m, m, m, m, m].
@@ -45,10 +58,9 @@ def closure(s: float, c: float, l: float, x: float, y: float) -> tuple[float, fl
     How far it lies across, its distance, its distance at the stretched limb, and top and bottom of tan γ. Where |x| > l
     the root is taken as 0; the bottom keeps a magnitude of 1 µm.
     """
-    across, along = l * s - x, y + l * c
+    across, along, top, bottom = attachment(s, c, l, x, y)
     reach = max(hypot(across, along), NEAR_POLE)
     height = sqrt(max(l * l - x * x, NEAR_POLE * NEAR_POLE))
-    top, bottom = x * c + y * s, l + y * c - x * s
     if abs(bottom) < NEAR_POLE:
         bottom = NEAR_POLE if bottom >= 0.0 else -NEAR_POLE
     return across, reach, height, top, bottom

@@ -15,7 +15,7 @@ from jaxtyping import Float
 from scipy.signal import lfilter
 
 from geocontact.data.elbow_recording import ElbowRecording
-from geocontact.systems.elbow_compensation import taken_up
+from geocontact.systems.compensation import taken_up
 from geocontact.systems.elbow_explicit import Offsets, constraint_force, displacement
 
 PAPER = {"k": 222.43, "x": 0.048, "y": 0.059, "l": 0.169, "z": 0.127, "b": 0.0, "s": 0.0}

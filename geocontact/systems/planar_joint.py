@@ -21,6 +21,7 @@ from jaxtyping import Float, Int
 
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.systems.axis_drift import STILL, AxisDrift, drift_at
+from geocontact.systems.elbow_misalignment import POLE_SHARE, attachment
 
 SOUND, POLE, FOLD, LOST = 0, 1, 2, 3
 """What became of a joint: it has a deflection at every angle; γ reaches 90° at some; |x| > l, the limb is straight at
@@ -89,9 +90,8 @@ def offsets_at(
 @kernel
 def deflection_at(s: float, c: float, l: float, z: float, x: float, y: float, straight: float) -> tuple[float, float]:
     """Deflection d [m], and the denominator of tan γ [m], at the angle of that sine and cosine."""
-    across, along = l * s - x, y + l * c
-    bottom = l + y * c - x * s
-    return straight - sqrt(across * across + along * along) - z * (x * c + y * s) / bottom, bottom
+    across, along, top, bottom = attachment(s, c, l, x, y)
+    return straight - sqrt(across * across + along * along) - z * top / bottom, bottom
 
 
 @kernel
@@ -159,9 +159,9 @@ def wider(ends: tuple[float, float, float, float], value: float, at: float) -> t
 
 
 @kernel
-def fate_of(least: float) -> int:
-    """What the least denominator of tan γ says [m]."""
-    return SOUND if least > 0.0 else POLE if least <= 0.0 else LOST
+def fate_of(least: float, l: float) -> int:
+    """What the least denominator of tan γ says [m]; a thousandth of the link is a pole already, as at the elbow."""
+    return SOUND if least > POLE_SHARE * l else POLE if least <= POLE_SHARE * l else LOST
 
 
 @kernel
@@ -207,7 +207,7 @@ def extremes(
         near = min(max(int(np.argmin(bottom)), 1), m - 2)
         at = beta[near] + h * vertex_in_cell(bottom, near)
         least = min(bottom.min(), exact_at(at, l, z, x, y, straight, breaks, x_drift, y_drift, over_joint)[1])
-        fate[k] = fate_of(least)
+        fate[k] = fate_of(least, l)
         if fate[k] != SOUND:
             value[k], angle[k] = np.nan, np.nan
     return value, angle, fate
@@ -245,7 +245,7 @@ class PlanarJoint:
         if fate != SOUND:
             raise ValueError(f"{self.told}: {FATES[fate]}")
         (value,), (bottom,) = deflections(beta, self.numbers, *drift)
-        if not (bottom > 0.0).all():
+        if not (bottom > POLE_SHARE * self.length).all():
             k = int(np.argmin(np.where(np.isnan(bottom), -np.inf, bottom)))
             fate = LOST if np.isnan(bottom[k]) else POLE
             raise ValueError(f"{self.told}: {FATES[fate]} (at {np.degrees(beta[k]):.4g} deg)")

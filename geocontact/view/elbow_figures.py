@@ -14,7 +14,7 @@ from geocontact.systems.elbow_end_stop import Curve, Stroke
 from geocontact.systems.elbow_uncertainty import Direction
 from geocontact.view.curves.quantity import FORCE, Quantity
 from geocontact.view.curves.residuals import residual_histogram, residual_quantiles
-from geocontact.view.curves.style import BLACK, DOUBLE, GREY, LINES, MARKERS, PALETTE, in_style, legend, panels
+from geocontact.view.curves.style import BLACK, DOUBLE, GREY, LINES, MARKERS, PALETTE, empty, in_style, legend, panels
 from geocontact.view.curves.text import plain
 from geocontact.view.elbow_surfaces import Surfaces
 
@@ -27,6 +27,7 @@ ANGLE = "exoskeleton angle β [°]"
 CONSTRAINT = Quantity("constraint force", "N")
 STANDARD = Quantity("over its SD", "–")
 LEVELS = 13
+STRIPES = 31  # of a surface, each way
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,29 +45,36 @@ class Over:
 
     beta: Float[np.ndarray, " n"]
     force: Float[np.ndarray, " n"]
-    trial: np.ndarray
     curve_beta: Float[np.ndarray, " m"]
     curve_force: Float[np.ndarray, " m"]
 
 
 @in_style
 def surface_figure(s: Surfaces) -> Figure:
-    """Draw d_tot over angle and x (a), and over angle and y (b), the other offset being 0; lines of equal d_tot."""
-    figure, axes = panels(1, 2, DOUBLE, 0.075)
+    """Draw d_tot over angle and x (left) and over angle and y (right), the other offset being 0.
+
+    As surfaces in space above, and as maps with lines of equal d_tot below, where values can be read off.
+    """
+    figure = empty(DOUBLE, 0.14)
+    degrees, offset = np.degrees(s.angle), s.offset * 1e3
     most = float(max(np.abs(s.over_x).max(), np.abs(s.over_y).max())) * 1e3
-    for panel, values, name in zip(axes, (s.over_x, s.over_y), "xy", strict=True):
-        shown = panel.pcolormesh(
-            np.degrees(s.angle), s.offset * 1e3, values * 1e3, cmap="RdBu_r", vmin=-most, vmax=most, shading="gouraud",
-            rasterized=True,
-        )  # fmt: skip
-        lines = panel.contour(
-            np.degrees(s.angle), s.offset * 1e3, values * 1e3, levels=LEVELS, colors=BLACK, linewidths=0.5
-        )
+    colours: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "rasterized": True}
+    maps = []
+    for column, (values, name, other) in enumerate(((s.over_x * 1e3, "x", "y"), (s.over_y * 1e3, "y", "x"))):
+        space: Any = figure.add_subplot(2, 2, 1 + column, projection="3d")
+        space.plot_surface(*np.meshgrid(degrees, offset), values, rcount=STRIPES, ccount=STRIPES, lw=0.1, **colours)
+        space.set_zlabel("d_tot [mm]")
+        panel = figure.add_subplot(2, 2, 3 + column)
+        shown = panel.pcolormesh(degrees, offset, values, shading="gouraud", **colours)
+        lines = panel.contour(degrees, offset, values, levels=LEVELS, colors=BLACK, linewidths=0.5)
         panel.clabel(lines, fontsize=6.0, fmt="%g")
+        for axes in (space, panel):
+            axes.set_ylabel(f"offset {name} [mm]")
+        space.set_xlabel("β [°]")
         panel.set_xlabel(ANGLE)
-        panel.set_ylabel(f"offset {name} [mm]")
-        panel.set_title(f"l = {s.l * 1e3:g} mm, z = {s.z * 1e3:g} mm", fontsize=7.0)
-    figure.colorbar(shown, ax=axes, label="displacement d_tot [mm]")
+        space.set_title(f"{other} = 0, l = {s.l * 1e3:g} mm, z = {s.z * 1e3:g} mm", fontsize=7.0)
+        maps.append(panel)
+    figure.colorbar(shown, ax=maps, label="displacement d_tot [mm]")
     return figure
 
 
@@ -77,13 +85,7 @@ def force_figure(over: Over, boxes: Boxes) -> Figure:
     dots = left.plot(np.degrees(over.beta), over.force, ".", color=PALETTE[0], markersize=2.0, alpha=0.6)[0]
     line = left.plot(np.degrees(over.curve_beta), over.curve_force, color=BLACK)[0]
     legend(left, [(dots, "bin means of the trials"), (line, "explicit model")])
-    width = 0.7 * np.degrees(boxes.width)
-    names = ("whislo", "q1", "med", "q3", "whishi")
-    stats: list[dict[str, Any]] = [dict(zip(names, map(float, row), strict=True)) for row in boxes.quantiles]
-    right.bxp(
-        stats, positions=list(np.degrees(boxes.centre)), widths=width, showfliers=False, manage_ticks=False,
-        boxprops={"color": PALETTE[0]}, medianprops={"color": BLACK},
-    )  # fmt: skip
+    _boxed(right, boxes, 0.0, 0.7, PALETTE[0])
     right.set_title("samples: 5, 25, 50, 75, 95 %", fontsize=7.0)
     for panel in (left, right):
         panel.axhline(0.0, color=GREY, lw=0.6)
@@ -155,10 +157,32 @@ def residual_figure(
     return figure
 
 
+def _boxed(panel: Any, boxes: Boxes, shift: float, share: float, colour: str) -> Artist:
+    """Boxes of samples: `shift` and `share` of the bins' width say where they stand in a bin and how wide."""
+    width = float(np.degrees(boxes.width))
+    names = ("whislo", "q1", "med", "q3", "whishi")
+    stats: list[dict[str, Any]] = [dict(zip(names, map(float, row), strict=True)) for row in boxes.quantiles]
+    drawn = panel.bxp(
+        stats, positions=list(np.degrees(boxes.centre) + shift * width), widths=share * width, showfliers=False,
+        manage_ticks=False, boxprops={"color": colour}, whiskerprops={"color": colour}, capprops={"color": colour},
+        medianprops={"color": BLACK},
+    )  # fmt: skip
+    first: Artist = drawn["boxes"][0]
+    return first
+
+
 @in_style
-def conditions_figure(locked: Curve, stroke: Stroke) -> Figure:
-    """Draw the force with the joint locked and free (a), and the free joint's displacement (b), over the angle."""
-    figure, (above, below) = panels(2, 1, DOUBLE, 0.12)
+def conditions_figure(locked: Curve, stroke: Stroke, locked_boxes: Boxes, free_boxes: Boxes) -> Figure:
+    """Draw over the angle, with the joint locked and free: mean force (a), displacement of the free joint (b), the
+    samples' spread in wider bins on one axis (c).
+    """
+    figure, (above, below, spread) = panels(3, 1, DOUBLE, 0.12)
+    kinds = ((locked_boxes, -0.2, PALETTE[0], "locked"), (free_boxes, 0.2, PALETTE[1], "free"))
+    legend(spread, [(_boxed(spread, boxes, shift, 0.3, colour), name) for boxes, shift, colour, name in kinds])
+    spread.axhline(0.0, color=GREY, lw=0.6)
+    spread.set_xlabel(ANGLE)
+    spread.set_ylabel(CONSTRAINT.label)
+    spread.set_title("samples: 5, 25, 50, 75, 95 %", fontsize=7.0)
     free = stroke.curve
     pairs: Entries = []
     for k, (curve, name) in enumerate(((locked, "joint locked"), (free, "joint free"))):

@@ -35,8 +35,8 @@ RESIDUALS = (
     "the bin's mean as histogram and quantiles, with the p of Lilliefors' test."
 )
 CONDITIONS = (
-    "Force with the compensation joint locked and free, and the free joint's displacement. Shaded: the joint stands at "
-    "an end of its stroke, and force builds up."
+    "Force with the compensation joint locked and free, the free joint's displacement, and the spread of both forces "
+    "in wider bins, side by side. Shaded: the joint stands at an end of its stroke, and force builds up."
 )
 COMPARED = "Means over bins of the angle: measured as marks, the model as lines, a colour per trial."
 
@@ -54,6 +54,7 @@ def write_simulation_report(
         Readout(rows),
         Curves(f"Angle, {first.name} (synthetic)", "deg", [Curve("beta", degrees)]),
         Curves(f"Constraint force, {first.name} (synthetic)", "N", [Curve("force", force)]),
+        *_free_trial(made),
         Words("What this is", [SYNTHETIC]),
         Picture("Displacement over angle and offset", SURFACES, drawing, wide=True),
         *tables,
@@ -62,6 +63,19 @@ def write_simulation_report(
     headline = [(r.name, f"{r.force.min():.1f} … {r.force.max():.1f} N") for r in made]
     return _written(path, "Synthetic recordings of an elbow exoskeleton", "Explicit model of constraint forces",
                     first.time[shown], "time [s]", headline, sections, warnings)  # fmt: skip
+
+
+def _free_trial(made: Sequence[ElbowRecording]) -> list[Section]:
+    """Force and displacement of the first trial with a free joint, over its time; none without."""
+    for r in made:
+        if r.displacement is not None and r is not made[0] and len(r.time) == len(made[0].time):
+            every = slice(None, None, -(-len(r.time) // FRAMES))
+            return [
+                Curves(f"Constraint force, {r.name} (synthetic)", "N", [Curve("force", r.force[every])]),
+                Curves(f"Displacement of the joint, {r.name} (synthetic)", "mm",
+                       [Curve("displacement", r.displacement[every] * 1e3)]),
+            ]  # fmt: skip
+    return []
 
 
 def write_fit_report(

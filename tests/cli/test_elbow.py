@@ -116,6 +116,9 @@ def test_with_the_link_known_the_numbers_are_found(tmp_path: Path, made: Path) -
     assert found["r2"] > 0.98 and len(found["held_out"]) == 3 and min(h["r2"] for h in found["held_out"]) > 0.95
     assert found["between_bins"]["p"] < 0.01
     assert found["between_bins"]["counted_visits"] < found["between_bins"]["samples"] / 5
+    pairs = found["between_bins"]["neighbours"]
+    np.testing.assert_allclose(np.diff([pair["between_deg"] for pair in pairs]), 10.0)
+    assert all(pair["p"] <= pair["p_holm"] for pair in pairs) and min(pair["p_holm"] for pair in pairs) < 0.05
     (stop,) = found["free_joint"]["stops"]
     assert stop["side"] == "lower" and stop["force_N"] < -5.0 and 50.0 < stop["leaves_at_deg"] < 70.0
     stiffness = found["free_joint"]["k_by_displacement_N_per_m"]["value"]
@@ -217,7 +220,8 @@ def test_the_page_and_its_figures(tmp_path: Path, made: Path) -> None:
     page = (result.folder / "report.html").read_text(encoding="utf-8")
     for words in ("What the data tell", "set by what was known beforehand", "Lilliefors", "Joint locked and free"):
         assert words in page
-    simulated = done(elbow("simulate", tmp_path / "sim", *QUICK, picture=True))
+    simulated = done(elbow("simulate", tmp_path / "sim", *QUICK, "--stroke-mm=-10:60", picture=True))
+    assert "Displacement of the joint, free_1 (synthetic)" in (simulated.folder / "report.html").read_text("utf-8")
     assert {"surfaces.png", "report.html"} <= set(inventory(simulated.folder))
     assert all(name in NAMES or PICTURES.fullmatch(name) for name in inventory(simulated.folder))
     assert "These recordings are synthetic" in (simulated.folder / "report.html").read_text(encoding="utf-8")

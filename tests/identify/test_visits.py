@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.identify.bin_tests import between_bins, lilliefors
-from geocontact.identify.visits import edges_over, visits
+from geocontact.identify.bin_tests import between_bins, between_neighbours, lilliefors
+from geocontact.identify.visits import Visits, edges_over, visits
 
 
 def recording(seed: int = 0, seconds: float = 60.0) -> tuple[np.ndarray, np.ndarray]:
@@ -97,3 +97,24 @@ def test_p_of_normal_samples_is_uniform() -> None:
     rng = np.random.default_rng(4)
     p = np.array([lilliefors(rng.normal(size=20), k).p for k in range(60)])
     assert 0.3 < p.mean() < 0.7 and (p < 0.5).mean() > 0.3
+
+
+def test_neighbouring_bins_are_told_apart_where_they_differ_only() -> None:
+    """A step between the second and the third of five bins; p by Holm are those of his paper's rule worked by hand."""
+    rng = np.random.default_rng(5)
+    place = np.repeat(np.arange(5), 12)
+    values = rng.normal(size=60) + 4.0 * (place >= 2)
+    v = Visits(np.arange(6.0), np.zeros(60, int), np.arange(60), place, np.full(60, 20.0), values[:, None])
+    found = between_neighbours(v, 0)
+    assert [pair.places for pair in found] == [(0, 1), (1, 2), (2, 3), (3, 4)]
+    assert [pair.p_holm < 0.05 for pair in found] == [False, True, False, False]
+    p = np.array([pair.p for pair in found])
+    first, second, third, last = np.argsort(p)
+    by_hand = {first: 4 * p[first]}
+    by_hand[second] = max(by_hand[first], 3 * p[second])
+    by_hand[third] = max(by_hand[second], 2 * p[third])
+    by_hand[last] = max(by_hand[third], p[last])
+    np.testing.assert_allclose([pair.p_holm for pair in found], [min(by_hand[k], 1.0) for k in range(4)])
+    gap = place != 2
+    apart = Visits(v.edges, v.trial[gap], v.stretch[gap], place[gap], v.count[gap], v.means[gap])
+    assert [pair.places for pair in between_neighbours(apart, 0)] == [(0, 1), (3, 4)]

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from geocontact.systems.elbow_compensation import taken_up
+from geocontact.systems.compensation import taken_up
 from geocontact.systems.elbow_explicit import Offsets, constraint_force, displacement, pole_angles
 from geocontact.systems.elbow_misalignment import ELBOW_GEOMETRY
 from geocontact.view.elbow_surfaces import surfaces

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geocontact.systems.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
-from geocontact.systems.elbow_misalignment import deflect
+from geocontact.systems.elbow_explicit import Offsets, require_no_pole
+from geocontact.systems.elbow_misalignment import POLE_SHARE, deflect
 from geocontact.systems.planar_joint import FOLD, LOST, POLE, SOUND, PlanarJoint, extremes_of, grid
 
 TURN = np.radians(120.0)
@@ -153,10 +155,23 @@ def test_a_pole_is_found_wherever_it_is(x: float, y: float) -> None:
     r, phase = np.hypot(x, y), np.arctan2(x, y)
     lowest = [b for b in (np.pi - phase + 2.0 * np.pi * np.arange(-2, 3)) if 0.0 <= b <= TURN]
     bottom = min(l + r * np.cos(b + phase) for b in [0.0, TURN, *lowest])
-    if abs(bottom) < 1e-6 or abs(abs(x) - l) < 1e-9:
+    if abs(bottom - POLE_SHARE * l) < 1e-6 or abs(abs(x) - l) < 1e-9:
         return
     (fate,) = extremes_of(grid(0.0, TURN), np.array([[l, 0.1, x, y]]), STILL)[2]
-    assert fate == (FOLD if abs(x) > l else POLE if bottom < 0.0 else SOUND)
+    assert fate == (FOLD if abs(x) > l else POLE if bottom < POLE_SHARE * l else SOUND)
+
+
+def test_a_pole_is_where_the_elbows_model_has_one() -> None:
+    """So near that its denominator is half a thousandth of the link, and twice as far."""
+    beta = np.linspace(0.0, np.pi, 181)
+    for share, is_pole in ((0.5e-3, True), (2e-3, False)):
+        elbow = Offsets(l=0.169, z=0.1, x=0.0, y=0.169 * (1.0 - share))
+        joint = PlanarJoint(elbow.l, elbow.z, elbow.x, elbow.y)
+        with pytest.raises(ValueError, match="tan γ") if is_pole else nullcontext():
+            require_no_pole(beta, elbow)
+        with pytest.raises(ValueError, match="tan γ has a pole") if is_pole else nullcontext():
+            joint.deflection(beta)
+        assert (extremes_of(beta, joint.numbers, joint.drift)[2][0] == POLE) == is_pole
 
 
 def test_what_has_no_deflection_says_why() -> None:
@@ -165,7 +180,7 @@ def test_what_has_no_deflection_says_why() -> None:
         PlanarJoint(0.17, 0.1, 0.18, 0.0).deflection(beta)
     with pytest.raises(ValueError, match=r"y = 180 mm: tan γ has a pole.*at 180 deg"):
         PlanarJoint(0.17, 0.1, 0.0, 0.18).extremes(0.0, np.pi)
-    between = PlanarJoint(0.17, 0.1, 0.0, 0.1700001)  # the pole lies between two angles of the grid
+    between = PlanarJoint(0.17, 0.1, 0.0, 0.169847)  # what counts as pole lies between two angles of the grid
     with pytest.raises(ValueError, match="between two angles"):
         between.extremes(np.pi - np.radians(3.0), np.pi + np.radians(5.0))
     fast = replace(polynomial((0.0, 0.3), ()), over_joint=True)

@@ -1,0 +1,30 @@
+"""Figures of the elbow: what is drawn beside what, and over which offset."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.systems.elbow_end_stop import Curve, Stroke
+from geocontact.view.elbow_figures import Boxes, conditions_figure, surface_figure
+from geocontact.view.elbow_surfaces import surfaces
+
+
+def test_surfaces_stand_in_space_and_say_which_offset_is_0() -> None:
+    figure = surface_figure(surfaces(0.169, 0.127))
+    spaces = [axes for axes in figure.axes if axes.name == "3d"]
+    assert [axes.get_title()[:5] for axes in spaces] == ["y = 0", "x = 0"]
+    assert [axes.get_ylabel() for axes in spaces] == ["offset x [mm]", "offset y [mm]"]
+
+
+def test_boxes_of_both_conditions_share_an_axis() -> None:
+    beta = np.radians([15.0, 25.0, 35.0])
+    rows = np.array([[0.0, 1.0, 2.0, 3.0, 4.0]] * 3)
+    curve = Curve(beta, np.array([1.0, 2.0, 3.0]), np.zeros(3))
+    stroke = Stroke(curve, (), 0.0, 1.0, np.ones(3, bool))
+    both = [Boxes(beta, rows + shift, np.radians(10.0)) for shift in (0.0, 5.0)]
+    spread = conditions_figure(curve, stroke, *both).axes[2]
+    boxes = [line.get_xydata() for line in spread.get_lines() if len(line.get_xydata()) == 5]
+    assert len(boxes) == 6
+    middles = np.array([0.5 * (box[:, 0].min() + box[:, 0].max()) for box in boxes])
+    np.testing.assert_allclose(middles[3:] - middles[:3], 4.0)
+    assert [box[:, 1].min() for box in boxes] == [1.0] * 3 + [6.0] * 3
