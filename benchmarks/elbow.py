@@ -3,8 +3,8 @@
 The paper's design: six locked trials of 60 s, multisine of 0.05 to 0.35 Hz, 1 kHz, 12 bits; its five numbers are the
 truth. Noise is an Ornstein-Uhlenbeck force of 0.8 N and 0.3 s. Told are the time of a fit to the binned means from the
 paper's start, and how often intervals of 95 % hold the truth: k, x, y with l and z known; all five with priors on l and
-z, the true lengths drawn from the priors; and k, x, y with offsets that change from trial to trial, which the intervals
-do not know of.
+z, the true lengths drawn from the priors; k, x, y with offsets that change from trial to trial, which the intervals
+do not know of; and, nothing known, what no scale changes: k l, x/l, y/l, z/l, by profile only.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.elbow", description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=200)
     parser.add_argument("--runs-others", type=int, default=60)
+    parser.add_argument("--runs-free", type=int, default=100)
     parser.add_argument("--replicates", type=int, default=200)
     parser.add_argument("--seed", type=int, default=5)
     parser.add_argument("--out", type=Path, default=HERE / "results")
@@ -47,8 +48,13 @@ def main() -> None:
         ("l and z known, donning", options.runs_others),
     ):  # fmt: skip
         rows.append(coverage(name, runs, options.replicates, options.seed))
-        text = json.dumps({**report, "coverage": rows}, indent=2)
-        (options.out / "elbow.json").write_text(text + "\n", encoding="utf-8")
+        write(options.out, {**report, "coverage": rows})
+    write(options.out, {**report, "coverage": rows, "scale free": ratios(options.runs_free, options.seed)})
+
+
+def write(folder: Path, report: dict[str, object]) -> None:
+    """The JSON so far."""
+    (folder / "elbow.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
 
 
 def seconds_per_fit(seed: int) -> list[dict[str, object]]:
@@ -128,6 +134,40 @@ def coverage(name: str, runs: int, replicates: int, seed: int) -> dict[str, obje
         "case": name, "runs": runs, "profile likelihood": {n: s[0] for n, s in shares.items()},
         "wild bootstrap": {n: s[1] for n, s in shares.items()},
         "median width": {n: float(np.median(w)) for n, w in widths.items()}, "seconds_per_run": round(seconds, 3),
+    }  # fmt: skip
+    print(json.dumps(row), flush=True)
+    return row
+
+
+def ratios(runs: int, seed: int) -> dict[str, object]:
+    """Share of runs whose profile intervals hold the true ratios where nothing sets the scale, and both signs of x."""
+    import numpy as np
+
+    from geocontact.systems.elbow_bins import binned
+    from geocontact.systems.elbow_fit import estimated, problem_of
+    from geocontact.systems.elbow_synthetic import PAPER, Design
+    from geocontact.systems.elbow_uncertainty import covariance, profiled, with_link_held
+    from tests.systems.elbow_trials import parameters, trials
+
+    held: dict[str, list[bool]] = {}
+    signs = []
+    begun = time.process_time()
+    for run in range(runs):
+        data = binned(trials(PAPER, Design(), [seed, run, 2]), np.radians(2.0))
+        e = with_link_held(estimated(problem_of(data, parameters({}), {})))
+        c = covariance(data, e)
+        factor = e.named["l"] / PAPER["l"]
+        for n in e.problem.names:
+            p = profiled(e, c, n, points=2)
+            truth = PAPER[n] / factor if n == "k" else PAPER[n] * factor
+            held.setdefault(n, []).append(bool(p.lower <= truth <= p.upper))
+            if n == "x":
+                signs.append(bool(p.lower < 0.0 < p.upper))
+    keys = {"k": "k·l", "x": "x/l", "y": "y/l", "z": "z/l"}
+    row: dict[str, object] = {
+        "case": "nothing known", "runs": runs, "seconds_per_run": round((time.process_time() - begun) / runs, 3),
+        "profile likelihood": {keys[n]: float(np.mean(hits)) for n, hits in held.items()},
+        "sign of x not told": float(np.mean(signs)),
     }  # fmt: skip
     print(json.dumps(row), flush=True)
     return row

@@ -69,7 +69,8 @@ def write_results(record: Record, found: Fitted, free: Free | None, o: ElbowFitO
         drawing = save_both(figure, folder, "conditions")
         drawings.append(("Joint locked and free", CONDITIONS, drawing))
     shown = [
-        _shown("What was identified", tables["intervals"]), _shown("Force that was not used", tables["held_out"]),
+        _shown("What was identified", tables["intervals"].dropna(axis="columns", how="all")),
+        _shown("Force that was not used", tables["held_out"]),
         _shown("Along the scale: numbers that give the same force", tables["scale_line"].iloc[::5]),
         inputs_table(record.inputs), options_table(record),
     ]  # fmt: skip
@@ -215,9 +216,12 @@ def _with_fit(table: pd.DataFrame, found: Fitted) -> pd.DataFrame:
 def interval_table(found: Fitted) -> pd.DataFrame:
     """Every number of the law, then ratios where nothing sets the scale, with the intervals there are."""
     told = {each.key: each for each in intervals(found)}
-    free = found.estimate.problem.names
-    rows = [_row(name, TYPED[name], "recordings" if name in free else "known beforehand", value * PER_SI[name],
-                 told.pop(name, None)) for name, value in found.estimate.named.items()]  # fmt: skip
+    problem = found.estimate.problem
+    source = {name: "recordings and prior" if name in problem.priors else "recordings" for name in problem.names}
+    rows = [
+        _row(name, TYPED[name], source.get(name, "known beforehand"), value * PER_SI[name], told.pop(name, None))
+        for name, value in found.estimate.named.items()
+    ]
     return pd.DataFrame(rows + [_row(each.words, each.unit, "recordings", each.value, each) for each in told.values()])
 
 

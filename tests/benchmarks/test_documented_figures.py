@@ -175,6 +175,13 @@ def test_time_and_coverage_of_the_elbow() -> None:
         for cell, kind in zip(cells[1:], ("profile likelihood", "wild bootstrap"), strict=True):
             shown = dict(part.split() for part in cell.split(", "))
             assert set(shown) == set(one[kind]) and all(near(shown[n], one[kind][n]) for n in shown), cells
+    free = told["scale free"]
+    runs, by_profile, signs = row(page, free["case"])
+    shown = dict(part.split() for part in by_profile.split(", "))
+    assert int(runs) == free["runs"] and near(signs, free["sign of x not told"])
+    assert set(shown) == set(free["profile likelihood"])
+    assert all(near(shown[n], free["profile likelihood"][n]) for n in shown)
+    assert min(free["profile likelihood"].values()) >= LEAST_COVERAGE
     known, prior, _ = told["coverage"]
     for one in (known, prior):
         assert min(*one["profile likelihood"].values(), *one["wild bootstrap"].values()) >= LEAST_COVERAGE

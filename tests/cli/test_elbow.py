@@ -203,6 +203,10 @@ def test_a_prior_and_bounds_as_the_papers(tmp_path: Path, made: Path) -> None:
     arguments = ("--prior", "l=185:1", "--bounds", "l=160:210,z=60:130", "--start", "k=300,x=30,y=40,l=200,z=120")
     found = told(done(elbow("fit", tmp_path, *locked(made), *arguments, "--bootstrap", 0)))
     assert found["numbers"]["l_mm"] == pytest.approx(185.0, abs=3.0) and not found["scale_free"]
+    sources = pd.read_csv(tmp_path / "intervals.csv").set_index("number")["from"]
+    assert (
+        sources["l"] == "recordings and prior" and sources["k"] == "recordings" and sources["b"] == "known beforehand"
+    )
     assert 60.0 <= found["numbers"]["z_mm"] <= 130.0
 
 
@@ -218,7 +222,14 @@ def test_the_page_and_its_figures(tmp_path: Path, made: Path) -> None:
     files = set(inventory(result.folder))
     assert files == FIT | {"conditions.csv", "boxes_free.csv", "conditions.png", "conditions.svg"} and files <= NAMES
     page = (result.folder / "report.html").read_text(encoding="utf-8")
-    for words in ("What the data tell", "set by what was known beforehand", "Lilliefors", "Joint locked and free"):
+    assert "bootstrap lower" not in page, "without a bootstrap no empty columns"
+    for words in (
+        "What the data tell",
+        "known beforehand",
+        "set by what was known beforehand",
+        "Lilliefors",
+        "Joint locked and free",
+    ):
         assert words in page
     simulated = done(elbow("simulate", tmp_path / "sim", *QUICK, "--stroke-mm=-10:60", picture=True))
     assert "Displacement of the joint, free_1 (synthetic)" in (simulated.folder / "report.html").read_text("utf-8")
