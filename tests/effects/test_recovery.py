@@ -27,6 +27,10 @@ TWINS = {("shoulder", "gravity_load.exo")}
 """Two numbers of it and the base's mass make two of the motion's: W sin(e + φ) + m g l_c sin e."""
 
 
+STEP = 1e-6
+"""Of differences: with smaller ones the search would see where the march of the shoulder's arm stops iterating."""
+
+
 def span(p: Parameter) -> float:
     return abs(p.start) if p.start else p.upper - p.lower
 
@@ -49,7 +53,8 @@ def recovered(
 
     low, high = (np.array([getattr(p, side) for p in free]) / scale for side in ("lower", "upper"))
     first = np.clip([start[p.name] for p in free] / scale, low + 1e-9 * (high - low), high - 1e-9 * (high - low))
-    fit = least_squares(residual, first, bounds=(low, high), xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=300)
+    limits = {"xtol": 1e-14, "ftol": 1e-14, "gtol": 1e-14, "max_nfev": 300}
+    fit = least_squares(residual, first, bounds=(low, high), diff_step=STEP, **limits)
     return {p.name: float(v) for p, v in zip(free, fit.x * scale, strict=True)}, float(fit.cost)
 
 

@@ -31,7 +31,7 @@ def constructed(beta: float, l: float, z: float, x: float, y: float) -> dict[str
     beside_limb, beside_link = np.array([limb[1], -limb[0]]), np.array([link[1], -link[0]])
     _, along = np.linalg.solve(np.column_stack([beside_link, -limb]), z * beside_limb)
     alpha = np.arctan2(limb[0], limb[1])
-    return {"alpha": alpha, "gamma": beta - alpha, "linear": np.linalg.norm(stretched) - np.linalg.norm(end),
+    return {"alpha": alpha, "gamma": beta - alpha, "linear": stretched[1] - np.linalg.norm(end),
             "rotary": -along}  # fmt: skip
 
 
