@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
@@ -12,6 +13,8 @@ from geocontact.data.gap_case import LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter
 
 Stage = Literal["timing", "kinematics", "geometry", "constitutive", "load", "sensor", "data"]
+
+AT_END = 0.01  # of an amplitude's range: nearer to a bound it lies on it
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,9 @@ class Candidate:
         For mistakes in the data: names of the trials that have it, where not all have.
     ways
         How many there would have been to choose the trials that have it.
+    settles
+        Whether the law no longer changes towards the amplitude's upper bound, as with a stop that is as good as rigid:
+        an amplitude there is an answer, not a search that was cut short.
     """
 
     name: str
@@ -55,6 +61,7 @@ class Candidate:
     factor: float = 1.0
     within: frozenset[str] = frozenset()
     ways: int = 1
+    settles: bool = False
 
     def __post_init__(self) -> None:
         first = {p.name: p.start for p in self.parameters}
@@ -65,6 +72,18 @@ class Candidate:
     def label(self) -> str:
         """Name and variant in one word."""
         return f"{self.name}.{self.variant}" if self.variant else self.name
+
+    def cut_short(self, values: Mapping[str, float]) -> bool:
+        """Whether the amplitude lies on a bound of what is physical, other than where the effect is not there."""
+        if not self.parameters:
+            return False
+        amplitude = self.parameters[0]
+        still = self.neutral.get(amplitude.name, 0.0)
+        above = amplitude.upper if still < amplitude.upper and not self.settles else math.inf
+        below = amplitude.lower if still > amplitude.lower else -math.inf
+        near = AT_END * (amplitude.upper - amplitude.lower)
+        value = values[amplitude.name]
+        return value >= above - near or value <= below + near
 
     def only(self, trials: frozenset[str]) -> Candidate:
         """The same mistake in the trials of these names only; ValueError for anything but a mistake in the data."""

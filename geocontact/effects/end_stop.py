@@ -33,9 +33,8 @@ def stop(system: System, side: str, power: float) -> Candidate:
         numbers |= {"end_stop.power": power, "end_stop.reference": scale.deflection}
     law = with_law(numbers)
     others = tuple({limit.name: edge + share * inwards} for share in (0.05, 0.5))
-    return Candidate(
-        "end_stop", side if power == 1.0 else f"{side}.buffer", "constitutive", (k, limit), law, {k.name: 0.0}, others
-    )
+    variant = side if power == 1.0 else f"{side}.buffer"
+    return Candidate("end_stop", variant, "constitutive", (k, limit), law, {k.name: 0.0}, others, settles=True)
 
 
 def offer(system: System) -> tuple[Candidate, ...]:

@@ -23,7 +23,8 @@ def offer(system: System) -> tuple[Candidate, ...]:
     limit = Parameter("slip.limit", law.load, 0.5 * force, 0.02 * force, force)
     link = with_law({"slip.mobility": mobility.name, "slip.limit": limit.name})
     others = ({mobility.name: 0.2 * soft / scale.step, limit.name: 0.7 * force},)
-    return (Candidate("slip", "", "constitutive", (mobility, limit), link, {mobility.name: 0.0}, others),)
+    none = {mobility.name: 0.0}
+    return (Candidate("slip", "", "constitutive", (mobility, limit), link, none, others, settles=True),)
 
 
 SLIP = Effect(

@@ -46,6 +46,11 @@ class Contender:
         return tuple(sorted({one.name for one in self.candidates}))
 
     @property
+    def cut_short(self) -> bool:
+        """Whether an amplitude wants to be more than is physical: the case lacks something else."""
+        return any(one.cut_short(self.judged.model.values) for one in self.candidates)
+
+    @property
     def label(self) -> str:
         """Candidates in one word."""
         return " + ".join(one.label for one in self.candidates) or "none"

@@ -127,7 +127,8 @@ def nearest(found: Attribution) -> tuple[str, ...]:
         return ()
     shrunk = shrinkage(found.problem, found.clean, best.judged, True, found.fault)
     parts = ", ".join(f"{100.0 * s.reduction:.0f} % of the error of {name}" for name, s in shrunk.items())
-    return (f"nearest of the known effects: {best.label}, which gains {gain:.0f} nats and would remove {parts}",)
+    only = ", with an amplitude on the bound of what is physical" if best.cut_short else ""
+    return (f"nearest of the known effects: {best.label}, which gains {gain:.0f} nats and would remove {parts}{only}",)
 
 
 def estimates(judged: Judged) -> dict[str, Estimate]:

@@ -2,7 +2,7 @@
 
 Real effects never have exactly the form of a candidate, so differences of evidence are not taken at face value: they
 are divided by a tolerance that grows with what there is to explain. What the best model leaves over speaks for an
-effect outside the table.
+effect outside the table, and so does an amplitude that wants to be more than is physical.
 """
 
 from __future__ import annotations
@@ -99,13 +99,14 @@ def answer(
     tolerance = 1.0 + FORM * most
     weights: dict[tuple[str, ...], float] = {("none",): np.exp((SURE - most) / tolerance)}
     for c in living:
-        weights[c.names] = max(weights.get(c.names, 0.0), np.exp((gains[c.label] - most) / tolerance))
+        names = ("unknown",) if c.cut_short else c.names
+        weights[names] = max(weights.get(names, 0.0), np.exp((gains[c.label] - most) / tolerance))
     best = max(living, key=lambda c: gains[c.label], default=base)
     rest = left.get(best.label, 0.0)
     excess = rest - SURE - LEFT_OVER * most
     doubt = 1.0 / (1.0 + np.exp(-excess / (1.0 + 0.5 * FORM * most + 0.1 * abs(rest))))
-    explained = sum(weights.values())
-    weights[("unknown",)] = np.exp((unnamed - most) / tolerance) + explained * doubt / max(1.0 - doubt, 1e-9)
+    doubted = sum(weights.values()) * doubt / max(1.0 - doubt, 1e-9)
+    weights[("unknown",)] = weights.get(("unknown",), 0.0) + np.exp((unnamed - most) / tolerance) + doubted
     total = sum(weights.values())
     shared: dict[str, float] = {}
     for names, weight in weights.items():
@@ -165,7 +166,7 @@ def _said(
         if top[0] not in ("none", "unknown")
         else max((names for names in joint if names[0] not in ("none", "unknown")), key=lambda names: joint[names])
     )
-    chosen = max((c for c in living if c.names == named), key=lambda c: gains[c.label])
+    chosen = max((c for c in living if c.names == named and not c.cut_short), key=lambda c: gains[c.label])
     named = tuple(sorted(named, key=lambda name: -shared[name]))
     if len(alive) > MOST:
         return Answer("unresolved", (), probabilities, alive, chosen)

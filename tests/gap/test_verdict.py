@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from geocontact.data.parameter import Parameter
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.contest import Contender
 from geocontact.gap.evidence import Judged
@@ -20,13 +21,15 @@ OFFERED = {one.label: one for one in candidates(SYSTEM)}
 SHARE = 0.6
 
 
-def contender(nats: float, *labels: str) -> Contender:
-    """A model that gains so much, on calibration trials as much as on the others."""
+def contender(nats: float, *labels: str, **values: float) -> Contender:
+    """A model that gains so much, on calibration trials as much as on the others; effects where they set out."""
     one = np.ones(1)
     noise = Noise(Levels(one, one, one, one), one, 0.0, ())
-    model = Refit(SYSTEM, dict(SYSTEM.start), [], [], np.zeros(10), np.zeros((10, 3)))
+    offered = tuple(OFFERED[label] for label in labels)
+    there = {p.name: p.start for one in offered for p in one.parameters} | values
+    model = Refit(SYSTEM, {**SYSTEM.start, **there}, [], [], np.zeros(10), np.zeros((10, 3)))
     judged = Judged(model, noise, nats, SHARE * nats, 6, [], np.zeros((10, 0)))
-    return Contender(tuple(OFFERED[label] for label in labels), judged)
+    return Contender(offered, judged)
 
 
 def said(*contenders: Contender, variants: dict[str, int] | None = None, unnamed: float = 0.0, strange: float = 0.0):
@@ -65,3 +68,52 @@ def test_something_without_a_name_wins_where_it_gains_more() -> None:
     assert said(contender(20.0, "damping"), unnamed=90.0).verdict == "unknown"
     assert said(contender(90.0, "damping"), unnamed=20.0).effects == ("damping",)
     assert said(strange=40.0).verdict == "unknown"
+
+
+def amplitude(label: str) -> Parameter:
+    return OFFERED[label].parameters[0]
+
+
+@pytest.mark.parametrize("label", ["damping", "sensor_gain.force", "preload"])
+def test_an_amplitude_that_wants_to_be_more_than_is_physical_speaks_for_something_unknown(label: str) -> None:
+    p = amplitude(label)
+    within, beyond = contender(90.0, label), contender(90.0, label, **{p.name: p.upper})
+    assert said(within).effects == (OFFERED[label].name,)
+    found = said(beyond)
+    assert found.verdict == "unknown"
+    assert found.probabilities["unknown"] > 0.99
+    assert said(contender(89.0, "dry_friction.rate"), beyond).probabilities["dry_friction"] < 0.5
+    assert said(contender(99.0, "dry_friction.rate"), beyond).effects == ("dry_friction",)
+
+
+def test_of_two_effects_neither_may_be_more_than_is_physical() -> None:
+    p = amplitude("sensor_gain.force")
+    both = contender(300.0, "damping", "sensor_gain.force", **{p.name: p.lower})
+    assert said(contender(200.0, "damping"), both).verdict == "unknown"
+
+
+def test_an_effect_that_a_variant_takes_too_far_is_shown_by_the_one_that_stays_within() -> None:
+    p = amplitude("dry_friction.stroke")
+    far = contender(80.0, "dry_friction.stroke", **{p.name: p.upper})
+    found = said(far, contender(90.0, "dry_friction.rate"))
+    assert found.effects == ("dry_friction",)
+    assert found.chosen.label == "dry_friction.rate"
+
+
+@pytest.mark.parametrize(
+    ("label", "end", "cut_short"),
+    [
+        ("damping", "upper", True),
+        ("damping", "lower", False),  # where it is not there
+        ("sensor_gain.force", "lower", True),
+        ("saturation.force", "upper", False),  # towards where it is not there
+        ("saturation.force", "lower", True),
+        ("end_stop.upper", "upper", False),  # as good as rigid
+        ("slip", "upper", False),
+    ],
+)
+def test_which_ends_of_an_amplitude_cut_a_search_short(label: str, end: str, cut_short: bool) -> None:
+    p = amplitude(label)
+    inside = 0.5 * (p.lower + p.upper)
+    assert OFFERED[label].cut_short({p.name: getattr(p, end)}) is cut_short
+    assert not OFFERED[label].cut_short({p.name: inside})
