@@ -13,7 +13,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.errors import InputError
-from geocontact.io.joint_model import Coordinate, JointModel, Kind, TransformAxis
+from geocontact.data.joint import Coordinate, JointModel, Kind, TransformAxis
 from geocontact.io.osim_functions import constant, linear, read_function
 from geocontact.io.osim_meshes import mesh_placement, mesh_placements
 from geocontact.io.osim_xml import Frames, label, numbers_of, offset, read_model, socket_of, text_of
@@ -150,7 +150,7 @@ def _read_axis(file: str, transform: Element, slot: int) -> TransformAxis:
         raise InputError(file, f"{label(axis)} <axis>", f"an axis of length {length:g}", "correct the model")
     names = tuple(text_of(axis, "coordinates").split())
     found = _function_element(axis)
-    function = constant(0.0) if found is None else read_function(file, found, len(names))
+    function = constant(0.0, len(names)) if found is None else read_function(file, found, len(names))
     # OpenSim normalises translation axes as well as rotation axes.
     return TransformAxis(direction / length, names, function)
 

@@ -7,46 +7,36 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 from jaxtyping import Float
-from scipy.interpolate import PPoly
 from scipy.linalg import solve_banded
 
 from geocontact.data.errors import InputError
+from geocontact.data.joint_function import Affine, JointFunction, Piecewise
 from geocontact.io.osim_xml import label, numbers_of
-
-Function = Callable[[Float[np.ndarray, "t k"]], Float[np.ndarray, " t"]]
-"""Values of k coordinates per frame → value per frame."""
 
 _DEEPEST = 8
 
 
-def constant(value: float) -> Function:
+def constant(value: float, arguments: int = 0) -> Affine:
     """The same value whatever the coordinates are."""
-    return lambda q: np.full(len(q), value)
+    return Affine(np.zeros(arguments), value)
 
 
-def linear(coefficients: Float[np.ndarray, " n"]) -> Function:
+def linear(coefficients: Float[np.ndarray, " n"]) -> Affine:
     """a·q + b; the coefficients are a_1 … a_k, b."""
-    return lambda q: q @ coefficients[:-1] + coefficients[-1]
+    return Affine(coefficients[:-1], float(coefficients[-1]))
 
 
-def polynomial(coefficients: Float[np.ndarray, " n"]) -> Function:
+def polynomial(coefficients: Float[np.ndarray, " n"]) -> Piecewise:
     """Polynomial of one coordinate, highest power first."""
-    return lambda q: np.polyval(coefficients, q[:, 0])
+    return Piecewise(np.zeros(0), np.zeros(1), coefficients[None, :])
 
 
-def piecewise_linear(x: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"]) -> Function:
+def piecewise_linear(x: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"]) -> Piecewise:
     """Straight between the points, and on in the direction of the outermost pair."""
-    slope = np.append(np.diff(y) / np.diff(x), 0.0)
-    slope[-1] = slope[-2]
-
-    def value(q: Float[np.ndarray, "t k"]) -> Float[np.ndarray, " t"]:
-        i = np.clip(np.searchsorted(x, q[:, 0], side="right") - 1, 0, len(x) - 1)
-        return np.asarray(y[i] + (q[:, 0] - x[i]) * slope[i])
-
-    return value
+    return Piecewise(x[1:-1], x[:-1], np.column_stack([np.diff(y) / np.diff(x), y[:-1]]))
 
 
-def simm_spline(x: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"]) -> Function:
+def simm_spline(x: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"]) -> Piecewise:
     """SIMM's cubic spline: straight outside the points, with the slope at the end.
 
     Called natural in old files, yet its end condition is that of Forsythe, Malcolm & Moler (1977), Computer Methods
@@ -56,19 +46,14 @@ def simm_spline(x: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"]) -> Funct
     h = np.diff(x)
     slope = np.diff(y) / h
     if len(x) == 2:
-        return linear(np.array([slope[0], y[0] - slope[0] * x[0]]))
+        return piecewise_linear(x, y)
     curvature = _curvature(x, h, slope)
     rate = np.diff(curvature) / (6.0 * h)
     start = slope - h * (2.0 * curvature[:-1] + curvature[1:]) / 6.0
-    spline = PPoly(np.array([rate, curvature[:-1] / 2.0, start, y[:-1]]), x)
-    first, last = float(start[0]), float(spline(x[-1], 1))
-
-    def value(q: Float[np.ndarray, "t k"]) -> Float[np.ndarray, " t"]:
-        inside = np.clip(q[:, 0], x[0], x[-1])
-        beyond = q[:, 0] - inside
-        return np.asarray(spline(inside) + beyond * np.where(beyond < 0.0, first, last))
-
-    return value
+    inner = np.column_stack([rate, curvature[:-1] / 2.0, start, y[:-1]])
+    end = float(start[-1] + h[-1] * (curvature[-2] + curvature[-1]) / 2.0)
+    before, after = [0.0, 0.0, float(start[0]), float(y[0])], [0.0, 0.0, end, float(y[-1])]
+    return Piecewise(x, np.append(x[0], x), np.vstack([before, inner, after]))
 
 
 def _curvature(
@@ -88,10 +73,10 @@ def _curvature(
     return np.asarray(solve_banded((1, 1), bands, right), dtype=float)
 
 
-def read_function(file: str, element: Element, arguments: int, depth: int = 0) -> Function:
+def read_function(file: str, element: Element, arguments: int, depth: int = 0) -> JointFunction:
     """Function in an XML element of `arguments` coordinates; unsupported kinds are refused by name."""
     if element.tag == "Constant":
-        return constant(float(numbers_of(file, element, "value", 1, (0.0,))[0]))
+        return constant(float(numbers_of(file, element, "value", 1, (0.0,))[0]), arguments)
     if element.tag == "LinearFunction":
         return linear(numbers_of(file, element, "coefficients", arguments + 1, (1.0, 0.0) if arguments == 1 else None))
     if element.tag == "MultiplierFunction" and depth < _DEEPEST:
@@ -104,27 +89,26 @@ def read_function(file: str, element: Element, arguments: int, depth: int = 0) -
     return _OF_ONE_COORDINATE[element.tag](file, element)
 
 
-def _read_polynomial(file: str, element: Element) -> Function:
+def _read_polynomial(file: str, element: Element) -> JointFunction:
     coefficients = numbers_of(file, element, "coefficients", None)
     if not len(coefficients):
         raise InputError(file, f"{label(element)} <coefficients>", "no coefficients", "correct the model")
     return polynomial(coefficients)
 
 
-def _multiplied(file: str, element: Element, arguments: int, depth: int) -> Function:
+def _multiplied(file: str, element: Element, arguments: int, depth: int) -> JointFunction:
     scale = float(numbers_of(file, element, "scale", 1, (1.0,))[0])
     inner = next(iter(element.findall("function/*")), None)
     if inner is None:
         raise InputError(file, label(element), "holds no function", "correct the model")
-    function = read_function(file, inner, arguments, depth + 1)
-    return lambda q: scale * function(q)
+    return read_function(file, inner, arguments, depth + 1).scaled(scale)
 
 
-def _read_spline(file: str, element: Element) -> Function:
+def _read_spline(file: str, element: Element) -> JointFunction:
     return simm_spline(*_points(file, element))
 
 
-def _read_piecewise(file: str, element: Element) -> Function:
+def _read_piecewise(file: str, element: Element) -> JointFunction:
     return piecewise_linear(*_points(file, element))
 
 
@@ -136,7 +120,7 @@ def _points(file: str, element: Element) -> tuple[Float[np.ndarray, " n"], Float
     return x, y
 
 
-_OF_ONE_COORDINATE: dict[str, Callable[[str, Element], Function]] = {
+_OF_ONE_COORDINATE: dict[str, Callable[[str, Element], JointFunction]] = {
     "PolynomialFunction": _read_polynomial,
     "PiecewiseLinearFunction": _read_piecewise,
     "SimmSpline": _read_spline,

@@ -13,10 +13,10 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.joint import Coordinate, JointModel
 from geocontact.data.motion import Motion
 from geocontact.io.columns import angles_of, lengths, mapped, parse_map, resolve
 from geocontact.io.grood_suntay import motion_from_grood_suntay
-from geocontact.io.joint_model import Coordinate, JointModel
 from geocontact.io.tables import Table, listed, read_table
 from geocontact.io.units import LENGTH
 

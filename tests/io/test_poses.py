@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.joint import JointModel
 from geocontact.data.knee_angles import tibia_in_femur
-from geocontact.io.joint_model import JointModel
 from geocontact.io.osim import read_joint
 from geocontact.io.poses import (
     motion_from_csv,

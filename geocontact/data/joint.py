@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.io.osim_functions import Function
+from geocontact.data.joint_function import JointFunction
 
 Kind = Literal["rotational", "translational", "coupled"]
 
@@ -34,7 +34,7 @@ class TransformAxis:
 
     direction: Float[np.ndarray, " 3"]
     coordinates: tuple[str, ...]
-    function: Function
+    function: JointFunction
 
 
 @dataclass(frozen=True)
