@@ -18,7 +18,7 @@ from geocontact.gap.mending import mended
 from geocontact.gap.oddities import Oddity, oddities
 from geocontact.gap.problem import Problem, problem_of
 from geocontact.gap.surrogate import Surrogate, surrogate
-from geocontact.gap.verdict import Answer, answer, borne_out, with_mistake
+from geocontact.gap.verdict import Answer, answer, borne_out, standing, with_mistake
 
 FIRSTS = 3  # singles that a second effect is tried on
 LEADING = 3  # contenders under whose noise everyone is compared
@@ -47,9 +47,9 @@ class Attribution:
     contenders
         Models with effects, those with one first.
     remaining
-        What the stand-in for anything unknown finds on the base ("none") and on the best contenders, by label.
+        What the stand-in for anything unknown finds on the base ("none") and on the best contender, by label.
     odd
-        What is odd about the residual of the best model.
+        What is odd about the residual of the leader.
     flat
         Channels whose recordings end at a level.
     answer
@@ -95,12 +95,8 @@ def _attributed(problem: Problem, fault: Fault | None, clean: Problem, offer: Of
     single = _with_clipped(clean, base, singles(clean, base, entered), candidates, flat)
     contenders = [*single]
     remaining = {"none": surrogate(clean, base.judged)}
-    best = single[0]
-    left = {best.label: surrogate(clean, best.judged)}
-    if best.nats - base.nats > WORTH_A_PAIR:
-        both = _credited(pairs(clean, _different(single)[:FIRSTS], candidates), flat)
-        contenders += both
-        left |= {pair.label: surrogate(clean, pair.judged) for pair in both[:1]}
+    if single[0].nats - base.nats > WORTH_A_PAIR:
+        contenders += _credited(pairs(clean, _different(single)[:FIRSTS], candidates), flat)
     base, *contenders = compared(clean, [base, *contenders])
     most = max(c.nats for c in contenders)
     contenders = [
@@ -109,16 +105,17 @@ def _attributed(problem: Problem, fault: Fault | None, clean: Problem, offer: Of
         else c
         for c in contenders
     ]
-    top = max([base, *contenders], key=lambda c: c.nats)
-    odd = tuple(each for each in oddities(clean, top.judged) if each.nats > ODD)
     share = base.judged.fitted_rows / len(base.judged.model.whitened)
+    held = standing(base, contenders, share, Counter(one.name for one in entered))
+    odd = tuple(each for each in oddities(clean, held.leader.judged) if each.nats > ODD)
     strange = float(sum(each.nats for each in odd))
-    over = {label: _believed(each, share) + strange for label, each in left.items()}
-    unnamed = _believed(remaining["none"], share)
-    said = answer(base, contenders, share, unnamed, strange, over, Counter(one.name for one in entered))
+    best = held.best
+    rest = surrogate(clean, best.judged)
+    said = answer(held, _believed(remaining["none"], share), strange, _believed(rest, share) + strange)
+    remaining |= {best.label: rest}
     if fault is not None:
         said = with_mistake(said, fault.candidate.name)
-    return Attribution(problem, fault, clean, base, tuple(contenders), {**remaining, **left}, odd, flat, said)
+    return Attribution(problem, fault, clean, base, tuple(contenders), remaining, odd, flat, said)
 
 
 def _believed(found: Surrogate, share: float) -> float:

@@ -68,8 +68,8 @@ def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
     said, problem = found.answer, found.problem
     named = bool(said.effects) or said.verdict == "unresolved"
     chosen = said.chosen.judged
-    offered = candidates(problem.system)
-    hidden = absorbed(problem, offered, said.effects)
+    offered = candidates(found.clean.system)
+    hidden = absorbed(found.clean, offered, said.effects)
     then = next_experiment(found, first_of(offered, [each.name for each in hidden]))
     cells = gap_map(found.clean, found.base.judged)
     gap = {

@@ -56,16 +56,30 @@ def gain_of(one: Contender, over: Contender, share: float) -> float:
     return gain + one.beside - over.beside
 
 
-def answer(
-    base: Contender,
-    contenders: Sequence[Contender],
-    share: float,
-    unnamed: float,
-    strange: float,
-    left: Mapping[str, float],
-    variants: Mapping[str, int],
-) -> Answer:
-    """The verdict.
+@dataclass(frozen=True)
+class Standing:
+    """Who is weighed, and what each gains over the base, its choice paid for [nats], by label.
+
+    `best` gains most, less than nothing perhaps; the base where nobody is weighed.
+    """
+
+    base: Contender
+    living: tuple[Contender, ...]
+    gains: Mapping[str, float]
+
+    @property
+    def best(self) -> Contender:
+        """Who gains most."""
+        return max(self.living, key=lambda c: self.gains[c.label], default=self.base)
+
+    @property
+    def leader(self) -> Contender:
+        """The same, the base where nobody gains anything."""
+        return self.best if self.gains.get(self.best.label, 0.0) > 0.0 else self.base
+
+
+def standing(base: Contender, contenders: Sequence[Contender], share: float, variants: Mapping[str, int]) -> Standing:
+    """What the contenders gain; a pair is weighed where it adds enough to the best single.
 
     Parameters
     ----------
@@ -75,12 +89,6 @@ def answer(
         Models with one candidate or two.
     share
         Calibration trials' part of all samples.
-    unnamed
-        What a stand-in for anything unknown gains over the base [nats].
-    strange
-        How sure it is that something is odd about the residual of the best model [nats].
-    left
-        What it gains on top of a contender, by label, where that was asked [nats].
     variants
         How many candidates each effect has: they share what is believed of it beforehand.
     """
@@ -92,8 +100,26 @@ def answer(
     best_single = max((over_base[c.label] for c in single), default=0.0)
     needed = SURE + PAIR * max(best_single, 0.0)
     pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]
-    living = [*single, *pairs]
+    living = (*single, *pairs)
     gains = {c.label: over_base[c.label] - (needed if len(c.candidates) == 2 else 0.0) for c in living}
+    return Standing(base, living, gains)
+
+
+def answer(held: Standing, unnamed: float, strange: float, rest: float) -> Answer:
+    """The verdict.
+
+    Parameters
+    ----------
+    held
+        Who is weighed.
+    unnamed
+        What a stand-in for anything unknown gains over the base [nats].
+    strange
+        How sure it is that something is odd about the residual of the leader [nats].
+    rest
+        What the stand-in gains on top of the best contender, with what is odd [nats].
+    """
+    base, living, gains = held.base, held.living, held.gains
     unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0) + strange
     most = max([*gains.values(), unnamed, 0.0])
     tolerance = 1.0 + FORM * most
@@ -101,8 +127,6 @@ def answer(
     for c in living:
         names = ("unknown",) if c.cut_short else c.names
         weights[names] = max(weights.get(names, 0.0), np.exp((gains[c.label] - most) / tolerance))
-    best = max(living, key=lambda c: gains[c.label], default=base)
-    rest = left.get(best.label, 0.0)
     excess = rest - SURE - LEFT_OVER * most
     doubt = 1.0 / (1.0 + np.exp(-excess / (1.0 + 0.5 * FORM * most + 0.1 * abs(rest))))
     doubted = sum(weights.values()) * doubt / max(1.0 - doubt, 1e-9)
@@ -118,26 +142,22 @@ def answer(
 def with_mistake(said: Answer, mistake: str) -> Answer:
     """The answer once a mistake in the data was undone first: the mistake is named, and what else was found with it.
 
-    Without anything else the mistake is the whole answer. With an effect beside it the two share the effect's
+    Where nothing else is wrong the mistake is the whole answer. With an effect beside it the two share the effect's
     probability; with something unknown beside it the case stays unknown, and the mistake is what is still in question.
     """
+    odds = said.probabilities
+    beside = {name: value for name, value in odds.items() if name not in ("none", "unknown", mistake)}
+    alone = odds.get("none", 0.0) + odds.get(mistake, 0.0)
+    probabilities = {mistake: alone + sum(beside.values()) / 2.0, "unknown": odds.get("unknown", 0.0)}
+    probabilities = _normal(probabilities | {name: value / 2.0 for name, value in beside.items()})
     if said.verdict == "no_gap":
-        probabilities = {mistake: said.probabilities["none"], **_without(said.probabilities, "none", mistake)}
-        return Answer("explained", (mistake,), _normal(probabilities), (mistake,), said.chosen)
+        return Answer("explained", (mistake,), probabilities, (mistake,), said.chosen)
     if said.verdict == "explained":
         named = (mistake, *(name for name in said.effects if name != mistake))[:2]
-        rest = 1.0 - said.probabilities.get("unknown", 0.0)
-        probabilities = {mistake: rest / 2.0}
-        for name, value in said.probabilities.items():
-            probabilities[name] = probabilities.get(name, 0.0) + (value if name == "unknown" else value / 2.0)
         ambiguity = (*named, *(name for name in said.ambiguity if name not in named))
-        return Answer("explained", named, _normal(probabilities), ambiguity, said.chosen)
+        return Answer("explained", named, probabilities, ambiguity, said.chosen)
     ambiguity = (mistake, *(name for name in said.ambiguity if name != mistake))
-    return Answer(said.verdict, (), said.probabilities, ambiguity, said.chosen)
-
-
-def _without(probabilities: Mapping[str, float], *names: str) -> dict[str, float]:
-    return {name: value for name, value in probabilities.items() if name not in names}
+    return Answer(said.verdict, (), probabilities, ambiguity, said.chosen)
 
 
 def _normal(probabilities: Mapping[str, float]) -> dict[str, float]:

@@ -11,7 +11,7 @@ from geocontact.gap.contest import Contender
 from geocontact.gap.evidence import Judged
 from geocontact.gap.problem import Noise
 from geocontact.gap.refit import Refit
-from geocontact.gap.verdict import FORM, SURE, answer
+from geocontact.gap.verdict import FORM, SURE, answer, standing, with_mistake
 from geocontact.identify.covariance import Levels
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
@@ -32,9 +32,15 @@ def contender(nats: float, *labels: str, **values: float) -> Contender:
     return Contender(offered, judged)
 
 
-def said(*contenders: Contender, variants: dict[str, int] | None = None, unnamed: float = 0.0, strange: float = 0.0):
+def said(
+    *contenders: Contender,
+    variants: dict[str, int] | None = None,
+    unnamed: float = 0.0,
+    strange: float = 0.0,
+    rest: float = 0.0,
+):
     counts = {one.name: 1 for one in OFFERED.values()} | (variants or {})
-    return answer(contender(0.0), contenders, SHARE, unnamed, strange, {}, counts)
+    return answer(standing(contender(0.0), contenders, SHARE, counts), unnamed, strange, rest)
 
 
 def test_a_gain_that_may_be_luck_is_no_gap() -> None:
@@ -117,3 +123,34 @@ def test_which_ends_of_an_amplitude_cut_a_search_short(label: str, end: str, cut
     inside = 0.5 * (p.lower + p.upper)
     assert OFFERED[label].cut_short({p.name: getattr(p, end)}) is cut_short
     assert not OFFERED[label].cut_short({p.name: inside})
+
+
+def test_what_the_best_contender_leaves_is_asked_of_the_best_contender() -> None:
+    """A pair leads by its nats, the single that is as likely without the pair's price is what is weighed."""
+    single, pair = contender(200.0, "damping"), contender(205.0, "damping", "sensor_drift.force")
+    held = standing(contender(0.0), (pair, single), SHARE, {one.name: 1 for one in OFFERED.values()})
+    assert held.best is single
+    assert held.leader is single
+    assert said(single, rest=150.0).verdict == "unknown"
+    assert said(single, rest=10.0).effects == ("damping",)
+
+
+def test_of_contenders_that_gain_nothing_none_leads() -> None:
+    base, worse = contender(0.0), contender(-3.0, "damping")
+    held = standing(base, (worse,), SHARE, {one.name: 1 for one in OFFERED.values()})
+    assert held.leader is base
+    assert held.best is worse
+
+
+def test_a_mistake_takes_what_speaks_for_nothing_else() -> None:
+    nothing = with_mistake(said(contender(3.0, "damping")), "unit_error")
+    assert nothing.effects == ("unit_error",)
+    assert "none" not in nothing.probabilities
+    assert nothing.probabilities["unit_error"] > 0.9
+    beside = with_mistake(said(contender(90.0, "damping")), "unit_error")
+    assert beside.effects == ("unit_error", "damping")
+    assert beside.probabilities["unit_error"] == pytest.approx(beside.probabilities["damping"], abs=0.01)
+    stranger = with_mistake(said(strange=60.0), "unit_error")
+    assert stranger.verdict == "unknown"
+    for found in (nothing, beside, stranger):
+        assert sum(found.probabilities.values()) == pytest.approx(1.0)

@@ -12,8 +12,8 @@ from geocontact.gap.benchmark.planted import KINDS, Planted, plant
 __all__ = ["KINDS", "SHARES", "SYSTEMS", "Lot", "Planted", "drawn", "lots", "shares"]
 
 SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
-SHARES = {"none": 100, "single": 52, "pair": 12, "outside": 12, "absorbed": 6, "fault": 10, "shift": 8}
-"""Cases of each kind among 200: half without any effect, most others with one."""
+SHARES = {"none": 100, "single": 70, "pair": 10, "outside": 10, "absorbed": 3, "fault": 4, "shift": 3}
+"""Cases of each kind among 200: half without any effect, most others with one, so that about 60 can be seen."""
 
 
 @dataclass(frozen=True)
