@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
 
 import hypothesis
@@ -73,5 +74,14 @@ def reason(report: pytest.TestReport) -> str:
 @pytest.fixture(scope="session")
 def elsewhere() -> Iterator[Elsewhere]:
     """Calls a function of a module in another process and gives its result; for whole diagnoses and identifications."""
+    with another_process() as call:
+        yield call
+
+
+@pytest.fixture(scope="session")
+def opensim() -> Iterator[Elsewhere]:
+    """Calls a function of `tests.opensim_oracle` where the opensim package may be loaded."""
+    if find_spec("opensim") is None:
+        pytest.skip("the opensim package is the oracle; pip install opensim")
     with another_process() as call:
         yield call

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
@@ -17,6 +16,8 @@ from geocontact.io.osim import mesh_placements, read_joint
 from geocontact.io.osim_xml import read_model
 from geocontact.io.poses import motion_from_joint, motion_from_map
 from geocontact.io.tables import Table, read_table
+from tests import opensim_oracle
+from tests.elsewhere import Elsewhere
 
 WORKSHOP = "gc4_jw_predsim_workshop"
 DM_MAP = "rx=knee_flex_r,ry=knee_add_r,rz=knee_rot_r,tx=knee_ant_r,ty=knee_sup_r,tz=knee_lat_r"
@@ -58,13 +59,12 @@ def test_the_list_of_real_tables_is_complete(data_dir: Path) -> None:
     assert found == set(TABLES)
 
 
-def test_real_tables_agree_with_opensim(data_dir: Path, opensim: ModuleType) -> None:
+def test_real_tables_agree_with_opensim(data_dir: Path, opensim: Elsewhere) -> None:
     for name in TABLES:
-        ours, theirs = quietly(data_dir / name), opensim.Storage(str(data_dir / name))
+        ours = quietly(data_dir / name)
         column, row = ours.values.shape[1] - 1, len(ours.time) // 2
-        state = theirs.getStateVector(row)
-        assert state.getTime() == ours.time[row]
-        assert state.getData().get(column) == ours.values[row, column]
+        theirs = opensim(opensim_oracle.cell, data_dir / name, row, column)
+        assert theirs == (ours.time[row], ours.values[row, column])
 
 
 def test_stale_column_count_is_said(data_dir: Path) -> None:
@@ -72,43 +72,27 @@ def test_stale_column_count_is_said(data_dir: Path) -> None:
         read_table(data_dir / "opensim_walk/coordinates.sto")
 
 
-@pytest.fixture(scope="module")
-def opensim() -> ModuleType:
-    module: ModuleType = pytest.importorskip("opensim", reason="the opensim package is the oracle; pip install opensim")
-    module.Logger.setLevelString("Off")
-    return module
-
-
-def assert_poses_agree(
-    opensim: ModuleType, file: Path, motions: dict[str, Motion], table: Table, degrees: bool
-) -> None:
+def assert_poses_agree(opensim: Elsewhere, file: Path, motions: dict[str, Motion], table: Table, degrees: bool) -> None:
     """Child body in parent body of each joint at several frames, to 1e-9 m and 1e-9 in the matrix."""
-    model = opensim.Model(str(file))
-    state = model.initSystem()
-    for frame in np.linspace(0, len(table.time) - 1, 9).astype(int):
-        for i in range(model.getCoordinateSet().getSize()):
-            coordinate = model.getCoordinateSet().get(i)
-            names = (coordinate.getName(), f"{coordinate.getAbsolutePathString()}/value")
+    frames = np.linspace(0, len(table.time) - 1, 9).astype(int)
+    joints = {name: read_joint(file, name) for name in motions}
+    samples = {}
+    for joint in joints.values():
+        for c in joint.coordinates:
+            names = (c.name, f"/jointset/{joint.name}/{c.name}/value")
             found = [name for name in names if name in table.channels]
             if found:
-                scale = np.pi / 180 if degrees and coordinate.getMotionType() == 1 else 1.0
-                coordinate.setValue(state, float(table.column(found[0])[frame] * scale), False)
-        model.realizePosition(state)
-        for name, motion in motions.items():
-            joint = read_joint(file, name)
-            frames = [
-                model.getGround() if b == "ground" else model.getBodySet().get(b) for b in (joint.child, joint.parent)
-            ]
-            theirs = frames[0].findTransformBetween(state, frames[1])
-            pose = motion.poses.as_matrix()[frame]
-            np.testing.assert_allclose(pose[:3, 3], [theirs.p().get(k) for k in range(3)], atol=1e-9, err_msg=name)
-            rows = [[theirs.R().asMat33().get(i, k) for k in range(3)] for i in range(3)]
-            np.testing.assert_allclose(pose[:3, :3], rows, atol=1e-9, err_msg=name)
+                scale = np.pi / 180 if degrees and c.kind == "rotational" else 1.0
+                samples[c.name] = table.column(found[0])[frames] * scale
+    pairs = [(joint.child, joint.parent) for joint in joints.values()]
+    theirs = opensim(opensim_oracle.poses, file, list(samples), np.column_stack(list(samples.values())), pairs)
+    for i, (name, motion) in enumerate(motions.items()):
+        np.testing.assert_allclose(motion.poses.as_matrix()[frames], theirs[:, i], atol=1e-9, err_msg=name)
 
 
 @pytest.mark.parametrize(("motion", "degrees"), [("subject01_walk1_ik.mot", True), ("coordinates.sto", False)])
 def test_every_joint_of_the_walking_model_agrees_with_opensim(
-    data_dir: Path, opensim: ModuleType, motion: str, degrees: bool
+    data_dir: Path, opensim: Elsewhere, motion: str, degrees: bool
 ) -> None:
     """coordinates.sto is of another model: the six joints that have the same paths are compared."""
     file, table = data_dir / "opensim_walk/subject01_simbody.osim", quietly(data_dir / "opensim_walk" / motion)
@@ -128,7 +112,7 @@ def test_every_joint_of_the_walking_model_agrees_with_opensim(
     ("motion", "degrees"), [("KneeProsthesis.mot", True), ("KneeProsthesis_states2track.sto", False)]
 )
 def test_every_joint_of_the_knee_prosthesis_agrees_with_opensim(
-    data_dir: Path, opensim: ModuleType, motion: str, degrees: bool
+    data_dir: Path, opensim: Elsewhere, motion: str, degrees: bool
 ) -> None:
     file, table = data_dir / WORKSHOP / "KneeProsthesis.osim", read_table(data_dir / WORKSHOP / motion)
     motions = {

@@ -1,0 +1,95 @@
+"""What the opensim package says, asked in a process of its own: its libraries and CasADi's do not load into one.
+
+Functions here run there; each takes and gives plain values. Coordinates are in rad and m.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+
+def _model(file: Path) -> tuple[Any, Any]:
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    model = opensim.Model(str(file))
+    return model, model.initSystem()
+
+
+def _set(model: Any, state: Any, names: Sequence[str], values: np.ndarray) -> None:
+    for name, value in zip(names, values, strict=True):
+        model.updCoordinateSet().get(name).setValue(state, float(value), False)
+
+
+def poses(file: Path, names: Sequence[str], samples: np.ndarray, pairs: Sequence[tuple[str, str]]) -> np.ndarray:
+    """Poses of the first body in the second for each sample and pair, (s, p, 4, 4)."""
+    model, state = _model(file)
+    frames = [[model.getGround() if b == "ground" else model.getBodySet().get(b) for b in pair] for pair in pairs]
+    found = np.tile(np.eye(4), (len(samples), len(pairs), 1, 1))
+    for k, values in enumerate(samples):
+        _set(model, state, names, values)
+        model.realizePosition(state)
+        for i, (child, parent) in enumerate(frames):
+            theirs = child.findTransformBetween(state, parent)
+            found[k, i, :3, 3] = [theirs.p().get(n) for n in range(3)]
+            found[k, i, :3, :3] = [[theirs.R().asMat33().get(m, n) for n in range(3)] for m in range(3)]
+    return found
+
+
+def motion_types(file: Path, names: Sequence[str]) -> list[str]:
+    """What kind of motion each coordinate is."""
+    model, _ = _model(file)
+    kinds = ("", "rotational", "translational", "coupled")
+    return [kinds[model.getCoordinateSet().get(name).getMotionType()] for name in names]
+
+
+def converted(file: Path, out: Path) -> None:
+    """The model written again, as this version writes models."""
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    model = opensim.Model(str(file))
+    model.finalizeFromProperties()
+    model.printToXML(str(out))
+
+
+def cell(file: Path, row: int, column: int) -> tuple[float, float]:
+    """Time and value in a row of a .mot or .sto file, columns counted after time."""
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    table = opensim.Storage(str(file))  # what it gives lives as long as it does
+    state = table.getStateVector(row)
+    return state.getTime(), state.getData().get(column)
+
+
+def inverse_dynamics(file: Path, names: Sequence[str], q: np.ndarray, u: np.ndarray, a: np.ndarray) -> np.ndarray:
+    """Generalised forces without muscles and external loads, (s, n)."""
+    import opensim
+
+    model, state = _model(file)
+    forces = model.updForceSet()
+    for i in range(forces.getSize()):
+        forces.get(i).setAppliesForce(state, False)
+    coordinates = model.getCoordinateSet()
+    place = {}
+    for name in names:
+        coordinates.get(name).setSpeedValue(state, 7.25)
+        place[name] = next(i for i in range(len(names)) if state.getU().get(i) == 7.25)
+        coordinates.get(name).setSpeedValue(state, 0.0)
+    solver = opensim.InverseDynamicsSolver(model)
+    found = np.zeros(q.shape)
+    for k in range(len(q)):
+        _set(model, state, names, q[k])
+        fast = opensim.Vector(len(names), 0.0)
+        for i, name in enumerate(names):
+            coordinates.get(name).setSpeedValue(state, float(u[k, i]))
+            fast.set(place[name], float(a[k, i]))
+        model.realizeVelocity(state)
+        forces_found = solver.solve(state, fast)
+        found[k] = [forces_found.get(place[name]) for name in names]
+    return found
