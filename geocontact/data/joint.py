@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
@@ -17,15 +18,31 @@ Kind = Literal["rotational", "translational", "coupled"]
 
 @dataclass(frozen=True)
 class Coordinate:
-    """A generalised coordinate of a joint; default in rad or m.
+    """A generalised coordinate of a joint; numbers in rad or m.
 
-    `kind` decides whether a file in degrees has this column in degrees: only where it is "rotational". A "coupled"
-    coordinate drives an axis by something other than itself (a spline, a factor) and stays in rad or m.
+    Parameters
+    ----------
+    name
+        As motion files call it.
+    default
+        Value where nothing else is said.
+    kind
+        Decides whether a file in degrees has this column in degrees: only where it is "rotational". A "coupled"
+        coordinate drives an axis by something other than itself (a spline, a factor) and stays in rad or m.
+    limits
+        Range that the model states; infinite where it states none.
+    clamped
+        Whether the model keeps the coordinate within its range.
+    locked
+        Whether the model keeps the coordinate at its default.
     """
 
     name: str
     default: float
     kind: Kind
+    limits: tuple[float, float] = (-math.inf, math.inf)
+    clamped: bool = False
+    locked: bool = False
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,10 @@ from geocontact.data.errors import InputError
 from geocontact.data.joint import Coordinate, JointModel, Kind, TransformAxis
 from geocontact.io.osim_functions import constant, linear, read_function
 from geocontact.io.osim_meshes import mesh_placement, mesh_placements
-from geocontact.io.osim_xml import Frames, label, numbers_of, offset, read_model, socket_of, text_of
+from geocontact.io.osim_xml import Frames, is_true, label, numbers_of, offset, read_model, socket_of, text_of
 from geocontact.io.tables import listed
 
-__all__ = ["Coordinate", "JointModel", "TransformAxis", "mesh_placement", "mesh_placements", "read_joint"]
+__all__ = ["Coordinate", "JointModel", "TransformAxis", "joints_of", "mesh_placement", "mesh_placements", "read_joint"]
 
 _AXES = ("rotation1", "rotation2", "rotation3", "translation1", "translation2", "translation3")
 _X, _Y, _Z = np.eye(3)
@@ -40,17 +40,30 @@ def read_joint(path: str | PathLike[str], joint_name: str) -> JointModel:
     """A joint of an .osim file by name; InputError lists the joints there are when the name is not among them."""
     file = fspath(path)
     model = read_model(path)
-    joints = {e.get("name", ""): (e, owner) for owner in _owners(model) for e in owner if e.tag.endswith("Joint")}
+    joints = {e.get("name", ""): (e, owner) for e, owner in _joint_elements(model)}
     if joint_name not in joints:
         raise InputError(file, "", f"no joint '{joint_name}'", f"joints are: {listed(tuple(joints))}")
-    element, owner = joints[joint_name]
+    return _joint(file, model, Frames(file, model), *joints[joint_name])
+
+
+def joints_of(file: str, model: Element, frames: Frames) -> tuple[JointModel, ...]:
+    """All joints of a model, in the file's order."""
+    return tuple(_joint(file, model, frames, element, owner) for element, owner in _joint_elements(model))
+
+
+def _joint(file: str, model: Element, frames: Frames, element: Element, owner: Element) -> JointModel:
     bodies = {id(body.find("Joint")): body for body in model.findall("BodySet/objects/Body")}
     if (body := bodies.get(id(owner))) is not None:
         place = _place_in_body(file, element, body)
     else:
-        place = _place_by_sockets(file, element, Frames(file, model), model)
+        place = _place_by_sockets(file, element, frames, model)
     coordinates, axes = _motion(file, element)
-    return JointModel(joint_name, place[0], place[1], coordinates, axes, place[2], place[3], place[4], file)
+    name = element.get("name", "")
+    return JointModel(name, place[0], place[1], coordinates, axes, place[2], place[3], place[4], file)
+
+
+def _joint_elements(model: Element) -> list[tuple[Element, Element]]:
+    return [(e, owner) for owner in _owners(model) for e in owner if e.tag.endswith("Joint")]
 
 
 def _owners(model: Element) -> list[Element]:
@@ -70,14 +83,7 @@ def _place_in_body(file: str, joint: Element, body: Element) -> _Place:
     for suffix in ("_in_parent", "_in_child" if joint.find("location_in_child") is not None else ""):
         turn = numbers_of(file, joint, f"orientation{suffix}", 3, (0.0, 0.0, 0.0))
         ends.append(offset(turn, numbers_of(file, joint, f"location{suffix}", 3, (0.0, 0.0, 0.0))))
-    return parent, body.get("name", ""), ends[0], ends[1], _is_reversed(file, joint)
-
-
-def _is_reversed(file: str, joint: Element) -> bool:
-    word = text_of(joint, "reverse", "false").lower()
-    if word not in ("true", "false"):
-        raise InputError(file, f"{label(joint)} <reverse>", f"'{word[:40]}' is neither true nor false")
-    return word == "true"
+    return parent, body.get("name", ""), ends[0], ends[1], is_true(file, joint, "reverse")
 
 
 def _place_by_sockets(file: str, joint: Element, frames: Frames, model: Element) -> _Place:
@@ -123,7 +129,10 @@ def _coordinate(file: str, name: str, element: Element | None, kind: Kind) -> Co
     for known in ("rotational", "translational", "coupled"):
         if stated == known:
             kind = known
-    return Coordinate(name, float(numbers_of(file, element, "default_value", 1, (0.0,))[0]), kind)
+    low, high = numbers_of(file, element, "range", 2, (-np.inf, np.inf))
+    clamped, locked = (is_true(file, element, flag) for flag in ("clamped", "locked"))
+    default = float(numbers_of(file, element, "default_value", 1, (0.0,))[0])
+    return Coordinate(name, default, kind, (float(low), float(high)), clamped, locked)
 
 
 def _simple_axes(joint: Element, given: list[str]) -> tuple[TransformAxis, ...]:

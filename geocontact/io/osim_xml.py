@@ -53,6 +53,14 @@ def text_of(element: Element, child: str, default: str = "") -> str:
     return ((found.text or "") if found is not None else "").strip() or default
 
 
+def is_true(file: str, element: Element, child: str) -> bool:
+    """Flag in a child element; false where it is absent."""
+    word = text_of(element, child, "false").lower()
+    if word not in ("true", "false"):
+        raise InputError(file, f"{label(element)} <{child}>", f"'{word[:40]}' is neither true nor false")
+    return word == "true"
+
+
 def numbers_of(
     file: str, element: Element, child: str, count: int | None, default: tuple[float, ...] | None = None
 ) -> Float[np.ndarray, " k"]:

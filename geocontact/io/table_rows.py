@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import TextIO
+from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -16,7 +15,7 @@ _NOT_A_NUMBER = ("", "1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind")
 
 
 def read_rows(
-    stream: TextIO, first: int, names: tuple[str, ...], file: str, split: Callable[[str, None, int], list[str]]
+    stream: Iterable[str], first: int, names: tuple[str, ...], file: str, split: Callable[[str, None, int], list[str]]
 ) -> tuple[Float[np.ndarray, "t c"], Int[np.ndarray, " t"]]:
     """Numbers below the labels and the line of each row; blank lines are passed over."""
     blocks: list[Float[np.ndarray, "r c"]] = []

@@ -1,0 +1,46 @@
+"""Recorded markers over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+
+@dataclass(frozen=True)
+class MarkerTrajectories:
+    """Where markers were.
+
+    Parameters
+    ----------
+    time
+        [s], strictly increasing.
+    positions
+        In the laboratory's frame [m]; NaN where a marker was not seen.
+    names
+        One for each marker.
+    source
+        The file, for messages and the record.
+    """
+
+    time: Float[np.ndarray, " t"]
+    positions: Float[np.ndarray, "t m 3"]
+    names: tuple[str, ...]
+    source: str = ""
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def between(self, start: float, stop: float) -> MarkerTrajectories:
+        """Frames from one time to another, both included to a millionth of a second."""
+        kept = (self.time >= start - 1e-6) & (self.time <= stop + 1e-6)
+        return MarkerTrajectories(self.time[kept], self.positions[kept], self.names, self.source)
+
+    def of(self, names: tuple[str, ...]) -> Float[np.ndarray, "t n 3"]:
+        """Positions of these markers in this order; NaN for a name that was not recorded."""
+        found = np.full((len(self.time), len(names), 3), np.nan)
+        for k, name in enumerate(names):
+            if name in self.names:
+                found[:, k] = self.positions[:, self.names.index(name)]
+        return found

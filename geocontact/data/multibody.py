@@ -1,0 +1,86 @@
+"""Rigid bodies on joints: masses, joints from the ground outwards, markers, gravity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.joint import Coordinate, JointModel
+
+GROUND = "ground"
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body.
+
+    Parameters
+    ----------
+    name
+        As joints and markers call it.
+    mass
+        [kg]; 0 for a body that only carries frames.
+    centre
+        Mass centre in the body's frame [m].
+    inertia
+        About the mass centre, in the body's axes [kg m^2], symmetric.
+    """
+
+    name: str
+    mass: float
+    centre: Float[np.ndarray, " 3"]
+    inertia: Float[np.ndarray, "3 3"]
+
+
+@dataclass(frozen=True)
+class Marker:
+    """A point fixed to a body, in the body's frame [m]."""
+
+    name: str
+    body: str
+    location: Float[np.ndarray, " 3"]
+
+
+@dataclass(frozen=True)
+class Multibody:
+    """A tree of bodies.
+
+    Parameters
+    ----------
+    name
+        For the record.
+    bodies
+        All but the ground.
+    joints
+        One for each body, parents before children.
+    markers
+        Points fixed to bodies.
+    gravity
+        Its acceleration in the ground's frame [m/s^2].
+    """
+
+    name: str
+    bodies: tuple[Body, ...]
+    joints: tuple[JointModel, ...]
+    markers: tuple[Marker, ...]
+    gravity: Float[np.ndarray, " 3"]
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Generalised coordinates of all joints, in the joints' order."""
+        return tuple(c for joint in self.joints for c in joint.coordinates)
+
+
+def outwards(joints: tuple[JointModel, ...]) -> tuple[tuple[JointModel, ...], tuple[JointModel, ...]]:
+    """Joints in the order in which they lead away from the ground, and those that never do (a loop, a lost parent)."""
+    reached, order, waiting = {GROUND}, [], list(joints)
+    while waiting:
+        found = [joint for joint in waiting if joint.parent in reached and joint.child not in reached]
+        if not found:
+            break
+        order.append(found[0])
+        reached.add(found[0].child)
+        waiting.remove(found[0])
+    return tuple(order), tuple(waiting)

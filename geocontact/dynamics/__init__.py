@@ -1,0 +1,1 @@
+"""Bodies that move: one symbolic tree, its kinematics and dynamics, inverse kinematics."""

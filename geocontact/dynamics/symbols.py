@@ -1,0 +1,49 @@
+"""CasADi, imported where it is used, and what its symbols lack."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.joint_function import Affine, JointFunction
+
+if TYPE_CHECKING:
+    from casadi import SX
+
+
+def constant(values: Float[np.ndarray, ...]) -> SX:
+    """Numbers as an expression; what is 0 is left out of it."""
+    from casadi import SX, sparsify
+
+    return sparsify(SX(np.asarray(values, dtype=float)))
+
+
+def turn(axis: Float[np.ndarray, " 3"], angle: SX) -> SX:
+    """Rotation matrix about a unit vector (Rodrigues)."""
+    from casadi import SX, cos, sin
+
+    across = _cross_matrix(axis)
+    return SX.eye(3) + sin(angle) * constant(across) + (1.0 - cos(angle)) * constant(across @ across)
+
+
+def _cross_matrix(v: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "3 3"]:
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+def value_of(function: JointFunction, q: SX) -> SX:
+    """A joint's function of coordinates, k values in a column."""
+    from casadi import SX, dot, pw_const
+
+    if isinstance(function, Affine):
+        return dot(constant(function.slopes), q) + function.offset if len(function.slopes) else SX(function.offset)
+
+    def piece(of: Float[np.ndarray, " p"]) -> SX:
+        return SX(of[0]) if np.all(of == of[0]) else pw_const(q, function.knots, of)
+
+    x = q - piece(function.origins)
+    value = piece(function.coefficients[:, 0])
+    for power in range(1, function.coefficients.shape[1]):
+        value = value * x + piece(function.coefficients[:, power])
+    return value

@@ -1,0 +1,142 @@
+"""A tree of bodies in symbols: poses, velocities and accelerations in the ground's frame, from the ground outwards."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.data.multibody import GROUND, Multibody
+from geocontact.dynamics.moving_joint import MovingJoint, moving_joint
+from geocontact.dynamics.symbols import constant
+
+if TYPE_CHECKING:
+    from casadi import SX
+
+
+@dataclass(frozen=True)
+class Moving:
+    """A frame in the ground's frame.
+
+    Parameters
+    ----------
+    rotation, place
+        Pose, (3, 3) and (3,) [m].
+    spin, speed
+        Angular velocity [rad/s] and velocity of the origin [m/s].
+    spin_rate, speed_rate
+        Angular acceleration and acceleration of the origin.
+    """
+
+    rotation: SX
+    place: SX
+    spin: SX
+    speed: SX
+    spin_rate: SX
+    speed_rate: SX
+
+    def carried(self, offset: RigidTransform) -> Moving:
+        """A frame that is fixed to this one with that pose."""
+        from casadi import cross, mtimes
+
+        arm = mtimes(self.rotation, constant(offset.translation))
+        return Moving(
+            mtimes(self.rotation, constant(offset.rotation.as_matrix())),
+            self.place + arm,
+            self.spin,
+            self.speed + cross(self.spin, arm),
+            self.spin_rate,
+            self.speed_rate + cross(self.spin_rate, arm) + cross(self.spin, cross(self.spin, arm)),
+        )
+
+    def moved(self, by: MovingJoint) -> Moving:
+        """The moving frame of a joint whose fixed frame this is."""
+        from casadi import cross, mtimes
+
+        arm, spin, speed = (mtimes(self.rotation, each) for each in (by.shift, by.spin, by.speed))
+        spin_rate, speed_rate = (mtimes(self.rotation, each) for each in (by.spin_rate, by.speed_rate))
+        return Moving(
+            mtimes(self.rotation, by.rotation),
+            self.place + arm,
+            self.spin + spin,
+            self.speed + cross(self.spin, arm) + speed,
+            self.spin_rate + spin_rate + cross(self.spin, spin),
+            self.speed_rate
+            + cross(self.spin_rate, arm)
+            + cross(self.spin, cross(self.spin, arm))
+            + 2.0 * cross(self.spin, speed)
+            + speed_rate,
+        )
+
+
+@dataclass(frozen=True)
+class Axis:
+    """What a joint's rates do, in the ground's frame: angular velocity and velocity of `place` per rate, (3, k)."""
+
+    place: SX
+    spin: SX
+    speed: SX
+
+
+@dataclass(frozen=True)
+class Tree:
+    """A model and its symbols.
+
+    Parameters
+    ----------
+    model
+        What it was made of.
+    q, u, a
+        Coordinates, rates and accelerations of all joints, columns in the model's order [rad, m, s].
+    bodies
+        Frames of the bodies by name, the ground among them.
+    axes
+        One for each joint, in the model's order.
+    """
+
+    model: Multibody
+    q: SX
+    u: SX
+    a: SX
+    bodies: dict[str, Moving]
+    axes: tuple[Axis, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the coordinates."""
+        return tuple(c.name for c in self.model.coordinates)
+
+    def columns(self) -> list[slice]:
+        """Where each joint's coordinates are among all."""
+        ends = np.cumsum([0, *(len(joint.coordinates) for joint in self.model.joints)])
+        return [slice(int(start), int(stop)) for start, stop in pairwise(ends)]
+
+    def point(self, body: str, location: SX) -> SX:
+        """A point of a body, given in its frame, in the ground's [m]."""
+        from casadi import mtimes
+
+        frame = self.bodies[body]
+        return frame.place + mtimes(frame.rotation, location)
+
+
+def tree_of(model: Multibody) -> Tree:
+    """A model in symbols."""
+    from casadi import SX, mtimes
+
+    count = len(model.coordinates)
+    q, u, a = (SX.sym(name, count) for name in "qua")
+    still = SX(3, 1)
+    bodies = {GROUND: Moving(SX.eye(3), still, still, still, still, still)}
+    tree = Tree(model, q, u, a, bodies, ())
+    axes = []
+    for joint, columns in zip(model.joints, tree.columns(), strict=True):
+        own = moving_joint(joint, q[columns], u[columns], a[columns])
+        fixed = bodies[joint.parent].carried(joint.parent_offset)
+        moving = fixed.moved(own)
+        bodies[joint.child] = moving.carried(joint.child_offset.inv())
+        rates = (mtimes(fixed.rotation, per) for per in (own.spin_per_rate, own.speed_per_rate))
+        axes.append(Axis(moving.place, *rates))
+    return Tree(model, q, u, a, bodies, tuple(axes))

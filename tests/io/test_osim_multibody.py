@@ -1,0 +1,97 @@
+"""Whole OpenSim models as trees of bodies, both dialects; what is no tree is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.io.osim_multibody import read_multibody
+from tests.io.test_osim import MODELS, written
+
+MARKERS = """<MarkerSet><objects>
+<Marker name="m1"><socket_parent_frame>/bodyset/c</socket_parent_frame><location>0.1 0.2 0.3</location></Marker>
+<Marker name="m2"><socket_parent_frame>/bodyset/c/c_fixed</socket_parent_frame><location>0.1 0 0</location></Marker>
+<Marker name="m3"><socket_parent_frame>/ground</socket_parent_frame><location>0 0 1</location></Marker>
+</objects></MarkerSet>"""
+PIN = MODELS["4 PinJoint"].replace("<Ground", f"<gravity>0 0 -9.8</gravity>{MARKERS}<Ground", 1)
+OLD = MODELS["3 PinJoint false"].replace(
+    "<BodySet>",
+    '<MarkerSet><objects><Marker name="m"><body>c</body><location>1 2 3</location></Marker></objects></MarkerSet><BodySet>',
+    1,
+)
+
+
+def test_bodies_joints_and_gravity(tmp_path: Path) -> None:
+    model = read_multibody(written(tmp_path, PIN.replace("1 1 1 0 0 0", "1 2 3 0.1 0.2 0.3", 1)))
+    assert [b.name for b in model.bodies] == ["p", "c"]
+    assert [j.name for j in model.joints] == ["w", "j"]
+    assert [c.name for c in model.coordinates] == ["a"]
+    np.testing.assert_array_equal(model.gravity, [0.0, 0.0, -9.8])
+    np.testing.assert_array_equal(model.bodies[0].inertia, [[1, 0.1, 0.2], [0.1, 2, 0.3], [0.2, 0.3, 3]])
+    assert model.bodies[0].mass == 1.0
+
+
+def test_the_older_dialect(tmp_path: Path) -> None:
+    old = read_multibody(written(tmp_path, OLD))
+    assert [b.name for b in old.bodies] == ["p", "c"]
+    np.testing.assert_array_equal(old.bodies[1].inertia, np.eye(3))
+    assert (old.markers[0].name, old.markers[0].body) == ("m", "c")
+    np.testing.assert_array_equal(old.markers[0].location, [1, 2, 3])
+    np.testing.assert_array_equal(old.gravity, [0.0, -9.80665, 0.0])
+
+
+def test_markers_are_given_in_their_body(tmp_path: Path) -> None:
+    """m2 hangs on a frame that is turned by 0.1 about x and shifted by 0.02 along y."""
+    one, two, three = read_multibody(written(tmp_path, PIN)).markers
+    assert (one.body, two.body, three.body) == ("c", "c", "ground")
+    np.testing.assert_allclose(one.location, [0.1, 0.2, 0.3])
+    np.testing.assert_allclose(two.location, [0.1, 0.02, 0.0])
+
+
+def test_limits_locks_and_clamps(tmp_path: Path) -> None:
+    text = PIN.replace(
+        "<default_value>0.25</default_value>",
+        "<default_value>0.25</default_value><range>-1 2</range><clamped>true</clamped><locked>true</locked>",
+    )
+    found = read_multibody(written(tmp_path, text)).coordinates[0]
+    assert (found.limits, found.clamped, found.locked) == ((-1.0, 2.0), True, True)
+    plain = read_multibody(written(tmp_path, PIN)).coordinates[0]
+    assert (plain.limits, plain.clamped, plain.locked) == ((-np.inf, np.inf), False, False)
+
+
+def test_parents_come_before_children(tmp_path: Path) -> None:
+    """The joint of the outer body stands first in the file."""
+    text = PIN
+    weld = text[text.index('<WeldJoint name="w">') : text.index("</WeldJoint>") + len("</WeldJoint>")]
+    swapped = text.replace(weld, "").replace("</PinJoint>", f"</PinJoint>{weld}")
+    assert [j.name for j in read_multibody(written(tmp_path, swapped)).joints] == ["w", "j"]
+
+
+def test_constraints_are_said(tmp_path: Path) -> None:
+    some = '<ConstraintSet><objects><CoordinateCouplerConstraint name="k">{}</CoordinateCouplerConstraint></objects></ConstraintSet>'
+    on = PIN.replace("<BodySet", some.format("") + "<BodySet", 1)
+    with pytest.warns(InputWarning, match="constraints are not heeded.*CoordinateCouplerConstraint k"):
+        read_multibody(written(tmp_path, on))
+    for flag in ("<isDisabled>true</isDisabled>", "<isEnforced>false</isEnforced>"):
+        read_multibody(written(tmp_path, PIN.replace("<BodySet", some.format(flag) + "<BodySet", 1)))
+
+
+BAD = {
+    "a body without a joint": (
+        PIN.replace('<Body name="p">', '<Body name="q"/><Body name="p">', 1),
+        "body q has no joint",
+    ),
+    "a joint on itself": (PIN.replace("p_offset</socket_parent_frame>", "c_offset</socket_parent_frame>"), "joint j"),
+    "a negative mass": (PIN.replace("<mass>1</mass>", "<mass>-1</mass>", 1), "-1 kg is negative"),
+    "a marker on nothing": (OLD.replace("<body>c</body>", "<body>x</body>"), "marker m is on 'x'"),
+}
+
+
+@pytest.mark.parametrize(("text", "message"), BAD.values(), ids=BAD.keys())
+def test_what_is_no_tree_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(InputError) as error:
+        read_multibody(written(tmp_path, text))
+    assert message in str(error.value).replace(": ", " ", 5) or message in str(error.value)

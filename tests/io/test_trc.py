@@ -1,0 +1,80 @@
+"""Marker files: units, gaps, counts that do not fit."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.io.trc import read_trc
+
+HEAD = (
+    "PathFileType\t4\t(X/Y/Z)\twalk.trc\n"
+    "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n"
+    "100\t100\t3\t2\tmm\t100\t1\t3\n"
+    "Frame#\tTime\tHeel\t\t\tR.Toe Tip\t\t\t\n"
+    "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\t\n"
+    "\n"
+)
+ROWS = "1\t0.00\t1\t2\t3\t4\t5\t6\t\n2\t0.01\t\t\t\t7\t8\t9\n3\t0.02\t10\t20\t30\n"
+GOOD = HEAD + ROWS
+
+
+def written(folder: Path, text: str) -> Path:
+    file = folder / "walk.trc"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def test_markers_in_metres_and_gaps(tmp_path: Path) -> None:
+    seen = read_trc(written(tmp_path, GOOD))
+    assert seen.names == ("Heel", "R.Toe Tip")
+    np.testing.assert_allclose(seen.time, [0.0, 0.01, 0.02])
+    np.testing.assert_allclose(seen.positions[0], [[0.001, 0.002, 0.003], [0.004, 0.005, 0.006]])
+    assert np.isnan(seen.positions[1, 0]).all()
+    np.testing.assert_allclose(seen.positions[1, 1], [0.007, 0.008, 0.009])
+    assert np.isnan(seen.positions[2, 1]).all()  # cells that are missing at the end of a line
+
+
+def test_metres_stay_metres(tmp_path: Path) -> None:
+    seen = read_trc(written(tmp_path, GOOD.replace("\tmm\t", "\tm\t")))
+    np.testing.assert_allclose(seen.positions[0, 0], [1.0, 2.0, 3.0])
+
+
+def test_half_a_marker_is_none(tmp_path: Path) -> None:
+    seen = read_trc(written(tmp_path, GOOD.replace("\t7\t8\t9", "\t7\t\t9")))
+    assert np.isnan(seen.positions[1, 1]).all()
+
+
+def test_zeros_are_said_to_be_gaps(tmp_path: Path) -> None:
+    with pytest.warns(InputWarning, match="1 markers at exactly 0 0 0 are taken as not seen"):
+        seen = read_trc(written(tmp_path, GOOD.replace("\t4\t5\t6", "\t0\t0\t0")))
+    assert np.isnan(seen.positions[0, 1]).all()
+
+
+def test_frames_and_markers_are_chosen(tmp_path: Path) -> None:
+    seen = read_trc(written(tmp_path, GOOD))
+    assert len(seen.between(0.005, 0.02)) == 2
+    of = seen.of(("R.Toe Tip", "none such"))
+    np.testing.assert_allclose(of[0, 0], [0.004, 0.005, 0.006])
+    assert np.isnan(of[:, 1]).all()
+
+
+BAD = {
+    "another file": ("time,x\n0,1\n", "line 1: does not begin with 'PathFileType'"),
+    "frames are missing": (HEAD + ROWS[:22] + "\n", "line 3: NumFrames is '3' but 1 frames follow"),
+    "markers are missing": (GOOD.replace("100\t3\t2\tmm", "100\t3\t4\tmm"), "line 3: NumMarkers is '4' but 2 markers"),
+    "a unit nobody knows": (GOOD.replace("\tmm\t", "\tft\t"), "line 3: unit is 'ft'; expected one of m, cm, mm"),
+    "time runs back": (GOOD.replace("0.02", "0.005"), "line 9: time does not increase"),
+    "a word for a number": (GOOD.replace("\t7\t8\t9", "\tseven\t8\t9"), "line 8"),
+    "too many cells": (GOOD.replace("\t5\t6\t\n", "\t5\t6\t7\n"), "line 7: more cells where 8 columns"),
+}
+
+
+@pytest.mark.parametrize(("text", "message"), BAD.values(), ids=BAD.keys())
+def test_what_contradicts_itself_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(InputError) as error:
+        read_trc(written(tmp_path, text))
+    assert message in str(error.value)
