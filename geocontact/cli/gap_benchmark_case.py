@@ -96,8 +96,14 @@ def _worked(task: Task) -> Worked:
 
 
 def lost(task: Task, why: BaseException) -> Worked:
-    """A case whose process ended before it could say anything; it is not scored."""
-    return Worked(task.lot, _where(task), None, {}, trouble=(f"{_where(task)} was lost: {type(why).__name__}: {why}",))
+    """A case whose process ended before it could say anything: drawn again for its label, and wrong everywhere."""
+    where = _where(task)
+    trouble = (f"{where} was lost: {type(why).__name__}: {why}",)
+    try:
+        label = plain(drawn(task.lot).label.as_dict())
+    except Exception as error:  # as in the process that was lost
+        return Worked(task.lot, where, None, {}, trouble=(*trouble, f"{where} was not drawn: {_told(error)}"))
+    return Worked(task.lot, where, label, {who: failed(label) for who in ANSWERERS}, trouble=trouble)
 
 
 def _where(task: Task) -> str:

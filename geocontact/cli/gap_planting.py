@@ -12,7 +12,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from geocontact.chain.candidate import Candidate
-from geocontact.cli.gap_analysis import diagnosed
+from geocontact.cli.gap_analysis import add_inputs, diagnosed
 from geocontact.cli.gap_diagnose import DiagnoseOptions
 from geocontact.cli.gap_plant import PlantOptions
 from geocontact.cli.gap_results import plain
@@ -38,15 +38,17 @@ def planted(folder: Path, o: PlantOptions) -> int:
     record = Record("gap plant", {"case": folder, **asdict(o)})
     if not (np.isfinite(o.size) and o.size > 0.0):
         raise InputError("", "--size", f"{o.size:g} is not a gap above 0", "give for example 1")
+    if folder.resolve() in (o.out.resolve(), *o.out.resolve().parents):
+        raise InputError(o.out, "", "lies inside the case that is copied there", "--out names a folder beside the case")
     with record.catching_warnings(), written_whole(o.out) as draft:
         case = read_gap_case(folder, run_programs=o.run_simulator)
-        record.add_input("case", folder / "case.toml", system=case.system)
+        add_inputs(record, folder, case)
         one, made = _planted(case, o)
         home = draft / "case"
         _copied(folder, home, case, record)
         write_trials(made.case, home)
         (draft / "diagnosis").mkdir()
-        own = Record("gap diagnose", {"case": home, "out": o.out / "diagnosis", "bare": o.bare})
+        own = Record("gap diagnose", {"case": o.out / "case", "out": o.out / "diagnosis", "bare": o.bare})
         with own.catching_warnings():
             found = diagnosed(
                 own,

@@ -16,6 +16,7 @@ from geocontact.effects.catalogue import candidates
 from geocontact.gap.absorbed import absorbed
 from geocontact.gap.admission import admitted
 from geocontact.gap.attribute import Attribution, attribute
+from geocontact.gap.contest import base_contender
 from geocontact.gap.evidence import Judged, prior_spread
 from geocontact.gap.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.locate import gap_map, windows
@@ -72,6 +73,7 @@ def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
     hidden = absorbed(found.clean, offered, said.effects)
     then = next_experiment(found, first_of(offered, [each.name for each in hidden]))
     cells = gap_map(found.clean, found.base.judged)
+    as_came = cells if found.fault is None else gap_map(problem, base_contender(problem).judged)
     gap = {
         name: ChannelGap(s.rmse_before, s.rmse_after, s.floor, s.reduction, (s.low, s.high), s.unexplained)
         for name, s in shrinkage(problem, found.clean, chosen, named, found.fault).items()
@@ -86,7 +88,7 @@ def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
         if said.verdict == "no_gap"
         else tuple(
             Where(w.channel, w.phase, w.share, w.p_value, stage, held.get(w.channel))
-            for w in windows(problem, found.clean, found.base.judged, after, found.fault, cells)
+            for w in windows(problem, found.clean, found.base.judged, after, found.fault, as_came)
         )
     )
     diagnosis = Diagnosis(
@@ -134,7 +136,8 @@ def nearest(found: Attribution) -> tuple[str, ...]:
 def estimates(judged: Judged) -> dict[str, Estimate]:
     """Every free parameter with its interval, from the curvature of the evidence over all trials' weights.
 
-    Intervals are those of the calibration trials: held-out rows are left out of the curvature.
+    Intervals are those of the calibration trials: held-out rows are left out of the curvature. Curvature tells nothing
+    of a parameter that ended on a bound: it gets the whole of what is physical, and is not called told.
     """
     system, values = judged.model.system, judged.model.values
     spread = prior_spread(system, values)
@@ -143,7 +146,7 @@ def estimates(judged: Judged) -> dict[str, Estimate]:
     covariance = spread[:, None] * np.linalg.inv(np.eye(len(spread)) + scaled.T @ scaled) * spread
     found = {}
     for k, p in enumerate(free(system)):
-        sd = float(np.sqrt(covariance[k, k]))
+        sd = float(np.sqrt(covariance[k, k])) if not held[k] else np.inf
         low, high = (min(max(values[p.name] + s * Z95 * sd, p.lower), p.upper) for s in (-1.0, 1.0))
         told = not held[k] and sd < TOLD * spread[k]
         found[p.name] = Estimate(values[p.name], (low, high), p.unit, bool(told))

@@ -22,6 +22,7 @@ from geocontact.gap.refit import Measured, Refit, refit
 GROSS = 0.3  # residual over measured, root mean squares of a channel in a trial
 FIXED_BY = 0.15  # of the misfit may be left when a mistake is undone
 ROUNDS = 8
+FEW = 4  # calibration trials of which every set is tried
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ def fault_of(problem: Problem, candidates: Sequence[Candidate]) -> Fault | None:
     if not in_calibration:
         return _held_out_only(problem, mistakes)
     best: tuple[float, Candidate, frozenset[str]] | None = None
-    for some in _subsets(problem.calibration):
+    for some in _subsets(problem):
         for one, cost in _costs(problem, mistakes, some):
             if best is None or cost < best[0]:
                 best = (cost, one, some)
@@ -88,9 +89,18 @@ def _as_recorded(problem: Problem) -> Problem:
     return replace(problem, system=system, calibration=part(slice(count)), evaluation=part(slice(count, None)))
 
 
-def _subsets(measured: Measured) -> list[frozenset[str]]:
-    names = [trial.name for trial in measured.trials]
-    return [frozenset(some) for size in range(len(names), 0, -1) for some in combinations(names, size)]
+def _subsets(problem: Problem) -> list[frozenset[str]]:
+    """Trials that may have a mistake, the largest sets first: every set of a few; of more all, the worst, the best.
+
+    Where the mistake is in the minority the base model misses those trials most, else the others.
+    """
+    names = [trial.name for trial in problem.calibration.trials]
+    if len(names) <= FEW:
+        return [frozenset(some) for size in range(len(names), 0, -1) for some in combinations(names, size)]
+    costs = _cost(problem, problem.system, problem.calibration, problem.plain.values)
+    worst = [names[i] for i in np.argsort(-costs, kind="stable")]
+    found = [frozenset(order[:size]) for size in range(len(names), 0, -1) for order in (worst, worst[::-1])]
+    return list(dict.fromkeys(found))
 
 
 def _part(measured: Measured, names: frozenset[str]) -> Measured:

@@ -16,6 +16,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.movement import recorded
+from geocontact.chain.system import System
 from geocontact.gap.evidence import Judged
 from geocontact.gap.faults import Fault
 from geocontact.gap.frequency_map import frequency_map
@@ -23,11 +24,13 @@ from geocontact.gap.map_cell import Cell, shares
 from geocontact.gap.mending import put_back
 from geocontact.gap.problem import Problem, noise_variance
 
+LOADS = ("N", "N m")
 PHASES = 20
 BINS = 6
 BLOCKS = 16  # per trial
 FLIPS = 2000
 RESAMPLED = 400  # times that blocks are drawn anew
+FAMILIES = 2  # of cells, each with its own family-wise p
 HOLDS = 0.70  # of the squared gap lies in the window that is reported
 GRID = 101
 SMOOTHED = 0.025  # of a trial, over which a residual is smoothed
@@ -74,8 +77,7 @@ def windows(
         square = gaps[i] ** 2 - noise
         own = (trial.time - trial.time[0]) / (trial.time[-1] - trial.time[0])
         for c in range(curves.shape[1]):
-            if there[:, c].any():
-                curves[:, c] += np.interp(phase, own[there[:, c]], square[there[:, c], c])
+            curves[:, c] += np.interp(phase, own, np.where(there[:, c], square[:, c], 0.0))
     curves = np.maximum(curves if after is not None else smoothed(curves), 0.0)
     parts = curves.sum(axis=0) / problem.floor**2
     shares = parts / max(parts.sum(), 1e-300)
@@ -119,7 +121,8 @@ def smoothed(curves: Float[np.ndarray, "t ..."]) -> Float[np.ndarray, "t ..."]:
 
 
 def _least(cells: tuple[Cell, ...], channel: str) -> float:
-    return min((cell.p_value for cell in cells if cell.channel == channel), default=1.0)
+    """Of the channel's most significant cell, of two families: means, and what is faster."""
+    return min(1.0, FAMILIES * min((cell.p_value for cell in cells if cell.channel == channel), default=1.0))
 
 
 def _deviations_off(problem: Problem, base: Judged) -> list[Float[np.ndarray, "_ c"]]:
@@ -215,9 +218,21 @@ def _axes(problem: Problem, base: Judged) -> list[tuple[str, list[np.ndarray], F
     for row, name in enumerate(problem.system.inputs):
         position, rate = [m.position[row] for m in movements], [m.rate[row] for m in movements]
         found += [(axis, values, _quantiles(values)) for axis, values in ((name, position), (f"{name}'", rate))]
-    load = [m[:, 0] - r[:, 0] for m, r in zip(outputs, base.model.residuals, strict=True)]
-    found.append(("load", [np.nan_to_num(v) for v in load], _quantiles(load)))
+    rows = load_outputs(problem.system)
+    if rows:
+        predicted = [(m - r)[:, rows] for m, r in zip(outputs, base.model.residuals, strict=True)]
+        load = [p[:, 0] if len(rows) == 1 else np.linalg.norm(p, axis=1) for p in predicted]
+        found.append(("load", [np.nan_to_num(v) for v in load], _quantiles(load)))
     return found
+
+
+def load_outputs(system: System) -> list[int]:
+    """Outputs whose predicted values are the load, or whose root of summed squares is: forces, else moments."""
+    for unit in LOADS:
+        rows = [i for i, name in enumerate(system.outputs) if system.unit(name) == unit]
+        if rows:
+            return rows
+    return []
 
 
 def _quantiles(values: list[np.ndarray]) -> Float[np.ndarray, " e"]:

@@ -19,7 +19,10 @@ from geocontact.data.trial import Trial
 from geocontact.gap.mending import mistaken
 from geocontact.gap.problem import Plain, Problem
 from geocontact.gap.refit import derivatives
+from geocontact.gap.signatures import reach_of, rest_of
 
+DOUBLINGS = 10
+"""Of the amplitude, from the faintest that is tried to the largest."""
 HALVINGS = 20
 """Of the interval in which the amplitude is looked for."""
 
@@ -104,23 +107,27 @@ def chosen(offered: Sequence[Candidate], label: str) -> Candidate:
 
 
 def _amplitude(problem: Problem, changed: System, one: Candidate, values: Mapping[str, float], size: float) -> float:
-    """Where the gap has that size, on the side of neutral on which a search sets out; a bound where it never has."""
+    """Where the gap has that size first, from where the effect is faintest on; the far end where it never has."""
     p = one.parameters[0]
-    neutral = one.neutral.get(p.name, 0.0)
-    limit = p.upper if p.start >= neutral else p.lower
+    rest, reach = rest_of(one), reach_of(one, values)
+    if not np.isfinite(reach):
+        reach = 1e3 * (p.start - rest)
 
     def reached(share: float) -> bool:
-        return visible(problem, changed, {**values, p.name: neutral + share * (limit - neutral)}) >= size
+        return visible(problem, changed, {**values, p.name: rest + share * reach}) >= size
 
-    if not np.isfinite(limit):
-        limit = neutral + 1e3 * (p.start - neutral)
-    low, high = 0.0, 1.0
-    if not reached(high):
-        return float(limit)
+    low = 0.0
+    for share in 2.0 ** np.arange(-DOUBLINGS, 1.0):  # a clipped signal is flat again in the end: sizes rise and fall
+        if reached(share):
+            high = float(share)
+            break
+        low = float(share)
+    else:
+        return float(rest + reach)
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (low, middle) if reached(middle) else (middle, high)
-    return float(neutral + high * (limit - neutral))
+    return float(rest + high * reach)
 
 
 def _changed(case: GapCase, change: Callable[[Trial], Trial]) -> GapCase:

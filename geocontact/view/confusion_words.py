@@ -13,7 +13,7 @@ def confusion_sentences(c: Confusion) -> list[str]:
     """One sentence each, without a full stop: how many are seen, which never, swallowed, confused; what to record."""
     never = [one.candidate.label for one in c.detectabilities if one.smallest is None]
     count = len(c.detectabilities)
-    said = [f"of {count} effects these trials show {count - len(never)}, if they are large enough"]
+    said = [f"of {count} effects and variants these trials show {count - len(never)}, if they are large enough"]
     if never:
         said.append(f"not to be seen at any plausible size: {names(never)}")
     if c.absorbed:

@@ -11,6 +11,7 @@ from jaxtyping import Float
 
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.frequency_map import BAND, FAST_PHASE
+from geocontact.gap.locate import load_outputs
 from geocontact.view.curves.before_after import SIDE_BY_SIDE, before_after
 from geocontact.view.curves.gap_map import gap_map_figure
 from geocontact.view.curves.gap_residuals import PHASE, gap_residuals
@@ -37,7 +38,9 @@ def quantity_of(findings: Findings, channel: str) -> Quantity:
 def axis_units(findings: Findings) -> dict[str, str]:
     """SI unit of each axis of the gap map."""
     system = findings.attribution.problem.system
-    units = {"phase": "–", BAND: "Hz", FAST_PHASE: "–", "load": system.unit(system.outputs[0])}
+    units = {"phase": "–", BAND: "Hz", FAST_PHASE: "–"}
+    for row in load_outputs(system):
+        units["load"] = system.unit(system.outputs[row])
     for name in system.inputs:
         units |= {name: system.unit(name), f"{name}'": f"{system.unit(name)}/s"}
     return units

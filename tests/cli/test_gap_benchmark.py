@@ -198,3 +198,16 @@ def test_an_interruption_before_the_first_case_leaves_nothing(monkeypatch: pytes
     monkeypatch.setattr(gap_benchmark_run, "each", at_once)
     assert call("gap", "benchmark", "--out", tmp_path / "out", "--cases", 2, "--kinds", "none").code != 0
     assert not list(tmp_path.iterdir())
+
+
+def test_a_case_whose_process_is_lost_counts_as_wrong(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def killed(work: object, tasks: list[Task], jobs: int | None) -> Iterator[tuple[Task, BaseException]]:
+        yield from ((task, RuntimeError("killed")) for task in tasks)
+
+    monkeypatch.setattr(gap_benchmark_run, "each", killed)
+    out = tmp_path / "out"
+    told = done(call("gap", "benchmark", "--out", out, "--system", "elbow", "--cases", 2, "--kinds", "none"))
+    assert "was lost: RuntimeError: killed" in told.err
+    found = json.loads((out / "benchmark.json").read_text("utf-8"))
+    assert found["cases"] == {"elbow": {"none": 2}}
+    assert [row["verdict"] for row in csv.DictReader((out / "cases.csv").open(encoding="utf-8"))] == ["failed"] * 2

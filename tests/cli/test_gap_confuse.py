@@ -59,7 +59,7 @@ def test_what_is_known_of_the_elbow_is_said(confused: Call) -> None:
     amplitude = answer["detectability"]["damping"]["smallest"]
     assert f"damping from damping.b = {amplitude:.3g} N s/m on" in confused.out
     seen = sum(one["smallest"] is not None for one in answer["detectability"].values())
-    assert f"of {len(answer['detectability'])} effects these trials show {seen}, " in confused.out
+    assert f"of {len(answer['detectability'])} effects and variants these trials show {seen}, " in confused.out
     page = (confused.folder / "report.html").read_text(encoding="utf-8")
     assert "these trials show" in page.lower() and " of 100 repetitions" not in page, "sizes stand in the table"
 

@@ -60,3 +60,11 @@ def test_what_cannot_be_planted_is_one_line(tmp_path: Path, options: tuple[str, 
     made = plant(case, tmp_path / "out", *options)
     assert made.code == 2 and len(made.complaints) == 1 and message in made.err
     assert not (tmp_path / "out").exists()
+
+
+def test_results_do_not_go_into_the_case_they_copy(tmp_path: Path) -> None:
+    case = damped_elbow(tmp_path / "elbow", samples=60)
+    for out in (case / "out", case):
+        made = plant(case, out, "--effect", "damping")
+        assert made.code == 2 and "lies inside the case that is copied there" in made.err
+    assert not (case / "out").exists()

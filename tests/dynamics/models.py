@@ -83,14 +83,7 @@ def all_kinds(seed: int = 0) -> Multibody:
         joint("coupled_back", "thigh", "shank", _renamed(coupled, "_2"), placed(rng), placed(rng), reverse=True),
         joint("slider", "trunk", "mast", axes((3, x - y, ("s",), ITSELF)), placed(rng), placed(rng)),
         joint("weld", "mast", "head", axes(), placed(rng), placed(rng)),
-        joint(
-            "lines",
-            "head",
-            "hat",
-            axes((1, y, ("l",), piecewise_linear(knots, np.sort(heights)))),
-            placed(rng),
-            placed(rng),
-        ),
+        joint("lines", "head", "hat", axes((1, y, ("l",), lines)), placed(rng), placed(rng)),
     )
     bodies = tuple(body(each.child, rng) for each in made)
     markers = tuple(Marker(f"{b.name}{i}", b.name, rng.normal(size=3) * 0.2) for b, i in product(bodies, range(4)))

@@ -188,13 +188,23 @@ def flat(recorded: Change | None) -> tuple[FlatTop, ...]:
     return flat_tops(problem_of(case, system_of(case)))
 
 
-def located(change: Change | None) -> tuple[tuple[Cell, ...], tuple[Window, ...]]:
+def located(change: Change | None, recorded: Change | None = None) -> tuple[tuple[Cell, ...], tuple[Window, ...]]:
     """Gap map and windows of the base model alone."""
-    case = elbow_case(seed=6, change=change)
+    case = elbow_case(seed=6, change=change, recorded=recorded)
     problem = problem_of(case, system_of(case))
     base = base_contender(problem).judged
     cells = gap_map(problem, base)
     return cells, windows(problem, problem, base, None, None, cells)
+
+
+@dataclass(frozen=True)
+class Unmeasured:
+    """Nothing was recorded from this time on [s]."""
+
+    start: float
+
+    def __call__(self, _name: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+        return np.where(time < self.start, force, np.nan)
 
 
 def stood_in(change: Change | None) -> Surrogate:

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from geocontact.data.diagnosis import Diagnosis
-from geocontact.gap.diagnose import diagnose
+from geocontact.gap.diagnose import diagnose, estimates
+from geocontact.gap.evidence import Judged
+from geocontact.gap.problem import Noise, problem_of
+from geocontact.identify.covariance import Levels
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Late, Times, Tremor, diagnosis, diagnosis_of_renamed, diagnosis_of_reversed, elbow_case
@@ -74,6 +80,7 @@ def test_a_wrong_unit_is_found_in_all_trials_or_some(where: tuple[str, ...], els
     assert found.faults[0].trials == where
     assert found.faults[0].channel == "force"
     assert found.faults[0].factor == pytest.approx(1000.0)
+    assert found.where[0].p_value < 0.01  # of the data as they came
     if "t05" in where:
         assert found.gap["force"].reduction > 0.5
 
@@ -123,3 +130,15 @@ def test_linear_algebra_keeps_to_one_core_meanwhile(monkeypatch: pytest.MonkeyPa
             diagnose(case, system_of(case))
         assert threads() == {2}
     assert seen == [{1}]
+
+
+def test_a_number_on_its_bound_has_the_whole_range_for_an_interval() -> None:
+    case = elbow_case(duration=2.0)
+    problem = problem_of(case, system_of(case))
+    p = next(p for p in problem.system.parameters if p.name == "x")
+    model = replace(problem.plain, values={**problem.plain.values, "x": p.upper}, whitened_jacobian=np.ones((9, 3)))
+    one = np.ones(1)
+    judged = Judged(model, Noise(Levels(one, one, one, one), one, 0.0, ()), 0.0, 0.0, 9, [], np.zeros((9, 0)))
+    found = estimates(judged)
+    assert found["x"].ci95 == (p.lower, p.upper) and not found["x"].identifiable
+    assert found["k"].ci95 != (50.0, 1000.0)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from geocontact.gap.locate import BLOCKS, Window, shortest, systematic
+from geocontact.gap.locate import BLOCKS, Window, _least, load_outputs, shortest, systematic
 from geocontact.gap.map_cell import Cell
+from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
-from tests.gap.cases import Bump, Swing, located
+from tests.gap.cases import Bump, Swing, Unmeasured, elbow_case, located
 
 Found = tuple[tuple[Cell, ...], tuple[Window, ...]]
 
@@ -74,3 +77,33 @@ def test_squares_of_means_are_without_their_variance() -> None:
     gap = np.array([0.0, 0.0, 0.1, 0.3])
     found = systematic(sums + counts * gap, counts)
     np.testing.assert_allclose(found / counts.sum(axis=(0, 1)), gap**2, atol=4e-3)
+
+
+def test_no_gap_is_stated_where_nothing_was_measured(elsewhere: Elsewhere) -> None:
+    """The push is at its height when the recording ends."""
+    _, seen = elsewhere(located, Bump(7.5, 8.5, 0.5), Unmeasured(8.0))
+    assert seen[0].phase[0] > 0.4 and seen[0].phase[1] < 0.55
+
+
+def test_p_values_of_two_families_are_doubled() -> None:
+    def cell(channel: str, p_value: float) -> Cell:
+        return Cell(channel, "phase", 0.0, 1.0, 0.0, 1.0, p_value, (0.0, 1.0), 0.0)
+
+    cells = (cell("force", 0.02), cell("force", 0.3), cell("angle", 0.001), cell("calm", 0.8))
+    assert [_least(cells, name) for name in ("force", "angle", "calm", "none")] == [0.04, 0.002, 1.0, 1.0]
+
+
+@pytest.mark.parametrize(
+    ("units", "rows"),
+    [
+        ({"angle": "rad", "force": "N"}, [1]),
+        ({"force_x": "N", "force_y": "N", "cop_x": "m"}, [0, 1]),
+        ({"angle": "rad", "torque": "N m"}, [1]),
+        ({"force": "N", "torque": "N m"}, [0]),
+        ({"angle": "rad"}, []),
+    ],
+)
+def test_the_load_is_forces_else_moments_and_no_angle(units: dict[str, str], rows: list[int]) -> None:
+    base = system_of(elbow_case(duration=2.0))
+    system = replace(base, balance=replace(base.balance, outputs=tuple(units)), units=units)
+    assert load_outputs(system) == rows

@@ -42,6 +42,14 @@ def test_the_amplitude_makes_the_gap_that_is_asked_for(elsewhere: Elsewhere, wan
     assert values["damping.b"] > 0.0
 
 
+@pytest.mark.parametrize("wanted", [0.3, 2.0])
+def test_a_clipped_signal_has_the_gap_that_is_asked_for(elsewhere: Elsewhere, wanted: float) -> None:
+    """Its amplitude runs downwards from where nothing is clipped, and no value is there where the effect is not."""
+    said, there, values = elsewhere(sizes, "saturation.force", wanted)
+    assert said == pytest.approx(wanted, rel=1e-3) and there == said
+    assert 1.0 < values["saturation.force.level"] < 20.0
+
+
 def test_what_base_parameters_imitate_stops_at_a_bound(elsewhere: Elsewhere) -> None:
     said, _, values = elsewhere(sizes, "sensor_gain.force", 1.0)
     assert said < 1e-3 and values["sensor_gain.force.gain"] in (-0.8, 2.0)

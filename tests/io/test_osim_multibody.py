@@ -17,11 +17,11 @@ MARKERS = """<MarkerSet><objects>
 <Marker name="m3"><socket_parent_frame>/ground</socket_parent_frame><location>0 0 1</location></Marker>
 </objects></MarkerSet>"""
 PIN = MODELS["4 PinJoint"].replace("<Ground", f"<gravity>0 0 -9.8</gravity>{MARKERS}<Ground", 1)
-OLD = MODELS["3 PinJoint false"].replace(
-    "<BodySet>",
-    '<MarkerSet><objects><Marker name="m"><body>c</body><location>1 2 3</location></Marker></objects></MarkerSet><BodySet>',
-    1,
-)
+OLD_MARKERS = """<MarkerSet><objects><Marker name="m"><body>c</body><location>1 2 3</location></Marker></objects>
+</MarkerSet>"""
+OLD = MODELS["3 PinJoint false"].replace("<BodySet>", f"{OLD_MARKERS}<BodySet>", 1)
+COUPLED = """<ConstraintSet><objects><CoordinateCouplerConstraint name="k">{}</CoordinateCouplerConstraint></objects>
+</ConstraintSet>"""
 
 
 def test_bodies_joints_and_gravity(tmp_path: Path) -> None:
@@ -71,12 +71,11 @@ def test_parents_come_before_children(tmp_path: Path) -> None:
 
 
 def test_constraints_are_said(tmp_path: Path) -> None:
-    some = '<ConstraintSet><objects><CoordinateCouplerConstraint name="k">{}</CoordinateCouplerConstraint></objects></ConstraintSet>'
-    on = PIN.replace("<BodySet", some.format("") + "<BodySet", 1)
+    on = PIN.replace("<BodySet", COUPLED.format("") + "<BodySet", 1)
     with pytest.warns(InputWarning, match="constraints are not heeded.*CoordinateCouplerConstraint k"):
         read_multibody(written(tmp_path, on))
     for flag in ("<isDisabled>true</isDisabled>", "<isEnforced>false</isEnforced>"):
-        read_multibody(written(tmp_path, PIN.replace("<BodySet", some.format(flag) + "<BodySet", 1)))
+        read_multibody(written(tmp_path, PIN.replace("<BodySet", COUPLED.format(flag) + "<BodySet", 1)))
 
 
 BAD = {
@@ -84,9 +83,12 @@ BAD = {
         PIN.replace('<Body name="p">', '<Body name="q"/><Body name="p">', 1),
         "body q has no joint",
     ),
-    "a joint on itself": (PIN.replace("p_offset</socket_parent_frame>", "c_offset</socket_parent_frame>"), "joint j"),
+    "a joint on itself": (
+        PIN.replace("p_offset</socket_parent_frame>", "c_offset</socket_parent_frame>"),
+        "joint j: closes a loop",
+    ),
     "a negative mass": (PIN.replace("<mass>1</mass>", "<mass>-1</mass>", 1), "-1 kg is negative"),
-    "a marker on nothing": (OLD.replace("<body>c</body>", "<body>x</body>"), "marker m is on 'x'"),
+    "a marker on nothing": (OLD.replace("<body>c</body>", "<body>x</body>"), "marker m: is on 'x'"),
 }
 
 
@@ -94,4 +96,4 @@ BAD = {
 def test_what_is_no_tree_is_refused(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(InputError) as error:
         read_multibody(written(tmp_path, text))
-    assert message in str(error.value).replace(": ", " ", 5) or message in str(error.value)
+    assert message in str(error.value)

@@ -64,7 +64,7 @@ def test_frames_and_markers_are_chosen(tmp_path: Path) -> None:
 
 BAD = {
     "another file": ("time,x\n0,1\n", "line 1: does not begin with 'PathFileType'"),
-    "frames are missing": (HEAD + ROWS[:22] + "\n", "line 3: NumFrames is '3' but 1 frames follow"),
+    "frames are missing": (HEAD + ROWS.splitlines()[0] + "\n", "line 3: NumFrames is '3' but 1 frames follow"),
     "markers are missing": (GOOD.replace("100\t3\t2\tmm", "100\t3\t4\tmm"), "line 3: NumMarkers is '4' but 2 markers"),
     "a unit nobody knows": (GOOD.replace("\tmm\t", "\tft\t"), "line 3: unit is 'ft'; expected one of m, cm, mm"),
     "time runs back": (GOOD.replace("0.02", "0.005"), "line 9: time does not increase"),

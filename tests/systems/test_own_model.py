@@ -16,11 +16,13 @@ from geocontact.data.errors import InputError
 from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
+from geocontact.data.simulator import SimulatorError
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import EFFECTS, candidates
 from geocontact.io.gap_case import read_gap_case
 from geocontact.io.program import program
 from geocontact.systems.catalogue import SYSTEMS, system_of
+from geocontact.systems.simulated import PythonSimulator, Run
 from tests.systems.examples import elbow, foot, joint
 from tests.systems.test_command import Spring
 
@@ -205,7 +207,7 @@ def blocks() -> list[str]:
 
 
 def test_the_model_of_the_page_for_users_works(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    model, _, _, effect, _ = blocks()
+    model, _, _, effect, _, _ = blocks()
     monkeypatch.delitem(sys.modules, "own_orthosis", raising=False)
     text = effect + model.replace('"N m"},', '"N m"}, own=(SECOND_STRUT,),')
     (here / "own_orthosis.py").write_text(text, encoding="utf-8")
@@ -218,6 +220,36 @@ def test_the_model_of_the_page_for_users_works(here: Path, monkeypatch: pytest.M
     values = {**system.start, "second_strut.stiffness": 30.0, "second_strut.gap": 0.2}
     want = base + 30.0 * np.maximum(angle - 0.2, 0.0)
     np.testing.assert_allclose(strut.simulate(given.calibration[0], values)[:, 0], want, rtol=1e-12, atol=1e-12)
+
+
+def test_the_simulator_of_the_page_for_users_works(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Against the branch's convolution; the diagnosis is offered what does not reach inside."""
+    monkeypatch.delitem(sys.modules, "own_creeping", raising=False)
+    (here / "own_creeping.py").write_text(blocks()[-2], encoding="utf-8")
+    given = case("own_creeping:CREEPING", constants={"neutral": 0.1, "c": 4.0, "tau": 0.3})
+    system = system_of(given)
+    time, angle = given.calibration[0].time, given.calibration[0].column("angle")
+    steps = np.diff(angle, prepend=angle[0])
+    branch = np.exp(-np.maximum(time[:, None] - time, 0.0) / 0.3) * (time[:, None] >= time) @ steps
+    want = 50.0 * (angle - 0.1) + 4.0 * branch
+    np.testing.assert_allclose(system.simulate(given.calibration[0], system.start)[:, 0], want, rtol=1e-9, atol=1e-9)
+    offered = {one.name for one in candidates(system)}
+    assert {"sensor_drift", "time_shift", "motion_offset", "unit_error"} <= offered
+    assert not {"damping", "series_compliance"} & offered
+
+
+@pytest.mark.parametrize(
+    ("answer", "complaint"),
+    [
+        (lambda time, inputs, numbers: 1 / 0, "ZeroDivisionError: division by zero"),
+        (lambda time, inputs, numbers: inputs, "gave an array (1, 21) where (21, 2) is expected: a row per time"),
+        (lambda time, inputs, numbers: np.full((21, 2), np.nan), "gave values that are not finite"),
+    ],
+)
+def test_a_run_that_fails_says_why(answer: Run, complaint: str) -> None:
+    simulator = PythonSimulator(answer, ("a",), ("b", "c"), {"a": "rad", "b": "N", "c": "N"})
+    with pytest.raises(SimulatorError, match=re.escape(complaint)):
+        simulator.run(np.linspace(0.0, 1.0, 21), np.zeros((1, 21)), {})
 
 
 def test_the_program_of_the_page_for_users_works(tmp_path: Path) -> None:

@@ -1,0 +1,141 @@
+"""A simulator as a base model: asked for all outputs at once, nothing inside of it can be replaced.
+
+The chain is motion → simulator → sensor: effects on inputs, outputs, timing and data apply, and loads beside it.
+Effects of a law or a geometry are not offered.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.implicit import NotConverged
+from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor, Values
+from geocontact.chain.movement import Movement
+from geocontact.chain.scale import Scale
+from geocontact.chain.slots import Slots, Source
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+from geocontact.data.simulator import Simulator, SimulatorError
+from geocontact.systems.base import Base
+
+Run = Callable[[Float[np.ndarray, " t"], Float[np.ndarray, "i t"], dict[str, float]], object]
+"""Time [s], inputs (a row each, SI), numbers by name → outputs (t, c), or (t,) of a single one."""
+
+NOTHING = Slots({})
+
+
+@dataclass(frozen=True, eq=False)
+class Simulated:
+    """Geometry link that asks a simulator for all outputs at once.
+
+    Parameters
+    ----------
+    names
+        Of the numbers that it is told; all there are where None.
+    """
+
+    simulator: Simulator
+    names: tuple[str, ...] | None
+    slots: Slots = NOTHING
+    yields: str = ""
+
+    def having(self, sources: Mapping[str, Source]) -> Simulated:
+        """The same link with more of its numbers coming from somewhere: it has none, ValueError."""
+        return replace(self, slots=self.slots.having(sources))
+
+    def deflection(
+        self, movement: Movement, values: Values
+    ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
+        """None that we know of."""
+        nothing = np.zeros((len(movement.time), 1))
+        return nothing, nothing
+
+    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+        """Outputs of the simulator; NotConverged where it failed."""
+        told = values if self.names is None else self.names
+        numbers = {name: values[name] for name in told if name in values}
+        try:
+            outputs = self.simulator.run(movement.time, movement.position, numbers)
+        except SimulatorError as error:
+            raise NotConverged(str(error)) from error
+        nothing = np.zeros_like(outputs)
+        return Loads(outputs, nothing, nothing)
+
+
+def all_outputs(loads: Loads) -> Float[np.ndarray, "t c"]:
+    """Each load is an output."""
+    return loads.normal.copy()
+
+
+def simulated_system(
+    name: str,
+    simulator: Simulator,
+    names: tuple[str, ...] | None,
+    parameters: tuple[Parameter, ...],
+    constants: Mapping[str, float],
+) -> System:
+    """The base model that a simulator is; `names` of the numbers that it is told, all where None."""
+    return System(
+        name=name,
+        motion=Motion(simulator.inputs),
+        geometry=Simulated(simulator, names),
+        law=Law(NOTHING),
+        balance=Balance(simulator.outputs, all_outputs),
+        sensor=Sensor(simulator.outputs),
+        parameters=parameters,
+        constants=dict(constants),
+        scale=Scale(),
+        units=dict(simulator.units),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class PythonSimulator:
+    """A function as a simulator; whatever it raises, or an answer of another shape, is a run that failed."""
+
+    function: Run
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    units: Mapping[str, str]
+
+    def run(
+        self, time: Float[np.ndarray, " t"], inputs: Float[np.ndarray, "i t"], numbers: Mapping[str, float]
+    ) -> Float[np.ndarray, "t c"]:
+        """Outputs at the times of the inputs; SimulatorError where there are none."""
+        try:
+            found = np.array(self.function(time.copy(), inputs.copy(), dict(numbers)), dtype=float)
+        except Exception as error:  # the user's code may raise anything
+            raise SimulatorError(f"{type(error).__name__}: {error}") from error
+        if found.shape == time.shape and len(self.outputs) == 1:
+            found = found[:, None]
+        wanted = len(time), len(self.outputs)
+        if found.shape != wanted:
+            raise SimulatorError(f"gave an array {found.shape} where {wanted} is expected: a row per time")
+        if not np.isfinite(found).all():
+            raise SimulatorError("gave values that are not finite")
+        return found
+
+
+def simulator_base(name: str, inputs: Mapping[str, str], outputs: Mapping[str, str], run: Run) -> Base:
+    """A function as a base model of one's own, for `system = "package.module:OBJECT"`.
+
+    Parameters
+    ----------
+    name
+        One that no listed system has.
+    inputs, outputs
+        SI unit of each channel by name, in the order in which `run` takes and gives them.
+    run
+        (time [s], inputs (a row each), numbers by name) → outputs (t, c), or (t,) of a single one. Numbers are
+        parameters, constants and the trial's covariates, SI; others may be among them.
+    """
+    simulator = PythonSimulator(run, tuple(inputs), tuple(outputs), {**inputs, **outputs})
+
+    def build(parameters: tuple[Parameter, ...], constants: Mapping[str, float], _tables: object) -> System:
+        return simulated_system(name, simulator, None, parameters, constants)
+
+    return Base(name, simulator.inputs, simulator.outputs, build)
