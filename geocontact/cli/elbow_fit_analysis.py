@@ -19,7 +19,7 @@ from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.identify.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours, lilliefors
+from geocontact.identify.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours
 from geocontact.identify.profile_likelihood import Profile
 from geocontact.io.elbow_recording import DISPLACEMENT
 from geocontact.io.elbow_recording import FORCE as FORCE_CHANNEL
@@ -34,9 +34,9 @@ from geocontact.systems.elbow_fit import (
     law_at,
     problem_of,
     r_squared,
-    standard_residuals,
 )
 from geocontact.systems.elbow_law import LENGTHS, SCALED, offsets_of
+from geocontact.systems.elbow_residuals import normality
 from geocontact.systems.elbow_uncertainty import (
     Direction,
     along_the_scale,
@@ -216,7 +216,7 @@ def _fitted(
         held=_apart(data, e, apart, o) if apart else _each_left_out(data, e),
         bins_differ=between_bins(boxes.visits, FORCE),
         neighbours=between_neighbours(boxes.visits, FORCE),
-        normality=lilliefors(standard_residuals(data, e)),
+        normality=normality(locked, data, e),
         r2=r_squared(measured, e.predicted),
         mirrored_r2=_mirrored(e, measured),
     )

@@ -20,11 +20,13 @@ from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.identify.bin_tests import LEVEL, BinTest, Pair
+from geocontact.identify.visits import places
 from geocontact.io.results import write_table
 from geocontact.systems.elbow_bins import Binned
 from geocontact.systems.elbow_end_stop import curve_of
-from geocontact.systems.elbow_fit import r_squared, residual_by_bin, standard_residuals
+from geocontact.systems.elbow_fit import r_squared
 from geocontact.systems.elbow_law import LENGTHS, NAMES
+from geocontact.systems.elbow_residuals import residual_by_bin, standard_residuals
 from geocontact.view.contact_tables import inputs_table
 from geocontact.view.elbow_figures import (
     Boxes,
@@ -185,8 +187,7 @@ def _tested(test: BinTest | None, pairs: Sequence[Pair], boxes: Binned) -> dict[
 def spread_table(recordings: Sequence[ElbowRecording], data: Binned) -> pd.DataFrame:
     """Samples of all trials by bin: counts, mean, SD, quantiles; empty where nothing was recorded."""
     edges = data.visits.edges
-    place = np.concatenate([np.clip(np.searchsorted(edges, r.beta, side="right") - 1, 0, len(edges) - 2)
-                            for r in recordings])  # fmt: skip
+    place = np.concatenate([places(r.beta, edges) for r in recordings])
     force = np.concatenate([r.force for r in recordings])
     order = np.argsort(place, kind="stable")
     groups = np.split(force[order], np.searchsorted(place[order], np.arange(1, len(edges) - 1)))

@@ -67,6 +67,11 @@ def edges_over(angles: Sequence[Float[np.ndarray, " _"]], width: float) -> Float
     return width * np.arange(first, last + 1)
 
 
+def places(angle: Float[np.ndarray, " t"], edges: Float[np.ndarray, " edges"]) -> Int[np.ndarray, " t"]:
+    """Bin of each sample, the last one's upper edge included."""
+    return np.clip(np.searchsorted(edges, angle, side="right") - 1, 0, len(edges) - 2)
+
+
 def visits(
     times: Sequence[Float[np.ndarray, " _"]],
     channels: Sequence[Float[np.ndarray, "_ c"]],
@@ -77,7 +82,7 @@ def visits(
     parts, first = [], 0
     bins = len(edges) - 1
     for trial, (time, values) in enumerate(zip(times, channels, strict=True)):
-        place = np.clip(np.searchsorted(edges, values[:, 0], side="right") - 1, 0, bins - 1)
+        place = places(values[:, 0], edges)
         number = np.floor((time - time[0]) / stretch).astype(int)
         key = number * bins + place
         count = np.bincount(key)

@@ -206,23 +206,6 @@ def r_squared(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " 
     return 1.0 - float(off @ off) / total if total > 0.0 else float("nan")
 
 
-def residual_by_bin(data: Binned, e: Estimate) -> tuple[Float[np.ndarray, " b"], Float[np.ndarray, " b"]]:
-    """Angle [rad] and measured less fitted force [N] of each bin, all trials together."""
-    cells = data.cells
-    bins = len(data.visits.edges) - 1
-    count = np.bincount(cells.place, cells.count, bins)
-    there = count > 0.0
-    off = cells.means[:, FORCE] - e.predicted
-    return data.centres[there], np.bincount(cells.place, cells.count * off, bins)[there] / count[there]
-
-
-def standard_residuals(data: Binned, e: Estimate) -> Float[np.ndarray, " b"]:
-    """Residual of each bin times the root of its information: one spread, however long a bin was stayed in."""
-    bins = len(data.visits.edges) - 1
-    information = np.bincount(data.cells.place, data.information, bins)
-    return np.asarray(residual_by_bin(data, e)[1] * np.sqrt(information[information > 0.0]))
-
-
 def _scale(p: Parameter) -> float:
     """Magnitude of a parameter: a fifth of the room between its bounds, or of its start where they are far apart."""
     return min(0.2 * (p.upper - p.lower), max(abs(p.start), 1e-2 * (p.upper - p.lower)))

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.stats import goodness_of_fit, norm
 
-from geocontact.identify.bin_tests import between_bins, between_neighbours, lilliefors
+from geocontact.identify.bin_noise import mean_covariance
+from geocontact.identify.bin_tests import DRAWS, between_bins, between_neighbours, lilliefors
 from geocontact.identify.visits import Visits, edges_over, visits
 
 
@@ -87,16 +89,30 @@ def test_a_force_that_follows_the_angle_is_a_difference() -> None:
 
 def test_a_small_p_speaks_against_normal_residuals() -> None:
     rng = np.random.default_rng(3)
-    skewed, normal = lilliefors(rng.exponential(size=80)), lilliefors(rng.normal(size=80))
+    null = rng.normal(size=(DRAWS, 80))
+    skewed, normal = lilliefors(rng.exponential(size=80), null), lilliefors(rng.normal(size=80), null)
     assert skewed.p < 0.01 and skewed.words.startswith("not normal") and "rejects" in skewed.words
     assert normal.p > 0.05 and "no evidence against" in normal.words and "does not prove" in normal.words
 
 
-def test_p_of_normal_samples_is_uniform() -> None:
-    """With the parameters estimated; Kolmogorov's own table would put nearly all of them above 0.5."""
+def test_p_of_independent_values_is_scipys() -> None:
+    """Which fits mean and SD to draws of its own; Kolmogorov's own table would put nearly all of them above 0.5."""
     rng = np.random.default_rng(4)
-    p = np.array([lilliefors(rng.normal(size=20), k).p for k in range(60)])
-    assert 0.3 < p.mean() < 0.7 and (p < 0.5).mean() > 0.3
+    null = rng.normal(size=(DRAWS, 20))
+    for k in range(5):
+        values = rng.normal(size=20) ** (1 + k % 2)
+        theirs = goodness_of_fit(norm, values, statistic="ks", n_mc_samples=999, rng=np.random.default_rng(k))
+        ours = lilliefors(values, null)
+        assert ours.distance == pytest.approx(float(theirs.statistic), rel=1e-12)
+        assert ours.p == pytest.approx(float(theirs.pvalue), abs=0.08)
+
+
+def test_covariance_of_bin_means_is_the_sum_over_their_pairs() -> None:
+    time = np.cumsum(np.random.default_rng(6).uniform(0.01, 0.3, 200))
+    place = np.random.default_rng(7).integers(0, 5, 200)
+    share = (place == np.arange(6)[:, None]) / np.maximum(np.bincount(place, minlength=6), 1)[:, None]
+    expected = share @ np.exp(-np.abs(time[:, None] - time) / 0.4) @ share.T
+    np.testing.assert_allclose(mean_covariance(time, place, 6, 0.4), expected, rtol=1e-12, atol=1e-15)
 
 
 def test_neighbouring_bins_are_told_apart_where_they_differ_only() -> None:
