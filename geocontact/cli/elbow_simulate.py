@@ -22,30 +22,33 @@ class SimulateOptions:
     out
         Folder for the results.
     numbers
-        Numbers of the law, those not given from the paper: k=222.43,x=48,y=59,l=169,z=127,b=0,s=0 (N/m, mm, N s/m,
-        1/mmHg).
+        Numbers of the law (N/m, mm, N s/m, 1/mmHg), as many as there are to change; the paper's
+        k=222.43,x=48,y=59,l=169,z=127,b=0,s=0 unless given.
     trials
-        Locked trials, and as many with the compensation joint free where --stroke-mm is given.
-    seconds, rate
-        Length of a trial, and samples per second.
+        Locked trials, and as many with the compensation joint free where --stroke-mm is given; 6 unless given.
+    seconds
+        Length of a trial [s]; 60 unless given.
+    rate
+        Samples per second; 1000 unless given.
     band
-        Frequencies of the multisine [Hz].
+        Frequencies of the multisine [Hz]; 0.05:0.35 unless given.
     range
-        Angles from end to end [deg].
+        Angles from end to end [deg]; 8:92 unless given.
     stroke_mm
-        Stroke of the compensation joint, such as -10:40: free trials are made besides, with its displacement.
+        Stroke of the compensation joint, such as -10:40: free trials are made besides, with its displacement. None
+        unless given.
     pressure
-        Range of cuff pressures [mmHg], one drawn for each trial: 10:60.
+        Range of cuff pressures [mmHg], one drawn for each trial, such as 10:60; no pressure unless given.
     noise
-        Standard deviation [N] of what the person adds to the force.
+        Standard deviation of what the person adds to the force [N]; 0.8 unless given.
     memory
-        Its correlation time [s].
+        Its correlation time [s]; 0.3 unless given.
     donning_mm
-        Standard deviation of both offsets from trial to trial.
+        Standard deviation of both offsets from trial to trial; 0 unless given.
     bits
-        Of the converter; 0 for none.
+        Of the converter, 0 for none; 12 unless given.
     seed
-        Of what is drawn at random.
+        Of what is drawn at random; 0 unless given.
     map
         Column of the angle in the recordings, where it has another name: beta=elbow_flexion.
     angles

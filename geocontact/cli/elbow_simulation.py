@@ -32,7 +32,7 @@ from geocontact.view.elbow_surfaces import surfaces
 from geocontact.view.page.content import Table
 
 HEAD = "# synthetic: geocontact elbow simulate"
-TRIALS = 6
+TRIALS, SEED = 6, 0
 USUAL = Design()
 
 
@@ -93,7 +93,6 @@ def _refuse_idle(paths: Sequence[Path], o: SimulateOptions) -> None:
 
 
 def _design(o: SimulateOptions) -> Design:
-    low, high = (8.0, 92.0) if o.range is None else elbow_numbers.interval(o.range, "--range")
     band = USUAL.band if o.band is None else elbow_numbers.interval(o.band, "--band")
     if band[0] <= 0.0:
         raise InputError("", "--band", f"{o.band!r} is not above 0 Hz", "write for example 0.05:0.35")
@@ -105,13 +104,18 @@ def _design(o: SimulateOptions) -> Design:
         seconds=USUAL.seconds if o.seconds is None else o.seconds,
         rate=USUAL.rate if o.rate is None else o.rate,
         band=band,
-        reach=(float(np.radians(low)), float(np.radians(high))),
+        reach=USUAL.reach if o.range is None else _reach(o.range),
         noise=USUAL.noise if o.noise is None else o.noise,
         memory=USUAL.memory if o.memory is None else o.memory,
-        donning=0.0 if o.donning_mm is None else o.donning_mm * 1e-3,
+        donning=USUAL.donning if o.donning_mm is None else o.donning_mm * 1e-3,
         bits=USUAL.bits if o.bits is None else o.bits,
         pressures=pressures,
     )
+
+
+def _reach(text: str) -> tuple[float, float]:
+    low, high = elbow_numbers.interval(text, "--range")
+    return float(np.radians(low)), float(np.radians(high))
 
 
 def _stroke(text: str) -> tuple[float, float]:
@@ -135,7 +139,7 @@ def _made(
     design: Design, o: SimulateOptions, numbers: Mapping[str, float], stroke: tuple[float, float] | None
 ) -> list[ElbowRecording]:
     """Recordings after the paper's experiment."""
-    rng = np.random.default_rng(0 if o.seed is None else o.seed)
+    rng = np.random.default_rng(SEED if o.seed is None else o.seed)
     count = TRIALS if o.trials is None else o.trials
     mean = 0.0 if design.pressures is None else float(np.mean(design.pressures))
     kinds = [("locked", None), *([] if stroke is None else [("free", stroke)])]

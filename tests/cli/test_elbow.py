@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -12,7 +13,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from geocontact.cli.elbow_numbers import PER_SI
+from geocontact.cli.elbow_simulation import SEED, TRIALS, USUAL
 from geocontact.cli.left_over import NAMES, PICTURES
+from geocontact.systems.elbow_synthetic import PAPER
 from tests.cli.calls import Call, call, done, inventory, written
 
 QUICK = ("--seconds", 20, "--rate", 50, "--noise", 0.2, "--memory", 0.1, "--trials", 3)
@@ -83,6 +87,24 @@ def test_the_help_says_what_each_command_does(tmp_path: Path) -> None:
     shown = done(call("elbow", "--help", folder=tmp_path)).out
     for command in ("simulate", "fit", "compare", "design", "population"):
         assert f"{command}: " in shown, shown
+
+
+def test_the_help_of_a_simulation_tells_what_it_takes_unless_given(tmp_path: Path) -> None:
+    """Numbers of the design and the law as they are, held against what stands in the help."""
+    shown = done(call("elbow", "simulate", "--help", folder=tmp_path)).out
+    options = re.split(r" --(?=[\w-]+ [A-Z]+ )", " ".join(shown.replace("│", " ").split()))
+    told = {each.split(" ")[0]: each for each in options}
+    low, high = np.degrees(USUAL.reach)
+    numbers = ",".join(f"{name}={value * PER_SI[name]:g}" for name, value in PAPER.items())
+    expected = {
+        "numbers": f"the paper's {numbers}", "trials": TRIALS, "seconds": f"{USUAL.seconds:g}", "noise": USUAL.noise,
+        "rate": f"{USUAL.rate:g}", "band": "{:g}:{:g}".format(*USUAL.band), "range": f"{low:g}:{high:g}",
+        "memory": USUAL.memory, "donning-mm": f"{USUAL.donning * 1e3:g}", "bits": USUAL.bits, "seed": SEED,
+        "stroke-mm": "None", "pressure": "no pressure",
+    }  # fmt: skip
+    assert USUAL.pressures is None
+    for option, default in expected.items():
+        assert f" {default} unless given." in told[option], told[option]
 
 
 def test_the_same_seed_gives_the_same_recordings(tmp_path: Path) -> None:
