@@ -29,6 +29,7 @@ from geocontact.io.results import write_table
 from geocontact.systems.elbow_law import NAMES
 from geocontact.systems.elbow_synthetic import ideal
 from geocontact.view.contact_tables import inputs_table
+from geocontact.view.contact_words import counted
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.elbow_figures import CONSTRAINT, comparison_figure
 from geocontact.view.elbow_page import write_comparison_report
@@ -85,7 +86,7 @@ def _refuse_idle(paths: tuple[Path, ...], o: ElbowCompareOptions) -> None:
     refuse(
         ((o.fit is None) == (o.simulated is None), "--fit", "or --simulated: exactly one is compared with", "give one"),
         (o.simulated is not None and count != len(paths), "--simulated",
-         f"is given {count} times for {len(paths)} recordings", "give one for each, in the same order"),
+         f"is given {count} times for {counted(len(paths), 'recording')}", "give one for each, in the same order"),
         (o.stroke_mm is not None and o.fit is None, "--stroke-mm", "does nothing without --fit", "leave it out"),
         (not 0.1 <= o.bin_deg <= 30.0, "--bin-deg", f"{o.bin_deg} is not 0.1 to 30 degrees", "give for example 2"),
     )  # fmt: skip
@@ -172,9 +173,10 @@ def _write(record: Record, found: Sequence[Pair], o: ElbowCompareOptions, folder
     shown = Table("Errors by trial and channel", tuple(map(str, table.columns)), texts.to_numpy().tolist())
     first = found[0]
     headline = [(f"{p.trial}, {p.channel}", f"R² {p.agreement.r2:.3f}") for p in found]
+    title = f"Model beside {counted(len({p.trial for p in found}), 'recording')}"
     write_comparison_report(
-        folder / "report.html", f"Model beside {len({p.trial for p in found})} recordings", first.time, first.measured,
-        first.model, headline, drawings, [shown, inputs_table(record.inputs), options_table(record)], record.warnings,
+        folder / "report.html", title, first.time, first.measured, first.model, headline, drawings,
+        [shown, inputs_table(record.inputs), options_table(record)], record.warnings,
     )  # fmt: skip
 
 

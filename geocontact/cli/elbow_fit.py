@@ -22,7 +22,8 @@ class ElbowFitOptions:
     out
         Folder for the results.
     unlocked
-        Recording with the compensation joint free and its displacement, as often as there are.
+        Recording with the compensation joint free and its displacement, as often as there are. Where nothing else is
+        known of k and the lengths, two or more set their scale.
     held_out
         Recording that is not fitted and tells R², as often as there are; each in turn of those fitted by default.
     known
@@ -48,7 +49,7 @@ class ElbowFitOptions:
     cutoff
         Cut-off of a zero-lag low-pass over force and angle [Hz]; none unless given.
     bootstrap
-        Replicates of the wild bootstrap, 0 for none.
+        Replicates of the wild bootstrap, 0 for none. Each is searched from every minimum that fits nearly as well.
     parquet
         Also write the tables as .parquet.
     """

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.cli import elbow_numbers
 from geocontact.cli.elbow_fit import ElbowFitOptions
 from geocontact.cli.elbow_inputs import recordings, require_bins, require_locked
 from geocontact.cli.elbow_intervals import intervals
@@ -28,7 +27,6 @@ from geocontact.systems.elbow_end_stop import Stiffness, Stroke, curve_of, stiff
 from geocontact.systems.elbow_explicit import require_no_pole, require_reach
 from geocontact.systems.elbow_fit import (
     Estimate,
-    Prior,
     Problem,
     estimated,
     law_at,
@@ -37,6 +35,7 @@ from geocontact.systems.elbow_fit import (
 )
 from geocontact.systems.elbow_law import LENGTHS, SCALED, offsets_of
 from geocontact.systems.elbow_residuals import normality
+from geocontact.systems.elbow_scale import Scale, scale_of
 from geocontact.systems.elbow_uncertainty import (
     Direction,
     along_the_scale,
@@ -109,6 +108,7 @@ class Free:
     boxes: Binned
     stroke: Stroke
     stiffness: Stiffness | None
+    scale: Scale | None
     bins_differ: BinTest | None
     neighbours: Sequence[Pair]
 
@@ -131,7 +131,7 @@ def analyse(paths: tuple[Path, ...], o: ElbowFitOptions) -> int:
         free = None if o.unlocked is None else _free(record, o, data)
         problem = problem_of(data, parameters, priors)
         if problem.scale_free and free is not None:
-            problem = _scaled_by(record, problem, free, "k" in elbow_numbers.values(o.start, "--start"))
+            problem = _scaled_by(record, problem, free)
         found = _fitted(locked, data, estimated(problem), apart, o)
         _reserve(record, found)
         record.results["elbow"] = describe(found, free)
@@ -162,19 +162,16 @@ def _held_out(record: Record, o: ElbowFitOptions) -> list[ElbowRecording]:
     return found
 
 
-def _scaled_by(record: Record, problem: Problem, free: Free, start_given: bool) -> Problem:
-    """The problem with the free joint's stiffness as prior on k; as it was where that stiffness has no error."""
-    s = free.stiffness
-    if s is None or not (s.value > 0.0 and s.error > 0.0):
-        record.warn("the free joint's displacement gives no k with a standard error, which takes two locked trials")
+def _scaled_by(record: Record, problem: Problem, free: Free) -> Problem:
+    """The problem with the free joint's displacement beside it; as it was where that has no standard error."""
+    if free.scale is None:
+        record.warn("the free joint's displacement sets no scale without a standard error, which takes two free trials")
         return problem
     record.warn(
-        f"the scale is set by k from the free joint's displacement: {s.value:.4g} N/m (SE {s.error:.2g}) is a prior "
-        "on k; it rests on the same locked forces, and on the same offsets while the joint was free"
+        f"the scale is set by the free joint's displacement (SE {free.scale.error:.2%} over {free.scale.trials} "
+        "trials), which supposes the same offsets while the joint was free"
     )
-    parameters = [p if p.name != "k" or start_given else replace(p, start=min(max(s.value, p.lower), p.upper))
-                  for p in problem.parameters]  # fmt: skip
-    return replace(problem, parameters=tuple(parameters), priors={**problem.priors, "k": Prior(s.value, s.error)})
+    return replace(problem, scale=free.scale)
 
 
 def _fitted(
@@ -234,7 +231,7 @@ def _refuse_beyond(e: Estimate) -> None:
 
 def _mirrored(e: Estimate, measured: Float[np.ndarray, " n"]) -> float:
     """R² that the same model reaches on the force turned over."""
-    turned = estimated(e.problem.measuring(-e.problem.force, e.problem.priors))
+    turned = estimated(e.problem.measuring(-e.problem.force))
     return r_squared(-measured, turned.predicted)
 
 
@@ -244,7 +241,7 @@ def _each_left_out(data: Binned, e: Estimate) -> list[Held]:
         return []
     found = []
     for trial, name in enumerate(data.names):
-        problem = problem_of(data.without(trial), e.problem.parameters, e.problem.priors)
+        problem = problem_of(data.without(trial), e.problem.parameters, e.problem.priors, e.problem.scale)
         theta = problem.theta(problem.searched(e.values).values)
         found.append(_held(name, data.only(trial), theta))
     return found
@@ -278,9 +275,11 @@ def _free(record: Record, o: ElbowFitOptions, locked: Binned) -> Free:
         what = f"displacement and locked force run against each other ({stiffness.value:.4g} N/m)"
         raise InputError(paths[0], "", what, "one of them has its sign turned: --map displacement=-… or force=-…")
     boxes = binned(free, float(np.radians(o.box_deg)))
+    scale = scale_of([curve_of(data.only(trial)) for trial in range(len(data.names))], stroke, width)
     return Free(
-        free, boxes, stroke, stiffness, between_bins(boxes.visits, FORCE), between_neighbours(boxes.visits, FORCE)
-    )
+        free, boxes, stroke, stiffness, scale, between_bins(boxes.visits, FORCE),
+        between_neighbours(boxes.visits, FORCE),
+    )  # fmt: skip
 
 
 def _reserve(record: Record, found: Fitted) -> None:
@@ -307,7 +306,7 @@ def _reserve(record: Record, found: Fitted) -> None:
 def _tell(record: Record, found: Fitted, free: Free | None) -> None:
     e = found.estimate
     for each in intervals(found):
-        record.say(f"{each.words} {each.value:.4g} {each.unit} (95 % {each.ends})")
+        record.say(f"{each.words} {each.shown}")
     told = [f"R² {found.r2:.3f} of {len(e.problem.force)} bin means"]
     if found.held:
         worst = min(each.r2 for each in found.held)

@@ -28,6 +28,7 @@ from geocontact.systems.elbow_fit import r_squared
 from geocontact.systems.elbow_law import LENGTHS, NAMES
 from geocontact.systems.elbow_residuals import residual_by_bin, standard_residuals
 from geocontact.view.contact_tables import inputs_table
+from geocontact.view.contact_words import counted
 from geocontact.view.elbow_figures import (
     Boxes,
     Over,
@@ -79,7 +80,7 @@ def write_results(record: Record, found: Fitted, free: Free | None, o: ElbowFitO
     there = bins["mean [N]"].notna()
     write_fit_report(
         folder / "report.html",
-        f"Offsets and stiffness at an elbow from {len(found.recordings)} recordings",
+        f"Offsets and stiffness at an elbow from {counted(len(found.recordings), 'recording')}",
         np.radians(bins["beta [deg]"][there].to_numpy()),
         bins["mean [N]"][there].to_numpy(),
         bins["fitted [N]"][there].to_numpy(),
@@ -107,6 +108,7 @@ def describe(found: Fitted, free: Free | None) -> dict[str, Any]:
                 "unit": each.unit,
                 "value": each.value,
                 "profile_likelihood": [each.lower, each.upper],
+                "parts": [list(part) for part in each.parts],
                 "open": [each.lower_open, each.upper_open],
                 "wild_bootstrap": None if each.drawn is None else list(each.drawn),
             }
@@ -152,7 +154,7 @@ def stroke_stiffness(found: Fitted, free: Free) -> float | None:
 
 
 def _free_joint(found: Fitted, free: Free) -> dict[str, Any]:
-    s, k = free.stiffness, stroke_stiffness(found, free)
+    s, k, scale = free.stiffness, stroke_stiffness(found, free), free.scale
     return {
         "stops": [
             {
@@ -167,6 +169,7 @@ def _free_joint(found: Fitted, free: Free) -> dict[str, Any]:
         "k_by_displacement_N_per_m": None if s is None else {
             "value": s.value, "se": _finite(s.error), "trials": s.trials, "bins": s.bins,
         },
+        "scale": None if scale is None else {"se": scale.error, "trials": scale.trials},
         "between_bins": _tested(free.bins_differ, free.neighbours, free.boxes),
     }  # fmt: skip
 
@@ -233,7 +236,8 @@ def _row(name: str, unit: str, source: str, value: float, told: Interval | None)
     low, high = (np.nan, np.nan) if told is None or told.drawn is None else told.drawn
     return {
         "number": name, "unit": unit, "from": source, "value": value, "profile lower": ends[0],
-        "profile upper": ends[1], "bootstrap lower": low, "bootstrap upper": high,
+        "profile upper": ends[1], "profile parts": told.ends if told is not None and len(told.parts) > 1 else np.nan,
+        "bootstrap lower": low, "bootstrap upper": high,
     }  # fmt: skip
 
 
@@ -286,7 +290,8 @@ def _told_figure(found: Fitted) -> Any:
     alone = np.tile(e.theta, (len(found.line), 1))
     alone[:, 0] = found.line[:, 0]
     r2 = np.array([r_squared(e.problem.force, e.problem.law.force(theta)) for theta in alone])
-    return told_figure(found.all_directions, found.line, found.line_r2, r2, found.profiles, e.named)
+    return told_figure(found.all_directions, found.line, found.line_r2, r2,
+                       {each.words: each.profile for each in intervals(found)})  # fmt: skip
 
 
 def _residual_figure(found: Fitted) -> Any:
@@ -296,7 +301,7 @@ def _residual_figure(found: Fitted) -> Any:
 
 
 def _headline(found: Fitted) -> list[tuple[str, str]]:
-    lines = [(each.words, f"{each.value:.4g} {each.unit} ({each.ends})") for each in intervals(found)]
+    lines = [(each.words, each.shown) for each in intervals(found)]
     return [*lines, ("R² of bin means", f"{found.r2:.3f}")]
 
 
@@ -307,7 +312,7 @@ def _sentences(found: Fitted, free: Free | None) -> list[str]:
         shares = ", ".join(f"{key.replace('_over_', '/')} {value:.3f}" for key, value in r.items() if "over" in key)
         told.append(f"{SCALE_WORDS}. What no scale changes: k l = {r['k_times_l_N']:.4g} N, {shares}.")
     else:
-        told.append(_scale_words(found, free))
+        told.append(_scale_words(found))
     told.append(f"Residuals are {found.normality.words}." if found.normality.p < 0.05 else
                 f"Residuals: {found.normality.words}.")  # fmt: skip
     if found.bins_differ is not None:
@@ -337,12 +342,14 @@ def _sentences(found: Fitted, free: Free | None) -> list[str]:
     return told
 
 
-def _scale_words(found: Fitted, free: Free | None) -> str:
+def _scale_words(found: Fitted) -> str:
     """What set the scale."""
-    prior = found.estimate.problem.priors.get("k")
-    s = None if free is None else free.stiffness
-    if s is not None and prior is not None and (prior.mean, prior.sd) == (s.value, s.error):
-        return f"The scale is set by k from the free joint's displacement, {s.value:.4g} N/m (SE {s.error:.2g})."
+    scale = found.estimate.problem.scale
+    if scale is not None:
+        return (
+            "The scale of k and the lengths is set by the free joint's displacement, over which d_tot rises one for "
+            f"one (SE {scale.error:.2%})."
+        )
     return "The scale of k and the lengths is set by what was known beforehand, not by these recordings."
 
 

@@ -31,8 +31,8 @@ class Profile:
 
     Parameters
     ----------
-    lower, upper
-        Ends of the interval.
+    parts
+        Intervals in rising order, none touching the next: one, or one around each of several minima.
     lower_open, upper_open
         True where the profile is still below the cut at the parameter's bound: the data set no limit on that side.
     values, rise
@@ -41,12 +41,21 @@ class Profile:
 
     name: str
     best: float
-    lower: float
-    upper: float
+    parts: tuple[tuple[float, float], ...]
     lower_open: bool
     upper_open: bool
     values: Float[np.ndarray, " m"]
     rise: Float[np.ndarray, " m"]
+
+    @property
+    def lower(self) -> float:
+        """Least value within."""
+        return self.parts[0][0]
+
+    @property
+    def upper(self) -> float:
+        """Largest value within."""
+        return self.parts[-1][1]
 
 
 def profile(
@@ -66,7 +75,7 @@ def profile(
     parameter = next(p for p in parameters if p.name == name)
     half = memory.half_width(np.sqrt(sandwich(memory, time, jacobian)[:, j, j]), level)
     if half <= 1e-12 * abs(best):
-        return Profile(name, best, best, best, False, False, np.array([best]), np.zeros(1))
+        return Profile(name, best, ((best, best),), False, False, np.array([best]), np.zeros(1))
     least = float(fit.residuals[0][:, 0] @ fit.residuals[0][:, 0])
 
     def held(value: float) -> float:
@@ -96,8 +105,8 @@ def profile_of(
     inverse
         Entry of the parameter in (J'J)^-1, J being the derivatives of what is squared.
     others
-        Values at further minima. Where the profile is below the cut at some, the interval is the hull: it reaches from
-        the least of them to the largest, and the curve shows what lies between.
+        Values at further minima. Around each of them at which the profile is below the cut there is an interval too;
+        intervals that overlap are one. The curve shows what lies between.
     """
     cut = half**2 / inverse
 
@@ -105,12 +114,27 @@ def profile_of(
         return (held(value) - least) / cut
 
     within = [best, *(value for value in others if rise(value) < 1.0)]
-    ends = [_end(rise, edge(within), way * half, parameter) for edge, way in ((min, -1.0), (max, 1.0))]
-    span = [best + 1.3 * (end - best) for end, _ in ends]
-    values = np.linspace(max(span[0], parameter.lower), min(span[1], parameter.upper), points)
-    (lower, lower_open), (upper, upper_open) = ends
+    ends = [[_end(rise, value, way * half, parameter) for way in (-1.0, 1.0)] for value in within]
+    parts = _united([(lower, upper) for (lower, _), (upper, _) in ends])
+    low, high = parts[0][0], parts[-1][1]
+    values = np.linspace(
+        max(best + 1.3 * (low - best), parameter.lower), min(best + 1.3 * (high - best), parameter.upper), points
+    )
     curve = np.array([rise(v) for v in values])
-    return Profile(parameter.name, best, lower, upper, lower_open, upper_open, values, curve)
+    lower_open = any(is_open for (_, is_open), _ in ends)
+    upper_open = any(is_open for _, (_, is_open) in ends)
+    return Profile(parameter.name, best, parts, lower_open, upper_open, values, curve)
+
+
+def _united(intervals: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+    """The same values in intervals that do not touch, in rising order."""
+    found: list[tuple[float, float]] = []
+    for low, high in sorted(intervals):
+        if found and low <= found[-1][1]:
+            found[-1] = (found[-1][0], max(found[-1][1], high))
+        else:
+            found.append((low, high))
+    return tuple(found)
 
 
 def _held(

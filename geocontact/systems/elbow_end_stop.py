@@ -148,7 +148,8 @@ def stiffness_by_displacement(locked: Sequence[Curve], stroke: Stroke, width: fl
 
     None where no trial has three bins in common with the free range; `width` is that of a bin [rad].
     """
-    slopes = [(s, n) for s, n in (_slope(each, stroke, width) for each in locked) if n >= FEWEST]
+    found = [slope_over(each.beta, each.force, stroke, width) for each in locked]
+    slopes = [(s, n) for s, n in found if n >= FEWEST]
     if not slopes:
         return None
     values = np.array([s for s, _ in slopes])
@@ -156,14 +157,18 @@ def stiffness_by_displacement(locked: Sequence[Curve], stroke: Stroke, width: fl
     return Stiffness(float(values.mean()), error, len(values), float(np.mean([n for _, n in slopes])))
 
 
-def _slope(locked: Curve, stroke: Stroke, width: float) -> tuple[float, int]:
-    """Least-squares slope of one trial, and of how many bins."""
+def slope_over(
+    beta: Float[np.ndarray, " b"], values: Float[np.ndarray, " b"], stroke: Stroke, width: float
+) -> tuple[float, int]:
+    """Least-squares slope of one trial's bin means over the free displacement at the same angles, and of how many bins.
+
+    Bins over which the joint slides count; NaN where there are fewer than three.
+    """
     free = stroke.curve
     pairs = [(j, int(k)) for j in np.flatnonzero(stroke.slides)
-             for k in np.flatnonzero(np.abs(locked.beta - free.beta[j]) < 0.5 * width)[:1]]  # fmt: skip
+             for k in np.flatnonzero(np.abs(beta - free.beta[j]) < 0.5 * width)[:1]]  # fmt: skip
     if len(pairs) < FEWEST:
         return float("nan"), len(pairs)
     moved = free.joint[[j for j, _ in pairs]]
-    force = locked.force[[k for _, k in pairs]]
     off = moved - moved.mean()
-    return float(off @ force / (off @ off)), len(pairs)
+    return float(off @ values[[k for _, k in pairs]] / (off @ off)), len(pairs)

@@ -3,7 +3,7 @@
 The explicit model's own fit counts every bin alike (its eq. 19). Here a bin counts by the time spent in it over twice
 the noise's correlation time, which makes the sum of squares a likelihood, so that priors have their weight.
 F(k/s, s × lengths) = F exactly: k and the four lengths are known up to one factor, whatever is recorded of angle and
-force. One of them, or a prior, has to come from elsewhere.
+force. One of them, a prior, or the displacement of a free joint has to say the rest.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from geocontact.identify.levenberg_marquardt import Search, levenberg_marquardt
 from geocontact.identify.quasi_newton import spread_starts
 from geocontact.systems.elbow_bins import BETA, FORCE, PRESSURE, RATE, Binned
 from geocontact.systems.elbow_law import NAMES, SCALED, ElbowLaw
+from geocontact.systems.elbow_scale import Scale
 
 STARTS = 8
 SAME = 1e-6  # of the cost: searches that end so close to each other end equally well
@@ -49,6 +50,8 @@ class Problem:
         One for each of NAMES, in that order; fixed where known.
     priors
         By name, of free ones.
+    scale
+        What a free joint's displacement tells of the lengths; None without.
     """
 
     force: Float[np.ndarray, " n"]
@@ -56,6 +59,7 @@ class Problem:
     weight: Float[np.ndarray, " n"]
     parameters: tuple[Parameter, ...]
     priors: Mapping[str, Prior]
+    scale: Scale | None = None
 
     @cached_property
     def free(self) -> list[int]:
@@ -74,8 +78,8 @@ class Problem:
 
     @cached_property
     def scale_free(self) -> bool:
-        """Whether nothing known sets that factor, no prior either."""
-        return self.scalable and not set(self.priors) & set(SCALED)
+        """Whether nothing known sets that factor, neither a prior nor a free joint's displacement."""
+        return self.scalable and self.scale is None and not set(self.priors) & set(SCALED)
 
     def theta(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " 7"]:
         """All numbers, given the free ones."""
@@ -84,14 +88,18 @@ class Problem:
         return full
 
     def residual(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " m"]:
-        """What the law is too large by, in standard deviations; then how far the free numbers are from their priors."""
-        off = (self.law.force(self.theta(values)) - self.force) * self.weight
-        return np.concatenate([off, (values - self._prior_mean)[self._known] / self._prior_sd[self._known]])
+        """What the law is too large by, in standard deviations; then what scale and priors are missed by in theirs."""
+        theta = self.theta(values)
+        off = (self.law.force(theta) - self.force) * self.weight
+        scale = [] if self.scale is None else [self.scale.residual(theta)]
+        return np.concatenate([off, scale, (values - self._prior_mean)[self._known] / self._prior_sd[self._known]])
 
     def jacobian(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, "m p"]:
         """Derivative of the residual."""
-        slopes = self.law.slopes(self.theta(values))[:, self.free] * self.weight[:, None]
-        return np.vstack([slopes, np.diag(1.0 / self._prior_sd)[self._known]])
+        theta = self.theta(values)
+        slopes = self.law.slopes(theta)[:, self.free] * self.weight[:, None]
+        scale = [] if self.scale is None else [self.scale.slopes(theta)[None, self.free]]
+        return np.vstack([slopes, *scale, np.diag(1.0 / self._prior_sd)[self._known]])
 
     def held(self, name: str, value: float) -> Problem:
         """The same problem with one number known; its prior stays, as a constant that no step changes."""
@@ -99,9 +107,14 @@ class Problem:
                  for p in self.parameters]  # fmt: skip
         return replace(self, parameters=tuple(fixed), priors={n: p for n, p in self.priors.items() if n != name})
 
-    def measuring(self, force: Float[np.ndarray, " n"], priors: Mapping[str, Prior]) -> Problem:
-        """The same problem with other mean forces and priors."""
-        return replace(self, force=force, priors=priors)
+    def measuring(self, force: Float[np.ndarray, " n"]) -> Problem:
+        """The same problem with other mean forces."""
+        return replace(self, force=force)
+
+    def drawn(self, force: Float[np.ndarray, " n"], rng: np.random.Generator) -> Problem:
+        """The same problem with other mean forces, and with what is known otherwise as it could have been found."""
+        priors = {n: Prior(float(rng.normal(p.mean, p.sd)), p.sd) for n, p in self.priors.items()}
+        return replace(self, force=force, priors=priors, scale=None if self.scale is None else self.scale.drawn(rng))
 
     def searched(self, start: Float[np.ndarray, " p"]) -> Search:
         """Least squares from one start."""
@@ -167,10 +180,12 @@ class Estimate:
         return tuple(p.name for p, v in bounds if v <= p.lower or v >= p.upper)
 
 
-def problem_of(data: Binned, parameters: Sequence[Parameter], priors: Mapping[str, Prior]) -> Problem:
+def problem_of(
+    data: Binned, parameters: Sequence[Parameter], priors: Mapping[str, Prior], scale: Scale | None = None
+) -> Problem:
     """What the bins of some trials ask."""
     return Problem(data.cells.means[:, FORCE], law_at(data.cells.means), np.sqrt(data.information),
-                   tuple(parameters), priors)  # fmt: skip
+                   tuple(parameters), priors, scale)  # fmt: skip
 
 
 def law_at(means: Float[np.ndarray, "n 5"]) -> ElbowLaw:

@@ -17,7 +17,7 @@ from scipy.stats import t as student
 from geocontact.identify.memory import spread
 from geocontact.identify.profile_likelihood import POINTS, Profile, profile_of
 from geocontact.systems.elbow_bins import FORCE, Binned
-from geocontact.systems.elbow_fit import Estimate, Prior, Problem, best_from, law_at
+from geocontact.systems.elbow_fit import Estimate, Problem, best_from, law_at
 from geocontact.systems.elbow_law import LENGTHS, NAMES, SCALED
 
 DISTINCT = 1e-2  # of a number: minima that lie closer are one
@@ -46,6 +46,10 @@ class Covariance:
         """Half the interval of the k-th free number if the law were linear."""
         return float(student.ppf(0.5 + 0.5 * level, self.freedom) * np.sqrt(self.matrix[k, k]))
 
+    def cut(self, k: int, level: float = 0.95) -> float:
+        """Rise of the sum of squares at which the profile of the k-th free number is cut."""
+        return self.half_width(k, level) ** 2 / float(self.inverse[k, k])
+
 
 @dataclass(frozen=True, eq=False)
 class Direction:
@@ -72,7 +76,7 @@ class Direction:
 
 
 def covariance(data: Binned, e: Estimate) -> Covariance:
-    """Sandwich of the stretches' scores; priors count as one stretch each that meets its mean."""
+    """Sandwich of the stretches' scores; priors and the scale count as one stretch each that has just its error."""
     jacobian = e.problem.jacobian(e.values)
     inverse = spread(jacobian)
     scores, stretches = _scores(data, e)
@@ -86,13 +90,13 @@ def profiled(e: Estimate, c: Covariance, name: str, level: float = 0.95, points:
     """Profile of one free number, and its interval of probability `level`.
 
     Offsets of other signs can fit nearly as well. Each value is searched from every minimum that lies within the cut,
-    and from where the nearest value ended; the interval is the hull of what is found.
+    and from where the nearest value ended; there are as many intervals as minima that the cut keeps apart.
     """
     k = e.problem.names.index(name)
     parameter = e.problem.parameters[NAMES.index(name)]
     prior = e.problem.priors.get(name)
     half = max(c.half_width(k, level), 1e-9 * abs(float(e.values[k])))
-    minima = _minima(e, half**2 / float(c.inverse[k, k]))
+    minima = _minima(e, c.cut(k, level))
     ended: dict[float, Float[np.ndarray, " p"]] = {}
 
     def held(value: float) -> float:
@@ -145,7 +149,8 @@ def wild_bootstrap(data: Binned, e: Estimate, count: int, seed: int = 0) -> Floa
     """Free numbers refitted to `count` replicates: stretches keep or turn the sign of their residuals.
 
     Residuals are widened by the root of G/(G - p) for G stretches and p free numbers; means of priors are drawn from
-    the priors.
+    the priors, and the scale from its error. Each replicate is searched from every minimum within the widest cut of a
+    profile, and the best counts: where offsets of other signs fit nearly as well, draws are of both.
     """
     v = data.visits
     rng = np.random.default_rng(seed)
@@ -154,12 +159,13 @@ def wild_bootstrap(data: Binned, e: Estimate, count: int, seed: int = 0) -> Floa
     off = v.means[:, FORCE] - law_at(v.means).force(e.theta)
     share = v.count / data.cells.count[data.cells.of_visit] * off
     wider = np.sqrt(stretches / max(stretches - len(e.values), 1))
+    c = covariance(data, e)
+    minima = _minima(e, max(c.cut(k) for k in range(len(e.values))))
     found = np.empty((count, len(e.values)))
     for k in range(count):
         signs = rng.choice([-1.0, 1.0], stretches)[stretch]
         drawn = np.bincount(data.cells.of_visit, wider * signs * share, len(data.cells.count))
-        priors = {n: Prior(float(rng.normal(p.mean, p.sd)), p.sd) for n, p in e.problem.priors.items()}
-        found[k] = e.problem.measuring(e.predicted + drawn, priors).searched(e.values).values
+        found[k] = best_from(e.problem.drawn(e.predicted + drawn, rng), minima).values
     return found
 
 

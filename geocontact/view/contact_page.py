@@ -16,7 +16,7 @@ from geocontact.geometry.maps import DistanceMaps
 from geocontact.geometry.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.view.contact_tables import meshes_table
-from geocontact.view.contact_words import reviewers_words
+from geocontact.view.contact_words import counted, reviewers_words
 from geocontact.view.directions import camera_directions
 from geocontact.view.page.content import Body, Curve, Curves, Page, Readout, Row, Scene, Section, Strip, Table
 from geocontact.view.page.write import write_page
@@ -152,8 +152,7 @@ def contact_page(
 
 
 def _subtitle(told: Told) -> str:
-    count = len(told.motion)
-    said = f"Contact area over {count} frame{'s' if count != 1 else ''}: "
+    said = f"Contact area over {counted(len(told.motion), 'frame')}: "
     said += f"what lies within {_mm(told.evolution, told.main)} of the other body"
     if told.crude:
         said += f", counted in whole triangles ({told.settings.rule})"

@@ -21,6 +21,11 @@ NOT_A_DEVICE = (
 )
 
 
+def counted(count: int, noun: str) -> str:
+    """ "1 frame", "6 frames": of nouns that take an s."""
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
 def reviewers_words(
     moving: Surface,
     fixed: Surface,

@@ -101,7 +101,6 @@ def told_figure(
     line_r2: Float[np.ndarray, " m"],
     alone_r2: Float[np.ndarray, " m"],
     profiles: Mapping[str, Profile],
-    best: Mapping[str, float],
 ) -> Figure:
     """Draw the direction told least (a), R² along the scale line and along k alone (b), profiles (c).
 
@@ -111,8 +110,9 @@ def told_figure(
         Numbers along the scale; the stiffness is the first column.
     alone_r2
         R² where k alone changes as it does along the line.
-    best
-        Fitted numbers by name: profiles are drawn over the ratio to them.
+    profiles
+        By what they are of, as the legend says: numbers, or ratios where nothing sets the scale; drawn over the best
+        value of each.
     """
     figure, (bars, along, shape) = panels(1, 3, DOUBLE, 0.07)
     bars.bar(range(len(directions.names)), directions.least, color=PALETTE[0])
@@ -124,18 +124,20 @@ def told_figure(
     flat = along.plot(line[:, 0], line_r2, color=PALETTE[0])[0]
     alone = along.plot(line[:, 0], np.maximum(alone_r2, -0.5), color=PALETTE[1], ls="--")[0]
     along.set_xscale("log")
+    ticks = line[[0, len(line) // 2, -1], 0]
+    along.set_xticks(ticks, [f"{k:.3g}" for k in ticks])
+    along.minorticks_off()
     along.set_xlabel("k [N/m]")
     along.set_ylabel("R² of bin means")
     legend(along, [(flat, "k/s, s × lengths"), (alone, "k alone")])
     curves: Entries = []
     for k, (name, p) in enumerate(profiles.items()):
-        size = abs(best[name])
-        if len(p.values) > 1 and size > 0.0:
-            drawn = shape.plot(p.values / best[name], p.rise, color=PALETTE[k % len(PALETTE)], ls=LINES[k % len(LINES)])
+        if len(p.values) > 1 and p.best != 0.0:
+            drawn = shape.plot(p.values / p.best, p.rise, color=PALETTE[k % len(PALETTE)], ls=LINES[k % len(LINES)])
             curves.append((drawn[0], name))
     shape.axhline(1.0, color=GREY, lw=0.6)
     shape.set_ylim(-0.1, 2.5)
-    shape.set_xlabel("number / fitted")
+    shape.set_xlabel("over the best value")
     shape.set_ylabel("rise of the profile / cut at 95 %")
     if curves:
         legend(shape, curves)

@@ -27,7 +27,8 @@ LAW = (
 TOLD = (
     "Left: the direction in the logarithms of k and the lengths that the recordings tell least; (−1, 1, 1, 1, 1) is "
     "the scale. Middle: R² along k/s, s × lengths, where it does not change, and where k changes alone. Right: how far "
-    "the sum of squares rises when a number is held beside its best value; an interval of 95 % ends at 1."
+    "the sum of squares rises when a number is held beside its best value; an interval of 95 % ends at 1. Where "
+    "nothing sets the scale these are the ratios that no scale changes."
 )
 FORCES = "Left: bin means of every trial and the explicit model. Right: spread of the samples in wider bins."
 RESIDUALS = (

@@ -210,15 +210,17 @@ def test_the_free_joints_displacement_sets_the_scale(tmp_path: Path, made: Path)
     free = [part for file in sorted(made.glob("free_*.csv")) for part in ("--unlocked", file)]
     result = done(elbow("fit", tmp_path / "all", *locked(made), *free, "--bootstrap", 0))
     found = told(result)
-    assert not found["scale_free"] and any("the scale is set by k from the free joint" in w for w in result.warnings)
+    assert not found["scale_free"] and any("the scale is set by the free joint's disp" in w for w in result.warnings)
     by_displacement = found["free_joint"]["k_by_displacement_N_per_m"]
     low, high = found["intervals"]["k"]["profile_likelihood"]
-    assert low < by_displacement["value"] < high and low < 222.43 < high and high - low < 20.0 * by_displacement["se"]
+    assert low < 222.43 < high and high - low < 8.0 * by_displacement["se"]
+    assert 0.0 < found["free_joint"]["scale"]["se"] < 0.02 and found["free_joint"]["scale"]["trials"] == 3
     (stop,) = found["free_joint"]["stops"]
     wanting = -stop["force_N"] / by_displacement["value"] * 1e3
     assert stop["stroke_wanting_mm"] == pytest.approx(wanting)
-    lone = done(elbow("fit", tmp_path / "one", locked(made)[0], *free, "--bootstrap", 0))
-    assert told(lone)["scale_free"] and any("takes two locked trials" in w for w in lone.warnings)
+    lone = done(elbow("fit", tmp_path / "one", *locked(made), *free[:2], "--bootstrap", 0))
+    assert told(lone)["scale_free"] and any("takes two free trials" in w for w in lone.warnings)
+    assert told(lone)["free_joint"]["scale"] is None
 
 
 def test_a_prior_and_bounds_as_the_papers(tmp_path: Path, made: Path) -> None:
@@ -397,7 +399,7 @@ def test_comparisons_that_cannot_be_are_refused(tmp_path: Path, made: Path) -> N
     for options, said in (
         ((), "exactly one is compared with"),
         (("--fit", bad), "holds no law of an elbow"),
-        (("--simulated", one, "--simulated", one), "given 2 times for 1 recordings"),
+        (("--simulated", one, "--simulated", one), "given 2 times for 1 recording; "),
         (("--simulated", one, "--stroke-mm=0:1"), "does nothing without --fit"),
         (("--fit", tmp_path / "none.json"), "none.json"),
     ):

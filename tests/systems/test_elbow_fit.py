@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 
@@ -10,7 +11,7 @@ import pytest
 
 from geocontact.identify.bin_tests import DRAWS, lilliefors
 from geocontact.systems.elbow_bins import FORCE, Binned, binned
-from geocontact.systems.elbow_end_stop import curve_of, stiffness_by_displacement, stroke_of
+from geocontact.systems.elbow_end_stop import Stroke, curve_of, stiffness_by_displacement, stroke_of
 from geocontact.systems.elbow_fit import (
     Estimate,
     Prior,
@@ -20,6 +21,7 @@ from geocontact.systems.elbow_fit import (
 )
 from geocontact.systems.elbow_law import NAMES, ElbowLaw
 from geocontact.systems.elbow_residuals import normal_residuals, normality, standard_residuals
+from geocontact.systems.elbow_scale import Scale, scale_of
 from geocontact.systems.elbow_synthetic import PAPER, Design, ideal, multisine
 from geocontact.systems.elbow_uncertainty import (
     along_the_scale,
@@ -160,7 +162,7 @@ def test_profile_along_the_scale_is_flat_and_one_length_known_ends_that() -> Non
 
 
 def test_intervals_hold_both_signs_where_offsets_of_either_fit() -> None:
-    """Two minima, mirrored in the signs of x and z: whichever is the lower, the interval reaches over both."""
+    """Two minima, mirrored in the signs of x and z: whichever is the lower, both are within."""
     data = binned(trials(PAPER, Design(), [51, 0]), WIDTH)
     both = with_link_held(estimated(problem_of(data, parameters({}), {})))
     close = [end for end, cost in zip(both.ends, both.costs, strict=True) if cost < both.cost + 0.5]
@@ -168,7 +170,10 @@ def test_intervals_hold_both_signs_where_offsets_of_either_fit() -> None:
     c = covariance(data, both)
     for place, name in ((1, "x"), (3, "z")):
         p = profiled(both, c, name, points=5)
-        assert all(p.lower <= end[place] <= p.upper for end in close) and p.lower < 0.0 < p.upper, name
+        assert all(any(low <= end[place] <= high for low, high in p.parts) for end in close), name
+        assert p.lower < 0.0 < p.upper
+    drawn = wild_bootstrap(data, both, 100)
+    assert all(0.05 < share < 0.95 for share in (drawn[:, [1, 3]] > 0.0).mean(axis=0)), "draws of one sign only"
 
 
 def test_p_of_normal_residuals_is_uniform_also_where_neighbouring_bins_share_noise() -> None:
@@ -296,3 +301,56 @@ def test_free_displacement_and_locked_force_tell_the_stiffness() -> None:
     found = stiffness_by_displacement(locked, stroke, WIDTH)
     assert found is not None and found.trials == 6
     assert abs(found.value - PAPER["k"]) < 4.0 * found.error and found.error < 0.05 * PAPER["k"]
+
+
+FREE = (-0.010, 0.060)
+
+
+def free_scale(design: Design, seed: Sequence[int]) -> tuple[Scale, Stroke]:
+    data = binned(trials(design=design, seed=seed, stroke=FREE), WIDTH)
+    stroke = stroke_of(curve_of(data))
+    assert stroke is not None
+    scale = scale_of([curve_of(data.only(trial)) for trial in range(6)], stroke, WIDTH)
+    assert scale is not None and scale.trials == 6
+    return scale, stroke
+
+
+def test_the_scale_of_the_truth_is_one_and_its_derivatives_are_those() -> None:
+    scale, _ = free_scale(replace(QUICK, rate=50.0, donning=2e-3), [71, 0])
+    theta = np.array([PAPER[name] for name in NAMES])
+    assert abs(scale.residual(theta)) < 3.0
+    larger = theta * np.array([0.5, 2.0, 2.0, 2.0, 2.0, 1.0, 1.0])
+    assert scale.residual(larger) * scale.error + 1.0 == pytest.approx(
+        2.0 * (scale.residual(theta) * scale.error + 1.0)
+    )
+    for k in range(len(NAMES)):
+        step = np.zeros(7)
+        step[k] = 1e-5 * max(abs(theta[k]), 1.0)
+        secant = (scale.residual(theta + step) - scale.residual(theta - step)) / (2.0 * step[k])
+        assert scale.slopes(theta)[k] == pytest.approx(secant, rel=1e-5, abs=1e-9)
+
+
+def test_locked_forces_count_once_where_the_free_joint_sets_the_scale() -> None:
+    """k spreads over recordings as its standard error says, and less than where a slope over the displacement is all
+    that the forces are asked for: with the forces in a prior on k as well it would spread as that slope does.
+    """
+    quick = Design(seconds=30.0, rate=50.0, noise=0.5, memory=0.1)
+    found = np.empty((30, 3))
+    for run in range(30):
+        data = binned(trials(design=quick, seed=[72, run]), WIDTH)
+        scale, stroke = free_scale(quick, [73, run])
+        e = estimated(problem_of(data, parameters({}), {}, scale), starts=0)
+        assert not e.problem.scale_free
+        slope = stiffness_by_displacement([curve_of(data.only(k)) for k in range(6)], stroke, WIDTH)
+        assert slope is not None
+        found[run] = e.named["k"], np.sqrt(covariance(data, e).matrix[0, 0]), slope.value
+    spread = found.std(axis=0, ddof=1)
+    assert abs(found[:, 0].mean() - PAPER["k"]) < 4.0 * spread[0] / np.sqrt(30)
+    assert 0.6 < spread[0] / np.median(found[:, 1]) < 1.5
+    assert spread[0] < 0.8 * spread[2]
+
+
+def test_one_free_trial_has_no_scale() -> None:
+    data = binned(trials(design=QUICK, stroke=FREE, count=1), WIDTH)
+    stroke = stroke_of(curve_of(data))
+    assert stroke is not None and scale_of([stroke.curve], stroke, WIDTH) is None

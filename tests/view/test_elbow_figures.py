@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from geocontact.identify.profile_likelihood import Profile
 from geocontact.systems.elbow_end_stop import Curve, Stroke
-from geocontact.view.elbow_figures import Boxes, conditions_figure, surface_figure
+from geocontact.systems.elbow_uncertainty import Direction
+from geocontact.view.elbow_figures import Boxes, conditions_figure, surface_figure, told_figure
 from geocontact.view.elbow_surfaces import surfaces
 
 
@@ -28,3 +30,15 @@ def test_boxes_of_both_conditions_share_an_axis() -> None:
     middles = np.array([0.5 * (box[:, 0].min() + box[:, 0].max()) for box in boxes])
     np.testing.assert_allclose(middles[3:] - middles[:3], 4.0)
     assert [box[:, 1].min() for box in boxes] == [1.0] * 3 + [6.0] * 3
+
+
+def test_profiles_are_drawn_over_the_best_value_and_k_has_three_ticks() -> None:
+    told = Direction(("k", "l"), np.array([1.0, 1e-12]), np.array([-0.7, 0.7]))
+    line = np.tile(np.linspace(100.0, 400.0, 41)[:, None], 7)
+    values = np.array([-0.4, 0.0, 0.4])
+    profile = Profile("x", 0.2, ((-0.4, -0.1), (0.1, 0.4)), False, False, values, np.array([1.0, 3.0, 1.0]))
+    _, along, shape = told_figure(told, line, np.ones(41), np.ones(41), {"x/l": profile}).axes[:3]
+    assert [tick.get_text() for tick in along.get_xticklabels()] == ["100", "250", "400"]
+    assert not along.get_xticklabels(minor=True)
+    np.testing.assert_allclose(shape.get_lines()[0].get_xdata(), [-2.0, 0.0, 2.0])
+    assert [text.get_text() for text in shape.get_legend().get_texts()] == ["x/l"]
