@@ -6,28 +6,18 @@ version of the package: a run of another version is refused, as is one whose see
 
 from __future__ import annotations
 
-import hashlib
 import json
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-import geocontact
-
-
-def version() -> str:
-    """Digest of the sources of the package: twelve hexadecimal digits."""
-    root = Path(geocontact.__file__).parent
-    digest = hashlib.sha256()
-    for file in sorted(root.rglob("*.py")):
-        digest.update(file.relative_to(root).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")
-    return digest.hexdigest()[:12]
+from geocontact.cli.sources import digest
 
 
 def begin(path: Path, seed: int, about: Mapping[str, Any]) -> None:
     """Note a run in the file; SystemExit where it cannot be added to what is there."""
-    here = version()
+    here = digest()
     for run in kept(path)[0]:
         if run["version"] != here:
             sys.exit(f"{path}: rows of version {run['version']}, this is {here}: move the file away")

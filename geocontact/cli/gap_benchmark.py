@@ -32,6 +32,9 @@ class BenchmarkOptions:
         Processes; as many as there are cores unless given. Cases and answers do not depend on it.
     again
         Cases of each system that are diagnosed a second time with other names, trials in another order, other units.
+    journal
+        File to which every case is added as it is done: called again with the same one, seed and version, the run goes
+        on where it ended.
     keep
         Keep the folders of the cases in OUT/cases-SEED, with labels.json beside them.
     """
@@ -43,6 +46,7 @@ class BenchmarkOptions:
     kinds: str | None = None
     jobs: int | None = None
     again: int = 5
+    journal: Path | None = None
     keep: Annotated[bool, Flag] = False
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from geocontact.cli.gap_benchmark import BenchmarkOptions
 from geocontact.cli.gap_benchmark_case import Task, Worked, lost, worked
+from geocontact.cli.gap_benchmark_journal import Journal
 from geocontact.cli.gap_benchmark_results import Outcome, write_results
 from geocontact.cli.output import written_whole
 from geocontact.cli.patience import progress
@@ -31,7 +32,8 @@ def run_benchmark(o: BenchmarkOptions) -> int:
     record = Record(COMMAND, {**asdict(o), "seed": seed})
     record.results["seed"] = seed
     with record.catching_warnings(), written_whole(o.out) as draft:
-        done = _worked(record, list(lots(systems, o.cases, kinds, seed)), draft, o)
+        journal = None if o.journal is None else Journal(o.journal)
+        done = _worked(record, list(lots(systems, o.cases, kinds, seed)), draft, o, journal)
         for one in done:
             for line in one.trouble:
                 record.warn(line)
@@ -57,6 +59,8 @@ def _checked(o: BenchmarkOptions) -> tuple[str, ...]:
         (o.cases < 1, "--cases", f"{o.cases} is less than one case", "give 1 or more, e.g. 200"),
         (o.again < 0, "--again", f"{o.again} is less than none", "give 0 or more"),
         (o.jobs is not None and o.jobs < 1, "--jobs", f"{o.jobs} is less than one process", "give 1 or more"),
+        (o.journal is not None and o.seed is None, "--journal", "would go on with other cases", "give --seed too"),
+        (o.journal is not None and o.keep, "--journal", "does not hold folders of cases", "leave out --keep"),
         (o.seed is not None and o.seed < 0, "--seed", f"{o.seed} is negative", "give 0 or more"),
     )  # fmt: skip
     for wrong, option, what, remedy in rows:
@@ -65,23 +69,29 @@ def _checked(o: BenchmarkOptions) -> tuple[str, ...]:
     return kinds
 
 
-def _worked(record: Record, chosen: Sequence[Lot], draft: Path, o: BenchmarkOptions) -> list[Worked]:
+def _worked(
+    record: Record, chosen: Sequence[Lot], draft: Path, o: BenchmarkOptions, journal: Journal | None
+) -> list[Worked]:
     """Outcomes in the order of the lots; those that there are when somebody interrupts."""
     twice = {system: _spread([lot for lot in chosen if lot.system == system], o.again) for system in SYSTEMS}
     with tempfile.TemporaryDirectory(prefix="geocontact-") as scratch:
         folder = draft / f"cases-{record.results['seed']}" if o.keep else Path(scratch)
         folder.mkdir(exist_ok=True)
-        tasks = [Task(lot, folder, o.keep, lot in twice[lot.system]) for lot in mixed(chosen)]
-        found: dict[Lot, Worked] = {}
+        found = {} if journal is None else {lot: journal.done[lot] for lot in chosen if lot in journal.done}
+        left = [lot for lot in mixed(chosen) if lot not in found]
+        tasks = [Task(lot, folder, o.keep, lot in twice[lot.system]) for lot in left]
         with progress("cases", len(tasks)) as step:
             try:
                 for task, became in each(worked, tasks, o.jobs):
-                    found[task.lot] = became if isinstance(became, Worked) else lost(task, became)
+                    one = became if isinstance(became, Worked) else lost(task, became)
+                    found[task.lot] = one
+                    if journal is not None:
+                        journal.keep(one)
                     step()
             except KeyboardInterrupt:
                 if not found:
                     raise
-                record.warn(f"interrupted after {len(found)} of {len(tasks)} cases, which are scored here")
+                record.warn(f"interrupted after {len(found)} of {len(chosen)} cases, which are scored here")
     return [found[lot] for lot in chosen if lot in found]
 
 

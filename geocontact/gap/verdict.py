@@ -81,6 +81,8 @@ class Standing:
 def standing(base: Contender, contenders: Sequence[Contender], share: float, variants: Mapping[str, int]) -> Standing:
     """What the contenders gain; a pair is weighed where it adds enough to the best single.
 
+    Who has no evidence that is a number is not weighed.
+
     Parameters
     ----------
     base
@@ -92,6 +94,7 @@ def standing(base: Contender, contenders: Sequence[Contender], share: float, var
     variants
         How many candidates each effect has: they share what is believed of it beforehand.
     """
+    contenders = [c for c in contenders if np.isfinite(c.nats)]
     single = [c for c in contenders if len(c.candidates) == 1]
     chosen_from = {
         c.label: float(np.log([variants[one.name] * one.ways for one in c.candidates]).sum()) for c in contenders
@@ -106,7 +109,7 @@ def standing(base: Contender, contenders: Sequence[Contender], share: float, var
 
 
 def answer(held: Standing, unnamed: float, strange: float, rest: float) -> Answer:
-    """The verdict.
+    """The verdict; FloatingPointError where what is given is not a number.
 
     Parameters
     ----------
@@ -132,6 +135,8 @@ def answer(held: Standing, unnamed: float, strange: float, rest: float) -> Answe
     doubted = sum(weights.values()) * doubt / max(1.0 - doubt, 1e-9)
     weights[("unknown",)] = weights.get(("unknown",), 0.0) + np.exp((unnamed - most) / tolerance) + doubted
     total = sum(weights.values())
+    if not np.isfinite(total):
+        raise FloatingPointError("probabilities cannot be told: what is left unexplained is not a number")
     shared: dict[str, float] = {}
     for names, weight in weights.items():
         for name in names:

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks import gap_detectability, gap_next_experiment, gap_rows
+from geocontact.cli import sources
 
 
 def run(path: Path, seed: int, *rows: dict[str, object]) -> None:
@@ -36,7 +37,7 @@ def test_runs_of_another_version_or_with_the_same_seed_are_not_added(
     assert [row["seed"] for row in gap_rows.kept(path)[1]] == [1, 2]
     with pytest.raises(SystemExit, match="seed 2"):
         run(path, 2)
-    monkeypatch.setattr(gap_rows, "version", lambda: "another")
+    monkeypatch.setattr(gap_rows, "digest", lambda: "another")
     with pytest.raises(SystemExit, match="this is another"):
         run(path, 3)
     assert len(gap_rows.kept(path)[0]) == 2
@@ -44,11 +45,11 @@ def test_runs_of_another_version_or_with_the_same_seed_are_not_added(
 
 def test_the_version_is_that_of_the_sources(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "one.py").write_text("")
-    monkeypatch.setattr(gap_rows.geocontact, "__file__", str(tmp_path / "__init__.py"))
-    before = gap_rows.version()
-    assert gap_rows.version() == before
+    monkeypatch.setattr(sources, "ROOT", tmp_path)
+    before = sources.digest()
+    assert sources.digest() == before
     (tmp_path / "one.py").write_text("x = 1\n")
-    assert gap_rows.version() != before
+    assert sources.digest() != before
 
 
 def test_statements_are_added_up_over_runs(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import csv
 import json
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -150,6 +150,7 @@ def test_lots_are_the_seeds_own() -> None:
         (("--jobs", 0), "0 is less than one process"),
         (("--again", "-1"), "-1 is less than none"),
         (("--seed", "-1"), "-1 is negative"),
+        (("--journal", "cases.jsonl"), "would go on with other cases; give --seed too"),
         (("--system", "hip"), "hip"),
     ],
 )
@@ -210,4 +211,45 @@ def test_a_case_whose_process_is_lost_counts_as_wrong(monkeypatch: pytest.Monkey
     assert "was lost: RuntimeError: killed" in told.err
     found = json.loads((out / "benchmark.json").read_text("utf-8"))
     assert found["cases"] == {"elbow": {"none": 2}}
-    assert [row["verdict"] for row in csv.DictReader((out / "cases.csv").open(encoding="utf-8"))] == ["failed"] * 2
+    rows = csv.DictReader((out / "cases.csv").read_text("utf-8").splitlines())
+    assert [row["verdict"] for row in rows] == ["failed"] * 2
+
+
+def counted(worked_on: list[Lot]) -> Callable[..., Iterator[tuple[Task, Worked]]]:
+    """In place of the work: answers that are wrong, and which cases were asked for."""
+
+    def each(work: object, tasks: list[Task], jobs: int | None) -> Iterator[tuple[Task, Worked]]:
+        for task in tasks:
+            worked_on.append(task.lot)
+            label = plain(drawn(task.lot).label.as_dict())
+            answers = {who: failed(label) for who in ANSWERERS}
+            yield task, Worked(task.lot, f"case{task.lot.place}", label, answers, 1.0, 1.0, None, ("it is made up",))
+
+    return each
+
+
+def test_a_journal_goes_on_where_it_ended(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    journal, worked_on = tmp_path / "kept" / "cases.jsonl", []
+    monkeypatch.setattr(gap_benchmark_run, "each", counted(worked_on))
+
+    def run(cases: int, name: str) -> dict:
+        options = ("--system", "elbow", "--kinds", "none", "--cases", cases, "--seed", 5, "--journal", journal)
+        done(call("gap", "benchmark", "--out", tmp_path / name, *options))
+        return json.loads((tmp_path / name / "benchmark.json").read_text("utf-8"))
+
+    run(2, "a")
+    whole = journal.read_text("utf-8")
+    journal.write_text(whole + whole.splitlines()[-1][:40], "utf-8")  # killed while it wrote
+    found = run(3, "b")
+    assert [lot.place for lot in worked_on] == [0, 1, 2]
+    assert found["cases"] == {"elbow": {"none": 3}} and len(found["trouble"]) == 3
+    assert journal.read_text("utf-8").startswith(whole) and len(journal.read_text("utf-8").splitlines()) == 4
+    assert run(3, "c")["figures"] == found["figures"] and len(worked_on) == 3
+
+
+def test_a_journal_of_other_sources_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    journal = tmp_path / "cases.jsonl"
+    journal.write_text('{"sources": "0123456789ab"}\n', "utf-8")
+    made = call("gap", "benchmark", "--out", tmp_path / "out", "--cases", 1, "--seed", 5, "--journal", journal)
+    assert made.code == 2 and "was written by sources 0123456789ab, these are" in made.err
+    assert not (tmp_path / "out").exists()

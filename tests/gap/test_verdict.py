@@ -154,3 +154,16 @@ def test_a_mistake_takes_what_speaks_for_nothing_else() -> None:
     assert stranger.verdict == "unknown"
     for found in (nothing, beside, stranger):
         assert sum(found.probabilities.values()) == pytest.approx(1.0)
+
+
+def test_who_has_no_evidence_is_not_weighed() -> None:
+    rivals = contender(np.nan, "preload"), contender(50.0, "damping"), contender(np.nan, "damping", "preload")
+    held = standing(contender(0.0), rivals, SHARE, {one.name: 1 for one in OFFERED.values()})
+    assert held.best is rivals[1]
+    assert said(*rivals).effects == ("damping",)
+
+
+@pytest.mark.parametrize("given", [{"rest": np.nan}, {"unnamed": np.nan}, {"strange": np.nan}])
+def test_what_is_no_number_is_no_verdict(given: dict[str, float]) -> None:
+    with pytest.raises(FloatingPointError, match="what is left unexplained is not a number"):
+        said(contender(50.0, "damping"), **given)

@@ -351,3 +351,18 @@ def test_a_pad_that_was_pressed_sits_closer_until_it_has_opened():
 def test_what_does_not_exist_is_named(wrong):
     with pytest.raises(ValueError, match=r"hip|triple"):
         plant(**wrong, seed=0)
+
+
+def test_a_draw_whose_visibility_is_no_number_is_drawn_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    real, drawn = cases.FINDERS["single"], []
+
+    def broken_at_first(*given: object) -> cases.Found:
+        found = real(*given)
+        drawn.append(found)
+        sights = {name: dataclasses.replace(seen, nats=np.nan) for name, seen in (found.sights or {}).items()}
+        return dataclasses.replace(found, sights=sights) if len(drawn) == 1 else found
+
+    monkeypatch.setitem(cases.FINDERS, "single", broken_at_first)  # type: ignore[arg-type]
+    made = plant("knee", "single", 5)
+    assert len(drawn) > 1
+    assert all(np.isfinite(nats) for nats in made.label.nats.values())

@@ -134,6 +134,8 @@ def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: floa
     learn, hold = [(3, 2), (3, 2), (3, 2), (4, 2), (3, 3)][rng.integers(5)]
     stage = prepared(scene, [scene.path(rng, i) for i in range(learn)], kind)
     found = FINDERS[kind](rng, stage, effect, nats)
+    if not all(math.isfinite(seen.nats) for seen in (found.sights or {}).values()):
+        raise NotFoundError(f"{found.words}: how visible it is cannot be told")
     fine = fine_enough(scene, stage.trials[0].path, found.hooks)
     gaps = lost_rows if rng.random() < 0.2 else None
     faults = [found.fault if i in found.faulty else NO_FAULT for i in range(learn + hold)]
@@ -150,6 +152,8 @@ def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: floa
     how_far = reach(scene, fresh, theta, found.hooks, fine, stage.floor)
     case, names = case_of(rng, scene, recordings, learn, name)
     label = label_of(kind, found, how_far, scene, stage, names)
+    if not all(true is None or math.isfinite(true) for true in label.reduction.values()):
+        raise NotFoundError(f"{found.words}: how far the gap shrinks cannot be told")
     return Planted(case, label, ideal(scene, stage.trials, found.hooks, fine))
 
 
