@@ -190,7 +190,7 @@ def _block(
             for j in range(a.shape[1])
         ]
     )
-    return Block(at * present.shape[1] + which, time[at], which, inputs.reshape(-1, len(at), len(at)))
+    return Block(at * present.shape[1] + which, time[at], which, inputs.reshape(a.shape[1], len(at), len(at)))
 
 
 def _factor(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:

@@ -131,7 +131,8 @@ def test_tables_agree_with_the_answer(diagnosed: Call, answer: dict[str, Any]) -
     assert {"phase", "beta", "beta'", "load", "band", "fast phase"} == set(cells["axis"])
     sums = cells.groupby(["channel", "axis"])["share [-]"].sum()
     assert all(value == pytest.approx(1.0) or value == 0.0 for value in sums)
-    assert cells["p_value [-]"].min() == pytest.approx(answer["where"][0]["p_value"])
+    least = cells["p_value [-]"].min()  # of two families of cells
+    assert answer["where"][0]["p_value"] == pytest.approx(min(1.0, 2.0 * least))
 
 
 def test_held_out_curves_have_the_errors_of_the_answer(diagnosed: Call, answer: dict[str, Any]) -> None:

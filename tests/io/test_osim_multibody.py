@@ -81,7 +81,7 @@ def test_constraints_are_said(tmp_path: Path) -> None:
 BAD = {
     "a body without a joint": (
         PIN.replace('<Body name="p">', '<Body name="q"/><Body name="p">', 1),
-        "body q has no joint",
+        "body q: has no joint",
     ),
     "a joint on itself": (
         PIN.replace("p_offset</socket_parent_frame>", "c_offset</socket_parent_frame>"),
