@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.joint import Coordinate, JointModel
 
@@ -71,6 +72,22 @@ class Multibody:
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Generalised coordinates of all joints, in the joints' order."""
         return tuple(c for joint in self.joints for c in joint.coordinates)
+
+    def poses(self, values: Float[np.ndarray, "t n"]) -> dict[str, RigidTransform]:
+        """Poses of the bodies in the ground, one for each row of coordinates [rad, m]; the ground's own among them."""
+        frames = len(values)
+        q = {c.name: column for c, column in zip(self.coordinates, values.T, strict=True)}
+        still = RigidTransform.from_translation(np.zeros((frames, 3)))
+        found = {GROUND: still}
+        for joint in self.joints:
+            found[joint.child] = found[joint.parent] * joint.pose(q, frames)
+        return found
+
+    def marker_places(self, values: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t m 3"]:
+        """Where the markers are in the ground's frame [m], one row for each row of coordinates [rad, m]."""
+        poses = self.poses(values)
+        places = [poses[m.body].apply(m.location) for m in self.markers]
+        return np.stack(places, axis=1) if places else np.zeros((len(values), 0, 3))
 
 
 def outwards(joints: tuple[JointModel, ...]) -> tuple[tuple[JointModel, ...], tuple[JointModel, ...]]:

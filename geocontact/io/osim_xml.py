@@ -24,6 +24,16 @@ _SETS = ("BodySet", "JointSet", "ComponentSet")
 
 def read_model(path: str | PathLike[str]) -> Element:
     """The `Model` element of an .osim file. External entities and entity expansion are refused."""
+    root = read_document(path, "OpenSim model")
+    model = root if root.tag == "Model" else root.find("Model")
+    if root.tag not in ("OpenSimDocument", "Model") or model is None:
+        what = f"root element is <{root.tag[:40]}>, not an OpenSim model"
+        raise InputError(fspath(path), "", what, "give an .osim file")
+    return model
+
+
+def read_document(path: str | PathLike[str], kind: str = "OpenSim document") -> Element:
+    """Root of one of OpenSim's XML files. External entities and entity expansion are refused."""
     file = fspath(path)
     try:
         size = Path(file).stat().st_size
@@ -35,11 +45,8 @@ def read_model(path: str | PathLike[str]) -> Element:
     except InputError:
         raise
     except (ParseError, ValueError, LookupError) as error:
-        raise InputError(file, "", f"not a readable OpenSim model ({error})", "is the file complete?") from error
-    model = root if root.tag == "Model" else root.find("Model")
-    if root.tag not in ("OpenSimDocument", "Model") or model is None:
-        raise InputError(file, "", f"root element is <{root.tag[:40]}>, not an OpenSim model", "give an .osim file")
-    return model
+        raise InputError(file, "", f"not a readable {kind} ({error})", "is the file complete?") from error
+    return root
 
 
 def label(element: Element) -> str:

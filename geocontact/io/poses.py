@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
-from functools import partial
 from os import PathLike, fspath
 from pathlib import Path
 
@@ -13,9 +11,10 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.joint import Coordinate, JointModel
+from geocontact.data.joint import JointModel
 from geocontact.data.motion import Motion
-from geocontact.io.columns import angles_of, lengths, mapped, parse_map, resolve
+from geocontact.io.columns import angles_of, lengths, mapped, parse_map
+from geocontact.io.coordinates import columns_of, coordinates_of, warn_of_defaults
 from geocontact.io.grood_suntay import motion_from_grood_suntay
 from geocontact.io.tables import Table, listed, read_table
 from geocontact.io.units import LENGTH
@@ -65,15 +64,11 @@ def motion_from_joint(table: Table, joint: JointModel, moving: str = "child", an
     """
     if moving not in ("child", "parent"):
         raise InputError("", "--moving", f"'{moving}' is not a body of the joint", "give child or parent")
-    columns = {c.name: column for c in joint.coordinates if (column := resolve(table, c.name, joint.name))}
-    if joint.coordinates and not columns:
-        names = ", ".join(c.name for c in joint.coordinates)
-        what = f"no column for any coordinate of joint {joint.name} ({names})"
-        raise InputError(table.file, "", what, f"columns are: {listed(table.channels)}")
-    pose = joint.pose(_coordinates(table, joint, columns, angles), len(table.time))
+    columns = columns_of(table, (joint,))
+    pose = joint.pose(coordinates_of(table, joint.coordinates, columns, angles), len(table.time))
     if not np.all(np.isfinite(pose.as_matrix())):
         raise InputError(table.file, "", f"pose of joint {joint.name} is not finite", "coordinates or model are absurd")
-    _warn_of_defaults(table, joint, [c for c in joint.coordinates if c.name not in columns])
+    warn_of_defaults(table, joint.coordinates, columns, f"joint {joint.name}")
     poses = pose.inv() if moving == "parent" else pose
     source = f"{table.file} with joint {joint.name} of {joint.file}"
     heeded = {"angles" for c in joint.coordinates if c.name in columns and c.kind == "rotational"}
@@ -168,31 +163,3 @@ def _quaternions(table: Table) -> Rotation:
         what = f"quaternion length up to {size[worst]:.6f} (line {table.lines[worst]}); normalised"
         warnings.warn(InputWarning(f"{table.file}: {what}"), stacklevel=3)
     return Rotation.from_quat(values, scalar_first=True)
-
-
-def _warn_of_defaults(table: Table, joint: JointModel, absent: Sequence[Coordinate]) -> None:
-    if absent:
-        values = ", ".join(f"{c.name} = {c.default:g}" for c in absent)
-        what = f"no column for {len(absent)} coordinate(s) of joint {joint.name}; default taken: {values}"
-        warnings.warn(InputWarning(f"{table.file}: {what}"), stacklevel=3)
-
-
-def _coordinates(
-    table: Table, joint: JointModel, columns: Mapping[str, str], angles: str | None
-) -> dict[str, Float[np.ndarray, " t"]]:
-    """Values of the coordinates that have a column [rad, m].
-
-    A coupled one stands in the file as in the model, in rad or m, also where OpenSim writes the others in degrees.
-    """
-    found = [c for c in joint.coordinates if c.name in columns]
-    q: dict[str, Float[np.ndarray, " t"]] = {}
-    for kind, read in (("rotational", partial(angles_of, angles=angles)), ("translational", lengths)):
-        names = [c.name for c in found if c.kind == kind]
-        if names:
-            q.update(zip(names, read(table, [columns[name] for name in names]).T, strict=True))
-    for name in (c.name for c in found if c.kind == "coupled"):
-        q[name] = table.needed(columns[name])
-        if "deg" in (angles, table.angles.unit):
-            what = f"column '{columns[name]}' is not a plain rotation; read in rad or m as OpenSim writes it"
-            warnings.warn(InputWarning(f"{table.file}: {what}"), stacklevel=3)
-    return q

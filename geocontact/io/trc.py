@@ -2,6 +2,8 @@
 
 Line 3 tells rate, counts and unit, line 4 the markers' names, line 5 the columns; then frame, time and x y z of each
 marker between tabs. An empty cell is a marker that was not seen; so is one at exactly 0 0 0, which some exports write.
+Times are often rounded to milliseconds, which would ruin accelerations; where frames and rate bear the times out to the
+rounding, they count.
 """
 
 from __future__ import annotations
@@ -19,6 +21,8 @@ from geocontact.io.table_rows import read_rows
 from geocontact.io.units import LENGTH
 
 _HEAD = 5
+_ROUNDED = 0.51e-3
+"""s that a time may be off the even one by rounding."""
 
 
 def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
@@ -42,7 +46,20 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
         line = places[late[0] + 1] if len(late) else places[0]
         raise InputError(file, f"line {line}", "time does not increase", "every frame needs its own time")
     positions = LENGTH[unit] * values[:, 2:].reshape(len(values), len(names), 3)
-    return MarkerTrajectories(time, _seen(file, positions), names, file)
+    return MarkerTrajectories(_unrounded(time, values[:, 0], declared), _seen(file, positions), names, file)
+
+
+def _unrounded(
+    time: Float[np.ndarray, " t"], frames: Float[np.ndarray, " t"], declared: dict[str, str]
+) -> Float[np.ndarray, " t"]:
+    """Times by frame and rate where they are those of the file but for rounding, else the file's."""
+    try:
+        step = 1.0 / float(declared.get("DataRate", "nan"))
+    except (ValueError, ZeroDivisionError):
+        return time
+    even = (frames - frames[0]) * step
+    even = even + np.median(time - even)
+    return even if np.all(np.abs(even - time) < min(_ROUNDED, 0.5 * step)) else time
 
 
 def _split(line: str, _separator: None, most: int) -> list[str]:

@@ -78,3 +78,12 @@ def test_what_contradicts_itself_is_refused(tmp_path: Path, text: str, message: 
     with pytest.raises(InputError) as error:
         read_trc(written(tmp_path, text))
     assert message in str(error.value)
+
+
+def test_times_rounded_to_milliseconds_are_even_again(tmp_path: Path) -> None:
+    """60 Hz in milliseconds is 0.017, 0.033 …; what is off by more than rounding stays as the file has it."""
+    rows = "".join(f"{k + 31}\t{(k + 30) / 60:.3f}\t1\t2\t3\t4\t5\t6\n" for k in range(7))
+    text = (HEAD + rows).replace("100\t100\t3\t", "60\t60\t7\t", 1)
+    np.testing.assert_allclose(read_trc(written(tmp_path, text)).time, (30 + np.arange(7)) / 60, atol=1e-12)
+    late = text.replace("0.533", "0.531")
+    assert read_trc(written(tmp_path, late)).time[2] == 0.531

@@ -1,0 +1,80 @@
+"""The page of inverse kinematics: coordinates over time, and how far each marker is from the model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.data.multibody import Multibody
+from geocontact.dynamics.inverse_kinematics import Poses
+from geocontact.view.contact_words import NOT_A_DEVICE
+from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Table, Words
+from geocontact.view.page.write import write_page
+
+FRAMES = 1001  # that the page shows at most
+SKIN = (
+    "Markers lie on skin, which slides over bone by centimetres, and the model's joints are not the subject's: the "
+    "distances above tell how far both come together, not how wrong the angles are. Angles of joints that few markers "
+    "tell, and rotations about the long axis of a segment, are the least certain."
+)
+
+
+def write_kinematics_report(
+    path: Path,
+    title: str,
+    model: Multibody,
+    found: Poses,
+    tables: Sequence[Table] = (),
+    warnings: Sequence[str] = (),
+) -> int:
+    """Write the self-contained page; returns its size in bytes."""
+    every = -(-len(found.time) // FRAMES)
+    shown = np.arange(0, len(found.time), every)
+    angular = np.array([c.kind == "rotational" for c in model.coordinates])
+    off = 1e3 * found.distances
+    sections: list[Section] = [
+        Readout(
+            [Row("markers, root mean square", "mm", [f"{v:.1f}" for v in np.sqrt(np.nanmean(off[shown] ** 2, 1))])]
+        ),
+        *_curves("Angles", "deg", found, shown, angular, np.degrees(1.0)),
+        *_curves("Positions", "m", found, shown, ~angular, 1.0),
+        Curves("Distance of markers", "mm", [Curve(n, d) for n, d in zip(found.markers, off[shown].T, strict=True)]),
+        _markers(found),
+        *tables,
+        Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),
+    ]
+    if warnings:
+        sections.append(Words("Reservations of this run", list(warnings)))
+    page = Page(
+        title=title,
+        subtitle=f"{len(found.names)} coordinates of {model.name or 'the model'} from {len(found.markers)} markers",
+        time=found.time[shown],
+        time_label="time [s]",
+        headline=[
+            ("Distance of markers, root mean square", f"{np.sqrt(np.nanmean(off**2)):.1f} mm"),
+            ("Largest distance", f"{np.nanmax(off):.1f} mm"),
+        ],
+        sections=tuple(sections),
+        numbers=shown + 1,
+        total=len(found.time),
+    )
+    return write_page(page, path)
+
+
+def _curves(
+    title: str, unit: str, found: Poses, shown: np.ndarray, which: Bool[np.ndarray, " n"], factor: float
+) -> list[Section]:
+    values: Float[np.ndarray, "t k"] = factor * found.values[shown][:, which]
+    names = [name for name, there in zip(found.names, which, strict=True) if there]
+    return [Curves(title, unit, [Curve(n, v) for n, v in zip(names, values.T, strict=True)])] if names else []
+
+
+def _markers(found: Poses) -> Table:
+    rows = [
+        (name, f"{1e3 * np.sqrt(np.nanmean(d**2)):.1f}", f"{1e3 * np.nanmax(d):.1f}", f"{np.isnan(d).sum()}")
+        for name, d in zip(found.markers, found.distances.T, strict=True)
+    ]
+    return Table("Markers", ("marker", "rms [mm]", "largest [mm]", "frames not seen"), rows)
