@@ -67,6 +67,38 @@ def cell(file: Path, row: int, column: int) -> tuple[float, float]:
     return state.getTime(), state.getData().get(column)
 
 
+def markers(file: Path, row: int) -> tuple[list[str], np.ndarray]:
+    """Names of a .trc file and where the markers are in a row, in the file's unit."""
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    table = opensim.TimeSeriesTableVec3(str(file))
+    cells = table.getRowAtIndex(row)
+    places = [[cells[k].get(n) for n in range(3)] for k in range(table.getNumColumns())]
+    return list(table.getColumnLabels()), np.array(places)
+
+
+def marker_places(file: Path, motion: Path, row: int) -> dict[str, np.ndarray]:
+    """Where the markers of a model are in the ground [m] in a row of a motion in degrees."""
+    import opensim
+
+    model, state = _model(file)
+    table = opensim.Storage(str(motion))
+    cells, labels = table.getStateVector(row).getData(), table.getColumnLabels()
+    for k in range(1, labels.getSize()):
+        coordinate = model.updCoordinateSet().get(labels.get(k))
+        turns = coordinate.getMotionType() == opensim.Coordinate.Rotational
+        value = cells.get(k - 1)
+        coordinate.setValue(state, float(np.radians(value)) if turns else value, False)
+    model.realizePosition(state)
+    found = {}
+    for k in range(model.getMarkerSet().getSize()):
+        marker = model.getMarkerSet().get(k)
+        place = marker.getLocationInGround(state)
+        found[marker.getName()] = np.array([place.get(n) for n in range(3)])
+    return found
+
+
 def inverse_dynamics(file: Path, names: Sequence[str], q: np.ndarray, u: np.ndarray, a: np.ndarray) -> np.ndarray:
     """Generalised forces without muscles and external loads, (s, n)."""
     import opensim

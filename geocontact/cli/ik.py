@@ -30,6 +30,11 @@ class IkOptions:
         Weight of a marker over that of --tasks: R.Heel=10; 0 leaves it out. May be given again.
     hold
         Coordinate held near a value (deg, m): subtalar_angle_r=5.2. May be given again.
+    knee
+        Knee whose angles after Grood and Suntay are written: right=femur_r,tibia_r, the bodies as the model calls them,
+        x forward, y up and z to the right in both. May be given again.
+    axes
+        Which of the markers' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
     time
         First and last time [s]: 0.4:1.6.
     """
@@ -39,19 +44,21 @@ class IkOptions:
     tasks: Path | None = None
     weight: Annotated[tuple[str, ...], Each] = ()
     hold: Annotated[tuple[str, ...], Each] = ()
+    knee: Annotated[tuple[str, ...], Each] = ()
+    axes: Annotated[str | None, Dashed] = None
     time: Annotated[str | None, Dashed] = None
 
 
 def ik(markers: Path, /, *, options: IkOptions) -> int:
     """Joint angles from recorded markers: weighted least squares in every frame, limits of the model kept.
 
-    Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model), ik.json,
-    report.html and run.json into OUT.
+    Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model), knees.csv
+    with --knee, ik.json, report.html and run.json into OUT.
 
     Parameters
     ----------
     markers
-        Marker trajectories (.trc).
+        Marker trajectories (.trc, .c3d).
     """
     from geocontact.cli.ik_analysis import analyse  # numpy and friends: not for --help
 

@@ -7,6 +7,9 @@ import math
 import re
 from pathlib import Path
 
+import numpy as np
+from scipy.spatial.transform import Rotation
+
 from geocontact.data.errors import InputError
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.sagittal import Vector
@@ -215,6 +218,20 @@ def time_span(text: str) -> tuple[float, float]:
     if start > stop:
         raise InputError("", "--time", f"'{text}' ends before it begins", "write for example 0.4:1.6")
     return start, stop
+
+
+def turned_axes(text: str, option: str) -> Rotation:
+    """`x,z,-y`: which of the file's axes are our x, y and z. Mirrored or repeated axes are refused."""
+    parts = [part.strip().lower() for part in text.split(",")]
+    matrix = np.zeros((3, 3))
+    for row, part in enumerate(parts[:3]):
+        if part.lstrip("+-") in ("x", "y", "z"):
+            matrix[row, "xyz".index(part.lstrip("+-"))] = -1.0 if part.startswith("-") else 1.0
+    if len(parts) != 3 or not np.array_equal(matrix @ matrix.T, np.eye(3)):
+        raise InputError("", option, f"{text!r} is not three different axes", "write x,z,-y for a file whose z is up")
+    if np.linalg.det(matrix) < 0.0:
+        raise InputError("", option, f"{text!r} mirrors", "turn one sign")
+    return Rotation.from_matrix(matrix)
 
 
 def registration(text: str) -> tuple[float, float]:

@@ -35,3 +35,18 @@ def tibia_in_femur(
         [-ca * sr, sa, ca * cr],
     ]
     return Rotation.from_matrix(np.moveaxis(np.array(rows, dtype=float), (0, 1), (-2, -1)))
+
+
+def angles_of_tibia(
+    turned: Rotation, side: str
+) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
+    """Flexion, adduction and rotation [rad] of `R_FT`, the inverse of `tibia_in_femur`.
+
+    Flexion and rotation within half a turn to either side, adduction within a quarter. At an adduction of a quarter
+    turn the other two are not told apart; only their sum or difference means anything there.
+    """
+    s = SIGN[side]
+    m = turned.as_matrix()
+    flexion = np.arctan2(m[:, 0, 1], m[:, 1, 1])
+    adduction = s * np.arctan2(m[:, 2, 1], np.hypot(m[:, 0, 1], m[:, 1, 1]))
+    return flexion, adduction, s * np.arctan2(-m[:, 2, 0], m[:, 2, 2])

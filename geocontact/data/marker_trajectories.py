@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial.transform import Rotation
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,11 @@ class MarkerTrajectories:
         """Frames from one time to another, both included to a millionth of a second."""
         kept = (self.time >= start - 1e-6) & (self.time <= stop + 1e-6)
         return MarkerTrajectories(self.time[kept], self.positions[kept], self.names, self.source)
+
+    def turned(self, turn: Rotation) -> MarkerTrajectories:
+        """The same in axes that this rotation turns those of the file into."""
+        places = turn.apply(self.positions.reshape(-1, 3)).reshape(self.positions.shape)
+        return MarkerTrajectories(self.time, places, self.names, self.source)
 
     def of(self, names: tuple[str, ...]) -> Float[np.ndarray, "t n 3"]:
         """Positions of these markers in this order; NaN for a name that was not recorded."""

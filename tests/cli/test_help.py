@@ -14,8 +14,9 @@ from tests.cli.calls import ROOT, call
 HELP = [["--help"], ["area", "--help"], ["demo", "--help"], ["doctor", "--help"], ["view", "--help"]]
 HELP += [["cop", "--help"], ["fit", "--help"], ["loadcells", "--help"], ["--version"]]
 HELP += [["gap", "--help"], ["gap", "diagnose", "--help"], ["elbow", "--help"], ["elbow", "fit", "--help"]]
+HELP += [["ik", "--help"], ["id", "--help"]]
 HELP += [["elbow", "design", "--help"], ["elbow", "population", "--help"]]
-HEAVY = {"numba", "trimesh", "pyvista", "vtk", "matplotlib", "igl", "fcl", "pandas", "scipy", "open3d"}
+HEAVY = {"numba", "trimesh", "pyvista", "vtk", "matplotlib", "igl", "fcl", "pandas", "scipy", "open3d", "casadi"}
 each_help = pytest.mark.parametrize("arguments", HELP, ids=" ".join)
 
 
@@ -40,7 +41,7 @@ def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
 
 
 def test_help_names_the_commands_and_every_option_of_the_contract() -> None:
-    commands = ("area", "cop", "demo", "doctor", "elbow", "fit", "gap", "loadcells", "view")
+    commands = ("area", "cop", "demo", "doctor", "elbow", "fit", "gap", "id", "ik", "loadcells", "markers", "view")
     assert all(name in call("--help").out for name in commands)
     promised = (
         "motion unit threshold out osim joint moving map order angles sweep axis place-moving place-fixed convention "

@@ -1,0 +1,112 @@
+"""A synthetic pelvis with one leg as an OpenSim model, its motion, markers and ground reaction, written to files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from geocontact.data.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody import Multibody
+from geocontact.io.osim_multibody import read_multibody
+from geocontact.io.storage_writer import write_storage
+from geocontact.io.trc_writer import write_trc
+
+RATE = 100.0
+GRAVITY = 9.80665
+BODIES = {"pelvis": 10.0, "femur_r": 8.0, "tibia_r": 4.0, "foot_r": 1.0}
+JOINTS = (
+    ("FreeJoint", "base", "ground", "pelvis", (0, 0, 0), ("tilt", "list", "turn", "tx", "ty", "tz")),
+    ("BallJoint", "hip_r", "pelvis", "femur_r", (0, -0.1, 0.1), ("hip_x", "hip_y", "hip_z")),
+    ("PinJoint", "knee_r", "femur_r", "tibia_r", (0, -0.4, 0), ("knee",)),
+    ("PinJoint", "ankle_r", "tibia_r", "foot_r", (0, -0.4, 0), ("ankle",)),
+)
+PLACES = ((0.1, 0.0, 0.03), (-0.08, 0.05, 0.0), (0.0, -0.2, 0.08), (0.05, -0.1, -0.07))
+
+
+def _body(name: str, mass: float) -> str:
+    inertia = f"{0.02 * mass} {0.01 * mass} {0.015 * mass} 0 0 0"
+    return f"""<Body name="{name}"><mass>{mass}</mass><mass_center>0 -0.15 0</mass_center>
+<inertia>{inertia}</inertia></Body>"""
+
+
+def _joint(kind: str, name: str, parent: str, child: str, at: tuple[float, ...], coordinates: tuple[str, ...]) -> str:
+    path = "/ground" if parent == "ground" else f"/bodyset/{parent}"
+    held = "".join(f'<Coordinate name="{c}"/>' for c in coordinates)
+    return f"""<{kind} name="{name}"><socket_parent_frame>{name}_in</socket_parent_frame>
+<socket_child_frame>{name}_out</socket_child_frame><coordinates>{held}</coordinates><frames>
+<PhysicalOffsetFrame name="{name}_in"><socket_parent>{path}</socket_parent>
+<translation>{" ".join(map(str, at))}</translation></PhysicalOffsetFrame>
+<PhysicalOffsetFrame name="{name}_out"><socket_parent>/bodyset/{child}</socket_parent></PhysicalOffsetFrame>
+</frames></{kind}>"""
+
+
+def _marker(body: str, k: int) -> str:
+    place = " ".join(map(str, PLACES[k]))
+    return f"""<Marker name="{body}{k}"><socket_parent_frame>/bodyset/{body}</socket_parent_frame>
+<location>{place}</location></Marker>"""
+
+
+OSIM = f"""<?xml version="1.0"?><OpenSimDocument Version="40000"><Model name="synthetic leg">
+<gravity>0 -{GRAVITY} 0</gravity><Ground name="ground"/>
+<BodySet><objects>{"".join(_body(*each) for each in BODIES.items())}</objects></BodySet>
+<JointSet><objects>{"".join(_joint(*each) for each in JOINTS)}</objects></JointSet>
+<MarkerSet><objects>{"".join(_marker(body, k) for body in BODIES for k in range(4))}</objects></MarkerSet>
+</Model></OpenSimDocument>"""
+
+
+def model_file(folder: Path) -> Path:
+    file = folder / "leg.osim"
+    file.write_text(OSIM, encoding="utf-8")
+    return file
+
+
+def motion(model: Multibody, frames: int = 61, amplitude: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+    """Time [s] and smooth coordinates [rad, m]; with amplitude 0 the leg hangs straight, its foot 1 m lower."""
+    time = np.arange(frames) / RATE
+    phase = 2.0 * np.pi * (1.3 * time[:, None] + np.linspace(0.0, 0.8, len(model.coordinates)))
+    swing = amplitude * 0.25 * np.sin(phase)
+    swing[:, [c.name == "ty" for c in model.coordinates]] += 1.0
+    return time, swing
+
+
+def planted(folder: Path, amplitude: float = 1.0) -> tuple[Path, Multibody, np.ndarray, np.ndarray]:
+    """The model's file, the model, time and coordinates."""
+    file = model_file(folder)
+    model = read_multibody(file)
+    return (file, model, *motion(model, amplitude=amplitude))
+
+
+def markers_of(model: Multibody, time: np.ndarray, values: np.ndarray) -> MarkerTrajectories:
+    return MarkerTrajectories(time, model.marker_places(values), tuple(m.name for m in model.markers))
+
+
+def trc_file(folder: Path, markers: MarkerTrajectories) -> Path:
+    file = folder / "walk.trc"
+    write_trc(file, markers)
+    return file
+
+
+def mot_file(folder: Path, model: Multibody, time: np.ndarray, values: np.ndarray) -> Path:
+    """Coordinates in degrees and metres."""
+    file = folder / "walk.mot"
+    factor = np.array([np.degrees(1.0) if c.kind == "rotational" else 1.0 for c in model.coordinates])
+    names = [c.name for c in model.coordinates]
+    write_storage(file, time, names, values * factor, title="Coordinates", degrees=True)
+    return file
+
+
+def plate_files(folder: Path, time: np.ndarray, force: tuple[float, ...], point: tuple[float, ...]) -> Path:
+    """A constant reaction on the foot, and OpenSim's file that says so."""
+    names = [f"plate_force_{kind}{axis}" for kind in "vp" for axis in "xyz"] + [f"plate_torque_{a}" for a in "xyz"]
+    row = np.array([*force, *point, 0.0, 0.0, 0.0])
+    write_storage(folder / "grf.mot", time, names, np.tile(row, (len(time), 1)), title="Plates", degrees=False)
+    file = folder / "loads.xml"
+    file.write_text(
+        """<?xml version="1.0"?><OpenSimDocument Version="40000"><ExternalLoads name="loads"><objects>
+<ExternalForce name="right"><applied_to_body>foot_r</applied_to_body><force_identifier>plate_force_v</force_identifier>
+<point_identifier>plate_force_p</point_identifier><torque_identifier>plate_torque_</torque_identifier></ExternalForce>
+</objects><datafile>grf.mot</datafile></ExternalLoads></OpenSimDocument>""",
+        encoding="utf-8",
+    )
+    return file
