@@ -46,7 +46,7 @@ def _needed(tree: Tree, name: str) -> tuple[SX, SX]:
     frame = tree.bodies[name]
     arm = mtimes(frame.rotation, constant(body.centre))
     fast = frame.speed_rate + cross(frame.spin_rate, arm) + cross(frame.spin, cross(frame.spin, arm))
-    force = body.mass * (fast - constant(tree.model.gravity))
+    force = tree.masses.get(name, body.mass) * (fast - constant(tree.model.gravity))
     inertia = mtimes(frame.rotation, mtimes(constant(body.inertia), frame.rotation.T))
     spun = mtimes(inertia, frame.spin_rate) + cross(frame.spin, mtimes(inertia, frame.spin))
     return force, spun + cross(frame.place + arm, force)

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.multibody import Marker
+from geocontact.dynamics.buffered import Buffered
 from geocontact.dynamics.symbols import constant
 from geocontact.dynamics.tree import Tree
-
-if TYPE_CHECKING:
-    from casadi import Function
-
 
 Vector = Float[np.ndarray, " n"]
 Target = tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, " m"], Vector, Vector]
@@ -24,7 +19,6 @@ class MarkerFit:
     """Half the weighted sum of squares Σ w |x(q) - observed|² + Σ v (q - wanted)², and what a Newton step needs.
 
     The curvature is exact: markers on skin are centimetres off, and steps after Gauss and Newton shrink slowly there.
-
 
     Parameters
     ----------
@@ -45,9 +39,9 @@ class MarkerFit:
         cost = 0.5 * (dot(each * off, off) + dot(held * astray, astray))
         curvature, gradient = hessian(cost, tree.q)
         arguments = [tree.q, observed, weights, wanted, held]
-        self._curvature = _Buffered(Function("curvature", arguments, [densify(curvature)]))
-        self._slope = _Buffered(Function("slope", arguments, [densify(gradient), cost]))
-        self._places = _Buffered(Function("places", [tree.q], [densify(places)]))
+        self._curvature = Buffered(Function("curvature", arguments, [densify(curvature)]))
+        self._slope = Buffered(Function("slope", arguments, [densify(gradient), cost]))
+        self._places = Buffered(Function("places", [tree.q], [densify(places)]))
 
     def slope(self, q: Vector, against: Target) -> tuple[Vector, float]:
         """Gradient and cost of a pose."""
@@ -61,23 +55,3 @@ class MarkerFit:
     def places(self, q: Float[np.ndarray, " n"]) -> Float[np.ndarray, "m 3"]:
         """Where the markers are in a pose, in the ground's frame [m]."""
         return np.array(self._places(q)[0]).reshape(-1, 3)
-
-
-class _Buffered:
-    """A function that reads and writes arrays in place: several times as fast as with CasADi's own matrices."""
-
-    def __init__(self, function: Function) -> None:
-        self._buffer, self._run = function.buffer()
-        self._function = function
-        self._inputs = [np.zeros(function.nnz_in(k)) for k in range(function.n_in())]
-        self._outputs = [np.zeros(function.nnz_out(k)) for k in range(function.n_out())]
-        for k, each in enumerate(self._inputs):
-            self._buffer.set_arg(k, memoryview(each))  # type: ignore[call-arg, arg-type]  # its stubs tell another form
-        for k, each in enumerate(self._outputs):
-            self._buffer.set_res(k, memoryview(each))  # type: ignore[call-arg, arg-type]  # likewise
-
-    def __call__(self, *values: Float[np.ndarray, ...]) -> list[Float[np.ndarray, " k"]]:
-        for place, value in zip(self._inputs, values, strict=True):
-            place[:] = value.ravel()
-        self._run()
-        return self._outputs

@@ -13,6 +13,13 @@ if TYPE_CHECKING:
     from casadi import SX
 
 
+def apply_numpy() -> None:
+    """Let NumPy's functions take symbols and give symbols, so that force laws run on them as they are."""
+    from casadi import GlobalOptions
+
+    GlobalOptions.setNumpyMode(1)
+
+
 def constant(values: Float[np.ndarray, ...]) -> SX:
     """Numbers as an expression; what is 0 is left out of it."""
     from casadi import SX, sparsify

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.multibody import GROUND, Multibody
 from geocontact.dynamics.moving_joint import MovingJoint, moving_joint
-from geocontact.dynamics.symbols import constant
+from geocontact.dynamics.symbols import apply_numpy, constant
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -38,11 +39,11 @@ class Moving:
     spin_rate: SX
     speed_rate: SX
 
-    def carried(self, offset: RigidTransform) -> Moving:
-        """A frame that is fixed to this one with that pose."""
+    def carried(self, offset: RigidTransform, place: SX | None = None) -> Moving:
+        """A frame that is fixed to this one with that pose; `place` says where instead of the pose's translation."""
         from casadi import cross, mtimes
 
-        arm = mtimes(self.rotation, constant(offset.translation))
+        arm = mtimes(self.rotation, constant(offset.translation) if place is None else place)
         return Moving(
             mtimes(self.rotation, constant(offset.rotation.as_matrix())),
             self.place + arm,
@@ -95,6 +96,8 @@ class Tree:
         Frames of the bodies by name, the ground among them.
     axes
         One for each joint, in the model's order.
+    masses
+        Symbols [kg] in place of the masses of some bodies; their inertia stays.
     """
 
     model: Multibody
@@ -103,6 +106,7 @@ class Tree:
     a: SX
     bodies: dict[str, Moving]
     axes: tuple[Axis, ...]
+    masses: Mapping[str, SX] = field(default_factory=dict)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -122,21 +126,33 @@ class Tree:
         return frame.place + mtimes(frame.rotation, location)
 
 
-def tree_of(model: Multibody) -> Tree:
-    """A model in symbols."""
+def tree_of(
+    model: Multibody, *, masses: Mapping[str, SX] | None = None, places: Mapping[str, SX] | None = None
+) -> Tree:
+    """A model in symbols.
+
+    Parameters
+    ----------
+    masses
+        Of some bodies by name [kg], symbols that equations are to be functions of.
+    places
+        Of some joints by name: their origin in the parent body [m], likewise.
+    """
     from casadi import SX, mtimes
 
+    apply_numpy()
     count = len(model.coordinates)
     q, u, a = (SX.sym(name, count) for name in "qua")
     still = SX(3, 1)
     bodies = {GROUND: Moving(SX.eye(3), still, still, still, still, still)}
     tree = Tree(model, q, u, a, bodies, ())
+    moved = dict(places or {})
     axes = []
     for joint, columns in zip(model.joints, tree.columns(), strict=True):
         own = moving_joint(joint, q[columns], u[columns], a[columns])
-        fixed = bodies[joint.parent].carried(joint.parent_offset)
+        fixed = bodies[joint.parent].carried(joint.parent_offset, moved.get(joint.name))
         moving = fixed.moved(own)
         bodies[joint.child] = moving.carried(joint.child_offset.inv())
         rates = (mtimes(fixed.rotation, per) for per in (own.spin_per_rate, own.speed_per_rate))
         axes.append(Axis(moving.place, *rates))
-    return Tree(model, q, u, a, bodies, tuple(axes))
+    return Tree(model, q, u, a, bodies, tuple(axes), dict(masses or {}))

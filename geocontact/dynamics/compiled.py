@@ -1,0 +1,71 @@
+"""CasADi functions as machine code: C through the system's compiler where there is one, kept by the source's hash."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from casadi import Function
+
+FLAGS = ("-O1", "-fPIC", "-shared")
+"""Long functions without branches: more optimisation costs minutes and gains little."""
+
+
+def compiler() -> str | None:
+    """The C compiler: $CC, else cc, gcc or clang; None where there is none, or on Windows."""
+    if sys.platform == "win32":
+        return None
+    return next(
+        (path for name in (os.environ.get("CC", ""), "cc", "gcc", "clang") if (path := shutil.which(name))), None
+    )
+
+
+def compiled(function: Function) -> Function:
+    """The same function compiled, or itself where there is no compiler or it fails.
+
+    The library is kept in `cache_folder` and found again by the source, the compiler and its flags.
+    """
+    from casadi import CodeGenerator, external
+
+    program = compiler()
+    if program is None:
+        return function
+    generator = CodeGenerator("f.c")
+    generator.add(function)
+    source = generator.dump()
+    told = "\0".join((source, program, *FLAGS))
+    folder = cache_folder()
+    library = folder / f"{hashlib.sha256(told.encode()).hexdigest()}.so"
+    if not library.is_file():
+        try:
+            _build(program, source, folder, library)
+        except (OSError, subprocess.CalledProcessError):
+            return function
+    return external(function.name(), str(library))
+
+
+def cache_folder() -> Path:
+    """$GEOCONTACT_CACHE, else the user's folder for such files."""
+    named = os.environ.get("GEOCONTACT_CACHE")
+    if named:
+        return Path(named)
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches" / "geocontact"
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "geocontact"
+
+
+def _build(program: str, source: str, folder: Path, library: Path) -> None:
+    """Compile beside the place and move there: another process may do the same at the same time."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=folder) as place:
+        code, made = Path(place) / "f.c", Path(place) / "f.so"
+        code.write_text(source, encoding="utf-8")
+        subprocess.run([program, *FLAGS, "-o", str(made), str(code), "-lm"], check=True, capture_output=True)
+        made.replace(library)

@@ -1,0 +1,168 @@
+"""A motion from its equations: steps of a Rosenbrock method as long as their error allows; no events."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.interpolate import CubicHermiteSpline
+
+from geocontact.dynamics.buffered import Buffered
+from geocontact.dynamics.compiled import compiled
+from geocontact.dynamics.equations import Equations
+from geocontact.dynamics.rosenbrock import ORDER, rosenbrock_step, tangent_step
+
+Vector = Float[np.ndarray, " _"]
+Inputs = Callable[[float], tuple[Vector, Vector]]
+"""Time [s] to the equations' inputs and their derivatives."""
+
+SAFE, SHRINK, GROW = 0.9, 0.2, 5.0
+"""Of the step that the error allows; least and most that a step changes by."""
+SMALLEST = 1e-12
+"""Of the span; a step below it means that the motion cannot go on."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """A motion at the times that were wanted.
+
+    Parameters
+    ----------
+    time
+        [s].
+    names
+        Coordinates that were found.
+    q, u
+        Values and rates [rad, m, s].
+    z
+        Memory of the laws.
+    steps, refused
+        Steps taken and tried in vain.
+    error
+        Sum of the estimated errors of the steps, by coordinate [rad, m]: what the end is off by if nothing damps or
+        amplifies them.
+    by_parameter
+        Derivatives of q, u and z, in this order, by the parameters; none unless the stepper was asked for them.
+    """
+
+    time: Float[np.ndarray, " t"]
+    names: tuple[str, ...]
+    q: Float[np.ndarray, "t n"]
+    u: Float[np.ndarray, "t n"]
+    z: Float[np.ndarray, "t k"]
+    steps: int
+    refused: int
+    error: Vector
+    by_parameter: Float[np.ndarray, "t x p"]
+
+
+class Stepper:
+    """Steps of some equations.
+
+    Parameters
+    ----------
+    equations
+        Whose motion is sought.
+    machine_code
+        Whether to compile the step where there is a compiler.
+    by_parameter
+        Whether to follow the derivatives of the motion by the parameters: those of the steps as they are taken, their
+        lengths held.
+    """
+
+    def __init__(self, equations: Equations, *, machine_code: bool = True, by_parameter: bool = False) -> None:
+        self.equations = equations
+        step = rosenbrock_step(equations)
+        made = compiled(step) if machine_code else step
+        self.compiled = made is not step
+        self.step = Buffered(made)
+        self.tangent = None
+        if by_parameter:
+            tangent = tangent_step(step)
+            self.tangent = Buffered(compiled(tangent) if machine_code else tangent)
+
+    def simulate(
+        self,
+        start: tuple[Vector, Vector, Vector],
+        time: Float[np.ndarray, " t"],
+        *,
+        inputs: Inputs | None = None,
+        parameters: Vector | None = None,
+        tolerance: float = 1e-6,
+        first: float = 1e-4,
+        longest: float = np.inf,
+        steps: int | None = None,
+    ) -> Course:
+        """Motion from q, u, z at `time[0]` to `time[-1]`, between the steps by cubic polynomials.
+
+        Parameters
+        ----------
+        inputs
+            Course of the equations' inputs.
+        tolerance
+            Error allowed in each step: of a coordinate [rad, m], of a rate [rad/s, m/s] and of a memory [its unit],
+            plus as much of each one's size.
+        first, longest
+            Step tried first and longest step [s].
+        steps
+            So many even steps instead, whatever their error.
+
+        ArithmeticError where the step would have to become shorter than a `SMALLEST` part of the span.
+        """
+        at = inputs or (lambda _: (np.zeros(0), np.zeros(0)))
+        p = np.zeros(0) if parameters is None else np.asarray(parameters, float)
+        if len(p) != self.equations.p.numel():
+            raise ValueError(f"{len(p)} parameters given, {self.equations.p.numel()} needed")
+        x, n = np.concatenate(start).astype(float), len(self.equations.names)
+        now, end = float(time[0]), float(time[-1])
+        h = (end - now) / steps if steps else min(first, longest, end - now)
+        times, states, rates = [now], [x], []
+        turn = np.zeros((len(p) if self.tangent else 0, len(x)))  # transposed: columns follow each other
+        turns, turn_rates = [turn], []
+        error, refused = np.zeros(n), 0
+        given, slope = at(now)
+        while now < end:
+            h = min(h, end - now) if steps is None else h
+            there = end if steps is not None and len(times) == steps else now + h
+            later = at(there)
+            found, off, rate = self.step(x, np.array([h]), given, later[0], slope, p)
+            size = 0.0 if steps else _size(off, x, found, tolerance)
+            if not np.all(np.isfinite(found)):
+                size = np.inf
+            if size <= 1.0:
+                rates.append(rate.copy())
+                if self.tangent:
+                    turned = self.tangent(x, np.array([h]), given, later[0], slope, p, turn)
+                    turn_rates.append(turned[1].reshape(turn.shape).copy())
+                    turn = turned[0].reshape(turn.shape).copy()
+                    turns.append(turn)
+                x, now = found.copy(), there if end - there > 1e-14 * abs(end) else end
+                error += np.abs(off[:n])
+                times.append(now)
+                states.append(x)
+                given, slope = later
+            else:
+                refused += 1
+            if steps is None:
+                allowed = SAFE * size ** (-1.0 / ORDER) if size > 0.0 else GROW
+                h = min(h * float(np.clip(allowed, SHRINK, GROW)), longest)
+            if h < SMALLEST * (end - float(time[0])) or (steps and size > 1.0):
+                raise ArithmeticError(f"no step is short enough at {now:g} s")
+        rates.append(self.step(x, np.array([h]), given, given, slope, p)[2].copy())
+        values = CubicHermiteSpline(times, np.array(states), np.array(rates))(time)
+        q, u, z = values[:, :n], values[:, n : 2 * n], values[:, 2 * n :]
+        if self.tangent:
+            turned = self.tangent(x, np.array([h]), given, given, slope, p, turn)
+            turn_rates.append(turned[1].reshape(turn.shape).copy())
+            by = CubicHermiteSpline(times, np.array(turns), np.array(turn_rates))(time).swapaxes(1, 2)
+        else:
+            by = np.zeros((len(time), len(x), 0))
+        return Course(time, self.equations.names, q, u, z, len(times) - 1, refused, error, by)
+
+
+def _size(off: Vector, x: Vector, found: Vector, tolerance: float) -> float:
+    """Largest error over what is allowed."""
+    with np.errstate(invalid="ignore"):
+        return float(np.max(np.abs(off) / (tolerance * (1.0 + np.maximum(np.abs(x), np.abs(found)))), initial=0.0))
