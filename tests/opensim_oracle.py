@@ -125,3 +125,19 @@ def inverse_dynamics(file: Path, names: Sequence[str], q: np.ndarray, u: np.ndar
         forces_found = solver.solve(state, fast)
         found[k] = [forces_found.get(place[name]) for name in names]
     return found
+
+
+def scaled(file: Path, out: Path, factors: dict[str, tuple[float, float, float]], mass: float) -> None:
+    """The model scaled by hand and written again, masses shared as before."""
+    import opensim
+
+    model, state = _model(file)
+    wanted = opensim.ScaleSet()
+    for name, by in factors.items():
+        one = opensim.Scale()
+        one.setSegmentName(name)
+        one.setScaleFactors(opensim.Vec3(*by))
+        one.setApply(True)
+        wanted.cloneAndAppend(one)
+    model.scale(state, wanted, True, mass)
+    model.printToXML(str(out))

@@ -92,3 +92,22 @@ def all_kinds(seed: int = 0) -> Multibody:
 
 def _renamed(moves: tuple[TransformAxis, ...], ending: str) -> tuple[TransformAxis, ...]:
     return tuple(TransformAxis(a.direction, tuple(c + ending for c in a.coordinates), a.function) for a in moves)
+
+
+def plain_joints(seed: int = 0) -> Multibody:
+    """Free, gimbal, pin, slider and weld joints with frames anywhere, two branches: what other libraries have too."""
+    rng = np.random.default_rng(seed)
+    x, y, z = np.eye(3)
+    free = axes(*((slot, np.eye(3)[slot % 3], (f"free{slot}",), ITSELF) for slot in range(6)))
+    gimbal = axes(*((slot, np.eye(3)[slot], (f"gimbal{slot}",), ITSELF) for slot in range(3)))
+    made = (
+        joint("free", "ground", "trunk", free, placed(rng), placed(rng)),
+        joint("gimbal", "trunk", "thigh", gimbal, placed(rng), placed(rng)),
+        joint("pin", "thigh", "shank", axes((2, z, ("pin",), ITSELF)), placed(rng), placed(rng)),
+        joint("oblique", "shank", "foot", axes((0, x + 2 * y - z, ("oblique",), ITSELF)), placed(rng), placed(rng)),
+        joint("slider", "trunk", "mast", axes((3, x - y, ("slider",), ITSELF)), placed(rng), placed(rng)),
+        joint("weld", "mast", "head", axes(), placed(rng), placed(rng)),
+        joint("hat", "head", "hat", axes((1, y, ("hat",), ITSELF)), placed(rng), placed(rng)),
+    )
+    bodies = tuple(body(each.child, rng) for each in made)
+    return Multibody("plain joints", bodies, made, (), rng.normal(size=3) * 5.0)

@@ -12,6 +12,7 @@ import pytest
 from geocontact.data.marker_tasks import MarkerTasks
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
+from geocontact.dynamics.scaling import scaled
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.io.osim_multibody import read_multibody
 from geocontact.io.tables import read_table
@@ -114,3 +115,15 @@ def test_inverse_dynamics_is_that_of_opensim(walk: Path, tree: Tree, opensim: El
     run = casadi.Function("id", [tree.q, tree.u, tree.a], [generalised_forces(tree)])
     ours = np.array([np.array(run(*state)).ravel() for state in zip(q, u, a, strict=True)])
     assert np.max(np.abs(ours - theirs)) < 1e-12 * np.max(np.abs(theirs))
+
+
+def test_a_scaled_model_is_that_of_opensim(walk: Path, tmp_path: Path, opensim: Elsewhere) -> None:
+    """Markers at random poses, masses and mass centres, with a factor of its own along every axis of three bodies."""
+    factors = {"pelvis": (1.1, 0.95, 1.05), "femur_r": (0.9, 1.2, 1.1), "tibia_r": (1.05, 0.97, 1.02)}
+    opensim(opensim_oracle.scaled, walk / "subject01_simbody.osim", tmp_path / "s.osim", factors, 90.0)
+    theirs = read_multibody(tmp_path / "s.osim")
+    ours = scaled(read_multibody(walk / "subject01_simbody.osim"), {k: np.array(v) for k, v in factors.items()}, 90.0)
+    q = np.random.default_rng(1).uniform(-0.5, 0.5, (10, len(ours.coordinates)))
+    np.testing.assert_allclose(ours.marker_places(q), theirs.marker_places(q), atol=1e-9)
+    for one, other in zip(ours.bodies, theirs.bodies, strict=True):
+        np.testing.assert_allclose([one.mass, *one.centre], [other.mass, *other.centre], rtol=1e-9, atol=1e-12)

@@ -1,0 +1,44 @@
+"""Where a segment is, from a cluster of markers on it, frame by frame."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Bool, Float
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.geometry.register.landmarks import fit_landmarks
+
+FEWEST = 3
+"""Markers that fix a pose."""
+
+
+def segment_poses(
+    places: Float[np.ndarray, "t m 3"], template: Float[np.ndarray, "m 3"] | None = None
+) -> tuple[RigidTransform, Bool[np.ndarray, " t"], Float[np.ndarray, " t"]]:
+    """Poses of the template in the ground, in which frames they are known, and how far the markers are off [m].
+
+    Parameters
+    ----------
+    places
+        Of the markers [m], NaN where one was not seen.
+    template
+        Their places in the segment's frame; the first frame that shows all of them, about their mean, unless given.
+
+    The distance is the root mean square over the markers that were seen. A frame with fewer than three is not known.
+    ValueError where no frame shows all markers and no template is given, or the markers lie on a line.
+    """
+    seen = np.isfinite(places).all(axis=2)
+    if template is None:
+        whole = np.flatnonzero(seen.all(axis=1))
+        if not len(whole):
+            raise ValueError("no frame shows all markers of the segment; give a template")
+        template = places[whole[0]] - places[whole[0]].mean(axis=0)
+    known = seen.sum(axis=1) >= FEWEST
+    matrices = np.tile(np.eye(4), (len(places), 1, 1))
+    off = np.full(len(places), np.nan)
+    for frame in np.flatnonzero(known):
+        there = seen[frame]
+        found = fit_landmarks(template[there], places[frame, there], tolerance=np.inf)
+        matrices[frame] = found.pose.as_matrix()
+        off[frame] = np.sqrt(np.mean(np.sum((found.pose.apply(template[there]) - places[frame, there]) ** 2, axis=1)))
+    return RigidTransform.from_matrix(matrices), known, off
