@@ -141,3 +141,40 @@ def scaled(file: Path, out: Path, factors: dict[str, tuple[float, float, float]]
         wanted.cloneAndAppend(one)
     model.scale(state, wanted, True, mass)
     model.printToXML(str(out))
+
+
+def inverse_kinematics(
+    file: Path,
+    markers: Path,
+    weights: dict[str, float],
+    held: dict[str, tuple[float, float | None]],
+    times: Sequence[float],
+    names: Sequence[str],
+) -> tuple[float, np.ndarray]:
+    """CPU seconds of its solver for these frames, the first among them, and the coordinates it finds, (t, n)."""
+    import time
+
+    import opensim
+
+    model, state = _model(file)
+    wanted = opensim.SetMarkerWeights()
+    for name, weight in weights.items():
+        if weight > 0.0:
+            wanted.cloneAndAppend(opensim.MarkerWeight(name, weight))
+    seen = opensim.MarkersReference(str(markers), wanted)
+    coordinates = opensim.SimTKArrayCoordinateReference()
+    for name, (weight, value) in held.items():
+        if value is None:
+            value = model.getCoordinateSet().get(name).getDefaultValue()
+        one = opensim.CoordinateReference(name, opensim.Constant(value))
+        one.setWeight(weight)
+        coordinates.push_back(one)
+    solver = opensim.InverseKinematicsSolver(model, seen, coordinates)
+    solver.setAccuracy(1e-5)  # the tool's own
+    found = np.zeros((len(times), len(names)))
+    began = time.process_time()
+    for k, at in enumerate(times):
+        state.setTime(float(at))
+        solver.track(state) if k else solver.assemble(state)
+        found[k] = [model.getCoordinateSet().get(name).getValue(state) for name in names]
+    return time.process_time() - began, found

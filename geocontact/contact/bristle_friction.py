@@ -1,8 +1,8 @@
 """Friction that sticks: bristles that bend before they slip, a law with memory.
 
 The elastoplastic model of Dupont, Hayward, Armstrong & Altpeter (2002), Single state elastoplastic friction models,
-IEEE Trans Autom Control 47, 787-792: the mean deflection s of the bristles follows the motion as long as it is small, so
-that what sticks comes back and does not creep, and ends at the largest deflection that friction can hold, where the
+IEEE Trans Autom Control 47, 787-792: the mean deflection s of the bristles follows the motion as long as it is small,
+so that what sticks comes back and does not creep, and ends at the largest deflection that friction can hold, where the
 bodies slide. The paper turns from one to the other by a sine, here it is 3 e^2 - 2 e^3.
 
 Scalar in, scalar out: the same source runs on arrays, in numba loops and on CasADi symbols (numpy mode 1).

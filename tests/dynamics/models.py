@@ -111,3 +111,10 @@ def plain_joints(seed: int = 0) -> Multibody:
     )
     bodies = tuple(body(each.child, rng) for each in made)
     return Multibody("plain joints", bodies, made, (), rng.normal(size=3) * 5.0)
+
+
+def free_ball(mass: float = 2.0, gravity: np.ndarray = GRAVITY, radius: float = 0.05) -> Multibody:
+    """A ball with six free coordinates: turns about x, y, z, then shifts along them."""
+    moves = axes(*((slot, np.eye(3)[slot % 3], (f"f{slot}",), ITSELF) for slot in range(6)))
+    solid = Body("ball", mass, np.zeros(3), 0.4 * mass * radius**2 * np.eye(3))
+    return Multibody("ball", (solid,), (joint("j", "ground", "ball", moves),), (), gravity)

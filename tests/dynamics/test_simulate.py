@@ -17,19 +17,12 @@ from geocontact.dynamics.equations import Equations, Memory, equations_of_motion
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.sphere_contact import Plane, SphereLaw, sphere_wrench, together
 from geocontact.dynamics.tree import tree_of
-from tests.dynamics.models import GRAVITY, ITSELF, all_kinds, axes, joint, pendulum
+from tests.dynamics.models import ITSELF, all_kinds, axes, free_ball, joint, pendulum
 from tests.dynamics.test_tree import energy
 
 NONE = np.zeros(0)
 X, Y, Z = np.eye(3)
 GROUND = Plane(np.zeros(3), Y)
-
-
-def block(mass: float = 2.0, gravity: np.ndarray = GRAVITY, radius: float = 0.05) -> Multibody:
-    """A ball with six free coordinates: turns about x, y, z, then shifts along them."""
-    moves = axes(*((slot, np.eye(3)[slot % 3], (f"f{slot}",), ITSELF) for slot in range(6)))
-    solid = Body("ball", mass, np.zeros(3), 0.4 * mass * radius**2 * np.eye(3))
-    return Multibody("ball", (solid,), (joint("j", "ground", "ball", moves),), (), gravity)
 
 
 def slider(mass: float = 2.0) -> Multibody:
@@ -148,7 +141,7 @@ def test_a_prescribed_joint_drives_the_others() -> None:
 
 def test_a_dropped_ball_comes_to_rest_where_the_law_carries_it() -> None:
     """k d^n = m g, from the laws of the foot's spheres."""
-    tree = tree_of(block())
+    tree = tree_of(free_ball())
     law = SphereLaw(1e5, 1.5, 300.0, 1e-3, 0.01, 0.5, 0.4)
     loads = {"ball": sphere_wrench(tree.bodies["ball"], np.zeros(3), 0.05, law, GROUND)}
     stepper = Stepper(equations_of_motion(tree, loads=loads))
@@ -160,7 +153,7 @@ def test_a_dropped_ball_comes_to_rest_where_the_law_carries_it() -> None:
 
 
 def test_a_ball_that_slides_begins_to_roll_at_five_sevenths_of_its_speed() -> None:
-    tree = tree_of(block())
+    tree = tree_of(free_ball())
     law = SphereLaw(1e9, 1.5, 0.0, 1e-3, 1e-4, 0.4, 0.4)
     loads = {"ball": sphere_wrench(tree.bodies["ball"], np.zeros(3), 0.05, law, GROUND)}
     start, speed = np.zeros(6), np.zeros(6)
@@ -263,7 +256,7 @@ def test_what_cannot_go_on_says_so() -> None:
 
 
 def test_several_spheres_add_up() -> None:
-    tree = tree_of(block())
+    tree = tree_of(free_ball())
     law = SphereLaw(1e5, 1.5, 300.0, 1e-3, 0.01, 0.5, 0.4)
     one = sphere_wrench(tree.bodies["ball"], 0.02 * X, 0.05, law, GROUND)
     two = sphere_wrench(tree.bodies["ball"], -0.02 * X, 0.05, law, GROUND)
