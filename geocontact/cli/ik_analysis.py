@@ -9,16 +9,14 @@ from pathlib import Path
 from geocontact.cli.ik import IkOptions
 from geocontact.cli.ik_results import knee_table, write_results
 from geocontact.cli.ik_tasks import marker_tasks
+from geocontact.cli.marker_input import markers_given
 from geocontact.cli.output import written_whole
 from geocontact.cli.patience import progress
 from geocontact.cli.provenance import options_table
-from geocontact.cli.quantities import time_span, turned_axes
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.marker_trajectories import MarkerTrajectories
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.tree import tree_of
-from geocontact.io.markers import read_markers
 from geocontact.io.osim_multibody import read_multibody
 from geocontact.io.results import write_table
 from geocontact.view.contact_tables import inputs_table
@@ -31,7 +29,7 @@ def analyse(markers: Path, o: IkOptions) -> int:
     with record.catching_warnings(), written_whole(o.out) as draft:
         model = read_multibody(o.model)
         record.add_input("--model", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
-        seen = _chosen(read_markers(markers), o)
+        seen = markers_given(markers, o.axes, o.time)
         record.add_input("markers", markers, frames=len(seen), markers=len(seen.names))
         tasks = marker_tasks(record, model, seen, o)
         tree = tree_of(model)
@@ -53,16 +51,3 @@ def analyse(markers: Path, o: IkOptions) -> int:
     record.say(f"results in {o.out}: {', '.join(written)}")
     record.speak()
     return 0
-
-
-def _chosen(seen: MarkerTrajectories, o: IkOptions) -> MarkerTrajectories:
-    if o.axes is not None:
-        seen = seen.turned(turned_axes(o.axes, "--axes"))
-    if o.time is None:
-        return seen
-    first, last = time_span(o.time)
-    part = seen.between(first, last)
-    if not len(part):
-        what = f"no frame between {first:g} and {last:g} s"
-        raise InputError(seen.source, "--time", what, f"the recording is from {seen.time[0]:g} to {seen.time[-1]:g} s")
-    return part

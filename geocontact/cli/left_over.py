@@ -60,7 +60,10 @@ MAT = (
 )  # fmt: skip
 ASKED = ("confuse.json", "separability.csv", "detectability.csv", "planted.json", "report.html")
 BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
-MULTIBODY = ("ik.mot", "ik.json", "markers.csv", "knees.csv", "id.sto", "id.json", "markers.trc", "report.html")
+MULTIBODY = (
+    "scaled.osim", "scale.json", "ik.mot", "ik.json", "markers.csv", "knees.csv", "id.sto", "id.json", "markers.trc",
+    "report.html",
+)  # fmt: skip
 NAMES = frozenset({
     *AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *MODULUS, *ELBOW, *ELBOW_DESIGN, *ELBOW_POPULATION, *MAT, *GAP, *ASKED,
     *BENCHMARK, *MULTIBODY, RUN,

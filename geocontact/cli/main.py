@@ -38,6 +38,7 @@ app.command("geocontact.cli.loadcells:loadcells", name="loadcells")
 app.command("geocontact.cli.markers:markers", name="markers")
 app.command("geocontact.cli.mat:mat", name="mat")
 app.command("geocontact.cli.modulus:modulus", name="modulus")
+app.command("geocontact.cli.scale:scale", name="scale")
 app.command("geocontact.cli.view:view", name="view")
 
 

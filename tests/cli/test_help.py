@@ -41,7 +41,21 @@ def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
 
 
 def test_help_names_the_commands_and_every_option_of_the_contract() -> None:
-    commands = ("area", "cop", "demo", "doctor", "elbow", "fit", "gap", "id", "ik", "loadcells", "markers", "view")
+    commands = (
+        "area",
+        "cop",
+        "demo",
+        "doctor",
+        "elbow",
+        "fit",
+        "gap",
+        "id",
+        "ik",
+        "loadcells",
+        "markers",
+        "scale",
+        "view",
+    )
     assert all(name in call("--help").out for name in commands)
     promised = (
         "motion unit threshold out osim joint moving map order angles sweep axis place-moving place-fixed convention "

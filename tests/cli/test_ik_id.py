@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from geocontact.dynamics.scaling import scaled
+from geocontact.io.osim_multibody import read_multibody
 from geocontact.io.tables import read_table
 from geocontact.io.trc import read_trc
 from tests import legs
@@ -237,3 +240,68 @@ def test_id_refuses_frames_that_are_not_even(tmp_path: Path) -> None:
     kept = np.arange(len(time)) != 30
     result = id_(tmp_path, legs.mot_file(tmp_path, model, time[kept], values[kept]))
     assert result.code == 2 and "frames are not" in result.err
+
+
+def grown(folder: Path) -> tuple[Path, Path]:
+    """A generic leg, and a static trial of one whose thigh is 1.1 and whose shank is 0.9 times as long."""
+    file, model, time, values = legs.planted(folder)
+    by = {"femur_r": 1.1 * np.ones(3), "tibia_r": 0.9 * np.ones(3)}
+    return file, legs.trc_file(folder, legs.markers_of(scaled(model, by), time[:3], 0.0 * values[:3] + 0.05))
+
+
+PAIRS = ("--scale", "femur_r=femur_r0/femur_r2,femur_r1/femur_r3", "--scale", "tibia_r=tibia_r0/tibia_r2")
+
+
+def test_a_model_is_made_to_measure(tmp_path: Path) -> None:
+    """The scaled file holds the sizes of the subject, its mass, and markers that fit the static trial."""
+    file, static = grown(tmp_path)
+    result = done(call("scale", static, "--model", file, "--out", tmp_path / "s", *PAIRS, "--mass", "30"))
+    told = json.loads((tmp_path / "s" / "scale.json").read_text())
+    assert told["factors"] == {"femur_r": pytest.approx(1.1, abs=1e-6), "tibia_r": pytest.approx(0.9, abs=1e-6)}
+    assert told["static_rms_mm"] < 1e-3 and told["mass_kg"] == pytest.approx(30.0)
+    assert "femur_r 1.100" in result.out
+    ours = read_multibody(tmp_path / "s" / "scaled.osim")
+    knee = next(j for j in ours.joints if j.name == "knee_r")
+    np.testing.assert_allclose(knee.parent_offset.translation, [0.0, -0.44, 0.0], atol=1e-6)
+    assert sum(b.mass for b in ours.bodies) == pytest.approx(30.0)
+    done(call("ik", static, "--model", tmp_path / "s" / "scaled.osim", "--out", tmp_path / "ik"))
+    assert json.loads((tmp_path / "ik" / "ik.json").read_text())["rms_mm"] < 1e-3
+
+
+def test_markers_are_put_where_they_were_seen(tmp_path: Path) -> None:
+    """One is stuck on 2 cm off: the scaled model carries it there, unless markers are to be kept."""
+    file, model, time, values = legs.planted(tmp_path)
+    markers = legs.markers_of(model, time[:2], 0.0 * values[:2])
+    markers.positions[:, 9] += [0.0, 0.02, 0.0]
+    static = legs.trc_file(tmp_path, markers)
+    off = {}
+    for name, options in (("moved", ()), ("kept", ("--keep-markers",))):
+        done(call("scale", static, "--model", file, "--out", tmp_path / name, *options))
+        ours = read_multibody(tmp_path / name / "scaled.osim")
+        off[name] = ours.markers[9].location - model.markers[9].location
+    np.testing.assert_array_equal(off["kept"], 0.0)
+    assert off["moved"][1] > 0.01
+
+
+SCALE_REFUSED = {
+    "no pair": (("--scale", "femur_r=femur_r0"), "not bodies and pairs"),
+    "no such body": (("--scale", "arm=femur_r0/femur_r2"), "no body 'arm'"),
+    "a body twice": ((*PAIRS, *PAIRS), "body 'femur_r' is named twice"),
+    "no such marker": (("--scale", "femur_r=femur_r0/heel"), "the model has no marker heel"),
+    "a mass of nothing": ((*PAIRS, "--mass", "0"), "0 kg is not a mass"),
+}
+
+
+@pytest.mark.parametrize(("options", "message"), SCALE_REFUSED.values(), ids=SCALE_REFUSED.keys())
+def test_scale_refuses(tmp_path: Path, options: tuple[str, ...], message: str) -> None:
+    file, static = grown(tmp_path)
+    result = call("scale", static, "--model", file, "--out", tmp_path / "s", *options)
+    assert result.code == 2 and message in result.err and not (tmp_path / "s").exists()
+
+
+def test_an_absurd_factor_is_refused(tmp_path: Path) -> None:
+    """Markers in another unit than the file says."""
+    file, static = grown(tmp_path)
+    static.write_text(static.read_text().replace("\tmm\t", "\tcm\t"), encoding="utf-8")
+    result = call("scale", static, "--model", file, "--out", tmp_path / "s", *PAIRS)
+    assert result.code == 2 and "11 times as large" in result.err

@@ -7,6 +7,7 @@ from itertools import product
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.data import joint_kinds
 from geocontact.data.joint import Coordinate, JointModel, TransformAxis
 from geocontact.data.joint_function import Affine, JointFunction
 from geocontact.data.multibody import Body, Marker, Multibody
@@ -98,16 +99,14 @@ def plain_joints(seed: int = 0) -> Multibody:
     """Free, gimbal, pin, slider and weld joints with frames anywhere, two branches: what other libraries have too."""
     rng = np.random.default_rng(seed)
     x, y, z = np.eye(3)
-    free = axes(*((slot, np.eye(3)[slot % 3], (f"free{slot}",), ITSELF) for slot in range(6)))
-    gimbal = axes(*((slot, np.eye(3)[slot], (f"gimbal{slot}",), ITSELF) for slot in range(3)))
     made = (
-        joint("free", "ground", "trunk", free, placed(rng), placed(rng)),
-        joint("gimbal", "trunk", "thigh", gimbal, placed(rng), placed(rng)),
-        joint("pin", "thigh", "shank", axes((2, z, ("pin",), ITSELF)), placed(rng), placed(rng)),
-        joint("oblique", "shank", "foot", axes((0, x + 2 * y - z, ("oblique",), ITSELF)), placed(rng), placed(rng)),
-        joint("slider", "trunk", "mast", axes((3, x - y, ("slider",), ITSELF)), placed(rng), placed(rng)),
-        joint("weld", "mast", "head", axes(), placed(rng), placed(rng)),
-        joint("hat", "head", "hat", axes((1, y, ("hat",), ITSELF)), placed(rng), placed(rng)),
+        joint_kinds.free("free", "ground", "trunk", placed(rng), placed(rng)),
+        joint_kinds.gimbal("gimbal", "trunk", "thigh", placed(rng), placed(rng)),
+        joint_kinds.revolute("pin", "thigh", "shank", z, placed(rng), placed(rng)),
+        joint_kinds.revolute("oblique", "shank", "foot", x + 2 * y - z, placed(rng), placed(rng)),
+        joint_kinds.prismatic("slider", "trunk", "mast", x - y, placed(rng), placed(rng)),
+        joint_kinds.weld("weld", "mast", "head", placed(rng), placed(rng)),
+        joint_kinds.revolute("hat", "head", "hat", y, placed(rng), placed(rng)),
     )
     bodies = tuple(body(each.child, rng) for each in made)
     return Multibody("plain joints", bodies, made, (), rng.normal(size=3) * 5.0)
@@ -115,6 +114,5 @@ def plain_joints(seed: int = 0) -> Multibody:
 
 def free_ball(mass: float = 2.0, gravity: np.ndarray = GRAVITY, radius: float = 0.05) -> Multibody:
     """A ball with six free coordinates: turns about x, y, z, then shifts along them."""
-    moves = axes(*((slot, np.eye(3)[slot % 3], (f"f{slot}",), ITSELF) for slot in range(6)))
     solid = Body("ball", mass, np.zeros(3), 0.4 * mass * radius**2 * np.eye(3))
-    return Multibody("ball", (solid,), (joint("j", "ground", "ball", moves),), (), gravity)
+    return Multibody("ball", (solid,), (joint_kinds.free("j", "ground", "ball"),), (), gravity)

@@ -9,6 +9,7 @@ import casadi
 import numpy as np
 import pytest
 
+from geocontact.data.joint_kinds import revolute
 from geocontact.dynamics.equations import equations_of_motion
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.tree import tree_of
@@ -51,3 +52,8 @@ def test_forward_dynamics_undoes_inverse_dynamics() -> None:
         q, u, a = rng.normal(size=(3, len(tree.names)))
         found = equations.accelerations()(q, u, np.zeros(0), needed(q, u, a), np.zeros(0))
         np.testing.assert_allclose(np.array(found).ravel(), a, atol=1e-10)
+
+
+def test_an_axis_without_a_length_is_refused() -> None:
+    with pytest.raises(ValueError, match="joint knee: an axis of length 0"):
+        revolute("knee", "thigh", "shank", np.zeros(3))

@@ -11,13 +11,14 @@ from casadi import SX
 from scipy.special import ellipj, ellipk
 
 from geocontact.contact.bristle_friction import bristle_force, deflection_rate
+from geocontact.data.joint_kinds import prismatic
 from geocontact.data.multibody import Body, Multibody
 from geocontact.dynamics import compiled as code
 from geocontact.dynamics.equations import Equations, Memory, equations_of_motion
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.sphere_contact import Plane, SphereLaw, sphere_wrench, together
 from geocontact.dynamics.tree import tree_of
-from tests.dynamics.models import ITSELF, all_kinds, axes, free_ball, joint, pendulum
+from tests.dynamics.models import all_kinds, free_ball, pendulum
 from tests.dynamics.test_tree import energy
 
 NONE = np.zeros(0)
@@ -28,8 +29,7 @@ GROUND = Plane(np.zeros(3), Y)
 def slider(mass: float = 2.0) -> Multibody:
     """A body that slides along x without gravity."""
     solid = Body("b", mass, np.zeros(3), np.eye(3))
-    moves = axes((3, X, ("s",), ITSELF))
-    return Multibody("slider", (solid,), (joint("j", "ground", "b", moves),), (), np.zeros(3))
+    return Multibody("slider", (solid,), (prismatic("s", "ground", "b", X),), (), np.zeros(3))
 
 
 def spring(k: float, b: float, mass: float) -> Equations:

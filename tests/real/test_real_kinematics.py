@@ -9,12 +9,14 @@ import casadi
 import numpy as np
 import pytest
 
+from geocontact.data.errors import InputWarning
 from geocontact.data.marker_tasks import MarkerTasks
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.scaling import scaled
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.io.osim_multibody import read_multibody
+from geocontact.io.osim_scaler import write_scaled_model
 from geocontact.io.tables import read_table
 from geocontact.io.trc import read_trc
 from tests import opensim_oracle
@@ -125,5 +127,25 @@ def test_a_scaled_model_is_that_of_opensim(walk: Path, tmp_path: Path, opensim: 
     ours = scaled(read_multibody(walk / "subject01_simbody.osim"), {k: np.array(v) for k, v in factors.items()}, 90.0)
     q = np.random.default_rng(1).uniform(-0.5, 0.5, (10, len(ours.coordinates)))
     np.testing.assert_allclose(ours.marker_places(q), theirs.marker_places(q), atol=1e-9)
-    for one, other in zip(ours.bodies, theirs.bodies, strict=True):
+    with pytest.warns(InputWarning, match="fibres"):
+        write_scaled_model(
+            walk / "subject01_simbody.osim", tmp_path / "o.osim", ours, {k: np.array(v) for k, v in factors.items()}
+        )
+    written = read_multibody(tmp_path / "o.osim")
+    np.testing.assert_allclose(written.marker_places(q), ours.marker_places(q), atol=1e-12)
+    for one, other in zip(written.bodies, theirs.bodies, strict=True):
         np.testing.assert_allclose([one.mass, *one.centre], [other.mass, *other.centre], rtol=1e-9, atol=1e-12)
+
+
+def test_the_workshop_knee_is_read(data_dir: Path) -> None:
+    """Two bodies, six coordinates; the tibia is where its joint's own functions put it."""
+    model = read_multibody(data_dir / "gc4_jw_predsim_workshop" / "KneeProsthesis.osim")
+    assert (len(model.bodies), len(model.coordinates)) == (2, 6)
+    tree, q = tree_of(model), np.random.default_rng(0).uniform(-0.5, 0.5, (5, 6))
+    for body in model.bodies:
+        frame = tree.bodies[body.name]
+        place = casadi.Function("at", [tree.q], [frame.rotation, frame.place])
+        for k, pose in enumerate(model.poses(q)[body.name]):
+            turned, at = (np.array(each) for each in place(q[k]))
+            np.testing.assert_allclose(turned, pose.rotation.as_matrix(), atol=1e-13)
+            np.testing.assert_allclose(at.ravel(), pose.translation, atol=1e-13)
