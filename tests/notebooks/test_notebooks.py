@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 import nbformat
+import numpy as np
 import pytest
 from nbclient import NotebookClient
 
@@ -31,8 +32,8 @@ def run(tmp_path, monkeypatch):
     return executed
 
 
-def test_there_is_one_for_the_contact_area_the_gap_the_knee_the_mat_and_the_elbow():
-    assert {"contact_area", "gap", "knee", "mat", "elbow"} <= {notebook.stem for notebook in NOTEBOOKS}
+def test_there_is_one_for_each_part():
+    assert {"contact_area", "gap", "knee", "mat", "elbow", "motion"} <= {notebook.stem for notebook in NOTEBOOKS}
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
@@ -97,3 +98,15 @@ def test_knee_goes_from_meshes_to_a_modulus_that_was_planted(run, tmp_path):
     assert modulus == pytest.approx([6.8, 6.8], rel=0.02)
     explained = [float(value) for value in re.findall(r"trial not used: .* R² ([\d.]+)", said)]
     assert len(explained) == 2 and min(explained) > 0.98
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")  # of the notebook machinery itself
+def test_motion_finds_what_it_planted(run):
+    said = run(ROOT / "notebooks" / "motion.ipynb")
+    markers, angles = map(float, re.findall(r"markers ([\d.]+) mm, angles ([\d.]+) deg", said)[0])
+    assert 4.0 < markers < 5.5 and 0.1 < angles < 3.0
+    centre = [float(value) for value in re.findall(r"in the pelvis \[mm\]: \[\s*(.*?)\]", said)[0].split()]
+    assert np.abs(np.subtract(centre, [0.0, -80.0, 0.0])).max() < 5.0
+    errors = [float(value) for value in re.findall(r"at most ([\d.e+-]+) mm from the finest", said)]
+    assert len(errors) == 3 and errors[0] > errors[1] > errors[2] and errors[2] < 1e-2
