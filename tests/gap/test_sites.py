@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 
 from geocontact.chain.system import System
+from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.diagnose import Findings, diagnose
+from geocontact.gap.diagnose import diagnose
 from geocontact.systems.catalogue import system_of
+from tests.elsewhere import Elsewhere
 from tests.systems.examples import SITES_CONSTANTS, recording, sites, sites_trial
 
 SOME = ("pelvis", "thigh")
@@ -49,30 +51,32 @@ def _measured(model: System, trial: Trial, values: Mapping[str, float], rng: np.
     return recording(trial.name, trial.time, columns)
 
 
-def found(effect: str = "", values: Mapping[str, float] | None = None) -> Findings:
+def found(effect: str = "", values: Mapping[str, float] | None = None) -> tuple[Diagnosis, list[str]]:
+    """The diagnosis, and at which sites the effects are that it names."""
     case = sites_case(effect, values)
-    return diagnose(case, system_of(case))
+    findings = diagnose(case, system_of(case))
+    return findings.diagnosis, [one.variant for one in findings.attribution.answer.chosen.candidates]
 
 
 @pytest.mark.slow
-def test_nothing_is_found_where_nothing_is_missing() -> None:
-    assert found().diagnosis.verdict == "no_gap"
+def test_nothing_is_found_where_nothing_is_missing(elsewhere: Elsewhere) -> None:
+    assert elsewhere(found)[0].verdict == "no_gap"
 
 
 @pytest.mark.slow
-def test_a_pad_that_opens_is_found_at_its_site() -> None:
-    findings = found("contact_loss.thigh", {"contact_loss.thigh.opening": 25.0, "contact_loss.thigh.rounding": 0.0})
-    said = findings.diagnosis
+def test_a_pad_that_opens_is_found_at_its_site(elsewhere: Elsewhere) -> None:
+    opened = {"contact_loss.thigh.opening": 25.0, "contact_loss.thigh.rounding": 0.0}
+    said, at = elsewhere(found, "contact_loss.thigh", opened)
     assert said.effects == ("contact_loss",)
-    assert [one.variant for one in findings.attribution.answer.chosen.candidates] == ["thigh"]
+    assert at == ["thigh"]
     assert said.parameters["contact_loss.thigh.opening"].value == pytest.approx(25.0, abs=4.0)
     assert said.where[0].channel == "thigh_force"
     assert said.gap["thigh_force"].reduction > 0.5
 
 
 @pytest.mark.slow
-def test_what_all_sites_lack_is_found_at_all() -> None:
-    findings = found("damping", {"damping.b": 400.0, "damping.exponent": 1.0})
-    assert findings.diagnosis.effects == ("damping",)
-    assert [one.variant for one in findings.attribution.answer.chosen.candidates] == [""]
-    assert findings.diagnosis.parameters["damping.b"].value == pytest.approx(400.0, rel=0.15)
+def test_what_all_sites_lack_is_found_at_all(elsewhere: Elsewhere) -> None:
+    said, at = elsewhere(found, "damping", {"damping.b": 400.0, "damping.exponent": 1.0})
+    assert said.effects == ("damping",)
+    assert at == [""]
+    assert said.parameters["damping.b"].value == pytest.approx(400.0, rel=0.15)

@@ -11,6 +11,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.identify.area_force import LAG, MODULUS, THRESHOLD
 from geocontact.identify.elastic import agreement, fitted, identify, modulus_parameter
 from geocontact.identify.threshold_calibration import calibrated
+from tests.elsewhere import Elsewhere
 from tests.identify.synthetic_contact import (
     DURATION,
     RADIUS,
@@ -63,12 +64,12 @@ def test_a_late_force_has_a_positive_lag() -> None:
 
 
 @pytest.mark.slow
-def test_intervals_cover_in_short_steps() -> None:
+def test_intervals_cover_in_short_steps(elsewhere: Elsewhere) -> None:
     """Small version of `benchmarks.modulus`: 60 runs at 41 frames, noise of 100 N that remembers 50 ms.
 
     With a true coverage of 0.95 fewer than 51 of 60 would happen in one seed of a thousand.
     """
-    held = coverage(60, 41, 100.0, 0.05, 100, seed=11)
+    held = elsewhere(coverage, 60, 41, 100.0, 0.05, 100, seed=11)
     assert held["profile likelihood"] >= 0.85
     assert held["block bootstrap"] >= 0.85
     assert 1.96 < held["half_width_over_sd"] < 4.0, "intervals that are too wide hold everything"
