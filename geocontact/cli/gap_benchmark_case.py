@@ -13,7 +13,7 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from geocontact import __version__
-from geocontact.cli.gap_results import plain
+from geocontact.cli.json_text import plain
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates

@@ -18,7 +18,7 @@ import numpy as np
 import pandas as pd
 
 from geocontact.cli.gap_benchmark_case import Worked
-from geocontact.cli.gap_results import plain
+from geocontact.cli.json_text import plain
 from geocontact.cli.record import Record
 from geocontact.gap import attribute, verdict
 from geocontact.gap.benchmark import imitation, residual_regression, score

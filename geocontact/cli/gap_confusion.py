@@ -14,7 +14,7 @@ from geocontact import __version__
 from geocontact.chain.system import System
 from geocontact.cli.gap_analysis import add_inputs
 from geocontact.cli.gap_confuse import ConfuseOptions
-from geocontact.cli.gap_results import plain
+from geocontact.cli.json_text import plain
 from geocontact.cli.output import written_whole
 from geocontact.cli.patience import progress
 from geocontact.cli.provenance import options_table

@@ -15,7 +15,7 @@ from geocontact.chain.candidate import Candidate
 from geocontact.cli.gap_analysis import add_inputs, diagnosed
 from geocontact.cli.gap_diagnose import DiagnoseOptions
 from geocontact.cli.gap_plant import PlantOptions
-from geocontact.cli.gap_results import plain
+from geocontact.cli.json_text import plain
 from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.data.diagnosis import Diagnosis

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import json
-import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pandas as pd
 
+from geocontact.cli.json_text import write_json
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.gap_case import GapCase
@@ -25,8 +22,7 @@ from geocontact.view.gap_page import write_gap_report
 
 def write_results(record: Record, case: GapCase, findings: Findings, folder: Path, pictures: bool) -> None:
     """Answer, tables, and unless they are not wanted figures and page."""
-    text = json.dumps(plain(findings.diagnosis.as_dict()), indent=2, ensure_ascii=False, allow_nan=False)
-    (folder / "diagnosis.json").write_text(text + "\n", encoding="utf-8")
+    write_json(folder / "diagnosis.json", findings.diagnosis.as_dict())
     write_table(gap_map_table(findings), folder, parquet=False, name="gap_map")
     write_table(ranking_table(findings), folder, parquet=False, name="ranking")
     if findings.trials:
@@ -43,21 +39,6 @@ def write_results(record: Record, case: GapCase, findings: Findings, folder: Pat
             save(figure, folder / f"{name}.{ending}")
     tables = [inputs_table(record.inputs), options_table(record)]
     write_gap_report(folder / "report.html", case, findings, trials, figures, tables, record.warnings)
-
-
-def plain(value: Any) -> Any:
-    """What JSON can hold: Python's own numbers, None for what is not finite; probabilities sum to 1 as they stand."""
-    if isinstance(value, dict):
-        return {str(key): plain(each) for key, each in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [plain(each) for each in value]
-    if isinstance(value, (bool, np.bool_)):
-        return bool(value)
-    if isinstance(value, (int, np.integer)):
-        return int(value)
-    if isinstance(value, (float, np.floating)):
-        return float(value) if math.isfinite(value) else None
-    return None if value is None else str(value)
 
 
 def gap_map_table(findings: Findings) -> pd.DataFrame:

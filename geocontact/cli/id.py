@@ -8,6 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+Each = Parameter(negative="", consume_multiple=False, allow_leading_hyphen=True)
 Dashed = Parameter(allow_leading_hyphen=True)
 
 
@@ -24,6 +25,15 @@ class IdOptions:
         OpenSim model (.osim): masses, inertias, joints.
     loads
         OpenSim's external loads (.xml): which force plate acts on which body. Without it nothing but gravity acts.
+    plates
+        File of force plates (.mot, .sto, .c3d) in place of --loads, with --plate.
+    plate
+        Which plate acts on which body, by name or number: 1=calcn_r. May be given again.
+    axes
+        Which of the plates' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
+    threshold
+        Force [N] below which a plate counts as unloaded, since the point of a small force means little. OpenSim has
+        none; a warning names forces that pass far from their body.
     cutoff
         Low-pass of the coordinates [Hz], OpenSim's filter; 0 leaves them as they are.
     time
@@ -35,6 +45,10 @@ class IdOptions:
     out: Path
     model: Path
     loads: Path | None = None
+    plates: Path | None = None
+    plate: Annotated[tuple[str, ...], Each] = ()
+    axes: Annotated[str | None, Dashed] = None
+    threshold: float = 0.0
     cutoff: float = 6.0
     time: Annotated[str | None, Dashed] = None
     angles: str | None = None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import asdict
 from pathlib import Path
 
@@ -11,6 +10,7 @@ from jaxtyping import Float
 
 from geocontact.cli.id import IdOptions
 from geocontact.cli.id_loads import loads_on_bodies
+from geocontact.cli.json_text import plain, write_json
 from geocontact.cli.output import written_whole
 from geocontact.cli.provenance import options_table
 from geocontact.cli.quantities import time_span
@@ -41,7 +41,7 @@ def analyse(coordinates: Path, o: IdOptions) -> int:
         values = _filtered(table, motion_of(table, model, o.angles), o.cutoff)
         shown = _shown(table, o.time)
         time = table.time[shown]
-        loads = loads_on_bodies(record, o.loads, model, time)
+        loads = loads_on_bodies(record, o, model, time, values[shown])
         found = forces_along(tree_of(model), table.time, values, time, loads)
         forces = Forces(time, model, found, _peak(loads))
         _write(record, forces, draft)
@@ -98,21 +98,24 @@ def _write(record: Record, forces: Forces, draft: Path) -> None:
     names = named(forces.model)
     title = "Inverse Dynamics Generalized Forces"
     write_storage(draft / "id.sto", forces.time, names, forces.values, title=title, degrees=False)
+    units = ["N_m" if name.endswith("_moment") else "N" for name in names]
     left = {
-        name: {"rms": float(np.sqrt(np.mean(column**2))), "max_abs": float(np.abs(column).max())}
-        for name, column in zip(names, forces.values.T, strict=True)
+        name: {f"rms_{unit}": float(np.sqrt(np.mean(column**2))), f"max_{unit}": float(np.abs(column).max())}
+        for name, unit, column in zip(names, units, np.asarray(forces.values).T, strict=True)
     }
     base = forces.at_ground
     told = {
         "frames": len(forces.time),
         "peak_external_force_N": forces.peak,
         "residual_force_rms_N": forces.residual,
-        "residual_share_of_peak": forces.residual / forces.peak if forces.peak > 0.0 else None,
+        "residual_share_of_peak": forces.residual / forces.peak if forces.peak > 0.0 else float("nan"),
         "residuals": [name for name, there in zip(names, base, strict=True) if there],
         "coordinates": left,
     }
-    record.results.update(told)
-    (draft / "id.json").write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
+    record.results.update(plain(told))
+    write_json(draft / "id.json", told)
+    if not base.any():
+        record.warn(f"no joint frees a body from the {GROUND} with six coordinates: nothing tells what is left over")
     largest = int(np.argmax(np.abs(np.where(base, 0.0, forces.values)).max(axis=0)))
     said = f"{len(forces.time)} frames; most at {names[largest]}, {np.abs(forces.values[:, largest]).max():.4g}"
     if forces.peak > 0.0 and np.isfinite(forces.residual):

@@ -26,10 +26,15 @@ class IkOptions:
     tasks
         OpenSim's setup of inverse kinematics or its task set (.xml): weights of markers and coordinates. Without it all
         markers of the model count alike.
+    marker_set
+        Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
     weight
         Weight of a marker over that of --tasks: R.Heel=10; 0 leaves it out. May be given again.
     hold
-        Coordinate held near a value (deg, m): subtalar_angle_r=5.2. May be given again.
+        Coordinate held near a value (deg, m; rad where the model couples it to others): subtalar_angle_r=5.2. May be
+        given again.
+    fill
+        Longest gap [s] over which coordinates that no marker tells are filled by a spline; longer ones stay empty.
     knee
         Knee whose angles after Grood and Suntay are written: right=femur_r,tibia_r, the bodies as the model calls them,
         x forward, y up and z to the right in both. May be given again.
@@ -42,8 +47,10 @@ class IkOptions:
     out: Path
     model: Path
     tasks: Path | None = None
+    marker_set: Path | None = None
     weight: Annotated[tuple[str, ...], Each] = ()
     hold: Annotated[tuple[str, ...], Each] = ()
+    fill: float = 0.1
     knee: Annotated[tuple[str, ...], Each] = ()
     axes: Annotated[str | None, Dashed] = None
     time: Annotated[str | None, Dashed] = None

@@ -6,10 +6,12 @@ import time
 from dataclasses import asdict
 from pathlib import Path
 
+import numpy as np
+
 from geocontact.cli.ik import IkOptions
-from geocontact.cli.ik_results import knee_table, write_results
+from geocontact.cli.ik_results import knee_table, knees_of, write_results
 from geocontact.cli.ik_tasks import marker_tasks
-from geocontact.cli.marker_input import markers_given
+from geocontact.cli.marker_input import markers_given, with_marker_set
 from geocontact.cli.output import written_whole
 from geocontact.cli.patience import progress
 from geocontact.cli.provenance import options_table
@@ -29,20 +31,22 @@ def analyse(markers: Path, o: IkOptions) -> int:
     with record.catching_warnings(), written_whole(o.out) as draft:
         model = read_multibody(o.model)
         record.add_input("--model", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
+        model = with_marker_set(record, model, o.model, o.marker_set)
+        knees = knees_of(o.knee, model)
         seen = markers_given(markers, o.axes, o.time)
         record.add_input("markers", markers, frames=len(seen), markers=len(seen.names))
-        tasks = marker_tasks(record, model, seen, o)
-        tree = tree_of(model)
+        tasks = marker_tasks(record, model, seen, o.tasks, o.weight, o.hold)
+        tree, filled = tree_of(model), _filled(o.fill)
         began = time.perf_counter()
         with progress("frames", len(seen)) as step:
             try:
-                found = inverse_kinematics(tree, seen, tasks, lambda _: step())
+                found = inverse_kinematics(tree, seen, tasks, lambda _: step(), fill=filled)
             except ValueError as error:
                 raise InputError(markers, "", str(error), "compare the names in the file with the model's") from error
         seconds = time.perf_counter() - began
         write_results(record, model, found, draft, seconds)
-        if o.knee:
-            write_table(knee_table(model, found, o), draft, False, "knees")
+        if knees:
+            write_table(knee_table(model, found, knees), draft, False, "knees")
         title = f"Inverse kinematics of {markers.name}"
         tables = [inputs_table(record.inputs), options_table(record)]
         write_kinematics_report(draft / "report.html", title, model, found, tables, list(record.warnings))
@@ -51,3 +55,9 @@ def analyse(markers: Path, o: IkOptions) -> int:
     record.say(f"results in {o.out}: {', '.join(written)}")
     record.speak()
     return 0
+
+
+def _filled(seconds: float) -> float:
+    if not (np.isfinite(seconds) and seconds >= 0.0):
+        raise InputError("", "--fill", f"{seconds:g} is not a time", "write seconds; 0 fills nothing")
+    return seconds

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.cli.ik import IkOptions
+from geocontact.cli.json_text import plain, write_json
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.joint import Coordinate
@@ -19,6 +19,8 @@ from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.io.results import write_table
 from geocontact.io.storage_writer import write_storage
 from geocontact.io.tables import listed
+
+FAR = 50.0  # mm between markers and model that no subject has who stood model for it
 
 
 def printed(coordinates: tuple[Coordinate, ...], values: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t n"]:
@@ -32,43 +34,92 @@ def write_results(record: Record, model: Multibody, found: Poses, draft: Path, s
     write_storage(draft / "ik.mot", found.time, found.names, values, title="Coordinates", degrees=True)
     off = {f"{name} [mm]": 1e3 * d for name, d in zip(found.markers, found.distances.T, strict=True)}
     write_table(pd.DataFrame({"time [s]": found.time, **off}), draft, False, "markers")
-    rms = np.sqrt(np.nanmean(found.distances**2))
-    worst = int(np.nanargmax(np.sqrt(np.nanmean(found.distances**2, axis=0))))
+    squares = {
+        name: (float(np.sqrt(np.mean(d[there] ** 2))), float(d[there].max()))
+        for name, d in zip(found.markers, 1e3 * found.distances.T, strict=True)
+        if (there := np.isfinite(d)).any()
+    }
+    rms = 1e3 * float(np.sqrt(np.nanmean(found.distances**2)))
+    worst = max(squares, key=lambda name: squares[name][0])
+    missing = ~np.isfinite(found.values)
+    filled = ~found.told & ~missing & found.told.any(axis=0)
     told = {
         "frames": len(found.time),
         "frames_per_second": len(found.time) / seconds,
         "steps_mean": float(found.steps.mean()),
         "unsettled_frames": int((~found.settled).sum()),
-        "rms_mm": 1e3 * float(rms),
+        "filled_frames": {n: int(k) for n, k in zip(found.names, filled.sum(axis=0), strict=True) if k},
+        "missing_frames": {n: int(k) for n, k in zip(found.names, missing.sum(axis=0), strict=True) if k},
+        "rms_mm": rms,
         "max_mm": 1e3 * float(np.nanmax(found.distances)),
-        "markers": {
-            name: {"rms_mm": 1e3 * float(np.sqrt(np.nanmean(d**2))), "max_mm": 1e3 * float(np.nanmax(d))}
-            for name, d in zip(found.markers, found.distances.T, strict=True)
-        },
+        "markers": {name: {"rms_mm": each[0], "max_mm": each[1]} for name, each in squares.items()},
     }
-    record.results.update(told)
-    (draft / "ik.json").write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
-    if not found.settled.all():
-        record.warn(f"{told['unsettled_frames']} frames did not settle: markers and model may not belong together")
+    record.results.update(plain(told))
+    write_json(draft / "ik.json", told)
+    _warn(record, found, rms)
     record.say(
-        f"{len(found.time)} frames, {len(found.markers)} markers: {1e3 * rms:.1f} mm from the model, root mean square, "
-        f"most at {found.markers[worst]}"
+        f"{len(found.time)} frames, {len(found.markers)} markers: {rms:.1f} mm from the model, root mean square, "
+        f"most at {worst}"
     )
 
 
-def knee_table(model: Multibody, found: Poses, o: IkOptions) -> pd.DataFrame:
-    """Angles after Grood and Suntay of the knees that were asked for [deg]."""
-    table = {"time [s]": found.time}
-    poses = model.poses(found.values)
-    for text in o.knee:
+def _warn(record: Record, found: Poses, rms: float) -> None:
+    if not found.settled.all():
+        count = int((~found.settled).sum())
+        record.warn(f"{count} frames did not settle: markers and model may not belong together")
+    if rms > FAR:
+        record.warn(f"markers are {rms:.0f} mm from the model: another subject's size, axes (--axes) or unit?")
+    never = ~found.told.any(axis=0)
+    if never.any():
+        names = tuple(name for name, each in zip(found.names, never, strict=True) if each)
+        record.warn(f"no frame tells {listed(names)}: kept at the model's default")
+    for lost, what in (
+        (~found.told & np.isfinite(found.values) & ~never, "filled between frames that tell them"),
+        (~np.isfinite(found.values), "left empty, markers do not tell them"),
+    ):
+        names = tuple(name for name, each in zip(found.names, lost.any(axis=0), strict=True) if each)
+        if names:
+            frames = found.time[lost.any(axis=1)]
+            span = f"{len(frames)} frames from {frames[0]:g} to {frames[-1]:g} s"
+            record.warn(f"{span}: {what}: {listed(names)}")
+
+
+@dataclass(frozen=True)
+class Knee:
+    """A knee whose angles are wanted: its side and the bodies of femur and tibia."""
+
+    side: str
+    femur: str
+    tibia: str
+
+
+def knees_of(texts: tuple[str, ...], model: Multibody) -> list[Knee]:
+    """`--knee right=femur_r,tibia_r`, each side once."""
+    found: list[Knee] = []
+    names = tuple(body.name for body in model.bodies)
+    for text in texts:
         side, equals, bodies = text.partition("=")
-        femur, comma, tibia = bodies.partition(",")
+        femur, comma, tibia = (part.strip() for part in bodies.partition(","))
         if not (equals and comma) or side not in SIGN:
             raise InputError("", "--knee", f"'{text}' is not a side and two bodies", "write right=femur_r,tibia_r")
         for body in (femur, tibia):
-            if body not in poses:
-                raise InputError("", "--knee", f"no body '{body}'", f"bodies are: {listed(tuple(poses))}")
-        turned = poses[femur].rotation.inv() * poses[tibia].rotation
-        for name, angle in zip(("flexion", "adduction", "rotation"), angles_of_tibia(turned, side), strict=True):
-            table[f"{side}_{name} [deg]"] = np.degrees(np.unwrap(angle))
+            if body not in names:
+                raise InputError("", "--knee", f"no body '{body}'", f"bodies are: {listed(names)}")
+        if side in [knee.side for knee in found]:
+            raise InputError("", "--knee", f"the {side} knee is given twice", "give each side once")
+        found.append(Knee(side, femur, tibia))
+    return found
+
+
+def knee_table(model: Multibody, found: Poses, knees: list[Knee]) -> pd.DataFrame:
+    """Angles after Grood and Suntay [deg]; empty where the coordinates are."""
+    table = {"time [s]": found.time}
+    whole = np.isfinite(found.values).all(axis=1)
+    poses = model.poses(np.asarray(found.values)[whole])
+    for knee in knees:
+        turned = poses[knee.femur].rotation.inv() * poses[knee.tibia].rotation
+        for name, angle in zip(("flexion", "adduction", "rotation"), angles_of_tibia(turned, knee.side), strict=True):
+            column = np.full(len(found.time), np.nan)
+            column[whole] = np.degrees(np.unwrap(angle))
+            table[f"{knee.side}_{name} [deg]"] = column
     return pd.DataFrame(table)

@@ -25,11 +25,14 @@ class ScaleOptions:
         Generic OpenSim model (.osim) with markers.
     scale
         Bodies and the pairs of markers whose distances tell their size: femur_r,femur_l=R.Hip/R.Knee,L.Hip/L.Knee.
-        May be given again; bodies that are not named keep their size.
+        May be given again; bodies that are not named keep their size. The factor is the same along all axes.
+    marker_set
+        Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
     mass
         Of the subject [kg], shared among the bodies as in the model.
     keep_markers
-        Leave markers where scaling puts them; otherwise they are moved to where they were seen in the static trial.
+        Leave markers where scaling puts them; otherwise they are moved to where they were seen in the static trial,
+        but for those that the model calls fixed.
     tasks
         OpenSim's setup of inverse kinematics or its task set (.xml) for the static pose; without it all markers alike.
     axes
@@ -41,6 +44,7 @@ class ScaleOptions:
     out: Path
     model: Path
     scale: Annotated[tuple[str, ...], Each] = ()
+    marker_set: Path | None = None
     mass: float | None = None
     keep_markers: bool = False
     tasks: Path | None = None
@@ -51,7 +55,7 @@ class ScaleOptions:
 def scale(static: Path, /, *, options: ScaleOptions) -> int:
     """A model made to measure from a static trial: sizes of bodies, mass, places of markers.
 
-    Writes scaled.osim (for ik, id and OpenSim), scale.json and run.json into OUT.
+    Writes scaled.osim (for ik, id and OpenSim; its defaults are the static pose), scale.json and run.json into OUT.
 
     Parameters
     ----------

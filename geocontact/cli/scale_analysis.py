@@ -2,31 +2,33 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.cli.marker_input import markers_given
+from geocontact.cli.ik_results import printed
+from geocontact.cli.ik_tasks import marker_tasks
+from geocontact.cli.json_text import plain, write_json
+from geocontact.cli.marker_input import markers_given, with_marker_set
 from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.cli.scale import ScaleOptions
 from geocontact.data.errors import InputError
-from geocontact.data.marker_tasks import MarkerTasks
 from geocontact.data.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
 from geocontact.dynamics.scaling import measured_factor, scaled
 from geocontact.dynamics.tree import tree_of
-from geocontact.io.marker_weights import read_marker_weights
 from geocontact.io.osim_multibody import read_multibody
 from geocontact.io.osim_scaler import write_scaled_model
 from geocontact.io.tables import listed
 
 ABSURD = 0.5, 2.0
 """A factor beyond these is a mistake: markers exchanged, or another unit."""
+MOVED = 0.02
+"""m that a marker may move in a static trial without a word."""
 
 
 def analyse(static: Path, o: ScaleOptions) -> int:
@@ -35,21 +37,28 @@ def analyse(static: Path, o: ScaleOptions) -> int:
     with record.catching_warnings(), written_whole(o.out) as draft:
         model = read_multibody(o.model)
         record.add_input("--model", o.model, bodies=len(model.bodies), markers=len(model.markers))
-        seen = _standing(markers_given(static, o.axes, o.time))
-        record.add_input("static", static, markers=len(seen.names))
+        model = with_marker_set(record, model, o.model, o.marker_set)
+        whole = markers_given(static, o.axes, o.time)
+        seen = _standing(record, whole)
+        record.add_input("static", static, frames=len(whole), markers=len(seen.names))
         if o.mass is not None and not (np.isfinite(o.mass) and o.mass > 0.0):
             raise InputError("", "--mass", f"{o.mass:g} kg is not a mass", "write for example 72.6")
-        factors = _factors(model, seen, o.scale)
-        made = scaled(model, {name: by * np.ones(3) for name, by in factors.items()}, o.mass)
-        tasks = MarkerTasks({m.name: 1.0 for m in model.markers}) if o.tasks is None else read_marker_weights(o.tasks)
-        if o.tasks is not None:
-            record.add_input("--tasks", o.tasks)
+        factors = _factors(model, whole, o.scale)
+        tasks = marker_tasks(record, model, seen, o.tasks)
+        try:
+            made = scaled(model, {name: by * np.ones(3) for name, by in factors.items()}, o.mass)
+        except ValueError as error:
+            raise InputError(o.model, "", str(error), "correct the model") from error
         try:
             pose = inverse_kinematics(tree_of(made), seen, tasks)
         except ValueError as error:
             raise InputError(static, "", str(error), "compare the names in the file with the model's") from error
+        if not pose.settled.all():
+            record.warn("the static pose did not settle: markers and model may not belong together")
         moved = made if o.keep_markers else _placed(made, seen, pose)
-        write_scaled_model(o.model, draft / "scaled.osim", moved, {k: v * np.ones(3) for k, v in factors.items()})
+        by = {name: factor * np.ones(3) for name, factor in factors.items()}
+        standing = {n: float(v) for n, v in zip(pose.names, pose.values[0], strict=True) if np.isfinite(v)}
+        write_scaled_model(o.model, draft / "scaled.osim", moved, by, standing)
         _tell(record, factors, pose, moved, draft)
         record.write(draft)
         written = sorted(file.name for file in draft.iterdir())
@@ -58,11 +67,16 @@ def analyse(static: Path, o: ScaleOptions) -> int:
     return 0
 
 
-def _standing(seen: MarkerTrajectories) -> MarkerTrajectories:
+def _standing(record: Record, seen: MarkerTrajectories) -> MarkerTrajectories:
     """One frame: the mean over the trial of each marker where it was seen."""
     there = np.isfinite(seen.positions).all(axis=2).any(axis=0)
     positions: Float[np.ndarray, "m 3"] = np.full(seen.positions.shape[1:], np.nan)
     positions[there] = np.nanmean(seen.positions[:, there], axis=0)
+    off = np.linalg.norm(seen.positions - positions, axis=2)
+    moved = [(float(np.nanmax(off[:, k])), seen.names[k]) for k in np.flatnonzero(there)]
+    far, name = max(moved)
+    if far > MOVED:
+        record.warn(f"{seen.source}: {name} moves {1e3 * far:.0f} mm away from its mean: is this standing still?")
     return MarkerTrajectories(seen.time[:1], positions[None], seen.names, seen.source)
 
 
@@ -92,11 +106,11 @@ def _factors(model: Multibody, seen: MarkerTrajectories, texts: tuple[str, ...])
 
 
 def _placed(model: Multibody, seen: MarkerTrajectories, pose: Poses) -> Multibody:
-    """Markers that were seen where they were, in the static pose; others where scaling put them."""
+    """Markers that were seen where they were, in the static pose; others, and fixed ones, where scaling put them."""
     poses = model.poses(pose.values)
     places = seen.of(tuple(m.name for m in model.markers))[0]
     markers = tuple(
-        replace(m, location=poses[m.body][0].inv().apply(place)) if np.isfinite(place).all() else m
+        m if m.fixed or not np.isfinite(place).all() else replace(m, location=poses[m.body][0].inv().apply(place))
         for m, place in zip(model.markers, places, strict=True)
     )
     return replace(model, markers=markers)
@@ -109,13 +123,14 @@ def _tell(record: Record, factors: dict[str, float], pose: Poses, made: Multibod
         "mass_kg": sum(body.mass for body in made.bodies),
         "static_rms_mm": float(np.sqrt(np.nanmean(off**2))),
         "markers_mm": dict(zip(pose.markers, off.tolist(), strict=True)),
-        "static_pose": dict(zip(pose.names, pose.values[0].tolist(), strict=True)),
+        "static_pose": {
+            f"{c.name} [{'deg' if c.kind == 'rotational' else 'm' if c.kind == 'translational' else 'rad or m'}]": value
+            for c, value in zip(made.coordinates, printed(made.coordinates, pose.values)[0].tolist(), strict=True)
+        },
     }
-    record.results.update(told)
-    (draft / "scale.json").write_text(json.dumps(told, indent=2) + "\n", encoding="utf-8")
+    record.results.update(plain(told))
+    write_json(draft / "scale.json", told)
     sizes = ", ".join(f"{name} {by:.3f}" for name, by in factors.items()) or "no body"
     worst = pose.markers[int(np.nanargmax(off))]
-    record.say(
-        f"scaled: {sizes}; markers of the scaled model {told['static_rms_mm']:.1f} mm from the static trial, root mean "
-        f"square, most at {worst}"
-    )
+    rms = float(np.sqrt(np.nanmean(off**2)))
+    record.say(f"scaled: {sizes}; markers {rms:.1f} mm from the scaled model, root mean square, most at {worst}")

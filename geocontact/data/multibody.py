@@ -37,11 +37,20 @@ class Body:
 
 @dataclass(frozen=True)
 class Marker:
-    """A point fixed to a body, in the body's frame [m]."""
+    """A point fixed to a body.
+
+    Parameters
+    ----------
+    location
+        In the body's frame [m].
+    fixed
+        Whether it is to stay there when markers are moved to where a subject had them.
+    """
 
     name: str
     body: str
     location: Float[np.ndarray, " 3"]
+    fixed: bool = False
 
 
 @dataclass(frozen=True)

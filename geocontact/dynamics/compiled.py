@@ -48,7 +48,11 @@ def compiled(function: Function) -> Function:
             _build(program, source, folder, library)
         except (OSError, subprocess.CalledProcessError):
             return function
-    return external(function.name(), str(library))
+    try:
+        return external(function.name(), str(library))
+    except RuntimeError:  # damaged on the disk: built anew next time
+        library.unlink(missing_ok=True)
+        return function
 
 
 def cache_folder() -> Path:

@@ -3,7 +3,8 @@
 Lu & O'Connor (1999), Bone position estimation from skin marker co-ordinates using global optimisation, J Biomech 32.
 Newton's steps; the curvature, exact, is kept as long as they shrink fast, and damped after Levenberg and Marquardt
 where they do not lead down. Coordinates that the model clamps stay within their limits, locked ones at their default.
-A marker that is not seen does not count in that frame.
+A marker that is not seen does not count in that frame. The search begins where most markers are seen and goes from
+there to both ends. What the markers of a frame do not tell is not stated, or filled where the gap is short.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
+from scipy.interpolate import CubicSpline
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from geocontact.data.marker_tasks import MarkerTasks
@@ -26,6 +28,9 @@ MOST = 200  # steps for a frame
 FAST = 0.2  # of the step before that a step is, while the curvature is kept
 DAMPED, WILDER = 1e-6, 10.0  # of the curvature's largest entry, once a step led up; times more each time
 EVEN = 1e-12  # of the cost that it may rise by rounding
+FEWEST = 3  # markers of a model that must be seen somewhere
+NOTHING = 1e-9  # curvature along a direction that markers do not tell, where that of each coordinate is 1
+PART = 1e-3  # of a unit direction that belongs to a coordinate
 
 
 @dataclass(frozen=True)
@@ -37,13 +42,16 @@ class Poses:
     time
         [s].
     names, values
-        Coordinates [rad, m].
+        Coordinates [rad, m]; NaN where the markers of the frame do not tell them and the gap was too long to fill. What
+        no frame tells is at the model's default.
     markers, distances
         Names and distance of each from where it was seen [m]; NaN where it was not seen or does not count.
     steps
         Taken in each frame.
     settled
         Whether the last step was short enough.
+    told
+        Whether markers, weights and limits of the frame determine the coordinate; what is not told is filled or NaN.
     """
 
     time: Float[np.ndarray, " t"]
@@ -53,29 +61,69 @@ class Poses:
     distances: Float[np.ndarray, "t m"]
     steps: Int[np.ndarray, " t"]
     settled: Bool[np.ndarray, " t"]
+    told: Bool[np.ndarray, "t n"]
 
 
 def inverse_kinematics(
-    tree: Tree, seen: MarkerTrajectories, tasks: MarkerTasks, progress: Callable[[int], None] = lambda _: None
+    tree: Tree,
+    seen: MarkerTrajectories,
+    tasks: MarkerTasks,
+    progress: Callable[[int], None] = lambda _: None,
+    *,
+    fill: float = 0.0,
 ) -> Poses:
     """Coordinates in each frame.
 
-    Those markers count that model, recording and tasks have; ValueError where there are fewer than three.
+    Parameters
+    ----------
+    fill
+        Longest gap [s] over which a coordinate that is not told is filled by a cubic spline through the frames that do;
+        from the last frame before the gap to the first after it. Gaps at the ends are not filled.
+
+    Those markers count that model, recording and tasks have; ValueError where no frame shows three of them.
     """
     markers = tuple(m for m in tree.model.markers if tasks.markers.get(m.name, 0.0) > 0.0 and m.name in seen.names)
-    if len(markers) < 3:
-        raise ValueError(f"{len(markers)} markers of the model were recorded and have a weight; three are needed")
-    search = _Search(tree, markers, tasks)
     places = seen.of(tuple(m.name for m in markers))
+    there = np.isfinite(places).all(axis=2)
+    count = int(there.sum(axis=1).max(initial=0))
+    if len(markers) < FEWEST:
+        raise ValueError(f"{len(markers)} markers of the model were recorded and have a weight; three are needed")
+    if count < FEWEST:
+        raise ValueError(f"no frame shows more than {count} markers of the model; three are needed")
+    search = _Search(tree, markers, tasks)
     values, distances = np.zeros((len(seen), len(tree.names))), np.full((len(seen), len(markers)), np.nan)
     steps, settled = np.zeros(len(seen), dtype=np.int64), np.zeros(len(seen), dtype=bool)
-    q = search.start
-    for frame, observed in enumerate(places):
-        q, steps[frame], settled[frame] = search.pose(q, observed)
-        values[frame] = q
-        distances[frame] = np.linalg.norm(search.fit.places(q) - observed, axis=1)
-        progress(frame + 1)
-    return Poses(seen.time, tree.names, values, tuple(m.name for m in markers), distances, steps, settled)
+    told = np.zeros(values.shape, dtype=bool)
+    first = int(np.argmax(there.sum(axis=1)))
+    done = 0
+    for frames in (range(first, len(seen)), range(first - 1, -1, -1)):
+        q = search.start if frames.step > 0 else values[first]
+        for frame in frames:
+            q, steps[frame], settled[frame] = search.pose(q, places[frame])
+            values[frame], told[frame] = q, search.told(q, there[frame])
+            distances[frame] = np.linalg.norm(search.fit.places(q) - places[frame], axis=1)
+            done += 1
+            progress(done)
+    values = np.where(told.any(axis=0), _filled(seen.time, values, told, fill), search.start)
+    return Poses(seen.time, tree.names, values, tuple(m.name for m in markers), distances, steps, settled, told)
+
+
+def _filled(
+    time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t n"], told: Bool[np.ndarray, "t n"], longest: float
+) -> Float[np.ndarray, "t n"]:
+    """What is not told, over short gaps by a cubic spline through what is, else NaN."""
+    found = np.where(told, values, np.nan)
+    for k in np.flatnonzero(~told.all(axis=0)):
+        known = np.flatnonzero(told[:, k])
+        lost = np.flatnonzero(~told[:, k])
+        if len(known) < 2:
+            continue
+        after = np.searchsorted(known, lost)
+        inside = (after > 0) & (after < len(known))
+        lost, after = lost[inside], after[inside]
+        short = time[known[after]] - time[known[after - 1]] <= longest + 1e-9
+        found[lost[short], k] = CubicSpline(time[known], values[known, k])(time[lost[short]])
+    return found
 
 
 class _Search:
@@ -95,6 +143,7 @@ class _Search:
         self.wanted = np.array(
             [c.default if value is None else value for c, (_, value) in zip(coordinates, wanted, strict=True)]
         )
+        self.whole: Bool[np.ndarray, " n"] | None = None
 
     def pose(self, q: Vector, observed: Float[np.ndarray, "m 3"]) -> tuple[Vector, int, bool]:
         """Coordinates of a frame from a start, steps taken, and whether the last was short enough."""
@@ -120,6 +169,28 @@ class _Search:
             before = longest
             self.kept = self.kept if fast else None
         return q, MOST, False
+
+    def told(self, q: Vector, there: Bool[np.ndarray, " m"]) -> Bool[np.ndarray, " n"]:
+        """Which coordinates the markers that are there, held values and locks determine; once for all of them there."""
+        if there.all() and self.whole is not None:
+            return self.whole
+        slopes = self.fit.slopes(q).reshape(len(there), 3, len(q))
+        normal = np.einsum("m,mik,mil->kl", np.where(there, self.weights, 0.0), slopes, slopes)
+        found = self.locked | ~_open(normal + np.diag(self.held), ~self.locked)
+        if there.all():
+            self.whole = found
+        return found
+
+
+def _open(normal: Float[np.ndarray, "n n"], free: Bool[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
+    """Coordinates with a part in a direction along which nothing counts."""
+    found = np.zeros(len(free), dtype=bool)
+    inner = normal[np.ix_(free, free)]
+    unit = np.sqrt(np.where(np.diag(inner) > 0.0, np.diag(inner), 1.0))
+    size, directions = np.linalg.eigh(inner / np.outer(unit, unit))
+    idle = directions[:, size <= NOTHING]
+    found[np.flatnonzero(free)] = np.abs(idle).max(axis=1, initial=0.0) > PART
+    return found
 
 
 class _Kept:

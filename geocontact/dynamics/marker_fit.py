@@ -29,7 +29,7 @@ class MarkerFit:
     """
 
     def __init__(self, tree: Tree, markers: tuple[Marker, ...]) -> None:
-        from casadi import SX, Function, densify, dot, hessian, mtimes, reshape, vertcat
+        from casadi import SX, Function, densify, dot, hessian, jacobian, mtimes, reshape, vertcat
 
         places = vertcat(*(tree.point(m.body, constant(m.location)) for m in markers))
         observed, weights = SX.sym("observed", 3 * len(markers)), SX.sym("weights", len(markers))
@@ -41,6 +41,7 @@ class MarkerFit:
         arguments = [tree.q, observed, weights, wanted, held]
         self._curvature = Buffered(Function("curvature", arguments, [densify(curvature)]))
         self._slope = Buffered(Function("slope", arguments, [densify(gradient), cost]))
+        self._slopes = Buffered(Function("slopes", [tree.q], [densify(jacobian(places, tree.q).T)]))
         self._places = Buffered(Function("places", [tree.q], [densify(places)]))
 
     def slope(self, q: Vector, against: Target) -> tuple[Vector, float]:
@@ -51,6 +52,10 @@ class MarkerFit:
     def curvature(self, q: Vector, against: Target) -> Float[np.ndarray, "n n"]:
         """Second derivatives of the cost."""
         return self._curvature(q, *against)[0].reshape(len(q), len(q)).copy()
+
+    def slopes(self, q: Vector) -> Float[np.ndarray, "k n"]:
+        """Derivatives of the markers' places by the coordinates, three rows for each marker."""
+        return self._slopes(q)[0].reshape(-1, len(q)).copy()
 
     def places(self, q: Float[np.ndarray, " n"]) -> Float[np.ndarray, "m 3"]:
         """Where the markers are in a pose, in the ground's frame [m]."""

@@ -62,9 +62,12 @@ def scaled(model: Multibody, factors: Factors, mass: float | None = None) -> Mul
     Parameters
     ----------
     mass
-        Of the whole [kg], shared among the bodies as before; without it masses are as they were.
+        Of the whole [kg], shared among the bodies as before; without it masses are as they were. ValueError where the
+        bodies have none.
     """
     total = sum(body.mass for body in model.bodies)
+    if mass is not None and not total > 0.0:
+        raise ValueError("the bodies have no mass that could be shared")
     heavier = 1.0 if mass is None else mass / total
     ones = np.ones(3)
 

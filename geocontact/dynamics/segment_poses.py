@@ -15,7 +15,7 @@ FEWEST = 3
 def segment_poses(
     places: Float[np.ndarray, "t m 3"], template: Float[np.ndarray, "m 3"] | None = None
 ) -> tuple[RigidTransform, Bool[np.ndarray, " t"], Float[np.ndarray, " t"]]:
-    """Poses of the template in the ground, in which frames they are known, and how far the markers are off [m].
+    """Poses of the template in the ground in the frames that tell them, which those are, how far markers are off [m].
 
     Parameters
     ----------
@@ -24,7 +24,8 @@ def segment_poses(
     template
         Their places in the segment's frame; the first frame that shows all of them, about their mean, unless given.
 
-    The distance is the root mean square over the markers that were seen. A frame with fewer than three is not known.
+    The distance is the root mean square over the markers that were seen, NaN in frames that are not known: those with
+    fewer than three.
     ValueError where no frame shows all markers and no template is given, or the markers lie on a line.
     """
     seen = np.isfinite(places).all(axis=2)
@@ -34,11 +35,12 @@ def segment_poses(
             raise ValueError("no frame shows all markers of the segment; give a template")
         template = places[whole[0]] - places[whole[0]].mean(axis=0)
     known = seen.sum(axis=1) >= FEWEST
-    matrices = np.tile(np.eye(4), (len(places), 1, 1))
-    off = np.full(len(places), np.nan)
+    if not known.any():
+        raise ValueError(f"no frame shows {FEWEST} markers of the segment")
+    matrices, off = [], np.full(len(places), np.nan)
     for frame in np.flatnonzero(known):
         there = seen[frame]
         found = fit_landmarks(template[there], places[frame, there], tolerance=np.inf)
-        matrices[frame] = found.pose.as_matrix()
+        matrices.append(found.pose.as_matrix())
         off[frame] = np.sqrt(np.mean(np.sum((found.pose.apply(template[there]) - places[frame, there]) ** 2, axis=1)))
-    return RigidTransform.from_matrix(matrices), known, off
+    return RigidTransform.from_matrix(np.array(matrices)), known, off

@@ -117,6 +117,9 @@ class Stepper:
             raise ValueError(f"{len(p)} parameters given, {self.equations.p.numel()} needed")
         x, n = np.concatenate(start).astype(float), len(self.equations.names)
         now, end = float(time[0]), float(time[-1])
+        if len(time) < 2 or not end > now or np.any(np.diff(time) < 0.0):
+            raise ValueError("two times at least are needed, none before the one that it follows")
+        span = end - now
         h = (end - now) / steps if steps else min(first, longest, end - now)
         times, states, rates = [now], [x], []
         turn = np.zeros((len(p) if self.tangent else 0, len(x)))  # transposed: columns follow each other
@@ -138,7 +141,7 @@ class Stepper:
                     turn_rates.append(turned[1].reshape(turn.shape).copy())
                     turn = turned[0].reshape(turn.shape).copy()
                     turns.append(turn)
-                x, now = found.copy(), there if end - there > 1e-14 * abs(end) else end
+                x, now = found.copy(), there if end - there > SMALLEST * span else end
                 error += np.abs(off[:n])
                 times.append(now)
                 states.append(x)
@@ -148,7 +151,7 @@ class Stepper:
             if steps is None:
                 allowed = SAFE * size ** (-1.0 / ORDER) if size > 0.0 else GROW
                 h = min(h * float(np.clip(allowed, SHRINK, GROW)), longest)
-            if h < SMALLEST * (end - float(time[0])) or (steps and size > 1.0):
+            if h < SMALLEST * span or (steps and size > 1.0):
                 raise ArithmeticError(f"no step is short enough at {now:g} s")
         rates.append(self.step(x, np.array([h]), given, given, slope, p)[2].copy())
         values = CubicHermiteSpline(times, np.array(states), np.array(rates))(time)

@@ -16,16 +16,28 @@ GROUND = ("ground", "/ground", "")
 
 @dataclass(frozen=True)
 class ExternalLoad:
-    """A plate of a file, by the beginning of its columns, and the body that it acts on."""
+    """A plate of a file and the body that it acts on.
+
+    Parameters
+    ----------
+    plate
+        By the beginning of its columns of force.
+    body
+        By its name.
+    torque
+        Whether the plate's free torque acts too.
+    """
 
     plate: str
     body: str
+    torque: bool = True
 
 
 def read_external_loads(path: str | PathLike[str]) -> tuple[Path, tuple[ExternalLoad, ...]]:
     """The file of the plates, beside this one unless it says otherwise, and who acts on whom.
 
-    Forces and points in another frame than the ground's are refused.
+    Forces and points in another frame than the ground's are refused, and points or torques of another plate than the
+    force's. Without a torque the plate's own does not act.
     """
     file = fspath(path)
     root = read_document(path)
@@ -46,7 +58,16 @@ def _load(file: str, element: Element) -> ExternalLoad:
     body, force = basename(text_of(element, "applied_to_body")), text_of(element, "force_identifier")
     if not body or not force:
         raise InputError(file, label(element), "names no body or no force", "give applied_to_body and force_identifier")
-    return ExternalLoad(force.removesuffix("v").rstrip("_"), body)
+    stem = force.removesuffix("v")
+    if text_of(element, "point_identifier") != f"{stem}p":
+        what = f"'{text_of(element, 'point_identifier')[:40]}' does not belong to the force '{force[:40]}'"
+        raise InputError(file, f"{label(element)} <point_identifier>", what, f"expected {stem}p")
+    torque = text_of(element, "torque_identifier")
+    known = {stem.replace("force", word) + letter for word in ("torque", "moment") for letter in ("", "m")}
+    if torque and torque not in known:
+        what = f"'{torque[:40]}' does not belong to the force '{force[:40]}'"
+        raise InputError(file, f"{label(element)} <torque_identifier>", what, f"expected {min(known)}")
+    return ExternalLoad(stem.rstrip("_"), body, bool(torque))
 
 
 def _is_off(file: str, element: Element) -> bool:

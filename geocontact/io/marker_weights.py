@@ -11,15 +11,16 @@ from geocontact.io.osim_xml import is_true, label, numbers_of, read_document, te
 
 
 def read_marker_weights(path: str | PathLike[str]) -> MarkerTasks:
-    """Markers and coordinates that count, with their weights; tasks that do not apply count nothing.
+    """Markers and coordinates with their weights; a task without a weight, or that does not apply, counts nothing.
 
     A coordinate is wanted at the model's default or at the task's own value; values from a file are refused.
     """
     file = fspath(path)
     root = read_document(path)
     markers = {e.get("name", ""): _weight(file, e) for e in root.iter("IKMarkerTask")}
-    coordinates = {e.get("name", ""): (_weight(file, e), _wanted(file, e)) for e in root.iter("IKCoordinateTask")}
-    if not markers and not coordinates:
+    weighed = [(e, _weight(file, e)) for e in root.iter("IKCoordinateTask")]
+    coordinates = {e.get("name", ""): (weight, _wanted(file, e)) for e, weight in weighed if weight > 0.0}
+    if not markers and not weighed:
         raise InputError(file, "", "holds no IKMarkerTask", "give OpenSim's setup of inverse kinematics")
     return MarkerTasks(markers, coordinates)
 
@@ -27,7 +28,7 @@ def read_marker_weights(path: str | PathLike[str]) -> MarkerTasks:
 def _weight(file: str, task: Element) -> float:
     if task.find("apply") is not None and not is_true(file, task, "apply"):
         return 0.0
-    weight = float(numbers_of(file, task, "weight", 1, (1.0,))[0])
+    weight = float(numbers_of(file, task, "weight", 1, (0.0,))[0])
     if weight < 0.0:
         raise InputError(file, f"{label(task)} <weight>", f"{weight:g} is negative", "weights are 0 or more")
     return weight

@@ -5,6 +5,7 @@ Both dialects: OpenSim 4 (JointSet, sockets, offset frames) and OpenSim 3 (Joint
 
 from __future__ import annotations
 
+import warnings
 from os import PathLike, fspath
 from xml.etree.ElementTree import Element
 
@@ -12,7 +13,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.data.errors import InputError
+from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.joint import Coordinate, JointModel, Kind, TransformAxis
 from geocontact.io.osim_functions import constant, linear, read_function
 from geocontact.io.osim_meshes import mesh_placement, mesh_placements
@@ -132,6 +133,15 @@ def _coordinate(file: str, name: str, element: Element | None, kind: Kind) -> Co
     low, high = numbers_of(file, element, "range", 2, (-np.inf, np.inf))
     clamped, locked = (is_true(file, element, flag) for flag in ("clamped", "locked"))
     default = float(numbers_of(file, element, "default_value", 1, (0.0,))[0])
+    if is_true(file, element, "prescribed"):
+        held = element.find("prescribed_function/Constant")
+        if held is None:
+            held = element.find("Constant")
+        if held is not None:
+            default, locked = float(numbers_of(file, held, "value", 1)[0]), True
+        else:
+            message = f"{file}: coordinate {name} is prescribed over time, which is not heeded"
+            warnings.warn(InputWarning(message), stacklevel=5)
     return Coordinate(name, default, kind, (float(low), float(high)), clamped, locked)
 
 

@@ -13,7 +13,7 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody import GROUND, Body, Marker, Multibody, outwards
 from geocontact.io.osim import joints_of
-from geocontact.io.osim_xml import Frames, is_true, label, numbers_of, read_model, socket_of, text_of
+from geocontact.io.osim_xml import Frames, is_true, label, numbers_of, read_document, read_model, socket_of, text_of
 from geocontact.io.tables import listed
 
 _MOMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
@@ -36,12 +36,34 @@ def read_multibody(path: str | PathLike[str]) -> Multibody:
     if loose:
         raise InputError(file, f"body {min(loose)}", "has no joint", "correct the model")
     _warn_of_constraints(file, model)
-    markers = tuple(_marker(file, frames, e) for e in model.findall("MarkerSet/objects/Marker"))
-    unknown = [m for m in markers if m.body not in {body.name for body in bodies} | {GROUND}]
-    if unknown:
-        raise InputError(file, f"marker {unknown[0].name}", f"is on '{unknown[0].body}', which is no body of the model")
+    markers = _markers(file, frames, model.findall("MarkerSet/objects/Marker"), {body.name for body in bodies})
     gravity = numbers_of(file, model, "gravity", 3, (0.0, -9.80665, 0.0))
     return Multibody(model.get("name", ""), bodies, joints, markers, gravity)
+
+
+def read_marker_set(path: str | PathLike[str], osim: str | PathLike[str]) -> tuple[Marker, ...]:
+    """Markers of a file of their own (OpenSim's `MarkerSet`), for the bodies and frames of a model."""
+    file = fspath(path)
+    model = read_model(osim)
+    frames = Frames(fspath(osim), model)
+    bodies = {e.get("name", "") for e in model.findall("BodySet/objects/Body")}
+    root = read_document(path, "OpenSim marker set")
+    elements = [e for owner in root.iter("MarkerSet") for e in owner.findall("objects/Marker")]
+    if not elements:
+        raise InputError(file, "", "holds no MarkerSet with markers", "give OpenSim's marker set (.xml)")
+    return _markers(file, frames, elements, bodies)
+
+
+def _markers(file: str, frames: Frames, elements: list[Element], bodies: set[str]) -> tuple[Marker, ...]:
+    markers = tuple(_marker(file, frames, e) for e in elements)
+    unknown = [m for m in markers if m.body not in bodies | {GROUND}]
+    if unknown:
+        raise InputError(file, f"marker {unknown[0].name}", f"is on '{unknown[0].body}', which is no body of the model")
+    names = [m.name for m in markers]
+    twice = [name for name in names if names.count(name) > 1]
+    if twice:
+        raise InputError(file, f"marker {twice[0]}", f"is there {names.count(twice[0])} times", "rename one")
+    return markers
 
 
 def _body(file: str, element: Element) -> Body:
@@ -63,12 +85,12 @@ def _inertia(file: str, element: Element) -> Float[np.ndarray, "3 3"]:
 
 
 def _marker(file: str, frames: Frames, element: Element) -> Marker:
-    location = numbers_of(file, element, "location", 3)
+    location, fixed = numbers_of(file, element, "location", 3), is_true(file, element, "fixed")
     socket = socket_of(element, "parent_frame")
     if not socket:  # OpenSim 3 names the body itself
-        return Marker(element.get("name", ""), text_of(element, "body"), location)
+        return Marker(element.get("name", ""), text_of(element, "body"), location, fixed)
     body, pose = frames.in_body(frames.resolve(f"/markerset/{element.get('name', '')}", socket))
-    return Marker(element.get("name", ""), basename(body), pose.apply(location))
+    return Marker(element.get("name", ""), basename(body), pose.apply(location), fixed)
 
 
 def _warn_of_constraints(file: str, model: Element) -> None:

@@ -13,29 +13,38 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.multibody import Multibody
-from geocontact.io.osim_xml import label, numbers_of, read_document, socket_of, text_of
+from geocontact.data.multibody import GROUND, Multibody
+from geocontact.io.osim_multibody import read_multibody
+from geocontact.io.osim_xml import numbers_of, read_document, socket_of, text_of
 
 Vector = Float[np.ndarray, " 3"]
 FactorOf = Callable[[str], Vector]
 
 _SHIFTS = ("translation1", "translation2", "translation3")
+_SAME = 1e-9
+"""m that the file that was written may differ from what it was to be."""
 
 
 def write_scaled_model(
-    source: str | PathLike[str], target: Path, scaled: Multibody, factors: Mapping[str, Vector]
+    source: str | PathLike[str],
+    target: Path,
+    scaled: Multibody,
+    factors: Mapping[str, Vector],
+    pose: Mapping[str, float] | None = None,
 ) -> None:
-    """Write the source again with bodies, joints, markers and paths of muscles scaled.
+    """Write the source again with bodies, joints, markers and paths of muscles scaled; it is read back and compared.
 
     Parameters
     ----------
     scaled
-        The model as it is to be: masses, mass centres, inertias and places of markers are its own.
+        The model as it is to be: masses, mass centres, inertias and markers are its own.
     factors
         Of bodies by name, along the axes of the body's frame.
+    pose
+        Defaults of coordinates by name [rad, m] in place of those in the file.
 
     Lengths of fibres and tendons, wrapping surfaces and contact geometry stay, with a warning where there are any.
-    InputError for joints on frames that hang on other frames, and for markers that hang on a frame.
+    InputError where frames hang on frames in a way that is not followed.
     """
     file = fspath(source)
     root = read_document(source, "OpenSim model")
@@ -47,16 +56,19 @@ def write_scaled_model(
         return np.asarray(factors.get(basename(body), np.ones(3)), float)
 
     _bodies(file, model, scaled, of)
-    _joints(file, model, of)
-    _markers(file, model, scaled)
+    _frames(file, model, scaled, of)
+    _shifts(file, model, scaled, of)
+    _markers(model, scaled)
     for point in model.iter():
-        if point.tag.endswith("PathPoint") and point.find("location") is not None:
-            body = text_of(point, "body") or socket_of(point, "parent_frame")
-            _times(file, point, "location", of(body))
-    if any(True for _ in model.iter("optimal_fiber_length")) or any(model.iter("WrapObjectSet")):
+        if point.tag.endswith("PathPoint"):
+            _times(file, point, "location", of(text_of(point, "body") or socket_of(point, "parent_frame")))
+        elif point.tag == "Coordinate" and point.get("name", "") in (pose or {}):
+            _set(point, "default_value", [(pose or {})[point.get("name", "")]])
+    if any(True for _ in model.iter("optimal_fiber_length")):
         message = f"{file}: lengths of fibres and tendons, wrapping surfaces and contact geometry are not scaled"
         warnings.warn(InputWarning(message), stacklevel=2)
     ElementTree(root).write(target, encoding="UTF-8", xml_declaration=True)
+    _compare(file, target, scaled)
 
 
 def _bodies(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
@@ -75,64 +87,98 @@ def _bodies(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
             for ij, value in six.items():
                 _set(element, f"inertia_{ij}", [value])
         for mesh in element.findall("attached_geometry/*"):
-            if mesh.find("scale_factors") is not None:
-                _times(file, mesh, "scale_factors", of(body.name))
+            _times(file, mesh, "scale_factors", of(body.name))
 
 
-def _joints(file: str, model: Element, of: FactorOf) -> None:
-    for joint in model.findall("JointSet/objects/*"):
-        frames = {f.get("name", ""): f for f in joint.findall("frames/PhysicalOffsetFrame")}
-        for frame in frames.values():
-            body = socket_of(frame, "parent")
-            if basename(body) in frames:
-                raise InputError(file, label(frame), "hangs on another frame", "hang the joint's frames on bodies")
+def _frames(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
+    """Offset frames that hang on bodies (OpenSim 4), and where joints are in both bodies (OpenSim 3)."""
+    names = {GROUND, *(body.name for body in scaled.bodies)}
+    inside = {id(f): body.get("name", "") for body in model.iter("Body") for f in body.findall("components/*")}
+    for frame in model.iter("PhysicalOffsetFrame"):
+        socket = socket_of(frame, "parent")
+        body = inside.get(id(frame), "") if socket in ("", "..") else basename(socket)
+        if body in names:
             _times(file, frame, "translation", of(body))
-        held = frames.get(basename(socket_of(joint, "parent_frame")))
-        parent = socket_of(joint, "parent_frame") if held is None else socket_of(held, "parent")
-        _shifts(file, joint, of(parent))
-    for body in model.findall("BodySet/objects/Body"):
-        for joint in body.findall("Joint/*"):  # OpenSim 3
-            parent = text_of(joint, "parent_body")
-            _times(file, joint, "location_in_parent", of(parent))
-            _times(file, joint, "location", of(body.get("name", "")))
-            _shifts(file, joint, of(parent))
+    for element in model.findall("BodySet/objects/Body"):
+        for joint in element.findall("Joint/*"):
+            _times(file, joint, "location_in_parent", of(text_of(joint, "parent_body")))
+            _times(file, joint, "location", of(element.get("name", "")))
 
 
-def _shifts(file: str, joint: Element, by: Vector) -> None:
+def _shifts(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
     """Functions of a shift that are no coordinate by themselves, times the factor along their axis."""
-    for axis in joint.findall("SpatialTransform/TransformAxis"):
-        if axis.get("name") not in _SHIFTS:
-            continue
-        slot = _SHIFTS.index(axis.get("name", ""))
-        direction = numbers_of(file, axis, "axis", 3, tuple(np.eye(3)[slot]))
-        factor = float(np.linalg.norm(direction / np.linalg.norm(direction) * by))
-        nested = axis.find("function")
-        holder = axis if nested is None else nested
-        plain = [child for child in holder if child.tag not in ("coordinates", "coordinate", "axis")]
-        if not plain or factor == 1.0:
-            continue
-        function = plain[0]
-        if function.tag == "LinearFunction" and text_of(function, "coefficients").split() in (
-            ["1", "0"],
-            ["1.0", "0.0"],
-        ):
-            continue
-        place = list(holder).index(function)
-        holder.remove(function)
-        around = Element("MultiplierFunction", {"name": function.get("name", "function")} if nested is None else {})
-        SubElement(around, "function").append(function)
-        SubElement(around, "scale").text = f"{factor:.17g}"
-        holder.insert(place, around)
+    joints = {joint.name: joint for joint in scaled.joints}
+    for element in model.iter("CustomJoint"):
+        joint = joints.get(element.get("name", ""))
+        for axis in element.findall("SpatialTransform/TransformAxis"):
+            if joint is None or joint.parent == GROUND or axis.get("name") not in _SHIFTS:
+                continue
+            slot = _SHIFTS.index(axis.get("name", ""))
+            direction = numbers_of(file, axis, "axis", 3, tuple(np.eye(3)[slot]))
+            turned = joint.parent_offset.rotation.apply(direction / np.linalg.norm(direction))
+            _multiply(file, axis, float(np.linalg.norm(turned * of(joint.parent))))
 
 
-def _markers(file: str, model: Element, scaled: Multibody) -> None:
-    wanted = {m.name: m for m in scaled.markers}
-    for element in model.findall("MarkerSet/objects/Marker"):
-        marker = wanted[element.get("name", "")]
-        socket = socket_of(element, "parent_frame") or text_of(element, "body")
-        if basename(socket) != marker.body:
-            raise InputError(file, label(element), f"hangs on '{socket}'", "hang markers on bodies")
+def _multiply(file: str, axis: Element, factor: float) -> None:
+    nested = axis.find("function")
+    holder = axis if nested is None else nested
+    plain = [child for child in holder if child.tag not in ("coordinates", "coordinate", "axis")]
+    if not plain or factor == 1.0:
+        return
+    function = plain[0]
+    if function.tag == "LinearFunction" and numbers_of(file, function, "coefficients", None).tolist() == [1.0, 0.0]:
+        return  # the coordinate itself
+    place = list(holder).index(function)
+    holder.remove(function)
+    around = Element("MultiplierFunction", {"name": function.get("name", "function")} if nested is None else {})
+    SubElement(around, "function").append(function)
+    SubElement(around, "scale").text = f"{factor:.17g}"
+    holder.insert(place, around)
+
+
+def _markers(model: Element, scaled: Multibody) -> None:
+    """The model's markers written anew, in the dialect of the file."""
+    old = bool(model.findall("BodySet/objects/Body/Joint"))
+    holder = model.find("MarkerSet")
+    if holder is None:
+        holder = SubElement(model, "MarkerSet", {"name": "markerset"})
+    for child in list(holder):
+        holder.remove(child)
+    objects = SubElement(holder, "objects")
+    for marker in scaled.markers:
+        element = SubElement(objects, "Marker", {"name": marker.name})
+        if old:
+            SubElement(element, "body").text = marker.body
+        else:
+            path = "/ground" if marker.body == GROUND else f"/bodyset/{marker.body}"
+            SubElement(element, "socket_parent_frame").text = path
         _set(element, "location", marker.location)
+        SubElement(element, "fixed").text = "true" if marker.fixed else "false"
+
+
+def _compare(file: str, target: Path, scaled: Multibody) -> None:
+    """What was written must be the model that was meant, joint by joint and marker by marker."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        found = read_multibody(target)
+    ends = [
+        (f"joint {one.name}", [*one.parent_offset.translation, *one.child_offset.translation],
+         [*other.parent_offset.translation, *other.child_offset.translation])
+        for one, other in zip(found.joints, scaled.joints, strict=True)
+    ]  # fmt: skip
+    places = np.tile([c.default for c in scaled.coordinates], (3, 1)) + np.array([[0.0], [0.1], [-0.2]])
+    ends += [
+        (f"marker {m.name}", one.ravel().tolist(), other.ravel().tolist())
+        for m, one, other in zip(
+            scaled.markers,
+            found.marker_places(places).swapaxes(0, 1),
+            scaled.marker_places(places).swapaxes(0, 1),
+            strict=True,
+        )
+    ]
+    for what, one, other in ends:
+        if np.abs(np.subtract(one, other)).max() > _SAME:
+            raise InputError(file, what, "hangs on frames in a way that is not scaled", "hang it on a body")
 
 
 def _times(file: str, element: Element, child: str, by: Vector) -> None:

@@ -34,6 +34,9 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     declared = dict(zip(lines[1].split(), lines[2].split(), strict=False))
     names = tuple(word.strip() for word in lines[3].split("\t")[2:] if word.strip())
     _check(file, "line 3", declared, "NumMarkers", len(names), "markers are named in line 4")
+    twice = [name for name in names if names.count(name) > 1]
+    if twice:
+        raise InputError(file, "line 4", f"marker '{twice[0]}' is there {names.count(twice[0])} times", "rename one")
     unit = declared.get("Units", "")
     if unit not in LENGTH:
         raise InputError(file, "line 3", f"unit is '{unit[:20]}'", f"expected one of {', '.join(LENGTH)}")

@@ -36,9 +36,7 @@ def write_kinematics_report(
     angular = np.array([c.kind == "rotational" for c in model.coordinates])
     off = 1e3 * found.distances
     sections: list[Section] = [
-        Readout(
-            [Row("markers, root mean square", "mm", [f"{v:.1f}" for v in np.sqrt(np.nanmean(off[shown] ** 2, 1))])]
-        ),
+        Readout([Row("markers, root mean square", "mm", [_size(row) for row in off[shown]])]),
         *_curves("Angles", "deg", found, shown, angular, np.degrees(1.0)),
         *_curves("Positions", "m", found, shown, ~angular, 1.0),
         Curves("Distance of markers", "mm", [Curve(n, d) for n, d in zip(found.markers, off[shown].T, strict=True)]),
@@ -74,7 +72,13 @@ def _curves(
 
 def _markers(found: Poses) -> Table:
     rows = [
-        (name, f"{1e3 * np.sqrt(np.nanmean(d**2)):.1f}", f"{1e3 * np.nanmax(d):.1f}", f"{np.isnan(d).sum()}")
-        for name, d in zip(found.markers, found.distances.T, strict=True)
+        (name, _size(d), f"{np.nanmax(d, initial=0.0):.1f}", f"{np.isnan(d).sum()}")
+        for name, d in zip(found.markers, 1e3 * found.distances.T, strict=True)
     ]
     return Table("Markers", ("marker", "rms [mm]", "largest [mm]", "frames not seen"), rows)
+
+
+def _size(distances: Float[np.ndarray, " k"]) -> str:
+    """Root mean square of those that are known, as text."""
+    known = distances[np.isfinite(distances)]
+    return f"{np.sqrt(np.mean(known**2)):.1f}" if len(known) else "-"

@@ -15,7 +15,7 @@ import pytest
 from geocontact.cli import gap_benchmark_run
 from geocontact.cli.gap_benchmark_case import ANSWERERS, Task, Worked, alike, failed, renamed, worked
 from geocontact.cli.gap_benchmark_run import mixed
-from geocontact.cli.gap_results import plain
+from geocontact.cli.json_text import plain
 from geocontact.gap.benchmark.drawing import KINDS, SHARES, Lot, drawn, lots, shares
 from geocontact.io.gap_case import read_gap_case
 from tests.cli.calls import ROOT, Call, call, done, process

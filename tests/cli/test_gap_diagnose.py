@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.cli.gap_results import plain
+from geocontact.cli.json_text import plain
 from tests.cli.calls import Call, call, done, inventory, process
 from tests.cli.gap_cases import DAMPING, damped_elbow, in_degrees_and_kilonewtons, known, reordered, spoilt
 

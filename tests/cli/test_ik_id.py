@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
+from geocontact.data.knee_angles import tibia_in_femur
+from geocontact.data.wrench import Wrench
 from geocontact.dynamics.scaling import scaled
+from geocontact.io.force_plates import LABORATORY_FRAME, read_force_plates
 from geocontact.io.osim_multibody import read_multibody
+from geocontact.io.storage_writer import write_storage
 from geocontact.io.tables import read_table
 from geocontact.io.trc import read_trc
 from tests import legs
@@ -179,6 +185,186 @@ def test_virtual_markers_are_where_the_model_puts_them(tmp_path: Path) -> None:
     np.testing.assert_allclose(seen.positions, model.marker_places(values), atol=2e-9)
 
 
+def lost(folder: Path, frames: slice, markers: slice) -> Path:
+    """The planted walk without these markers in these frames."""
+    _, model, time, values = legs.planted(folder)
+    seen = legs.markers_of(model, time, values)
+    seen.positions[frames, markers] = np.nan
+    return legs.trc_file(folder, seen)
+
+
+def knee_and_ankle(folder: Path) -> tuple[np.ndarray, np.ndarray]:
+    table = read_table(folder / "ik.mot")
+    return table.column("knee"), table.column("ankle")
+
+
+def test_a_short_gap_is_filled_and_told(tmp_path: Path) -> None:
+    """The foot is not seen for 0.06 s: its ankle comes from a spline, near the truth, all else from markers."""
+    _, model, _, values = legs.planted(tmp_path)
+    result = done(ik(tmp_path, lost(tmp_path, slice(20, 26), slice(12, 16))))
+    told = result.record()["results"]
+    assert told["filled_frames"] == {"ankle": 6} and told["missing_frames"] == {}
+    assert any("6 frames from 0.2 to 0.25 s: filled between frames that tell them: ankle" in w for w in result.warnings)
+    names = [c.name for c in model.coordinates]
+    knee, ankle = knee_and_ankle(result.folder)
+    np.testing.assert_allclose(knee, np.degrees(values[:, names.index("knee")]), atol=1e-4)
+    np.testing.assert_allclose(ankle, np.degrees(values[:, names.index("ankle")]), atol=0.05)
+
+
+@pytest.mark.parametrize(("frames", "count"), [(slice(20, 40), 20), (slice(0, 5), 5), (slice(56, 61), 5)])
+def test_a_long_gap_and_the_ends_stay_empty(tmp_path: Path, frames: slice, count: int) -> None:
+    """Nothing is held over from the frame before; inverse dynamics refuses the holes and can be cut to the rest."""
+    result = done(ik(tmp_path, lost(tmp_path, frames, slice(12, 16))))
+    assert result.record()["results"]["missing_frames"] == {"ankle": count}
+    assert any("left empty, markers do not tell them: ankle" in w for w in result.warnings)
+    knee, ankle = knee_and_ankle(result.folder)
+    assert np.isnan(ankle).sum() == count and np.isfinite(knee).all()
+    refused = call("id", result.folder / "ik.mot", "--model", legs.model_file(tmp_path), "--out", tmp_path / "id")
+    assert refused.code == 2 and f"'ankle' is nan in {count}" in refused.err
+
+
+def test_frames_without_a_marker_stay_empty(tmp_path: Path) -> None:
+    """The first ones too: the search begins where markers are."""
+    result = done(ik(tmp_path, lost(tmp_path, slice(0, 10), slice(0, 16)), "--knee", "right=femur_r,tibia_r"))
+    missing = result.record()["results"]["missing_frames"]
+    assert set(missing.values()) == {10} and len(missing) == 11
+    assert result.table("knees.csv")["right_flexion [deg]"].isna().sum() == 10
+    _, model, _, values = legs.planted(tmp_path)
+    names = [c.name for c in model.coordinates]
+    np.testing.assert_allclose(
+        knee_and_ankle(result.folder)[0][10:], np.degrees(values[10:, names.index("knee")]), atol=1e-4
+    )
+
+
+def test_what_no_frame_tells_stays_at_its_default(tmp_path: Path) -> None:
+    result = done(ik(tmp_path, lost(tmp_path, slice(None), slice(12, 16))))
+    assert any("no frame tells ankle: kept at the model's default" in w for w in result.warnings)
+    np.testing.assert_array_equal(knee_and_ankle(result.folder)[1], 0.0)
+
+
+def test_what_two_markers_cannot_tell_is_refused(tmp_path: Path) -> None:
+    result = ik(tmp_path, lost(tmp_path, slice(None), slice(2, 16)))
+    assert result.code == 2 and "no frame shows more than 2 markers" in result.err
+    nothing = ik(tmp_path, lost(tmp_path, slice(None), slice(None)))
+    assert nothing.code == 2 and "no marker is seen in any frame" in nothing.err
+
+
+def test_a_held_coordinate_is_told_without_markers(tmp_path: Path) -> None:
+    result = done(ik(tmp_path, lost(tmp_path, slice(20, 40), slice(12, 16)), "--hold", "ankle=0"))
+    assert result.record()["results"]["missing_frames"] == {}
+
+
+def test_a_marker_that_is_never_seen_is_named(tmp_path: Path) -> None:
+    result = done(ik(tmp_path, lost(tmp_path, slice(None), slice(3, 4))))
+    assert any("were not recorded: pelvis3" in w for w in result.warnings)
+    text = (result.folder / "ik.json").read_text()
+    assert "NaN" not in text and "pelvis3" not in json.loads(text)["markers"]
+
+
+def test_angles_of_a_left_knee_in_three_directions(tmp_path: Path) -> None:
+    """Thigh and shank of a model whose knee is free; the left one mirrors the signs of the right."""
+    file = legs.model_file(tmp_path)
+    text = file.read_text().replace('<PinJoint name="knee_r">', '<BallJoint name="knee_r">')
+    start = text.index('<BallJoint name="knee_r">')
+    end = text.index("</PinJoint>", start)
+    text = text[:end] + "</BallJoint>" + text[end + len("</PinJoint>") :]
+    file.write_text(text.replace('<Coordinate name="knee"/>', "".join(f'<Coordinate name="knee_{a}"/>' for a in "xyz")))
+    model = read_multibody(file)
+    time, values = legs.motion(model)
+    wanted = {"flexion": np.radians(40.0), "adduction": np.radians(7.0), "rotation": np.radians(-11.0)}
+    for side in ("left", "right"):
+        turned = tibia_in_femur(*(np.array([each]) for each in wanted.values()), side)
+        for name, angle in zip("xyz", turned.as_euler("XYZ")[0], strict=True):
+            values[:, [c.name == f"knee_{name}" for c in model.coordinates]] = angle
+        markers = legs.trc_file(tmp_path, legs.markers_of(model, time, values))
+        options = ["--model", file, "--out", tmp_path / side, "--knee", f"{side}=femur_r,tibia_r"]
+        table = done(call("ik", markers, *options, folder=tmp_path / side)).table("knees.csv")
+        for name, angle in wanted.items():
+            np.testing.assert_allclose(table[f"{side}_{name} [deg]"], np.degrees(angle), atol=1e-3)
+
+
+def test_a_file_in_another_unit_is_refused(tmp_path: Path) -> None:
+    file = trc(tmp_path)
+    file.write_text(file.read_text().replace("\tmm\t", "\tm\t"), encoding="utf-8")
+    result = ik(tmp_path, file)
+    assert result.code == 2 and "perhaps it is mm" in result.err
+
+
+def test_markers_far_from_the_model_are_warned_of(tmp_path: Path) -> None:
+    _, model, time, values = legs.planted(tmp_path)
+    seen = legs.markers_of(model, time, values)
+    mixed = type(seen)(seen.time, seen.positions[:, ::-1], seen.names)
+    result = done(ik(tmp_path, legs.trc_file(tmp_path, mixed)))
+    assert any("mm from the model: another subject's size" in w for w in result.warnings)
+
+
+def test_markers_from_a_file_of_their_own(tmp_path: Path) -> None:
+    """In place of the model's; one that is fixed stays where the file has it when a model is made to measure."""
+    _, model, time, values = legs.planted(tmp_path)
+    places = legs.OSIM[legs.OSIM.index("<MarkerSet>") : legs.OSIM.index("</MarkerSet>")] + "</MarkerSet>"
+    places = places.replace('name="foot_r3">', 'name="foot_r3"><fixed>true</fixed>')
+    (tmp_path / "set.xml").write_text(f"<OpenSimDocument>{places}</OpenSimDocument>", encoding="utf-8")
+    bare = tmp_path / "bare.osim"
+    start, end = legs.OSIM.index("<MarkerSet>"), legs.OSIM.index("</MarkerSet>") + len("</MarkerSet>")
+    bare.write_text(legs.OSIM[:start] + legs.OSIM[end:], encoding="utf-8")
+    seen = legs.markers_of(model, time[:2], 0.0 * values[:2])
+    seen.positions[:, 14:] += [0.0, 0.01, 0.0]
+    static = legs.trc_file(tmp_path, seen)
+    without = call("ik", static, "--model", bare, "--out", tmp_path / "ik")
+    assert without.code == 2 and "has no markers" in without.err
+    done(call("ik", static, "--model", bare, "--marker-set", tmp_path / "set.xml", "--out", tmp_path / "ik"))
+    done(call("scale", static, "--model", bare, "--marker-set", tmp_path / "set.xml", "--out", tmp_path / "s"))
+    ours = read_multibody(tmp_path / "s" / "scaled.osim")
+    assert [m.name for m in ours.markers] == [m.name for m in model.markers]
+    np.testing.assert_array_equal(ours.markers[15].location, model.markers[15].location)
+    assert np.abs(ours.markers[14].location - model.markers[14].location).max() > 0.001
+
+
+def test_the_static_pose_becomes_the_default(tmp_path: Path) -> None:
+    file, static = grown(tmp_path)
+    done(call("scale", static, "--model", file, "--out", tmp_path / "s", *PAIRS))
+    knee = next(c for c in read_multibody(tmp_path / "s" / "scaled.osim").coordinates if c.name == "knee")
+    assert knee.default == pytest.approx(0.05, abs=1e-6)
+    told = json.loads((tmp_path / "s" / "scale.json").read_text())["static_pose"]
+    assert told["knee [deg]"] == pytest.approx(np.degrees(0.05), abs=1e-4)
+
+
+def test_a_subject_that_moves_is_no_static_trial(tmp_path: Path) -> None:
+    file, model, time, values = legs.planted(tmp_path)
+    walk = legs.trc_file(tmp_path, legs.markers_of(model, time, values))
+    result = done(call("scale", walk, "--model", file, "--out", tmp_path / "s", *PAIRS))
+    assert any("is this standing still?" in w for w in result.warnings)
+    factors = json.loads((tmp_path / "s" / "scale.json").read_text())["factors"]
+    assert factors["tibia_r"] == pytest.approx(1.0, abs=1e-6), "distances are averaged, not places"
+
+
+def test_a_joint_on_a_frame_of_a_body_is_scaled_or_refused(tmp_path: Path) -> None:
+    """A frame that the body owns moves with it; one that hangs on such a frame is refused."""
+    frame = '<PhysicalOffsetFrame name="spot"><socket_parent>..</socket_parent><translation>0 -0.4 0</translation>'
+    owned = legs.OSIM.replace(
+        '<Body name="femur_r">', f'<Body name="femur_r"><components>{frame}</PhysicalOffsetFrame></components>'
+    )
+    owned = owned.replace(
+        "<socket_parent>/bodyset/femur_r</socket_parent>", "<socket_parent>/bodyset/femur_r/spot</socket_parent>"
+    )
+    owned = owned.replace(
+        '<translation>0 -0.4 0</translation></PhysicalOffsetFrame>\n<PhysicalOffsetFrame name="knee_r_out">',
+        '<translation>0 0 0</translation></PhysicalOffsetFrame>\n<PhysicalOffsetFrame name="knee_r_out">',
+    )
+    _, static = grown(tmp_path)
+    (tmp_path / "owned.osim").write_text(owned, encoding="utf-8")
+    done(call("scale", static, "--model", tmp_path / "owned.osim", "--out", tmp_path / "s", *PAIRS))
+    knee = next(j for j in read_multibody(tmp_path / "s" / "scaled.osim").joints if j.name == "knee_r")
+    np.testing.assert_allclose(knee.parent_offset.translation, [0.0, -0.44, 0.0], atol=1e-6)
+    away = owned.replace(
+        '<translation>0 0 0</translation></PhysicalOffsetFrame>\n<PhysicalOffsetFrame name="knee_r_out">',
+        '<translation>0 -0.1 0</translation></PhysicalOffsetFrame>\n<PhysicalOffsetFrame name="knee_r_out">',
+    )
+    (tmp_path / "away.osim").write_text(away, encoding="utf-8")
+    result = call("scale", static, "--model", tmp_path / "away.osim", "--out", tmp_path / "t", *PAIRS)
+    assert result.code == 2 and "hangs on frames in a way that is not scaled" in result.err
+
+
 REFUSED = {
     "no such marker": (("--weight", "heel=3"), "'heel=3' names nothing"),
     "a negative weight": (("--weight", "foot_r1=-3"), "negative"),
@@ -189,6 +375,8 @@ REFUSED = {
     "an axis twice": (("--axes", "x,x,y"), "not three different axes"),
     "no such side": (("--knee", "centre=femur_r,tibia_r"), "not a side and two bodies"),
     "no such body": (("--knee", "right=femur_r,patella"), "no body 'patella'"),
+    "a knee twice": (("--knee", "left=femur_r,tibia_r", "--knee", "left=tibia_r,foot_r"), "left knee is given twice"),
+    "a gap of no time": (("--fill", "-1"), "not a time"),
 }
 
 
@@ -207,7 +395,83 @@ def test_other_markers_than_the_model_s_are_refused(tmp_path: Path) -> None:
     assert result.code == 2 and "0 markers of the model were recorded" in result.err
 
 
+def plates(folder: Path, **columns: np.ndarray) -> Path:
+    """The standing leg's plates with some columns exchanged, 100 Hz."""
+    motion, _ = standing(folder)
+    table = read_table(folder / "grf.mot")
+    values = {name: table.column(name).copy() for name in table.channels} | columns
+    write_storage(
+        folder / "grf.mot", table.time, list(values), np.column_stack(list(values.values())), title="p", degrees=False
+    )
+    return motion
+
+
+def test_a_force_that_is_missing_is_not_no_force(tmp_path: Path) -> None:
+    gap = np.full(61, WEIGHT)
+    gap[30:33] = np.nan
+    motion = plates(tmp_path, plate_force_vy=gap)
+    result = id_(tmp_path, motion, "--loads", tmp_path / "loads.xml")
+    assert result.code == 2 and "missing at 0.3 s and in 3 frames" in result.err
+
+
+def test_an_unloaded_plate_has_no_point(tmp_path: Path) -> None:
+    """Without force no point is needed, even beside a loaded sample; 2 N at 332 m do nothing to the joints."""
+    force, point = np.full(61, WEIGHT), np.zeros(61)
+    force[:20], point[:20] = 0.0, np.nan
+    motion = plates(tmp_path, plate_force_vy=force, plate_force_px=point)
+    done(id_(tmp_path, motion, "--loads", tmp_path / "loads.xml"))
+    force[:20], point[:20] = 2.0, 332.0
+    motion = plates(tmp_path, plate_force_vy=force, plate_force_px=point)
+    result = done(id_(tmp_path, motion, "--loads", tmp_path / "loads.xml", "--threshold", "10"))
+    assert np.abs(read_table(result.folder / "id.sto").column("knee_moment")[:20]).max() < 1e-6
+    far = done(id_(tmp_path, motion, "--loads", tmp_path / "loads.xml"))
+    assert any("332 m from the origin of foot_r" in w for w in far.warnings)
+
+
+def test_the_torque_acts_where_it_is_named(tmp_path: Path) -> None:
+    motion = plates(tmp_path, plate_torque_y=np.full(61, 50.0))
+    loads = tmp_path / "loads.xml"
+    turn = read_table(done(id_(tmp_path, motion, "--loads", loads)).folder / "id.sto").column("hip_y_moment")
+    np.testing.assert_allclose(turn, -50.0, rtol=1e-6)
+    loads.write_text(loads.read_text().replace("plate_torque_</torque", "</torque"), encoding="utf-8")
+    still = read_table(done(id_(tmp_path, motion, "--loads", loads)).folder / "id.sto").column("hip_y_moment")
+    np.testing.assert_allclose(still, 0.0, atol=1e-6)
+    for old, new in (("plate_force_p<", "other_p<"), ("</torque_identifier>", "other_torque_</torque_identifier>")):
+        text = loads.read_text().replace(old, new, 1)
+        (tmp_path / "other.xml").write_text(text, encoding="utf-8")
+        result = id_(tmp_path, motion, "--loads", tmp_path / "other.xml")
+        assert result.code == 2 and "does not belong to the force" in result.err
+
+
+def test_plates_of_a_laboratory_whose_z_is_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a .c3d file has them, named on the command line and turned; without --axes they are refused."""
+    motion, _ = standing(tmp_path)
+    (plate,) = read_force_plates(tmp_path / "grf.mot")
+    lab = Rotation.from_matrix([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]).inv()
+    wrench = plate.wrench
+    turned = Wrench(lab.apply(wrench.force), lab.apply(wrench.moment), lab.apply(wrench.origin), LABORATORY_FRAME)
+    there = replace(plate, name="plate 1", wrench=turned, point=lab.apply(plate.point), normal=lab.apply(plate.normal))
+    monkeypatch.setattr("geocontact.cli.id_loads.read_force_plates", lambda _: (there,))
+    options = ("--plates", tmp_path / "grf.mot", "--plate", "1=foot_r")
+    found = read_table(done(id_(tmp_path, motion, *options, "--axes", "x,z,-y")).folder / "id.sto")
+    np.testing.assert_allclose(found.column("ty_force"), 0.0, atol=1e-6)
+    np.testing.assert_allclose(found.column("hip_x_moment"), -WEIGHT * (0.1 - PLUMB[2]), rtol=1e-9)
+    as_it_is = id_(tmp_path, motion, *options)
+    assert as_it_is.code == 2 and "its floor's normal is 0 0 1" in as_it_is.err
+
+
+def test_opensim_s_own_plates_are_not_turned(tmp_path: Path) -> None:
+    motion, _ = standing(tmp_path)
+    result = id_(tmp_path, motion, "--plates", tmp_path / "grf.mot", "--plate", "1=foot_r", "--axes", "x,z,-y")
+    assert result.code == 2 and "is in OpenSim's axes" in result.err
+    done(id_(tmp_path, motion, "--plates", tmp_path / "grf.mot", "--plate", "plate_force=foot_r"))
+
+
 ID_REFUSED = {
+    "plates without a body": (("--plates", "grf.mot"), "belong together"),
+    "a plate without its file": (("--plate", "1=foot_r"), "belong together"),
+    "axes without plates": (("--axes", "x,z,-y"), "does nothing without plates"),
+    "a threshold below nothing": (("--threshold", "-3"), "not a force of 0 N or more"),
     "a cut-off above half the rate": (("--cutoff", "70"), "--cutoff"),
     "a negative cut-off": (("--cutoff", "-1"), "not a frequency"),
     "no such span": (("--time", "3:4"), "no frame between 3 and 4 s"),

@@ -62,6 +62,18 @@ def test_limits_locks_and_clamps(tmp_path: Path) -> None:
     assert (plain.limits, plain.clamped, plain.locked) == ((-np.inf, np.inf), False, False)
 
 
+def test_a_coordinate_prescribed_to_a_number_is_locked_there(tmp_path: Path) -> None:
+    """One that is prescribed over time is said and moves freely."""
+    course = "<prescribed_function><Constant><value>0.3</value></Constant></prescribed_function>"
+    held = f"<prescribed>true</prescribed>{course}"
+    text = PIN.replace("<default_value>0.25</default_value>", f"<default_value>0.25</default_value>{held}")
+    found = read_multibody(written(tmp_path, text)).coordinates[0]
+    assert (found.default, found.locked) == (0.3, True)
+    with pytest.warns(InputWarning, match="coordinate a is prescribed over time"):
+        free = read_multibody(written(tmp_path, text.replace("Constant", "SimmSpline"))).coordinates[0]
+    assert (free.default, free.locked) == (0.25, False)
+
+
 def test_parents_come_before_children(tmp_path: Path) -> None:
     """The joint of the outer body stands first in the file."""
     text = PIN

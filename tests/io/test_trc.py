@@ -80,6 +80,11 @@ def test_what_contradicts_itself_is_refused(tmp_path: Path, text: str, message: 
     assert message in str(error.value)
 
 
+def test_a_name_that_is_there_twice_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="marker 'Heel' is there 2 times"):
+        read_trc(written(tmp_path, GOOD.replace("R.Toe Tip", "Heel")))
+
+
 def test_times_rounded_to_milliseconds_are_even_again(tmp_path: Path) -> None:
     """60 Hz in milliseconds is 0.017, 0.033 …; what is off by more than rounding stays as the file has it."""
     rows = "".join(f"{k + 31}\t{(k + 30) / 60:.3f}\t1\t2\t3\t4\t5\t6\n" for k in range(7))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from xml.etree.ElementTree import parse
 
@@ -15,6 +16,7 @@ from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.scaling import scaled
 from geocontact.dynamics.tree import Tree, tree_of
+from geocontact.io.c3d_markers import read_c3d_markers
 from geocontact.io.osim_multibody import read_multibody
 from geocontact.io.osim_scaler import write_scaled_model
 from geocontact.io.tables import read_table
@@ -149,3 +151,16 @@ def test_the_workshop_knee_is_read(data_dir: Path) -> None:
             turned, at = (np.array(each) for each in place(q[k]))
             np.testing.assert_allclose(turned, pose.rotation.as_matrix(), atol=1e-13)
             np.testing.assert_allclose(at.ravel(), pose.translation, atol=1e-13)
+
+
+def test_markers_of_a_real_c3d(data_dir: Path) -> None:
+    """A label that is there twice is said; markers are metres apart and seen for most of the time."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        seen = read_c3d_markers(data_dir / "bmclab_gait_c3d" / "Gait.c3d")
+    assert any("'LANK' is there twice" in str(one.message) for one in said)
+    assert len(set(seen.names)) == len(seen.names) > 20
+    there = np.isfinite(seen.positions).all(axis=2)
+    assert (there.mean(axis=0) > 0.9).sum() > 20
+    spans = np.nanmax(seen.positions, axis=(0, 1)) - np.nanmin(seen.positions, axis=(0, 1))
+    assert 1.0 < spans.max() < 20.0
