@@ -16,7 +16,7 @@ from geocontact.cli.elbow_compare import ElbowCompareOptions
 from geocontact.cli.elbow_inputs import recordings
 from geocontact.cli.elbow_numbers import MMHG, PER_SI, unit_in_key
 from geocontact.cli.figures import save_both
-from geocontact.cli.idle import refuse
+from geocontact.cli.idle import refuse, width_rule
 from geocontact.cli.output import written_whole
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
@@ -28,15 +28,16 @@ from geocontact.identify.visits import edges_over, visits
 from geocontact.io.results import write_table
 from geocontact.systems.elbow_law import NAMES
 from geocontact.systems.elbow_synthetic import ideal
-from geocontact.view.contact_tables import inputs_table
+from geocontact.view.contact_tables import frame_table, inputs_table
 from geocontact.view.contact_words import counted
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.elbow_figures import CONSTRAINT, comparison_figure
 from geocontact.view.elbow_page import write_comparison_report
-from geocontact.view.page.content import Table
 
 QUANTITIES = {"force": CONSTRAINT, "displacement": Quantity("displacement of the joint", "mm", 1e3)}
 Curve = Float[np.ndarray, " t"]
+SAME_MOTION = float(np.radians(2.0))
+"""rad, root mean square, that angles of a recording and its model may be apart."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +75,8 @@ def compared(paths: tuple[Path, ...], o: ElbowCompareOptions) -> int:
         written = sorted(file.name for file in draft.iterdir())
     for p in found:
         a, q = p.agreement, QUANTITIES[p.channel]
+        if a.r2 < 0.0:
+            record.warn(f"{p.trial}, {p.channel}: R² is {a.r2:.2f}, a constant would do better: is a sign turned?")
         errors = f"MAE {q.per_si * a.mae:.3g}, RMSE {q.per_si * a.rmsd:.3g} {q.unit}"
         record.say(f"{p.trial}, {p.channel}: {errors}, R² {a.r2:.3f}")
     record.say(f"results in {o.out}: {', '.join(written)}")
@@ -88,7 +91,7 @@ def _refuse_idle(paths: tuple[Path, ...], o: ElbowCompareOptions) -> None:
         (o.simulated is not None and count != len(paths), "--simulated",
          f"is given {count} times for {counted(len(paths), 'recording')}", "give one for each, in the same order"),
         (o.stroke_mm is not None and o.fit is None, "--stroke-mm", "does nothing without --fit", "leave it out"),
-        (not 0.1 <= o.bin_deg <= 30.0, "--bin-deg", f"{o.bin_deg} is not 0.1 to 30 degrees", "give for example 2"),
+        width_rule("--bin-deg", o.bin_deg),
     )  # fmt: skip
 
 
@@ -140,6 +143,10 @@ def _pairs(path: Path, measured: ElbowRecording, model: ElbowRecording) -> list[
     if measured.displacement is not None and model.displacement is not None:
         both.append(("displacement", measured.displacement, model.displacement))
     beta = at_times(measured.time, measured.beta, time, step)[inside]
+    apart = float(np.sqrt(np.nanmean((beta - np.interp(time[inside], model.time, model.beta)) ** 2)))
+    if apart > SAME_MOTION:
+        what = f"its angle is {np.degrees(apart):.1f} degrees, root mean square, from that of the model's recording"
+        raise InputError(path, "", what, "give the simulated recordings in the same order")
     found = []
     for channel, ours, theirs in both:
         here = at_times(measured.time, ours, time, step)[inside]
@@ -169,8 +176,7 @@ def _write(record: Record, found: Sequence[Pair], o: ElbowCompareOptions, folder
         if mine:
             figure = comparison_figure([p.trial for p in mine], *_binned(mine, o.bin_deg), quantity)
             drawings.append((quantity.name.capitalize(), save_both(figure, folder, f"comparison_{channel}")))
-    texts = table.map(lambda value: f"{value:.4g}" if isinstance(value, float) else str(value))
-    shown = Table("Errors by trial and channel", tuple(map(str, table.columns)), texts.to_numpy().tolist())
+    shown = frame_table("Errors by trial and channel", table)
     first = found[0]
     headline = [(f"{p.trial}, {p.channel}", f"R² {p.agreement.r2:.3f}") for p in found]
     title = f"Model beside {counted(len({p.trial for p in found}), 'recording')}"

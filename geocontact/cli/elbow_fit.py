@@ -24,6 +24,9 @@ class ElbowFitOptions:
     unlocked
         Recording with the compensation joint free and its displacement, as often as there are. Where nothing else is
         known of k and the lengths, two or more set their scale.
+    rotary_free
+        The device's second, rotary joint was free as well in --unlocked, as in the paper: the free joint then slides by
+        d_lin and not by d_tot.
     held_out
         Recording that is not fitted and tells R², as often as there are; each in turn of those fitted by default.
     known
@@ -56,6 +59,7 @@ class ElbowFitOptions:
 
     out: Path
     unlocked: list[Path] | None = None
+    rotary_free: Annotated[bool, Flag] = False
     held_out: list[Path] | None = None
     known: Annotated[str | None, Dashed] = None
     prior: Annotated[str | None, Dashed] = None

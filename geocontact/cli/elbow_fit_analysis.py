@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.cli.elbow_fit import ElbowFitOptions
-from geocontact.cli.elbow_inputs import recordings, require_bins, require_locked
+from geocontact.cli.elbow_inputs import MIRRORED, recordings, require_bins, require_locked
 from geocontact.cli.elbow_intervals import intervals
 from geocontact.cli.elbow_numbers import MMHG
 from geocontact.cli.elbow_unknowns import SCALE_WORDS, checked_widths, unknowns
@@ -74,6 +74,8 @@ class Fitted:
         By free number; `drawn` are ends of the bootstrap's 95 %, empty without.
     link_held
         Profiles with l held at what was found, by free number; empty unless nothing known sets the scale.
+    link_drawn
+        Ends of the bootstrap's 95 % with l held likewise; empty without.
     told_least
         Of k and the lengths, and of those of them that are free.
     held
@@ -87,6 +89,7 @@ class Fitted:
     profiles: Mapping[str, Profile]
     drawn: Mapping[str, tuple[float, float]]
     link_held: Mapping[str, Profile]
+    link_drawn: Mapping[str, tuple[float, float]]
     stretches: int
     all_directions: Direction
     free_directions: Direction | None
@@ -111,6 +114,7 @@ class Free:
     scale: Scale | None
     bins_differ: BinTest | None
     neighbours: Sequence[Pair]
+    rotary_free: bool
 
 
 def analyse(paths: tuple[Path, ...], o: ElbowFitOptions) -> int:
@@ -170,6 +174,7 @@ def _scaled_by(record: Record, problem: Problem, free: Free) -> Problem:
     record.warn(
         f"the scale is set by the free joint's displacement (SE {free.scale.error:.2%} over {free.scale.trials} "
         "trials), which supposes the same offsets while the joint was free"
+        + ("" if free.rotary_free else ", and no other joint of the device free beside it (else --rotary-free)")
     )
     return replace(problem, scale=free.scale)
 
@@ -190,10 +195,14 @@ def _fitted(
         rows = np.percentile(wild_bootstrap(data, e, o.bootstrap), TAILS, axis=0)
         drawn = {name: (float(rows[0, k]), float(rows[1, k])) for k, name in enumerate(e.problem.names)}
     link_held: dict[str, Profile] = {}
+    link_drawn: dict[str, tuple[float, float]] = {}
     if e.problem.scale_free:
         rest = with_link_held(e)
         spread = covariance(data, rest)
         link_held = {name: profiled(rest, spread, name) for name in rest.problem.names}
+        if o.bootstrap:
+            rows = np.percentile(wild_bootstrap(data, rest, o.bootstrap), TAILS, axis=0)
+            link_drawn = {name: (float(rows[0, k]), float(rows[1, k])) for k, name in enumerate(rest.problem.names)}
     line = along_the_scale(e, FACTORS)
     measured = data.cells.means[:, FORCE]
     boxes = binned(locked, float(np.radians(o.box_deg)))
@@ -211,6 +220,7 @@ def _fitted(
         line=line,
         line_r2=np.array([r_squared(measured, e.problem.law.force(theta)) for theta in line]),
         held=_apart(data, e, apart, o) if apart else _each_left_out(data, e),
+        link_drawn=link_drawn,
         bins_differ=between_bins(boxes.visits, FORCE),
         neighbours=between_neighbours(boxes.visits, FORCE),
         normality=normality(locked, data, e),
@@ -250,7 +260,17 @@ def _each_left_out(data: Binned, e: Estimate) -> list[Held]:
 def _apart(data: Binned, e: Estimate, apart: Sequence[ElbowRecording], o: ElbowFitOptions) -> list[Held]:
     """Recordings of their own."""
     width = float(np.radians(o.bin_deg))
-    return [_held(r.name, binned([r], width, data.pressure), e.theta) for r in apart]
+    found = []
+    for path, r in zip(o.held_out or [], apart, strict=True):
+        own = binned([r], width, data.pressure)
+        measured, predicted = own.cells.means[:, FORCE], law_at(own.cells.means).force(e.theta)
+        with np.errstate(invalid="ignore"):
+            along = float(np.corrcoef(measured, predicted)[0, 1])
+        if along < MIRRORED:
+            what = f"its force mirrors what the fitted trials predict (correlation {along:.2f} over the bins)"
+            raise InputError(path, "", what, "is its sign turned? correct the file, or leave it out")
+        found.append(_held(r.name, own, e.theta))
+    return found
 
 
 def _held(name: str, data: Binned, theta: Float[np.ndarray, " 7"]) -> Held:
@@ -270,15 +290,17 @@ def _free(record: Record, o: ElbowFitOptions, locked: Binned) -> Free:
     if stroke is None:
         raise InputError(paths[0], "", "the compensation joint slides over fewer than three bins", "was it free?")
     each = [curve_of(locked.only(trial)) for trial in range(len(locked.names))]
-    stiffness = stiffness_by_displacement(each, stroke, width)
+    stiffness = None if o.rotary_free else stiffness_by_displacement(each, stroke, width)
     if stiffness is not None and stiffness.value + AGAINST * np.nan_to_num(stiffness.error) < 0.0:
         what = f"displacement and locked force run against each other ({stiffness.value:.4g} N/m)"
         raise InputError(paths[0], "", what, "one of them has its sign turned: --map displacement=-… or force=-…")
     boxes = binned(free, float(np.radians(o.box_deg)))
-    scale = scale_of([curve_of(data.only(trial)) for trial in range(len(data.names))], stroke, width)
+    scale = scale_of(
+        [curve_of(data.only(trial)) for trial in range(len(data.names))], stroke, width, rotary_free=o.rotary_free
+    )
     return Free(
         free, boxes, stroke, stiffness, scale, between_bins(boxes.visits, FORCE),
-        between_neighbours(boxes.visits, FORCE),
+        between_neighbours(boxes.visits, FORCE), o.rotary_free,
     )  # fmt: skip
 
 
@@ -298,6 +320,11 @@ def _reserve(record: Record, found: Fitted) -> None:
         record.warn(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are rough")
     if not e.converged:
         record.warn("the search did not end by itself; see --start and --bounds")
+    if found.r2 < 0.0:
+        record.warn(f"R² is {found.r2:.2f}: a constant force would do better than the law")
+    bad = [f"{each.name} ({each.r2:.2f})" for each in found.held if each.r2 < 0.0]
+    if bad:
+        record.warn(f"R² of what was not used is below 0, a constant force would do better: {', '.join(bad)}")
     if found.mirrored_r2 > found.r2 + BETTER:
         told = f"the force turned over fits better (R² {found.mirrored_r2:.3f} instead of {found.r2:.3f})"
         record.warn(f"{told}: is its sign turned? see --map force=-…")

@@ -16,6 +16,7 @@ from geocontact.cli.elbow_intervals import Interval, intervals
 from geocontact.cli.elbow_numbers import MMHG, PER_SI, TYPED, unit_in_key
 from geocontact.cli.elbow_unknowns import SCALE_WORDS
 from geocontact.cli.figures import save_both
+from geocontact.cli.json_text import finite
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
@@ -27,7 +28,7 @@ from geocontact.systems.elbow_end_stop import curve_of
 from geocontact.systems.elbow_fit import r_squared
 from geocontact.systems.elbow_law import LENGTHS, NAMES
 from geocontact.systems.elbow_residuals import residual_by_bin, standard_residuals
-from geocontact.view.contact_tables import inputs_table
+from geocontact.view.contact_tables import frame_table, inputs_table
 from geocontact.view.contact_words import counted
 from geocontact.view.elbow_figures import (
     Boxes,
@@ -38,7 +39,6 @@ from geocontact.view.elbow_figures import (
     told_figure,
 )
 from geocontact.view.elbow_page import CONDITIONS, FORCES, RESIDUALS, TOLD, write_fit_report
-from geocontact.view.page.content import Table
 
 if TYPE_CHECKING:
     from geocontact.cli.elbow_fit_analysis import Fitted, Free
@@ -72,9 +72,9 @@ def write_results(record: Record, found: Fitted, free: Free | None, o: ElbowFitO
         drawing = save_both(figure, folder, "conditions")
         drawings.append(("Joint locked and free", CONDITIONS, drawing))
     shown = [
-        _shown("What was identified", tables["intervals"].dropna(axis="columns", how="all")),
-        _shown("Force that was not used", tables["held_out"]),
-        _shown("Along the scale: numbers that give the same force", tables["scale_line"].iloc[::5]),
+        frame_table("What was identified", tables["intervals"].dropna(axis="columns", how="all")),
+        frame_table("Force that was not used", tables["held_out"]),
+        frame_table("Along the scale: numbers that give the same force", tables["scale_line"].iloc[::5]),
         inputs_table(record.inputs), options_table(record),
     ]  # fmt: skip
     there = bins["mean [N]"].notna()
@@ -123,10 +123,10 @@ def describe(found: Fitted, free: Free | None) -> dict[str, Any]:
             }
             for key, d in directions.items()
         },
-        "r2": _finite(found.r2),
+        "r2": finite(found.r2),
         "r2_along_the_scale": [float(found.line_r2.min()), float(found.line_r2.max())],
-        "r2_of_the_force_turned_over": _finite(found.mirrored_r2),
-        "held_out": [{"name": h.name, "r2": _finite(h.r2), "rmse_N": h.rmse, "bins": h.bins} for h in found.held],
+        "r2_of_the_force_turned_over": finite(found.mirrored_r2),
+        "held_out": [{"name": h.name, "r2": finite(h.r2), "rmse_N": h.rmse, "bins": h.bins} for h in found.held],
         "between_bins": _tested(found.bins_differ, found.neighbours, found.boxes),
         "residuals": {"p_lilliefors": found.normality.p, "in_words": found.normality.words},
         "noise": {"sd_N": float(found.data.noise.sd[0]), "correlation_time_s": float(found.data.noise.tau[0])},
@@ -167,7 +167,7 @@ def _free_joint(found: Fitted, free: Free) -> dict[str, Any]:
         "level_while_sliding_N": free.stroke.level,
         "spread_while_sliding_N": free.stroke.spread,
         "k_by_displacement_N_per_m": None if s is None else {
-            "value": s.value, "se": _finite(s.error), "trials": s.trials, "bins": s.bins,
+            "value": s.value, "se": finite(s.error), "trials": s.trials, "bins": s.bins,
         },
         "scale": None if scale is None else {"se": scale.error, "trials": scale.trials},
         "between_bins": _tested(free.bins_differ, free.neighbours, free.boxes),
@@ -351,13 +351,3 @@ def _scale_words(found: Fitted) -> str:
             f"one (SE {scale.error:.2%})."
         )
     return "The scale of k and the lengths is set by what was known beforehand, not by these recordings."
-
-
-def _shown(title: str, rows: pd.DataFrame) -> Table:
-    texts = rows.map(lambda value: ("" if math.isnan(value) else f"{value:.4g}") if isinstance(value, float)
-                     else str(value))  # fmt: skip
-    return Table(title, tuple(map(str, rows.columns)), texts.to_numpy().tolist())
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

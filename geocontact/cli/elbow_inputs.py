@@ -100,7 +100,7 @@ def require_bins(record: Record, paths: Sequence[Path], data: Binned) -> None:
 def _refuse_mirrored(paths: Sequence[Path], data: Binned) -> None:
     """A trial whose force mirrors that of the others."""
     for trial, path in enumerate(paths):
-        if len(paths) < 3:
+        if len(paths) < 2:
             return
         mine, others = data.only(trial).cells, data.without(trial).cells
         bins = len(data.visits.edges) - 1
@@ -111,5 +111,6 @@ def _refuse_mirrored(paths: Sequence[Path], data: Binned) -> None:
             continue
         correlation = float(np.corrcoef(mine.means[both, FORCE], mean[mine.place][both])[0, 1])
         if correlation < MIRRORED:
-            what = f"its force mirrors that of the other trials (correlation {correlation:.2f} over the bins)"
+            others_are = "the other trial, and nothing tells which is right" if len(paths) == 2 else "the other trials"
+            what = f"its force mirrors that of {others_are} (correlation {correlation:.2f} over the bins)"
             raise InputError(path, "", what, "is its sign turned? correct the file, or leave it out")

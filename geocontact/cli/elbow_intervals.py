@@ -96,16 +96,19 @@ def intervals(found: Fitted) -> list[Interval]:
     for name, p in found.profiles.items():
         if found.estimate.problem.scale_free and name in SCALED:
             if name != "l":
-                told.append(_ratio(name, found.link_held[name], found.estimate.named["l"]))
+                drawn = found.link_drawn.get(name)
+                told.append(_ratio(name, found.link_held[name], found.estimate.named["l"], drawn))
             continue
         told.append(_number(name, p, found.drawn.get(name)))
     return told
 
 
-def _ratio(name: str, p: Profile, link: float) -> Interval:
+def _ratio(name: str, p: Profile, link: float, drawn: tuple[float, float] | None) -> Interval:
+    per = 1.0 / link if name in LENGTHS else link
+    ends = None if drawn is None else (drawn[0] * per, drawn[1] * per)
     if name in LENGTHS:
-        return Interval(f"{name}_over_l", f"{name}/l", "", 1.0 / link, p, None)
-    return Interval(f"{name}_times_l", f"{name} l", TIMES_LINK[name], link, p, None)
+        return Interval(f"{name}_over_l", f"{name}/l", "", per, p, ends)
+    return Interval(f"{name}_times_l", f"{name} l", TIMES_LINK[name], per, p, ends)
 
 
 def _number(name: str, p: Profile, drawn: tuple[float, float] | None) -> Interval:

@@ -21,7 +21,7 @@ from geocontact.cli.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.io.columns import parse_map
-from geocontact.io.elbow_recording import BETA, read_elbow_recording
+from geocontact.io.elbow_recording import BETA, MOST_BENT, STRAIGHTEST, read_elbow_recording
 from geocontact.io.results import write_table
 from geocontact.systems.elbow_explicit import Offsets, require_no_pole, require_reach
 from geocontact.systems.elbow_synthetic import PAPER, Design, ideal, synthetic
@@ -33,6 +33,7 @@ from geocontact.view.page.content import Table
 
 HEAD = "# synthetic: geocontact elbow simulate"
 TRIALS, SEED = 6, 0
+LEAST_RANGE = 5.0  # deg
 USUAL = Design()
 
 
@@ -41,6 +42,10 @@ def simulated(paths: Sequence[Path], o: SimulateOptions) -> int:
     record = Record("elbow simulate", {"recordings": list(paths), **asdict(o)})
     _refuse_idle(paths, o)
     numbers = {**PAPER, **elbow_numbers.values(o.numbers, "--numbers")}
+    if numbers["s"] != 0.0 and not paths and o.pressure is None:
+        raise InputError(
+            "", "--numbers", "s does nothing without a cuff pressure", "give --pressure, for example 10:60"
+        )
     stroke = None if o.stroke_mm is None else _stroke(o.stroke_mm)
     design = _design(o)
     with record.catching_warnings(), written_whole(o.out) as draft:
@@ -96,13 +101,16 @@ def _design(o: SimulateOptions) -> Design:
     band = USUAL.band if o.band is None else elbow_numbers.interval(o.band, "--band")
     if band[0] <= 0.0:
         raise InputError("", "--band", f"{o.band!r} is not above 0 Hz", "write for example 0.05:0.35")
+    rate = USUAL.rate if o.rate is None else o.rate
+    if band[1] > 0.5 * rate:
+        raise InputError("", "--band", f"{o.band!r} reaches above half of {rate:g} Hz", "give a higher --rate")
     pressures = None
     if o.pressure is not None:
         first, last = elbow_numbers.interval(o.pressure, "--pressure")
         pressures = (first * MMHG, last * MMHG)
     return Design(
         seconds=USUAL.seconds if o.seconds is None else o.seconds,
-        rate=USUAL.rate if o.rate is None else o.rate,
+        rate=rate,
         band=band,
         reach=USUAL.reach if o.range is None else _reach(o.range),
         noise=USUAL.noise if o.noise is None else o.noise,
@@ -115,6 +123,11 @@ def _design(o: SimulateOptions) -> Design:
 
 def _reach(text: str) -> tuple[float, float]:
     low, high = elbow_numbers.interval(text, "--range")
+    if high - low < LEAST_RANGE:
+        what = f"{text!r} is a range of {high - low:.3g} degrees"
+        raise InputError("", "--range", what, "are these radians? write degrees, for example 8:92")
+    if low < np.degrees(STRAIGHTEST) or high > np.degrees(MOST_BENT):
+        raise InputError("", "--range", f"{text!r} is beyond any elbow", "write degrees, for example 8:92")
     return float(np.radians(low)), float(np.radians(high))
 
 
@@ -164,10 +177,19 @@ def _along(
         r = read_elbow_recording(path, mapping, o.angles, needed=())
         record.add_input("angle", path, samples=len(r.time))
         _refuse_numbers(numbers, r.beta)
-        force, joint = ideal(r.time, r.beta, numbers, stroke)
+        if numbers["s"] != 0.0 and r.pressure is None:
+            raise InputError(path, "", "s follows the cuff's pressure, which is not here", "add it, or leave s out")
+        centre = _centre(r.pressure)
+        pressure = 0.0 if r.pressure is None else r.pressure - centre
+        force, joint = ideal(r.time, r.beta, numbers, stroke, pressure)
         shown = None if stroke is None else joint
-        found.append(ElbowRecording(f"simulated_{path.stem}", r.time, r.beta, force, shown))
+        found.append(ElbowRecording(f"simulated_{path.stem}", r.time, r.beta, force, shown, r.pressure))
     return found
+
+
+def _centre(pressure: np.ndarray | None) -> float:
+    """The pressure [Pa] at which k holds: the mean of a recording, 0 without."""
+    return 0.0 if pressure is None else float(pressure.mean())
 
 
 def _write(r: ElbowRecording, folder: Path, parquet: bool) -> None:

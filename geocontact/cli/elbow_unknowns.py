@@ -5,7 +5,7 @@ from __future__ import annotations
 from geocontact.cli import elbow_numbers, quantities
 from geocontact.cli.elbow_fit import ElbowFitOptions
 from geocontact.cli.elbow_numbers import EXAMPLE, PER_SI, TYPED
-from geocontact.cli.idle import refuse
+from geocontact.cli.idle import bootstrap_rule, refuse, width_rule
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
 from geocontact.systems.elbow_fit import Prior
@@ -77,11 +77,9 @@ def _refuse(
 
 def checked_widths(o: ElbowFitOptions) -> None:
     """Widths, cut-off and replicates that can be."""
-    for option, width in (("--bin-deg", o.bin_deg), ("--box-deg", o.box_deg)):
-        refuse((not 0.1 <= width <= 30.0, option, f"{width} is not 0.1 to 30 degrees", "give for example 2"))
     refuse(
-        (o.bootstrap != 0 and not 100 <= o.bootstrap <= 100_000, "--bootstrap", f"{o.bootstrap} is not 100 to 100000",
-         "give 500, or 0 for none"),
+        width_rule("--bin-deg", o.bin_deg), width_rule("--box-deg", o.box_deg), bootstrap_rule(o.bootstrap, 500),
+        (o.rotary_free and o.unlocked is None, "--rotary-free", "does nothing without --unlocked", "leave it out"),
     )  # fmt: skip
     if o.cutoff is not None:
         quantities.number(str(o.cutoff), "--cutoff", "6")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ import pandas as pd
 from geocontact import __version__
 from geocontact.cli.fit import FitOptions
 from geocontact.cli.fit_patch import Patch
+from geocontact.cli.json_text import finite
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.geometry.fit.found import ShapeFit
@@ -80,7 +80,7 @@ def describe(f: Fitting) -> dict[str, Any]:
         "robust": o.robust,
         "converged": q.converged,
         "parameters": list(q.names),
-        "covariance": [[_finite(float(value)) for value in row] for row in q.covariance],
+        "covariance": [[finite(float(value)) for value in row] for row in q.covariance],
     }
     if f.sides:
         content["sides"] = {name: _numbers(fit) for name, fit in f.sides.items()}
@@ -134,7 +134,3 @@ def _facing(f: Fitting) -> str | None:
         way = way - (way @ f.whole.axis)[:, None] * f.whole.axis
     looks = np.einsum("ij,ij->i", way, surface.face_normal[faces])
     return "convex" if float(np.sign(looks) @ surface.face_area[faces]) >= 0.0 else "concave"
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

@@ -16,6 +16,11 @@ def write_json(path: Path, value: Any) -> None:
     path.write_text(text + "\n", encoding="utf-8")
 
 
+def finite(value: float) -> float | None:
+    """The number, None where it is not finite."""
+    return value if math.isfinite(value) else None
+
+
 def plain(value: Any) -> Any:
     """What JSON can hold: Python's own numbers, None for what is not finite; probabilities sum to 1 as they stand."""
     if isinstance(value, dict):

@@ -15,11 +15,10 @@ from geocontact.data.cell_regression import CellRegression
 from geocontact.io.load_cells import CellRecording
 from geocontact.io.results import write_table
 from geocontact.loads.loadcells import CompartmentForces
-from geocontact.view.contact_tables import inputs_table
+from geocontact.view.contact_tables import frame_table, inputs_table
 from geocontact.view.curves.given import SERIES
 from geocontact.view.loadcells_figure import ensemble_figure, loadcell_figure
 from geocontact.view.loadcells_page import CYCLES, STYLES, write_loadcell_report
-from geocontact.view.page.content import Table
 
 
 def write_ensemble(record: Record, cuts: list[Cut], o: LoadcellOptions, folder: Path) -> bytes | None:
@@ -59,15 +58,10 @@ def write_recording(
     inputs = [i for i in record.inputs if i.get("folder", name or ".") == (name or ".")]
     tables = [inputs_table(inputs), options_table(record)]
     if cuts:
-        tables.append(_shown(CYCLES, cycle_table(cuts)))
+        tables.append(frame_table(CYCLES, cycle_table(cuts), 5))
     if len(stacked(cuts, SIDES[0])) > 1:
-        tables.append(_shown(STYLES, style_table(cuts)))
+        tables.append(frame_table(STYLES, style_table(cuts), 5))
     title = f"Load cells of {Path(recording.file).name}"
     write_loadcell_report(
         folder / "report.html", title, cells, forces, regression, ensemble, tables, list(record.warnings)
     )
-
-
-def _shown(title: str, rows: pd.DataFrame) -> Table:
-    texts = rows.map(lambda value: f"{value:.5g}" if isinstance(value, float) else str(value))
-    return Table(title, tuple(map(str, rows.columns)), texts.to_numpy().tolist())

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.cli import quantities
-from geocontact.cli.idle import refuse
+from geocontact.cli.idle import bootstrap_rule, refuse
 from geocontact.cli.modulus import ModulusOptions
 from geocontact.cli.modulus_freed import freed
 from geocontact.cli.record import Record
@@ -68,8 +68,7 @@ def refuse_idle(o: ModulusOptions) -> None:
          "give it too"),
         (o.predict_area is not None and (o.profile is not None or SLOPE in free), "--predict-area",
          "and a radius of flexion do not go together: its flexion is not known", "give --radius-mm"),
-        (o.bootstrap != 0 and not 100 <= o.bootstrap <= 100_000, "--bootstrap", f"{o.bootstrap} is not 100 to 100000",
-         "give 1000, or 0 for none"),
+        bootstrap_rule(o.bootstrap, 1000),
         (o.lag is not None and not np.isfinite(o.lag), "--lag", f"{o.lag} is not a time", "give seconds"),
         (o.calibrate is not None and o.threshold is not None, "--calibrate", "finds what --threshold gives",
          "give one"),

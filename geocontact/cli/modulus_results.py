@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from geocontact.cli.figures import save_both
+from geocontact.cli.json_text import finite, plain
 from geocontact.cli.modulus import ModulusOptions
 from geocontact.cli.modulus_inputs import BOTH, HALVES
 from geocontact.cli.provenance import options_table
@@ -19,7 +20,7 @@ from geocontact.identify.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRES
 from geocontact.identify.elastic import Identification, agreement
 from geocontact.identify.identifiability import Identifiability
 from geocontact.io.results import write_table
-from geocontact.view.contact_tables import inputs_table
+from geocontact.view.contact_tables import frame_table, inputs_table
 from geocontact.view.modulus_figure import ForcePair, modulus_figure
 from geocontact.view.modulus_page import write_modulus_report
 from geocontact.view.page.content import Table
@@ -47,7 +48,7 @@ def write_results(record: Record, found: Identified, o: ModulusOptions, folder: 
     profiles = {side: i.profiles[MODULUS] for side, i in found.sides.items()}
     drawing = save_both(modulus_figure(pairs, profiles), folder, "modulus")
     tables = [
-        _moduli(found), _apart(found), _shown("Threshold and reading: what E* depends on", sensitivity),
+        _moduli(found), _apart(found), frame_table("Threshold and reading: what E* depends on", sensitivity),
         inputs_table(record.inputs), options_table(record),
     ]  # fmt: skip
     title = f"E* from {Path(o.area[0]).name} and {Path(o.force).name}"
@@ -67,7 +68,7 @@ def describe(found: Identified) -> dict[str, Any]:
         "not_identifiable": [ONE_NUMBER, *_lost(found)],
         "compartments": {side: numbers for side, numbers in sides.items() if side not in ("total", BOTH)},
         "threshold_sensitivity": [
-            {key: _finite(value) for key, value in row.items()}
+            {key: plain(value) for key, value in row.items()}
             for row in sensitivity_table(found).to_dict(orient="records")
         ],
     }
@@ -77,7 +78,7 @@ def describe(found: Identified) -> dict[str, Any]:
             "threshold_mm": c.threshold * 1e3, "rms_relative": c.rms, "frames": c.frames, "on_end": c.on_end,
         }  # fmt: skip
     if found.predictions:
-        content["prediction"] = {p.side: {"rmse_N": _finite(p.rmse), "r2": _finite(p.r2)} for p in found.predictions}
+        content["prediction"] = {p.side: {"rmse_N": finite(p.rmse), "r2": finite(p.r2)} for p in found.predictions}
     return content
 
 
@@ -115,7 +116,7 @@ def _numbers(each: Identification, found: Identified) -> dict[str, Any]:
         **({"adduction_deg": math.degrees(values[ADDUCTION])} if ADDUCTION in values else {}),
         **({"slope_per_rad": values[SLOPE]} if SLOPE in values else {}),
         "rmse_N": rmse,
-        "r2": _finite(r2),
+        "r2": finite(r2),
         "frames": _once(found, each),
         "window_s": [float(model.frames[0]), float(model.frames[_once(found, each) - 1])],
         "intervals": {
@@ -143,7 +144,7 @@ def _apartness(group: Identifiability) -> dict[str, Any]:
     return {
         "numbers": list(group.names),
         "singular_values": group.singular_values.tolist(),
-        "condition": _finite(group.condition),
+        "condition": finite(group.condition),
         "correlation": group.correlation.tolist(),
         "verdict": group.verdict,
     }
@@ -238,12 +239,3 @@ def _apart(found: Identified) -> Table:
 
 def _condition(value: float) -> str:
     return f"{value:.3g}" if math.isfinite(value) else "infinite"
-
-
-def _shown(title: str, rows: pd.DataFrame) -> Table:
-    texts = rows.map(lambda value: f"{value:.4g}" if isinstance(value, float) else str(value))
-    return Table(title, tuple(map(str, rows.columns)), texts.to_numpy().tolist())
-
-
-def _finite(value: object) -> object:
-    return None if isinstance(value, float) and not math.isfinite(value) else value

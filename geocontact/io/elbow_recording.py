@@ -75,7 +75,7 @@ def require_elbow(beta: Float[np.ndarray, " t"], file: str, name: str) -> None:
         raise InputError(file, "", what, "name the right unit in the header, or pass --angles rad")
     if beta.max() - beta.min() < LEAST_TURN:
         raise InputError(file, "", f"{span}: it hardly changes", "give a recording that moves by 10 degrees or more")
-    if beta.max() <= LEAST_TURN and beta.min() < STRAIGHTEST:
+    if beta.max() <= 0.0 or (beta.max() <= LEAST_TURN and beta.min() < STRAIGHTEST):
         raise InputError(file, "", f"{span}: flexion is positive here", f"turn its sign: --map {BETA}=-{name}")
     if beta.min() < STRAIGHTEST or beta.max() > MOST_BENT:
         what = f"{span}, beyond any elbow: are degrees taken for radians, or is its zero elsewhere?"

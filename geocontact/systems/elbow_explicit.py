@@ -105,8 +105,12 @@ def require_no_pole(beta: Float[np.ndarray, " n"], offsets: Offsets) -> None:
         return
     at = float(beta[int(np.argmax(below))])
     poles = pole_angles(offsets)
-    where = f"its pole is at {np.degrees(min(poles, key=lambda p: abs(p - at))):.4g} degrees" if poles else "it has one"
-    raise ValueError(f"tan γ has no value at {np.degrees(at):.4g} degrees with {offsets.words}: {where}")
+    if not poles:
+        what = f"tan γ comes within {POLE_SHARE:.1%} of a pole at {np.degrees(at):.4g} degrees"
+        raise ValueError(f"{what} with {offsets.words}")
+    nearest = np.degrees(min(poles, key=lambda p: abs(p - at)))
+    what = f"tan γ has a pole at {nearest:.4g} degrees, reached or passed at {np.degrees(at):.4g}"
+    raise ValueError(f"{what}, with {offsets.words}")
 
 
 def pole_angles(offsets: Offsets) -> tuple[float, ...]:

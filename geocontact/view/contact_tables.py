@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from geocontact.data.evolution import MM
 from geocontact.geometry.surface import Surface
@@ -32,3 +33,14 @@ def inputs_table(inputs: Sequence[Mapping[str, object]]) -> Table:
     """Files that went in, as `run.json` lists them."""
     rows = [(str(i["role"]), Path(str(i["file"])).name, str(i.get("unit", "")), str(i["sha256"])) for i in inputs]
     return Table("Input files", ("role", "file", "unit", "SHA-256"), rows)
+
+
+def frame_table(title: str, rows: pd.DataFrame, digits: int = 4) -> Table:
+    """A data frame as the page shows it; what is not known is empty."""
+
+    def text(value: object) -> str:
+        if not isinstance(value, float):
+            return str(value)
+        return "" if np.isnan(value) else f"{value:.{digits}g}"
+
+    return Table(title, tuple(map(str, rows.columns)), rows.map(text).to_numpy().tolist())

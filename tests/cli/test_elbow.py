@@ -16,6 +16,7 @@ import pytest
 from geocontact.cli.elbow_numbers import PER_SI
 from geocontact.cli.elbow_simulation import SEED, TRIALS, USUAL
 from geocontact.cli.left_over import NAMES, PICTURES
+from geocontact.systems.elbow_explicit import Offsets, displacement
 from geocontact.systems.elbow_synthetic import PAPER
 from tests.cli.calls import Call, call, done, inventory, written
 
@@ -343,6 +344,10 @@ def test_recordings_that_contradict_each_other_are_refused(tmp_path: Path, made:
     rest = locked(made)[:1] + locked(made)[2:]
     result = elbow("fit", tmp_path / "o", *rest, tmp_path / "turned.csv")
     assert result.code == 2 and "turned.csv: its force mirrors that of the other trials" in result.err
+    result = elbow("fit", tmp_path / "o", rest[0], tmp_path / "turned.csv", *KNOWN)
+    assert result.code == 2 and "mirrors that of the other trial, and nothing tells which is right" in result.err
+    result = elbow("fit", tmp_path / "o", *rest, "--held-out", tmp_path / "turned.csv", *KNOWN)
+    assert result.code == 2 and "mirrors what the fitted trials predict" in result.err
     free = table_of(made / "free_1.csv")
     free["displacement [mm]"] *= -1.0
     free.to_csv(tmp_path / "against.csv", index=False)
@@ -352,6 +357,66 @@ def test_recordings_that_contradict_each_other_are_refused(tmp_path: Path, made:
     assert result.code == 2 and "the compensation joint slides by" in result.err and "--unlocked" in result.err
     result = elbow("fit", tmp_path / "o", locked(made)[0], locked(made)[0])
     assert result.code == 2 and "second recording named" in result.err
+
+
+def test_where_a_rotary_joint_was_free_as_well_the_displacement_is_d_lin(tmp_path: Path, made: Path) -> None:
+    """Free trials whose joint slides by d_lin: taken for d_tot they set a wrong scale, said to be d_lin right one."""
+    free = []
+    for k, file in enumerate(sorted(made.glob("free_*.csv"))):
+        table = table_of(file)
+        offsets = Offsets(l=0.169, z=0.127, x=0.048, y=0.059)
+        slid = displacement(np.radians(table["beta [deg]"].to_numpy()), offsets).linear
+        table["displacement [mm]"] = 1e3 * np.clip(slid, -0.010, 0.060) * (1.0 + 0.004 * (k - 1))
+        table.to_csv(tmp_path / file.name, index=False)
+        free += ["--unlocked", tmp_path / file.name]
+    right = told(done(elbow("fit", tmp_path / "r", *locked(made), *free, "--rotary-free", "--bootstrap", 0)))
+    low, high = right["intervals"]["k"]["profile_likelihood"]
+    assert low < 222.43 < high
+    taken = done(elbow("fit", tmp_path / "t", *locked(made), *free, "--bootstrap", 0))
+    assert any("(else --rotary-free)" in line for line in taken.warnings)
+    low, high = told(taken)["intervals"]["k"]["profile_likelihood"]
+    assert not low < 222.43 < high
+    idle = elbow("fit", tmp_path / "i", *locked(made), "--rotary-free")
+    assert idle.code == 2 and "--rotary-free: does nothing without --unlocked" in idle.err
+
+
+def test_what_does_worse_than_a_constant_is_warned_of(tmp_path: Path, made: Path) -> None:
+    """A trial whose force has nothing to do with the angle, held out and compared."""
+    table = table_of(locked(made)[2])
+    table["force [N]"] = 8.0 * np.sin(9.0 * table["time [s]"]) + 5.0
+    table.to_csv(tmp_path / "noise.csv", index=False)
+    result = done(elbow("fit", tmp_path / "f", *locked(made)[:2], "--held-out", tmp_path / "noise.csv", *KNOWN))
+    assert any("a constant force would do better: noise (-" in line for line in result.warnings)
+    beside = done(elbow("compare", tmp_path / "c", tmp_path / "noise.csv", "--fit", tmp_path / "f" / "elbow.json"))
+    assert any("a constant would do better" in line for line in beside.warnings)
+
+
+def test_recordings_of_other_motions_are_not_compared(tmp_path: Path, made: Path) -> None:
+    one, two, _ = locked(made)
+    result = elbow("compare", tmp_path, one, "--simulated", two)
+    assert result.code == 2 and "degrees, root mean square, from that of the model's recording" in result.err
+
+
+def test_the_bootstrap_draws_ratios_where_nothing_sets_the_scale(tmp_path: Path, made: Path) -> None:
+    result = done(elbow("fit", tmp_path, *locked(made), "--bootstrap", 100))
+    table = result.table("intervals.csv").set_index("number")
+    for name in ("k l", "x/l", "y/l", "z/l"):
+        row = table.loc[name]
+        assert row["bootstrap lower"] < row["value"] < row["bootstrap upper"], name
+
+
+def test_the_cuff_s_pressure_is_heeded_along_a_recording(tmp_path: Path) -> None:
+    done(elbow("simulate", tmp_path / "made", *QUICK, "--pressure", "10:60"))
+    recording = tmp_path / "made" / "locked_1.csv"
+    forces = {}
+    for s in ("0", "0.02"):
+        done(elbow("simulate", tmp_path / s, recording, "--numbers", f"s={s}"))
+        table = pd.read_csv(tmp_path / s / "simulated_locked_1.csv", comment="#")
+        assert "pressure [mmHg]" in table
+        forces[s] = table
+    ratio = forces["0.02"]["force [N]"] / forces["0"]["force [N]"]
+    pressure = forces["0"]["pressure [mmHg]"]
+    np.testing.assert_allclose(ratio, 1.0 + 0.02 * (pressure - pressure.mean()), rtol=1e-6)
 
 
 def test_missing_bins_are_named(tmp_path: Path, made: Path) -> None:
@@ -376,7 +441,11 @@ def test_a_force_that_is_turned_over_throughout_is_doubted(tmp_path: Path, made:
 
 SIMULATED = {
     "a fold": (("--numbers", "x=180"), "|x| = 180 mm is more than the link's l = 169 mm"),
-    "a pole": (("--numbers", "x=150,y=150", "--range", "0:140"), "its pole is at"),
+    "a pole": (("--numbers", "x=150,y=150", "--range", "0:140"), "tan γ has a pole at"),
+    "a range in radians": (("--range", "0.1:1.6"), "are these radians?"),
+    "a range beyond any elbow": (("--range", "0:400"), "beyond any elbow"),
+    "a band that aliases": (("--band", "10:90", "--rate", 100), "reaches above half of 100 Hz"),
+    "s without a pressure": (("--numbers", "s=0.01"), "s does nothing without a cuff pressure"),
     "no stiffness": (("--numbers", "k=0"), "not positive"),
     "a stroke that ends first": (("--stroke-mm=10:-10",), "no room"),
     "no trials": (("--trials", 0), "1 to 1000"),

@@ -84,6 +84,7 @@ BAD = {
     "radians declared as degrees": ("time [s],beta [deg],force [N]", np.radians(DEGREES), FORCE, "are these radians"),
     "no unit of the angle": ("time [s],beta,force [N]", DEGREES, FORCE, "degrees or radians"),
     "turned sign": ("time [s],beta [deg],force [N]", -DEGREES, FORCE, "--map beta=-beta"),
+    "turned sign, a small range": ("time [s],beta [deg],force [N]", -0.2 * DEGREES - 2.0, FORCE, "--map beta=-beta"),
     "zero elsewhere": ("time [s],beta [deg],force [N]", DEGREES + 120, FORCE, "its zero elsewhere"),
     "constant angle": ("time [s],beta [deg],force [N]", np.full(200, 40.0), FORCE, "it hardly changes"),
     "small range": ("time [s],beta [deg],force [N]", 0.1 * DEGREES, FORCE, "it hardly changes"),

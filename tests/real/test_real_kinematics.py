@@ -161,6 +161,6 @@ def test_markers_of_a_real_c3d(data_dir: Path) -> None:
     assert any("'LANK' is there twice" in str(one.message) for one in said)
     assert len(set(seen.names)) == len(seen.names) > 20
     there = np.isfinite(seen.positions).all(axis=2)
-    assert (there.mean(axis=0) > 0.9).sum() > 20
+    assert (there.mean(axis=0) > 0.3).all()
     spans = np.nanmax(seen.positions, axis=(0, 1)) - np.nanmin(seen.positions, axis=(0, 1))
     assert 1.0 < spans.max() < 20.0

@@ -128,9 +128,14 @@ def test_a_pole_is_named_with_angle_and_offsets() -> None:
     offsets = Offsets(x=0.15, y=0.16, **FIG5)
     (pole,) = [p for p in pole_angles(offsets) if p > 0.0][:1]
     assert np.isfinite(displacement(np.linspace(0.0, pole - 0.05, 50), offsets).total).all()
-    said = rf"no value at [\d.]+ degrees with l = 200 mm, x = 150 mm, y = 160 mm: its pole is at {np.degrees(pole):.4g}"
+    said = (
+        rf"a pole at {np.degrees(pole):.4g} degrees, reached or passed at [\d.]+, with l = 200 mm, x = 150 mm, y = 160"
+    )
     with pytest.raises(ValueError, match=said):
         displacement(np.linspace(0.0, 2.5, 200), offsets)
+    near = Offsets(x=0.0, y=0.1999, **FIG5)
+    with pytest.raises(ValueError, match=r"comes within 0\.1% of a pole at 17\d"):
+        displacement(np.linspace(0.0, np.pi, 200), near)
 
 
 def test_numbers_stand_where_the_kernel_reads_them() -> None:
