@@ -145,6 +145,48 @@ def test_an_instant_centre_that_stays_is_an_offset(tmp_path: Path) -> None:
     assert [entry["tells"] for entry in result.record()["inputs"]] == ["instant centre"]
 
 
+KNEE = {
+    "--k": 400,
+    "--l-mm": 250,
+    "--z-mm": 60,
+    "--range": "0:120deg",
+    "--limit": 10,
+    "--offset-mm": None,
+    "--map-mm": 10,
+}
+
+
+def knee_centre(folder: Path) -> Path:
+    """A synthetic instant centre of a knee: it moves backwards by 16 mm and up by 9 mm while the knee bends to 120°."""
+    t = np.linspace(0.0, 1.0, 14)
+    rows = "\n".join(f"{-5 + 130 * s},{-16 * s},{9 * s * s}" for s in t)
+    return written(folder / "knee.csv", f"alpha [deg],instant_centre_x [mm],instant_centre_y [mm]\n{rows}\n")
+
+
+def test_a_knee_orthosis_with_one_hinge_is_pushed_by_a_centre_that_wanders(tmp_path: Path) -> None:
+    """A hinge where the centre begins is pushed, one amid its path less, and one whose joint stayed not at all."""
+    drift, peaks = knee_centre(tmp_path), {}
+    for name, offset in (("begins", "0,0"), ("amid", "8,-4")):
+        (tmp_path / name).mkdir()
+        result = done(design(tmp_path / name, {**KNEE, "--drift": drift, "--offset-mm": offset}))
+        peaks[name] = float(result.table("force.csv")["force [N]"].abs().max())
+    assert 0.1 < peaks["amid"] < 0.8 * peaks["begins"] and peaks["begins"] > 1.0
+    (tmp_path / "stays").mkdir()
+    still = done(design(tmp_path / "stays", KNEE)).table("force.csv")["force [N]"].abs().max()
+    assert still < 1e-9
+
+
+def test_a_hip_that_extends_too(tmp_path: Path) -> None:
+    """From 20° of extension to 110° of flexion: the law of the elbow at negative angles as well."""
+    hip = {"--k": 500, "--l-mm": 300, "--z-mm": 90, "--range": "-20:110deg", "--offset-mm": "15,-20"}
+    table = done(design(tmp_path, hip)).table("force.csv")
+    degrees = table["beta [deg]"].to_numpy()
+    numbers = np.array([0.3, 0.09, 0.015, -0.02, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
+    wanted = 500.0 * deflect(np.radians(degrees), np.zeros(len(degrees)), numbers)[0]
+    assert degrees[0] == pytest.approx(-20.0) and degrees[-1] == pytest.approx(110.0)
+    np.testing.assert_allclose(table["force [N]"], wanted, rtol=0.0, atol=1e-9)
+
+
 def test_poles_and_folds_of_the_map_are_counted_and_named(tmp_path: Path) -> None:
     result = done(design(tmp_path, {"--l-mm": 60, "--offset-mm": None, "--map-mm": 80, "--step-mm": 20}))
     rows = result.table("map.csv")
