@@ -25,7 +25,7 @@ FAR = 50.0  # mm between markers and model that no subject has who stood model f
 
 def printed(coordinates: tuple[Coordinate, ...], values: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t n"]:
     """Values as OpenSim's files in degrees have them: rotations in degrees, all else as it is."""
-    return values * np.array([np.degrees(1.0) if c.kind == "rotational" else 1.0 for c in coordinates])
+    return np.asarray(values * np.array([np.degrees(1.0) if c.kind == "rotational" else 1.0 for c in coordinates]))
 
 
 def write_results(record: Record, model: Multibody, found: Poses, draft: Path, seconds: float) -> None:
@@ -69,7 +69,7 @@ def _warn(record: Record, found: Poses, rms: float) -> None:
         record.warn(f"{count} frames did not settle: markers and model may not belong together")
     if rms > FAR:
         record.warn(f"markers are {rms:.0f} mm from the model: another subject's size, axes (--axes) or unit?")
-    never = ~found.told.any(axis=0)
+    never = np.asarray(~found.told.any(axis=0))
     if never.any():
         names = tuple(name for name, each in zip(found.names, never, strict=True) if each)
         record.warn(f"no frame tells {listed(names)}: kept at the model's default")

@@ -29,7 +29,7 @@ def marker_tasks(
     """Weights of --tasks, or 1 for every marker of the model; then what single options say."""
     if not model.markers:
         raise InputError(
-            record.options["model"], "", "has no markers", "give a model with a MarkerSet, or --marker-set"
+            str(record.options["model"]), "", "has no markers", "give a model with a MarkerSet, or --marker-set"
         )
     if file is None:
         tasks = MarkerTasks({m.name: 1.0 for m in model.markers})

@@ -176,7 +176,7 @@ class _Search:
             return self.whole
         slopes = self.fit.slopes(q).reshape(len(there), 3, len(q))
         normal = np.einsum("m,mik,mil->kl", np.where(there, self.weights, 0.0), slopes, slopes)
-        found = self.locked | ~_open(normal + np.diag(self.held), ~self.locked)
+        found = np.asarray(self.locked | ~_open(normal + np.diag(self.held), ~self.locked))
         if there.all():
             self.whole = found
         return found
