@@ -6,6 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 ROOT = Path(__file__).resolve().parents[2]
 MINUS = "\N{MINUS SIGN}"
 LEAST_COVERAGE = 0.88  # of the elbow's intervals of 95 %: 60 to 200 runs tell them to 3 %
@@ -204,3 +206,80 @@ def test_largest_forces_of_a_population() -> None:
     assert f"{speed['samples_per_second_at_8_deg'] / 1e6:.2f} million, ratio {speed['ratio_at_8_deg']:.1f} to" in text
     assert speed["samples_per_second"] > 2e5, "a million people in seconds"
     assert told["convergence"][0]["largest_error_N"] < told["convergence"][-1]["grid_only_largest_error_N"]
+
+
+def test_bodies_on_joints_beside_their_peers() -> None:
+    page, told = "theory/multibody.md", results("multibody")
+    fast, versions = told["inverse kinematics"], told["versions"]
+    ours, theirs = (float(np.median(fast[key])) for key in ("frames_per_second", "opensim_frames_per_second"))
+    assert ours > 1000.0 and fast["angle_difference_rms_deg"] < 0.1
+    assert near(row(page, "geocontact")[0], ours)
+    cells = row(page, f"OpenSim {versions['opensim']}, its solver at the tool's accuracy")
+    assert near(cells[0], theirs) and near(cells[1], ours / theirs)
+    for peer, package in (("MuJoCo", "mujoco"), ("Pinocchio", "pin")):
+        off = told["inverse dynamics"][f"largest_difference_to_{peer.lower()}"]
+        assert row(page, f"{peer} {versions[package]}") == [f"{off:.1e}"] and off < 1e-12
+    for one in told["forward dynamics"]:
+        cells = row(page, f"{one['tolerance']:.0e}")
+        assert cells[0] == f"{one['steps']} ({one['refused']})" and cells[1] == f"{one['error_mm']:.1e}"
+        speeds = [one["times_real_time"][name] for name in ("machine code", "CasADi")]
+        assert all(near(cell, speed) for cell, speed in zip(cells[2:], speeds, strict=True))
+    errors = [one["error_mm"] for one in told["forward dynamics"]]
+    assert errors == sorted(errors, reverse=True)
+
+
+BENCHMARK = {
+    "false alarms": "false_alarms",
+    "first-ranked right where visible": "first_right",
+    "truth in a set of ≤ 3 where visible": "in_small_set",
+    "visible, called no gap": "missed",
+    "confidently wrong": "confidently_wrong",
+    "both of two found": "both_found",
+    "at least one of two in question": "one_of_two",
+    "outside the table called unknown": "unknown_called",
+    "absorbed recognised": "absorbed_recognised",
+    "true reduction inside ci95": "coverage",
+}
+README = {
+    "false alarms": "false_alarms",
+    "effect ranked first": "first_right",
+    "effect among three at most": "in_small_set",
+    "confidently wrong": "confidently_wrong",
+    "both of two found": "both_found",
+    "unknown effect called unknown": "unknown_called",
+}
+
+
+def share(one: dict[str, Any]) -> str:
+    """Hits of a count with the exact interval, as the tables print it."""
+    if not one["count"]:
+        return "no case"
+    low, high = one["ci95"]
+    return (
+        f"{one['hits']}/{one['count']} = {100 * one['hits'] / one['count']:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
+    )
+
+
+def test_the_benchmark_of_the_diagnosis() -> None:
+    """The table of every system and pooled, what stands beside it, what the README repeats; enough cases of each."""
+    page, told = "reference/gap_benchmark.md", results("gap_benchmark")
+    figures, systems = told["figures"], ("pooled", "elbow", "foot", "shoulder", "knee", "sit_to_stand")
+    for label, key in BENCHMARK.items():
+        assert row(page, label, told["bars"].get(key, "")) == [
+            share(figures[each]["diagnosis"][key]) for each in systems
+        ], label
+    for label, key in BENCHMARK.items():
+        if key != "one_of_two":
+            whose = ("diagnosis", "regression", "regression_aware", "constant")
+            assert row(page, f"pooled: {label}") == [share(figures["pooled"][who][key]) for who in whose], label
+    for cell, system in zip(row(page, "error of reduction, mean")[1:], systems, strict=True):
+        assert near(cell.partition(" ")[0], figures[system]["diagnosis"]["reduction_error"])
+    for cell, system in zip(row(page, "seconds of one core, mean (most)")[1:], systems, strict=True):
+        assert near(cell.partition(" ")[0], told["cpu_seconds"][system]["mean"])
+    for label, key in README.items():
+        cells = row("../README.md", label)[1:]
+        assert cells == [share(figures["pooled"][who][key]) for who in ("diagnosis", "regression_aware")], label
+    for system in systems[1:]:
+        assert figures[system]["diagnosis"]["false_alarms"]["count"] >= 100
+        assert figures[system]["diagnosis"]["first_right"]["count"] >= 60
+    assert told["seed"] == 20261132 and "seed 20261132" in (ROOT / "docs" / page).read_text(encoding="utf-8")
