@@ -34,7 +34,7 @@ from geocontact.systems.elbow_fit import (
     r_squared,
 )
 from geocontact.systems.elbow_law import LENGTHS, SCALED, offsets_of
-from geocontact.systems.elbow_residuals import normality
+from geocontact.systems.elbow_residuals import Excess, excess, normality
 from geocontact.systems.elbow_scale import Scale, scale_of
 from geocontact.systems.elbow_uncertainty import (
     Direction,
@@ -48,6 +48,7 @@ from geocontact.systems.elbow_uncertainty import (
 
 FEW_STRETCHES = 12
 FACTORS = np.geomspace(0.5, 2.0, 41)
+RARE, MORE = 0.01, 1.5  # p and size from which residuals are more than noise
 BETTER = 0.02  # of R² that the mirrored force must gain to be worth a word
 TAILS = (2.5, 97.5)
 SAME_PRESSURE = MMHG  # Pa; pressures that differ by less are one
@@ -99,6 +100,7 @@ class Fitted:
     bins_differ: BinTest | None
     neighbours: Sequence[Pair]
     normality: Normality
+    excess: Excess
     r2: float
     mirrored_r2: float
 
@@ -224,6 +226,7 @@ def _fitted(
         bins_differ=between_bins(boxes.visits, FORCE),
         neighbours=between_neighbours(boxes.visits, FORCE),
         normality=normality(locked, data, e),
+        excess=excess(locked, data, e),
         r2=r_squared(measured, e.predicted),
         mirrored_r2=_mirrored(e, measured),
     )
@@ -320,6 +323,11 @@ def _reserve(record: Record, found: Fitted) -> None:
         record.warn(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are rough")
     if not e.converged:
         record.warn("the search did not end by itself; see --start and --bounds")
+    if found.excess.p < RARE and found.excess.ratio > MORE:
+        record.warn(
+            f"the fit leaves {found.excess.ratio:.2g} times what noise within the trials would: offsets that change "
+            "from trial to trial, or something the law misses; intervals do not know of it and are too short"
+        )
     if found.r2 < 0.0:
         record.warn(f"R² is {found.r2:.2f}: a constant force would do better than the law")
     bad = [f"{each.name} ({each.r2:.2f})" for each in found.held if each.r2 < 0.0]

@@ -128,7 +128,12 @@ def describe(found: Fitted, free: Free | None) -> dict[str, Any]:
         "r2_of_the_force_turned_over": finite(found.mirrored_r2),
         "held_out": [{"name": h.name, "r2": finite(h.r2), "rmse_N": h.rmse, "bins": h.bins} for h in found.held],
         "between_bins": _tested(found.bins_differ, found.neighbours, found.boxes),
-        "residuals": {"p_lilliefors": found.normality.p, "in_words": found.normality.words},
+        "residuals": {
+            "p_lilliefors": found.normality.p,
+            "in_words": found.normality.words,
+            "over_noise": found.excess.ratio,
+            "p_over_noise": found.excess.p,
+        },
         "noise": {"sd_N": float(found.data.noise.sd[0]), "correlation_time_s": float(found.data.noise.tau[0])},
         "stretches": {"count": found.stretches, "length_s": found.data.stretch},
         "pressure_mmHg": found.data.pressure / MMHG if found.data.pressure else None,

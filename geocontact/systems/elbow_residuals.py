@@ -7,6 +7,7 @@ distribution has to know of that, so its p-value comes from residuals of simulat
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
@@ -39,6 +40,40 @@ def normal_residuals(
     Ornstein-Uhlenbeck noise with the correlation time of `data` along the recorded angles, less what the fit would take
     out of it, to first order.
     """
+    left = _noise_left(recordings, data, e, count, seed)
+    return np.asarray(_pooled(data, left / e.problem.weight) * _root_information(data))
+
+
+@dataclass(frozen=True)
+class Excess:
+    """What the fit leaves, trial by trial and bin by bin, against what noise within the trials would leave.
+
+    Parameters
+    ----------
+    ratio
+        Of the weighted sums of squares, 1 where noise is all.
+    p
+        Share of draws of noise that leave as much.
+    """
+
+    ratio: float
+    p: float
+
+
+def excess(
+    recordings: Sequence[ElbowRecording], data: Binned, e: Estimate, count: int = DRAWS, seed: int = 1
+) -> Excess:
+    """Offsets that change from trial to trial, and whatever the law misses, leave more than a trial's noise does."""
+    left = _noise_left(recordings, data, e, count, seed)
+    draws = np.einsum("dn,dn->d", left, left)
+    found = float(np.sum((e.problem.weight * (data.cells.means[:, FORCE] - e.predicted)) ** 2))
+    return Excess(found / float(draws.mean()), float((1 + np.sum(draws >= found)) / (1 + len(draws))))
+
+
+def _noise_left(
+    recordings: Sequence[ElbowRecording], data: Binned, e: Estimate, count: int, seed: int
+) -> Float[np.ndarray, "d n"]:
+    """Weighted residuals of draws of noise, by trial and bin."""
     rng, bins, cells = np.random.default_rng(seed), len(data.visits.edges) - 1, data.cells
     noise = np.empty((count, len(cells.count)))
     for trial, r in enumerate(recordings):
@@ -49,8 +84,7 @@ def normal_residuals(
         noise[:, mine] = rng.standard_normal((count, len(value))) @ (vector * np.sqrt(np.maximum(value, 0.0))).T
     jacobian = e.problem.jacobian(e.values)
     slopes, off = jacobian[: len(cells.count)], noise * e.problem.weight
-    left = off - off @ slopes @ spread(jacobian) @ slopes.T
-    return np.asarray(_pooled(data, data.noise.sd[0] * left / e.problem.weight) * _root_information(data))
+    return np.asarray(data.noise.sd[0] * (off - off @ slopes @ spread(jacobian) @ slopes.T))
 
 
 def normality(recordings: Sequence[ElbowRecording], data: Binned, e: Estimate) -> Normality:

@@ -380,6 +380,18 @@ def test_where_a_rotary_joint_was_free_as_well_the_displacement_is_d_lin(tmp_pat
     assert idle.code == 2 and "--rotary-free: does nothing without --unlocked" in idle.err
 
 
+def test_offsets_that_change_from_trial_to_trial_are_warned_of(tmp_path: Path, made: Path) -> None:
+    """Donning of 4 mm leaves more than noise within the trials would; without it the fit leaves what noise leaves."""
+    done(elbow("simulate", tmp_path / "don", *QUICK, "--donning-mm", 4))
+    found = {name: elbow("fit", tmp_path / name, *locked(folder), *KNOWN)
+             for name, folder in (("still", made), ("donned", tmp_path / "don"))}  # fmt: skip
+    ratios = {name: told(done(each))["residuals"]["over_noise"] for name, each in found.items()}
+    assert 0.6 < ratios["still"] < 1.5 and ratios["donned"] > 3.0
+    words = "offsets that change from trial to trial"
+    assert any(words in line for line in found["donned"].warnings)
+    assert not any(words in line for line in found["still"].warnings)
+
+
 def test_what_does_worse_than_a_constant_is_warned_of(tmp_path: Path, made: Path) -> None:
     """A trial whose force has nothing to do with the angle, held out and compared."""
     table = table_of(locked(made)[2])
