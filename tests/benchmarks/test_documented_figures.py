@@ -171,6 +171,7 @@ def test_time_and_coverage_of_the_elbow() -> None:
     for one in told["fit"]:
         cells = row(page, one["numbers"], one["bins"])
         assert int(cells[0]) == one["means"] and near(cells[1], one["milliseconds"]) and one["milliseconds"] < 5.0
+        assert near(cells[2], one["milliseconds_whole"])
     for one in told["coverage"]:
         cells = row(page, one["case"])
         assert int(cells[0]) == one["runs"]
@@ -178,12 +179,17 @@ def test_time_and_coverage_of_the_elbow() -> None:
             shown = dict(part.split() for part in cell.split(", "))
             assert set(shown) == set(one[kind]) and all(near(shown[n], one[kind][n]) for n in shown), cells
     free = told["scale free"]
-    runs, by_profile, signs = row(page, free["case"])
-    shown = dict(part.split() for part in by_profile.split(", "))
+    runs, by_profile, by_parts, signs = row(page, free["case"])
     assert int(runs) == free["runs"] and near(signs, free["sign of x not told"])
-    assert set(shown) == set(free["profile likelihood"])
-    assert all(near(shown[n], free["profile likelihood"][n]) for n in shown)
-    assert min(free["profile likelihood"].values()) >= LEAST_COVERAGE
+    for cell, kind in ((by_profile, "profile likelihood"), (by_parts, "one of its parts")):
+        shown = dict(part.split() for part in cell.split(", "))
+        assert set(shown) == set(free[kind]) and all(near(shown[n], free[kind][n]) for n in shown)
+        assert min(free[kind].values()) >= LEAST_COVERAGE
+    for one in told["scale by the free joint"]:
+        cells = row(page, f"{one['donning_sd_mm']:.0f}", str(one["runs"]))
+        keys = ("profile likelihood", "median width", "sd of k", "sd of k by the slope of the locked force")
+        assert all(near(cell, one[key]) for cell, key in zip(cells, keys, strict=True))
+    assert told["scale by the free joint"][0]["profile likelihood"] >= LEAST_COVERAGE
     known, prior, _ = told["coverage"]
     for one in (known, prior):
         assert min(*one["profile likelihood"].values(), *one["wild bootstrap"].values()) >= LEAST_COVERAGE
