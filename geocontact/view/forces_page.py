@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.data.multibody import GROUND, Multibody
+from geocontact.view.by_joint import panels_by_joint
 from geocontact.view.contact_words import NOT_A_DEVICE
 from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words
 from geocontact.view.page.write import write_page
@@ -69,11 +70,11 @@ def write_forces_report(
     shown = np.arange(0, len(forces.time), every)
     turning = np.array([c.kind == "rotational" for c in forces.model.coordinates], dtype=bool)
     base = forces.at_ground
+    values = np.asarray(forces.values)[shown]
     sections: list[Section] = [
-        *_curves("Moments", "N m", forces, shown, turning & ~base),
-        *_curves("Forces", "N", forces, shown, ~turning & ~base),
-        *_curves("Left over at the ground: forces", "N", forces, shown, ~turning & base),
-        *_curves("Left over at the ground: moments", "N m", forces, shown, turning & base),
+        *panels_by_joint(forces.model, "N m", values, turning & ~base),
+        *panels_by_joint(forces.model, "N", values, ~turning & ~base),
+        *_left_over(forces, values, turning, base),
         *tables,
         Words("What the numbers do not contain", [LEFT, FILTERED, NOT_A_DEVICE]),
     ]
@@ -105,7 +106,13 @@ def _headline(forces: Forces, turning: Bool[np.ndarray, " n"]) -> list[tuple[str
     return told
 
 
-def _curves(title: str, unit: str, forces: Forces, shown: np.ndarray, which: Bool[np.ndarray, " n"]) -> list[Section]:
-    names = [c.name for c, there in zip(forces.model.coordinates, which, strict=True) if there]
-    values = forces.values[shown][:, which]
-    return [Curves(title, unit, [Curve(n, v) for n, v in zip(names, values.T, strict=True)])] if names else []
+def _left_over(
+    forces: Forces, values: Float[np.ndarray, "t n"], turning: Bool[np.ndarray, " n"], base: Bool[np.ndarray, " n"]
+) -> list[Section]:
+    found: list[Section] = []
+    for title, unit, which in (("forces", "N", ~turning & base), ("moments", "N m", turning & base)):
+        names = [c.name for c, there in zip(forces.model.coordinates, which, strict=True) if there]
+        if names:
+            curves = [Curve(name, value) for name, value in zip(names, values[:, which].T, strict=True)]
+            found.append(Curves(f"Left over at the ground: {title}", unit, curves))
+    return found

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Float
 
 from geocontact.data.multibody import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
+from geocontact.view.by_joint import panels_by_joint
 from geocontact.view.contact_words import NOT_A_DEVICE
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Table, Words
 from geocontact.view.page.write import write_page
@@ -35,10 +36,11 @@ def write_kinematics_report(
     shown = np.arange(0, len(found.time), every)
     angular = np.array([c.kind == "rotational" for c in model.coordinates])
     off = 1e3 * found.distances
+    values = np.asarray(found.values)[shown]
     sections: list[Section] = [
         Readout([Row("markers, root mean square", "mm", [_size(row) for row in off[shown]])]),
-        *_curves("Angles", "deg", found, shown, angular, np.degrees(1.0)),
-        *_curves("Positions", "m", found, shown, ~angular, 1.0),
+        *panels_by_joint(model, "deg", np.degrees(values), angular),
+        *panels_by_joint(model, "m", values, ~angular),
         Curves("Distance of markers", "mm", [Curve(n, d) for n, d in zip(found.markers, off[shown].T, strict=True)]),
         _markers(found),
         *tables,
@@ -60,14 +62,6 @@ def write_kinematics_report(
         total=len(found.time),
     )
     return write_page(page, path)
-
-
-def _curves(
-    title: str, unit: str, found: Poses, shown: np.ndarray, which: Bool[np.ndarray, " n"], factor: float
-) -> list[Section]:
-    values: Float[np.ndarray, "t k"] = factor * found.values[shown][:, which]
-    names = [name for name, there in zip(found.names, which, strict=True) if there]
-    return [Curves(title, unit, [Curve(n, v) for n, v in zip(names, values.T, strict=True)])] if names else []
 
 
 def _markers(found: Poses) -> Table:
