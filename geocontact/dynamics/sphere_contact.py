@@ -11,20 +11,13 @@ from jaxtyping import Float
 from geocontact.contact.sphere_foot import friction_coefficient, normal_force
 from geocontact.dynamics.symbols import constant
 from geocontact.dynamics.tree import Moving
+from geocontact.geometry.shapes import HalfSpace
 
 if TYPE_CHECKING:
     from casadi import SX
 
 STILL = 1e-6
 """m/s; the direction of sliding is v / sqrt(v^2 + STILL^2), which has a derivative where nothing slides."""
-
-
-@dataclass(frozen=True)
-class Plane:
-    """Ground: a point [m] and the unit normal out of it."""
-
-    point: Float[np.ndarray, " 3"]
-    normal: Float[np.ndarray, " 3"]
 
 
 @dataclass(frozen=True)
@@ -49,7 +42,7 @@ class SphereLaw:
 
 
 def sphere_wrench(
-    body: Moving, centre: Float[np.ndarray, " 3"], radius: float, law: SphereLaw, ground: Plane
+    body: Moving, centre: Float[np.ndarray, " 3"], radius: float, law: SphereLaw, ground: HalfSpace
 ) -> tuple[SX, SX]:
     """Force of the ground on the body [N] and its moment about the ground's origin [N m].
 
@@ -58,7 +51,8 @@ def sphere_wrench(
     """
     from casadi import cross, dot, mtimes, sqrt, sumsqr
 
-    normal, point = constant(ground.normal), constant(ground.point)
+    upwards = np.asarray(ground.normal, float)
+    normal, point = constant(upwards / np.linalg.norm(upwards)), constant(np.asarray(ground.point, float))
     arm = mtimes(body.rotation, constant(centre))
     height = dot(body.place + arm - point, normal)
     closing = -dot(body.speed + cross(body.spin, arm), normal)

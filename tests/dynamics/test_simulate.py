@@ -16,14 +16,15 @@ from geocontact.data.multibody import Body, Multibody
 from geocontact.dynamics import compiled as code
 from geocontact.dynamics.equations import Equations, Memory, equations_of_motion
 from geocontact.dynamics.simulate import Stepper
-from geocontact.dynamics.sphere_contact import Plane, SphereLaw, sphere_wrench, together
+from geocontact.dynamics.sphere_contact import SphereLaw, sphere_wrench, together
 from geocontact.dynamics.tree import tree_of
+from geocontact.geometry.shapes import HalfSpace
 from tests.dynamics.models import all_kinds, free_ball, pendulum
 from tests.dynamics.test_tree import energy
 
 NONE = np.zeros(0)
 X, Y, Z = np.eye(3)
-GROUND = Plane(np.zeros(3), Y)
+GROUND = HalfSpace(normal=(0.0, 2.0, 0.0))
 
 
 def slider(mass: float = 2.0) -> Multibody:
