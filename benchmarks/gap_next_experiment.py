@@ -208,19 +208,16 @@ class Seen:
 
 def weighings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain: int) -> list[Any]:
     """Whitening of every trial; those from `plain` on are staged."""
-    from geocontact.chain.movement import rate_of_waves
     from geocontact.gap.refit import Measured, derivatives
-    from geocontact.gap.weighing import Weighing, sensitivity
+    from geocontact.gap.weighing import Weighing, heard
     from geocontact.identify.covariance import Layout
-    from geocontact.identify.noise_spectrum import NoiseSpectrum
 
-    passed, base = problem.passed, {name: lead.model.values[name] for name in problem.plain.values}
-    spectrum = NoiseSpectrum.after(passed, lambda f: rate_of_waves(f, passed.step, problem.system.motion.reach))
+    base = {name: lead.model.values[name] for name in problem.plain.values}
     made = []
     for k, trial in enumerate(trials):
         system = problem.system if k < plain else stage(problem.system)
         measured = Measured.of(system, [trial], problem.calibration.rough)
-        layout = Layout.of(trial.time, measured.present[0], sensitivity(system, trial, base), spectrum)
+        layout = Layout.of(trial.time, measured.present[0], heard(system, trial, base, problem.passed, problem.left))
         varied = derivatives(system, measured, base)[0] * lead.noise.varies
         made.append(Weighing.of(layout.whitener(lead.noise.levels), varied))
     return made

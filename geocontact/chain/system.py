@@ -57,6 +57,9 @@ class System:
     places
         Where it makes contact, if there are several places that do not feel each other; the names of their channels and
         the numbers of their law and geometry begin with theirs ("thigh_force", "thigh.k").
+    dynamic
+        Whether the base has a motion of its own, so that outputs feel what inputs did before; otherwise they answer to
+        values and rates of the moment.
     """
 
     name: str
@@ -74,6 +77,7 @@ class System:
     spare: tuple[str, ...] = ()
     bias: Mapping[str, float] = field(default_factory=dict)
     places: tuple[str, ...] = ()
+    dynamic: bool = False
 
     @property
     def inputs(self) -> tuple[str, ...]:

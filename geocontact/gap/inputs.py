@@ -11,11 +11,11 @@ signal stands far above the noise nothing changes.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
-from jaxtyping import Complex, Float
+from jaxtyping import Complex, Float, Int
 
 from geocontact.data.trial import Trial
 from geocontact.gap.grids import even_grid
@@ -44,8 +44,8 @@ def denoised(trial: Trial, noise: Mapping[str, float], passed: LowPass) -> Trial
         if there.sum() < 4 * FEWEST:
             continue
         even = np.interp(grid, time[there], values[there, column])
-        off = noise_in(even, grid[1] - grid[0], sd, passed)
-        values[there, column] -= np.interp(time[there], grid, off)
+        stretches = Stretches.of(even, float(grid[1] - grid[0]), passed)
+        values[there, column] -= np.interp(time[there], grid, stretches.summed(stretches.shares(sd)))
     return replace(trial, signals=replace(trial.signals, values=values))
 
 
@@ -92,28 +92,94 @@ def _spectrum(
     return spectrum, frequency, float((window**2).sum() * count / (2.0 * passed.power(frequency).sum()))
 
 
-def noise_in(values: Float[np.ndarray, " n"], step: float, sd: float, passed: LowPass) -> Float[np.ndarray, " n"]:
-    """What a Wiener filter takes off evenly spaced values whose low-passed noise has this standard deviation.
+@dataclass(frozen=True)
+class Left:
+    """Share of the power of an input's noise that is left after a Wiener filter, by frequency [Hz]."""
 
-    It works on stretches of `PERIODS` periods of the corner, less a cubic, a quarter of a stretch apart, weighed by a
+    frequency: Float[np.ndarray, " f"]
+    share: Float[np.ndarray, " f"]
+
+    def __call__(self, frequency: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+        """At some frequencies."""
+        return np.interp(frequency, self.frequency, self.share)
+
+
+def left(trials: Sequence[Trial], name: str, sd: float, passed: LowPass) -> Left | None:
+    """What `denoised` leaves of an input's noise, on average over all stretches; None where it takes nothing off.
+
+    Where it takes off the share s of the power N + X, it leaves (1 - s) N of noise and of movement it should not have
+    taken.
+    """
+    found = []
+    for trial in trials:
+        there, grid = np.isfinite(trial.column(name)), even_grid(trial.time)
+        if there.sum() < 4 * FEWEST:
+            continue
+        even = np.interp(grid, trial.time[there], trial.column(name)[there])
+        shares = Stretches.of(even, float(grid[1] - grid[0]), passed).shares(sd)
+        found.append((np.fft.rfftfreq(2 * shares.shape[1] - 2, grid[1] - grid[0]), 1.0 - shares))
+    if not found:
+        return None
+    frequency = found[0][0]
+    each = np.concatenate([[np.interp(frequency, f, row) for row in rows] for f, rows in found])
+    return Left(frequency, each.mean(axis=0))
+
+
+@dataclass(frozen=True)
+class Stretches:
+    """Spectra of overlapping stretches of evenly spaced values.
+
+    Stretches last `PERIODS` periods of the corner, less a cubic, a quarter of a stretch apart, weighed by a
     Hann window before and after so that they add up to the whole (Portnoff, IEEE Trans. Acoust. Speech Signal Process.
     28:55, 1980).
-    """
-    from scipy.ndimage import uniform_filter1d
 
-    hop = max(round(0.25 * PERIODS / (passed.corner * step)), FEWEST)
-    width = 4 * hop
-    longer = np.pad(values, (width, 2 * width), mode="reflect", reflect_type="odd")
-    place = (np.arange(width) + 0.5) / width
-    window = np.sin(np.pi * place) ** 2
-    slow, _ = np.linalg.qr(np.vander(2.0 * place - 1.0, 4))
-    shape = passed.power(np.fft.rfftfreq(width, step))
-    noise = sd**2 * float(window @ window) * width * shape / (2.0 * shape.sum() - shape[0])
-    off = np.zeros(len(longer))
-    for begin in range(0, len(longer) - width + 1, hop):
-        stretch = longer[begin : begin + width]
-        spectrum = np.fft.rfft(window * (stretch - slow @ (slow.T @ stretch)))
-        power = uniform_filter1d(np.abs(spectrum) ** 2, SMOOTH, mode="nearest")
-        share = np.minimum(noise / np.maximum(power, 1e-300), 1.0)
-        off[begin : begin + width] += window * np.fft.irfft(share * spectrum, width)
-    return off[width : width + len(values)] / WINDOWS
+    Parameters
+    ----------
+    count, width
+        Of the values, and of a stretch.
+    begin
+        Of each stretch, in values padded by one width in front.
+    window
+        Weights in a stretch.
+    spectra
+        One per stretch.
+    shape
+        Power that the filter lets through.
+    """
+
+    count: int
+    width: int
+    begin: Int[np.ndarray, " k"]
+    window: Float[np.ndarray, " w"]
+    spectra: Complex[np.ndarray, "k f"]
+    shape: Float[np.ndarray, " f"]
+
+    @classmethod
+    def of(cls, values: Float[np.ndarray, " n"], step: float, passed: LowPass) -> Stretches:
+        """Of values `step` seconds apart."""
+        hop = max(round(0.25 * PERIODS / (passed.corner * step)), FEWEST)
+        width = 4 * hop
+        longer = np.pad(values, (width, 2 * width), mode="reflect", reflect_type="odd")
+        place = (np.arange(width) + 0.5) / width
+        window = np.sin(np.pi * place) ** 2
+        slow, _ = np.linalg.qr(np.vander(2.0 * place - 1.0, 4))
+        begin = np.arange(0, len(longer) - width + 1, hop)
+        each = longer[begin[:, None] + np.arange(width)]
+        spectra = np.fft.rfft(window * (each - (each @ slow) @ slow.T))
+        return cls(len(values), width, begin, window, spectra, passed.power(np.fft.rfftfreq(width, step)))
+
+    def shares(self, sd: float) -> Float[np.ndarray, "k f"]:
+        """Share of each power that is noise of this standard deviation."""
+        from scipy.ndimage import uniform_filter1d
+
+        shape = self.shape
+        noise = sd**2 * float(self.window @ self.window) * self.width * shape / (2.0 * shape.sum() - shape[0])
+        power = uniform_filter1d(np.abs(self.spectra) ** 2, SMOOTH, axis=1, mode="nearest")
+        return np.minimum(noise / np.maximum(power, 1e-300), 1.0)
+
+    def summed(self, shares: Float[np.ndarray, "k f"]) -> Float[np.ndarray, " n"]:
+        """These shares of the spectra, put together again."""
+        off = np.zeros(int(self.begin[-1]) + self.width)
+        for begin, part in zip(self.begin, np.fft.irfft(shares * self.spectra, self.width), strict=True):
+            off[begin : begin + self.width] += self.window * part
+        return off[self.width : self.width + self.count] / WINDOWS

@@ -15,7 +15,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
-from geocontact.chain.movement import rate_of_waves
 from geocontact.data.diagnosis import NextExperiment
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.contest import Contender
@@ -24,9 +23,8 @@ from geocontact.gap.experiments import Experiment, menu
 from geocontact.gap.problem import Problem
 from geocontact.gap.refit import Measured, derivatives
 from geocontact.gap.rivals import Hypothesis, Pair, Recording, Rows, kept
-from geocontact.gap.weighing import Weighing, sensitivity
+from geocontact.gap.weighing import Weighing, heard
 from geocontact.identify.covariance import Layout
-from geocontact.identify.noise_spectrum import NoiseSpectrum
 
 TRIALS = 3  # of the new kind
 TELLS = 3.0  # times the smallest separation that a change must promise
@@ -191,17 +189,11 @@ class Rehearsed:
 
 def _new(problem: Problem, lead: Judged, pairs: list[Pair]) -> list[Rehearsed]:
     """Every pair on one trial of every change."""
-    passed = problem.passed
-    spectrum = NoiseSpectrum.after(
-        passed, lambda frequency: rate_of_waves(frequency, passed.step, problem.system.motion.reach)
-    )
     changes = menu(problem.system, problem.calibration.trials)
-    return [_rehearsed(problem, lead, spectrum, one, pairs) for one in changes]
+    return [_rehearsed(problem, lead, one, pairs) for one in changes]
 
 
-def _rehearsed(
-    problem: Problem, lead: Judged, spectrum: NoiseSpectrum, one: Experiment, pairs: list[Pair]
-) -> Rehearsed:
+def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[Pair]) -> Rehearsed:
     trial, rough = one.trial, problem.calibration.rough
     hypotheses = {id(each): each for pair in pairs for each in (pair.true, pair.imitator)}
     predicted = {key: one.staged(each.system).simulate(trial, each.values) for key, each in hypotheses.items()}
@@ -213,7 +205,7 @@ def _rehearsed(
     }
     staged = one.staged(problem.system)
     base = {name: lead.model.values[name] for name in problem.plain.values}
-    layout = Layout.of(trial.time, present, sensitivity(staged, trial, base), spectrum)
+    layout = Layout.of(trial.time, present, heard(staged, trial, base, problem.passed, problem.left))
     varied = derivatives(staged, zero, base)[0] * lead.noise.varies
     weigh = Weighing.of(layout.whitener(lead.noise.levels), varied)
     found = []

@@ -11,9 +11,9 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.corner import filter_of
-from geocontact.gap.inputs import denoised, seen_noise
+from geocontact.gap.inputs import denoised, left, seen_noise
 from geocontact.gap.refit import Measured, Refit, at, free, refit
-from geocontact.gap.weighing import Weighing, layouts_of, sensitivity, usual_levels, varies_by
+from geocontact.gap.weighing import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
 from geocontact.identify.covariance import Layout, Levels, Whitener, most_likely
 from geocontact.identify.low_pass import LowPass
 from geocontact.identify.trial_variation import Products, variation
@@ -49,6 +49,8 @@ class Problem:
         Noise plus trial-to-trial variation of each channel.
     passed
         The low-pass filter that the inputs came through.
+    left
+        Of the power of each input's noise, what its taking off left, by frequency.
     """
 
     system: System
@@ -62,6 +64,7 @@ class Problem:
     plain: Refit
     floor: Float[np.ndarray, " c"]
     passed: LowPass
+    left: Mapping[str, Share]
 
     @property
     def calibration_layouts(self) -> tuple[Layout, ...]:
@@ -71,7 +74,7 @@ class Problem:
     @property
     def floor_of_noise(self) -> Float[np.ndarray, " c"]:
         """Noise of each channel as it was believed beforehand: a scale, no estimate."""
-        return np.asarray(np.hypot(self.prior.white, self.prior.coloured))
+        return np.asarray(np.sqrt(self.prior.white**2 + (self.prior.coloured**2).sum(axis=0)))
 
     def weighed(self, model: Refit, before: Noise | None = None) -> Noise:
         """Noise levels and variation that make a model's residuals most likely, calibration trials only."""
@@ -183,14 +186,14 @@ def problem_of(case: GapCase, system: System) -> Problem:
     passed = filter_of(recorded.trials, system.inputs)
     system = _rates(system, case, calibration, rough, passed)
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
-    floor = rough
+    floor, kept = rough, {}
     for last in (False, True):
         system = system.scaled(calibration.trials, plain.values)
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
         prior, factor = usual_levels(system, case.noise, rough)
-        layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present, passed))
+        layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present, passed, kept))
         problem = Problem(
-            system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor, passed
+            system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor, passed, kept
         )
         noise = problem.weighed(plain)
         if not last:
@@ -200,6 +203,7 @@ def problem_of(case: GapCase, system: System) -> Problem:
             }
             calibration, evaluation = (_denoised(each, sd, passed) for each in (calibration, evaluation))
             everything = replace(everything, trials=calibration.trials + evaluation.trials)
+            kept = {n: one for n, q in sd.items() if (one := left(recorded.trials, n, q, passed)) is not None}
         floor = floor_of(problem, noise, plain)
         plain = _plain_fit(system, calibration, floor, [plain.values], rounds=20)
     return replace(problem, plain=plain, floor=floor)
@@ -215,7 +219,9 @@ def _rates(
     """
     plain = _plain_fit(system, measured, rough, base_starts(system), rounds=40)
     system = system.scaled(measured.trials, plain.values)
-    if not any(sensitivity(system, trial, plain.values).to_rate.any() for trial in measured.trials):
+    if not system.dynamic and not any(
+        sensitivity(system, trial, plain.values, ()).to_rate.any() for trial in measured.trials
+    ):
         return system
     prior, factor = usual_levels(system, case.noise, rough)
     usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
@@ -223,7 +229,7 @@ def _rates(
     for reach in REACHES:
         other = system.reaching(reach)
         model = _plain_fit(other, measured, rough, [plain.values], rounds=6)
-        layouts = layouts_of(other, measured.trials, model.values, measured.present, passed)
+        layouts = layouts_of(other, measured.trials, model.values, measured.present, passed, {})
         varied = [j[..., : len(usual)] * usual for j in model.jacobian]
         _, __, nats = most_likely(layouts, model.residuals, varied, prior, factor, prior, rounds=15)
         likely.append((nats, reach))

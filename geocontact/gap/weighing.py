@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,7 +13,9 @@ from geocontact.chain.movement import Movement, rate_of_waves
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.identify.covariance import Layout, Levels, Sensitivity, Whitener
+from geocontact.gap.responses import responses
+from geocontact.identify.covariance import Layout, Levels, Whitener
+from geocontact.identify.input_noise import InputNoise, Instant
 from geocontact.identify.low_pass import LowPass
 from geocontact.identify.noise_spectrum import NoiseSpectrum
 
@@ -22,6 +24,11 @@ ANGLE_VARIES = 0.01  # rad
 SHARE_VARIES = 0.04  # of any other parameter
 INPUT_NOISE = 2e-3  # of an input's half-range
 ALIKE, OWN = 0.8, 0.5  # standard deviations of the logarithm of input noise: of a unit, and of one input beyond that
+Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
+"""Of power that is left, by frequency [Hz]."""
+
+SLOW, SLOW_TIME = 0.4, 0.7  # s, that slow noise usually remembers, and standard deviation of the logarithm
+SLOW_SHARE, SLOW_LEVEL = 0.3, 0.8  # of the quick noise, that it usually is, and of the logarithm of its level
 BUMP = 1e-4  # of an input's half-range
 LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
 
@@ -67,7 +74,24 @@ def varies_by(parameter: Parameter, value: float) -> float:
     return ANGLE_VARIES if parameter.unit == "rad" else SHARE_VARIES * abs(value)
 
 
-def sensitivity(system: System, trial: Trial, values: Mapping[str, float]) -> Sensitivity:
+def heard(
+    system: System, trial: Trial, values: Mapping[str, float], passed: LowPass, left: Mapping[str, Share]
+) -> InputNoise:
+    """What noise of a trial's inputs makes of the outputs that a model predicts.
+
+    It came through the filter `passed`; `left` says by frequency what was left of that of some inputs since.
+    """
+
+    def rates(frequency: Float[np.ndarray, " f"]) -> Float[np.ndarray, " f"]:
+        return rate_of_waves(frequency, passed.step, system.motion.reach)
+
+    spectra = tuple(NoiseSpectrum.after(passed, rates, left.get(name, np.ones_like)) for name in system.inputs)
+    return (responses if system.dynamic else sensitivity)(system, trial, values, spectra)
+
+
+def sensitivity(
+    system: System, trial: Trial, values: Mapping[str, float], spectra: tuple[NoiseSpectrum, ...]
+) -> Instant:
     """How the outputs answer to each input's value and rate, sample by sample, by central differences."""
     answers = []
     for kind, per_second in (("position", 1.0), ("rate", 6.0)):
@@ -77,7 +101,7 @@ def sensitivity(system: System, trial: Trial, values: Mapping[str, float]) -> Se
             above, below = (_bumped(system, kind, row, sign * step).simulate(trial, values) for sign in (1.0, -1.0))
             columns.append(np.nan_to_num((above - below) / (2.0 * step)))
         answers.append(np.stack(columns, axis=-1))
-    return Sensitivity(*answers)
+    return Instant(trial.time, answers[0], answers[1], spectra)
 
 
 def _bumped(system: System, kind: str, row: int, by: float) -> System:
@@ -105,11 +129,14 @@ def usual_levels(
     guess = np.log([INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs])
     inputs = np.exp(alike @ guess / alike.sum(axis=1))
     covariance = ALIKE**2 * alike + OWN**2 * np.eye(len(units))
-    widths = np.concatenate([np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2), np.ones(len(sd))])
+    white, quick = np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2)
+    sure = np.ones(len(sd))
+    widths = np.concatenate([white, quick, SLOW_LEVEL * sure, sure, SLOW_TIME * sure])
     factor = np.zeros((len(widths) + len(units),) * 2)
     factor[: len(widths), : len(widths)] = np.diag(widths)
     factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
-    return Levels(sd, sd, np.full(len(sd), 2.0 * system.scale.step), inputs), factor
+    memory = np.array([2.0 * system.scale.step * sure, SLOW * sure])
+    return Levels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor
 
 
 def layouts_of(
@@ -118,11 +145,10 @@ def layouts_of(
     values: Mapping[str, float],
     present: Sequence[np.ndarray],
     passed: LowPass,
+    left: Mapping[str, Share],
 ) -> list[Layout]:
-    """One per trial, inputs' noise, after the filter `passed`, seen through the model at `values`."""
-    step = passed.step
-    spectrum = NoiseSpectrum.after(passed, lambda frequency: rate_of_waves(frequency, step, system.motion.reach))
+    """One per trial, inputs' noise (see `heard`) seen through the model at `values`."""
     return [
-        Layout.of(t.time, there, sensitivity(system, t, values), spectrum)
+        Layout.of(t.time, there, heard(system, t, values, passed, left))
         for t, there in zip(trials, present, strict=True)
     ]

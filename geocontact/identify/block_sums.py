@@ -32,8 +32,8 @@ def summed(
     channel: Int[np.ndarray, " n"],
     inputs: Float[np.ndarray, "j n n"],
     white: Float[np.ndarray, " c"],
-    coloured: Float[np.ndarray, " c"],
-    memory: Float[np.ndarray, " c"],
+    coloured: Float[np.ndarray, "k c"],
+    memory: Float[np.ndarray, "k c"],
     powers: Float[np.ndarray, " j"],
     raised: float,
 ) -> Float[np.ndarray, "n n"]:
@@ -42,20 +42,24 @@ def summed(
     The diagonal is multiplied by `raised`.
     """
     size = time.size
-    kept = decays(time, channel, memory)
     out = np.zeros((size, size))
     for a in range(size):
         for j in range(powers.size):
             for b in range(a, size):
                 out[a, b] += powers[j] * inputs[j, a, b]
-        part = coloured[channel[a]]
-        out[a, a] = (out[a, a] + white[channel[a]] + part) * raised
-        for b in range(a + 1, size):
-            if channel[b] != channel[a]:
-                break
-            part *= kept[b]
-            out[a, b] += part
+        out[a, a] += white[channel[a]]
+    for k in range(memory.shape[0]):
+        kept = decays(time, channel, memory[k])
+        for a in range(size):
+            part = coloured[k, channel[a]]
+            out[a, a] += part
+            for b in range(a + 1, size):
+                if channel[b] != channel[a]:
+                    break
+                part *= kept[b]
+                out[a, b] += part
     for a in range(size):
+        out[a, a] *= raised
         for b in range(a):
             out[a, b] = out[b, a]
     return out
@@ -66,30 +70,33 @@ def pulled(
     time: Float[np.ndarray, " n"],
     channel: Int[np.ndarray, " n"],
     inputs: Float[np.ndarray, "j n n"],
-    memory: Float[np.ndarray, " c"],
+    memory: Float[np.ndarray, "k c"],
     pull: Float[np.ndarray, "n n"],
-) -> tuple[Float[np.ndarray, "three c"], Float[np.ndarray, " j"]]:
+) -> tuple[Float[np.ndarray, " c"], Float[np.ndarray, "two k c"], Float[np.ndarray, " j"]]:
     """Sums of a symmetric `pull`, whose upper half is read: over each channel's diagonal, times exp(-lag/τ) over its
-    pairs, times lag exp(-lag/τ) [s]; and times each input's covariance.
+    pairs and times lag exp(-lag/τ) [s] for each τ, and times each input's covariance.
     """
     size = time.size
-    kept = decays(time, channel, memory)
-    out, of_inputs = np.zeros((3, memory.size)), np.zeros(inputs.shape[0])
+    white, of_inputs = np.zeros(memory.shape[1]), np.zeros(inputs.shape[0])
+    out = np.zeros((2, memory.shape[0], memory.shape[1]))
+    for k in range(memory.shape[0]):
+        kept = decays(time, channel, memory[k])
+        for a in range(size):
+            c = channel[a]
+            out[0, k, c] += pull[a, a]
+            correlation = 1.0
+            for b in range(a + 1, size):
+                if channel[b] != c:
+                    break
+                correlation *= kept[b]
+                both = 2.0 * pull[a, b] * correlation
+                out[0, k, c] += both
+                out[1, k, c] += both * (time[b] - time[a])
     for a in range(size):
-        c = channel[a]
-        out[0, c] += pull[a, a]
-        out[1, c] += pull[a, a]
-        correlation = 1.0
-        for b in range(a + 1, size):
-            if channel[b] != c:
-                break
-            correlation *= kept[b]
-            both = 2.0 * pull[a, b] * correlation
-            out[1, c] += both
-            out[2, c] += both * (time[b] - time[a])
+        white[channel[a]] += pull[a, a]
         for j in range(inputs.shape[0]):
             total = 0.5 * pull[a, a] * inputs[j, a, a]
             for b in range(a + 1, size):
                 total += pull[a, b] * inputs[j, a, b]
             of_inputs[j] += 2.0 * total
-    return out, of_inputs
+    return white, out, of_inputs

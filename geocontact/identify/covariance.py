@@ -23,7 +23,7 @@ from jaxtyping import Float, Int
 from scipy.linalg import lapack
 
 from geocontact.identify.block_sums import pulled, summed
-from geocontact.identify.noise_spectrum import NoiseSpectrum
+from geocontact.identify.input_noise import InputNoise
 
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
 RAISED = 1e-7  # of the diagonal, first try where a covariance has no factor
@@ -37,35 +37,31 @@ class Levels:
 
     Parameters
     ----------
-    white, coloured
+    white
         Of each output channel, in its unit.
+    coloured
+        Of each process with a memory, by channel.
     memory
-        Correlation time of the coloured part of each channel [s].
+        Its correlation time [s].
     inputs
         Of each input, in its unit, after the low-pass filter.
     """
 
     white: Float[np.ndarray, " c"]
-    coloured: Float[np.ndarray, " c"]
-    memory: Float[np.ndarray, " c"]
+    coloured: Float[np.ndarray, "k c"]
+    memory: Float[np.ndarray, "k c"]
     inputs: Float[np.ndarray, " j"]
 
     def logarithms(self) -> Float[np.ndarray, " h"]:
         """All numbers in one vector of logarithms."""
-        return np.asarray(np.log(np.concatenate([self.white, self.coloured, self.memory, self.inputs])))
+        parts = (self.white, self.coloured.ravel(), self.memory.ravel(), self.inputs)
+        return np.asarray(np.log(np.concatenate(parts)))
 
     def at(self, logarithms: Float[np.ndarray, " h"]) -> Levels:
         """Levels of the same shape from such a vector."""
-        parts = np.split(np.exp(logarithms), np.cumsum([len(self.white)] * 3))
-        return Levels(*parts)
-
-
-@dataclass(frozen=True)
-class Sensitivity:
-    """How the outputs of one trial answer to its inputs: to the value, and to the rate."""
-
-    to_value: Float[np.ndarray, "t c j"]
-    to_rate: Float[np.ndarray, "t c j"]
+        sizes = np.cumsum([self.white.size, self.coloured.size, self.memory.size])
+        white, coloured, memory, inputs = np.split(np.exp(logarithms), sizes)
+        return Levels(white, coloured.reshape(self.coloured.shape), memory.reshape(self.memory.shape), inputs)
 
 
 @dataclass(frozen=True)
@@ -97,12 +93,12 @@ class Block:
 
         `pull` is symmetric; its upper half is read.
         """
-        (white, coloured, lagged), inputs = pulled(self.time, self.channel, self.inputs, levels.memory, pull)
+        white, (coloured, lagged), inputs = pulled(self.time, self.channel, self.inputs, levels.memory, pull)
         return np.concatenate(
             [
                 2.0 * levels.white**2 * white,
-                2.0 * levels.coloured**2 * coloured,
-                levels.coloured**2 * lagged / levels.memory,
+                (2.0 * levels.coloured**2 * coloured).ravel(),
+                (levels.coloured**2 * lagged / levels.memory).ravel(),
                 2.0 * levels.inputs**2 * inputs,
             ]
         )
@@ -120,13 +116,12 @@ class Layout:
         cls,
         time: Float[np.ndarray, " t"],
         present: np.ndarray,
-        sensitivity: Sensitivity,
-        spectrum: NoiseSpectrum,
+        heard: InputNoise,
     ) -> Layout:
-        """Blocks of a trial; `present` (t, c): which samples were measured; `spectrum`: of the inputs' noise."""
+        """Blocks of a trial; `present` (t, c): which samples were measured; `heard`: what noise of inputs makes."""
         count = max(1, round(present.sum() / BLOCK_ROWS))
         edges = [round(each) for each in np.linspace(0, len(time), count + 1)]
-        blocks = [_block(time, present, sensitivity, spectrum, a, b) for a, b in pairwise(edges)]
+        blocks = [_block(time, present, heard, a, b) for a, b in pairwise(edges)]
         return cls(present.shape, tuple(block for block in blocks if len(block.rows)))
 
     def whitener(self, levels: Levels) -> Whitener:
@@ -168,8 +163,7 @@ class Whitener:
 def _block(
     time: np.ndarray,
     present: np.ndarray,
-    sensitivity: Sensitivity,
-    spectrum: NoiseSpectrum,
+    heard: InputNoise,
     first: int,
     last: int,
 ) -> Block:
@@ -179,18 +173,7 @@ def _block(
         sample.append(own)
         channel.append(np.full(len(own), c))
     at, which = np.concatenate(sample), np.concatenate(channel)
-    signed = time[at][:, None] - time[at]
-    value, mixed, rate = spectrum.covariance(signed)
-    a, b = sensitivity.to_value[at, which], sensitivity.to_rate[at, which]
-    inputs = np.array(
-        [
-            value * np.outer(a[:, j], a[:, j])
-            + mixed * (np.outer(b[:, j], a[:, j]) - np.outer(a[:, j], b[:, j]))
-            + rate * np.outer(b[:, j], b[:, j])
-            for j in range(a.shape[1])
-        ]
-    )
-    return Block(at * present.shape[1] + which, time[at], which, inputs.reshape(a.shape[1], len(at), len(at)))
+    return Block(at * present.shape[1] + which, time[at], which, heard.covariance(at, which))
 
 
 def _factor(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:

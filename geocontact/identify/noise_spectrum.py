@@ -30,17 +30,23 @@ class NoiseSpectrum:
         At each, in any unit.
     rate
         Amplitude of the rate that a unit sine of each is given [1/s]: 2 π f, or less where rates are smoothed.
+    left
+        Share of the power at each frequency that is left of noise that had unit variance.
     """
 
     frequency: Float[np.ndarray, " f"]
     power: Float[np.ndarray, " f"]
     rate: Float[np.ndarray, " f"]
+    left: Float[np.ndarray, " f"]
 
     @classmethod
-    def after(cls, passed: LowPass, rate_of_waves: Rates) -> NoiseSpectrum:
-        """White noise that came through a filter; `rate_of_waves` gives the rates of sines by their frequency [Hz]."""
+    def after(cls, passed: LowPass, rate_of_waves: Rates, left: Rates = np.ones_like) -> NoiseSpectrum:
+        """White noise that came through a filter, and what is `left` of it.
+
+        `rate_of_waves` gives the rates of sines by their frequency [Hz], `left` shares of the power.
+        """
         frequency = np.linspace(0.0, min(HIGHEST * passed.corner, 0.5 / passed.step), FREQUENCIES)
-        return cls(frequency, passed.power(frequency), rate_of_waves(frequency))
+        return cls(frequency, passed.power(frequency), rate_of_waves(frequency), left(frequency))
 
     def covariance(
         self, lag: Float[np.ndarray, "m n"]
@@ -62,7 +68,8 @@ class NoiseSpectrum:
         power = self.power.copy()
         power[[0, -1]] *= 0.5  # trapezoidal rule
         power /= power.sum()
-        mean = max(float(power @ self.frequency), float(self.frequency[1]))
+        power *= self.left
+        mean = max(float(power @ self.frequency) / max(power.sum(), 1e-300), float(self.frequency[1]))
         grid = np.linspace(0.0, LONGEST / mean, LAGS)
         phase = 2.0 * np.pi * self.frequency * grid[:, None]
         even, odd = np.cos(phase), np.sin(phase)

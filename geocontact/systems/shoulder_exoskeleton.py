@@ -77,6 +77,7 @@ def build(
         scale=Scale(),
         units=UNITS,
         spare=("event",),
+        dynamic=True,
     )
 
 

@@ -1,0 +1,75 @@
+"""How a model with a motion of its own answers to noise of single samples of its inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.chain.movement import NEIGHBOURS
+from geocontact.chain.system import System
+from geocontact.data.trial import Trial
+from geocontact.identify.input_noise import Lasting
+from geocontact.identify.noise_spectrum import NoiseSpectrum
+
+BUMP = 1e-3  # of an input's half-range
+PLACES = (0.2, 0.35, 0.5, 0.65)  # of a trial, where it is seen how long a response lasts
+FADED = 0.02  # of its largest value, below which a response is over
+AT_MOST = 0.4  # of a trial
+
+
+def responses(system: System, trial: Trial, values: Mapping[str, float], spectra: tuple[NoiseSpectrum, ...]) -> Lasting:
+    """Responses to a change of every sample of every input that the base uses, by differences.
+
+    Samples that do not feel each other any more are changed at once, so that as many simulations are needed as a
+    response has samples (Curtis, Powell & Reid 1974, J. Inst. Math. Appl. 13:117).
+    """
+    count = len(trial)
+    step = float(np.median(np.diff(trial.time))) if count > 1 else 1.0
+    ahead = max(int(np.ceil(2.0 * system.motion.reach / step)), NEIGHBOURS)
+    plain = system.simulate(trial, values)
+    rows = {name: _lasting(system, trial, values, name, plain, ahead) for name in system.driving}
+    longest = ahead + max(rows.values(), default=0) + 1
+    found = np.zeros((len(system.inputs), count, plain.shape[1], longest))
+    for name, lasting in rows.items():
+        width, j = ahead + lasting + 1, system.inputs.index(name)
+        for phase in range(min(width, count)):
+            changed = np.arange(phase, count, width)
+            answer = _answer(system, trial, values, name, plain, changed)
+            for i in changed:
+                first, last = max(i - ahead, 0), min(i + lasting + 1, count)
+                felt = np.arange(first, last)
+                found[j, felt, :, felt - i + ahead] = answer[felt]
+    return Lasting(trial.time, found, ahead, spectra)
+
+
+def _lasting(
+    system: System, trial: Trial, values: Mapping[str, float], name: str, plain: Float[np.ndarray, "t c"], ahead: int
+) -> int:
+    """Samples after which a response has faded, in the channel and at the place where it takes longest."""
+    count, longest = len(trial), 0
+    for place in PLACES:
+        at = int(place * count)
+        answer = np.abs(_answer(system, trial, values, name, plain, np.array([at])))
+        loud: Bool[np.ndarray, " t"] = (answer > FADED * answer.max(axis=0)).any(axis=1) & (answer.max() > 0.0)
+        last = int(np.flatnonzero(loud)[-1]) if loud.any() else at
+        longest = max(longest, last - at)
+    return min(max(longest, ahead), int(AT_MOST * count))
+
+
+def _answer(
+    system: System,
+    trial: Trial,
+    values: Mapping[str, float],
+    name: str,
+    plain: Float[np.ndarray, "t c"],
+    changed: np.ndarray,
+) -> Float[np.ndarray, "t c"]:
+    """Change of the outputs per change of these samples of an input."""
+    step = BUMP * system.scale.span.get(name, 1.0)
+    moved = trial.signals.values.copy()
+    moved[changed, trial.signals.channels.index(name)] += step
+    other = replace(trial, signals=replace(trial.signals, values=moved))
+    return np.asarray(np.nan_to_num((system.simulate(other, values) - plain) / step))
