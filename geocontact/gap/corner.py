@@ -58,7 +58,7 @@ def filter_of(trials: Sequence[Trial], inputs: Sequence[str]) -> LowPass:
     if not len(corners):
         return LowPass(USUAL, step)
     costs = [
-        0.5 * (np.log(f / USUAL) / USUALLY) ** 2 + sum(unlikeliness(each, LowPass(f, step)) for each in spectra)
+        0.5 * (np.log(f / USUAL) / USUALLY) ** 2 + sum(split(each, LowPass(f, step)).unlikely for each in spectra)
         for f in corners
     ]
     return LowPass(_between(np.log(corners), np.array(costs)), step)
@@ -100,8 +100,25 @@ def spectrum(trials: Sequence[Trial], name: str) -> Spectrum | None:
     return Spectrum(np.concatenate(frequency), np.concatenate(power) + least, half_range)
 
 
-def unlikeliness(seen: Spectrum, through: LowPass) -> float:
-    """Whittle's -log likelihood of a spectrum, least over everything but the filter, with what was believed."""
+@dataclass(frozen=True)
+class Split:
+    """A spectrum taken apart: Whittle's -log likelihood with what was believed, and the noise after the filter.
+
+    `noise` is its standard deviation, in the input's unit.
+    """
+
+    unlikely: float
+    noise: float
+
+
+def likely_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
+    """Standard deviation of an input's noise by its spectrum, 0 where it has none."""
+    seen = spectrum(trials, name)
+    return 0.0 if seen is None else split(seen, passed).noise
+
+
+def split(seen: Spectrum, through: LowPass) -> Split:
+    """The likeliest movement, noise and rest of a spectrum, given the filter."""
     from scipy.optimize import minimize
 
     f, p = seen.frequency, seen.power
@@ -131,6 +148,8 @@ def unlikeliness(seen: Spectrum, through: LowPass) -> float:
     high = np.array([top + 40.0, np.log(20.0), top + 2.0, top, STEEPEST])
     starts = [[top, np.log(b), n, bottom - 1.0, 0.2] for b in (0.3, 1.5) for n in (usual, middle)]
     bounds = list(zip(low, high, strict=True))
-    return min(
-        float(minimize(cost, np.clip(s, low, high), jac=True, method="L-BFGS-B", bounds=bounds).fun) for s in starts
+    best = min(
+        (minimize(cost, np.clip(s, low, high), jac=True, method="L-BFGS-B", bounds=bounds) for s in starts),
+        key=lambda found: float(found.fun),
     )
+    return Split(float(best.fun), float(np.sqrt(np.exp(best.x[2]) * part)))

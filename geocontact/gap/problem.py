@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.corner import filter_of
+from geocontact.gap.corner import filter_of, likely_noise
 from geocontact.gap.inputs import denoised, left, seen_noise
 from geocontact.gap.refit import Measured, Refit, at, free, refit
 from geocontact.gap.weighing import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
@@ -22,6 +22,7 @@ REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own
 BARELY = 1.0  # trials that the usual variation counts as where the trials are to speak
 MEMORY = 2.0  # times its usual correlation time that quiet noise may remember
+FLAG = "-"  # unit of an input that is no measurement
 MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
 
 
@@ -184,13 +185,19 @@ def problem_of(case: GapCase, system: System) -> Problem:
     )
     recorded = everything
     passed = filter_of(recorded.trials, system.inputs)
-    system = _rates(system, case, calibration, rough, passed)
+    shown = {name: seen_noise(calibration.trials, name, passed) for name in system.inputs}
+    seen = {
+        name: shown[name] or likely_noise(recorded.trials, name, passed)
+        for name in system.inputs
+        if system.unit(name) != FLAG
+    }
+    system = _rates(system, case, calibration, rough, passed, seen)
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
     floor, kept = rough, {}
     for last in (False, True):
         system = system.scaled(calibration.trials, plain.values)
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
-        prior, factor = usual_levels(system, case.noise, rough)
+        prior, factor = usual_levels(system, case.noise, rough, seen)
         layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present, passed, kept))
         problem = Problem(
             system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor, passed, kept
@@ -198,7 +205,7 @@ def problem_of(case: GapCase, system: System) -> Problem:
         noise = problem.weighed(plain)
         if not last:
             sd = {
-                name: seen_noise(calibration.trials, name, passed) or float(level)
+                name: shown[name] or float(level)
                 for name, level in zip(system.inputs, noise.levels.inputs, strict=True)
             }
             calibration, evaluation = (_denoised(each, sd, passed) for each in (calibration, evaluation))
@@ -210,7 +217,12 @@ def problem_of(case: GapCase, system: System) -> Problem:
 
 
 def _rates(
-    system: System, case: GapCase, measured: Measured, rough: Float[np.ndarray, " c"], passed: LowPass
+    system: System,
+    case: GapCase,
+    measured: Measured,
+    rough: Float[np.ndarray, " c"],
+    passed: LowPass,
+    seen: Mapping[str, float],
 ) -> System:
     """The system with the smoothing of rates that makes the base model's residuals most likely.
 
@@ -223,7 +235,7 @@ def _rates(
         sensitivity(system, trial, plain.values, ()).to_rate.any() for trial in measured.trials
     ):
         return system
-    prior, factor = usual_levels(system, case.noise, rough)
+    prior, factor = usual_levels(system, case.noise, rough, seen)
     usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
     likely = []
     for reach in REACHES:

@@ -114,7 +114,7 @@ def _bumped(system: System, kind: str, row: int, by: float) -> System:
 
 
 def usual_levels(
-    system: System, told: Mapping[str, float], rough: Float[np.ndarray, " c"]
+    system: System, told: Mapping[str, float], rough: Float[np.ndarray, " c"], seen: Mapping[str, float]
 ) -> tuple[Levels, Float[np.ndarray, "h h"]]:
     """What is believed of the noise before the residuals are looked at: medians, and a factor of their covariance.
 
@@ -126,7 +126,9 @@ def usual_levels(
     sd = np.array([told.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
     units = [system.units.get(name, name) for name in system.inputs]
     alike = np.array([[a == b for b in units] for a in units])
-    guess = np.log([INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs])
+    guess = np.log(
+        [max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs]
+    )
     inputs = np.exp(alike @ guess / alike.sum(axis=1))
     covariance = ALIKE**2 * alike + OWN**2 * np.eye(len(units))
     white, quick = np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2)
