@@ -10,7 +10,7 @@ signal stands far above the noise nothing changes.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -36,6 +36,29 @@ def denoised(trial: Trial, noise: Mapping[str, float], passed: LowPass) -> Trial
     Samples are put on an even grid for it and back by linear interpolation of what was taken off; where an input was
     not measured nothing is taken off.
     """
+    return changed(trial, noise, lambda even, step, sd: -noise_in(even, step, sd, passed))
+
+
+def shaken(trial: Trial, noise: Mapping[str, float], passed: LowPass, rng: np.random.Generator) -> Trial:
+    """What `denoised` makes of a recording, with as much noise again as that leaves in it.
+
+    Noise of these standard deviations is drawn, and taken off as far as the filter takes it off the recording.
+    """
+
+    def change(even: Float[np.ndarray, " n"], step: float, sd: float) -> Float[np.ndarray, " n"]:
+        more, own = drawn(rng, len(even), step, sd, passed), Stretches.of(even, step, passed)
+        shares = own.shares(sd)
+        return more - own.summed(shares) - Stretches.of(more, step, passed).summed(shares)
+
+    return changed(trial, noise, change)
+
+
+def changed(
+    trial: Trial,
+    noise: Mapping[str, float],
+    change: Callable[[Float[np.ndarray, " n"], float, float], Float[np.ndarray, " n"]],
+) -> Trial:
+    """A trial with something added to some inputs, worked out on an even grid from values, step [s] and noise there."""
     time, grid = trial.time, even_grid(trial.time)
     values = trial.signals.values.copy()
     for name, sd in noise.items():
@@ -44,9 +67,16 @@ def denoised(trial: Trial, noise: Mapping[str, float], passed: LowPass) -> Trial
         if there.sum() < 4 * FEWEST:
             continue
         even = np.interp(grid, time[there], values[there, column])
-        stretches = Stretches.of(even, float(grid[1] - grid[0]), passed)
-        values[there, column] -= np.interp(time[there], grid, stretches.summed(stretches.shares(sd)))
+        values[there, column] += np.interp(time[there], grid, change(even, float(grid[1] - grid[0]), sd))
     return replace(trial, signals=replace(trial.signals, values=values))
+
+
+def drawn(rng: np.random.Generator, count: int, step: float, sd: float, passed: LowPass) -> Float[np.ndarray, " n"]:
+    """Gaussian noise of this standard deviation that came through a filter."""
+    long = 2 * count  # the end does not know of the beginning
+    power = passed.power(np.fft.rfftfreq(long, step))
+    white = np.fft.rfft(rng.standard_normal(long))
+    return np.fft.irfft(white * np.sqrt(power * (long // 2 + 1) / power.sum()), long)[:count] * sd
 
 
 def seen_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float | None:
@@ -183,3 +213,9 @@ class Stretches:
         for begin, part in zip(self.begin, np.fft.irfft(shares * self.spectra, self.width), strict=True):
             off[begin : begin + self.width] += self.window * part
         return off[self.width : self.width + self.count] / WINDOWS
+
+
+def noise_in(values: Float[np.ndarray, " n"], step: float, sd: float, passed: LowPass) -> Float[np.ndarray, " n"]:
+    """What a Wiener filter takes off evenly spaced values whose low-passed noise has this standard deviation."""
+    stretches = Stretches.of(values, step, passed)
+    return stretches.summed(stretches.shares(sd))

@@ -11,7 +11,7 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.corner import filter_of, likely_noise
-from geocontact.gap.inputs import denoised, left, seen_noise
+from geocontact.gap.inputs import denoised, left, seen_noise, shaken
 from geocontact.gap.refit import Measured, Refit, at, free, refit
 from geocontact.gap.weighing import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
 from geocontact.identify.covariance import Layout, Levels, Whitener, most_likely
@@ -23,6 +23,7 @@ STARTS = 4  # of the base fit, besides the case's own
 BARELY = 1.0  # trials that the usual variation counts as where the trials are to speak
 MEMORY = 2.0  # times its usual correlation time that quiet noise may remember
 FLAG = "-"  # unit of an input that is no measurement
+SEED = 0  # of the noise that is added to inputs
 MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
 
 
@@ -52,6 +53,8 @@ class Problem:
         The low-pass filter that the inputs came through.
     left
         Of the power of each input's noise, what its taking off left, by frequency.
+    shaken
+        Calibration trials, then held-out ones, with as much noise again in their inputs as is left in them.
     """
 
     system: System
@@ -66,6 +69,7 @@ class Problem:
     floor: Float[np.ndarray, " c"]
     passed: LowPass
     left: Mapping[str, Share]
+    shaken: Measured
 
     @property
     def calibration_layouts(self) -> tuple[Layout, ...]:
@@ -193,14 +197,14 @@ def problem_of(case: GapCase, system: System) -> Problem:
     }
     system = _rates(system, case, calibration, rough, passed, seen)
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
-    floor, kept = rough, {}
+    floor, kept, noisy = rough, {}, everything
     for last in (False, True):
         system = system.scaled(calibration.trials, plain.values)
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
         prior, factor = usual_levels(system, case.noise, rough, seen)
         layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present, passed, kept))
         problem = Problem(
-            system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor, passed, kept
+            system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor, passed, kept, noisy
         )
         noise = problem.weighed(plain)
         if not last:
@@ -209,6 +213,8 @@ def problem_of(case: GapCase, system: System) -> Problem:
                 for name, level in zip(system.inputs, noise.levels.inputs, strict=True)
             }
             calibration, evaluation = (_denoised(each, sd, passed) for each in (calibration, evaluation))
+            rng = np.random.default_rng(SEED)
+            noisy = replace(recorded, trials=tuple(shaken(trial, sd, passed, rng) for trial in recorded.trials))
             everything = replace(everything, trials=calibration.trials + evaluation.trials)
             kept = {n: one for n, q in sd.items() if (one := left(recorded.trials, n, q, passed)) is not None}
         floor = floor_of(problem, noise, plain)
@@ -317,6 +323,9 @@ def noise_variance(layout: Layout, levels: Levels) -> Float[np.ndarray, "t c"]:
 def evaluated(problem: Problem, model: Refit) -> Refit:
     """A fitted model at its values on all trials, nothing fitted to the held-out ones, nothing whitened."""
     held_out = at(model.system, problem.evaluation, None, model.values)
-    return Refit.bare(
-        model.system, model.values, model.residuals + held_out.residuals, model.jacobian + held_out.jacobian
+    residuals, jacobian = model.residuals + held_out.residuals, model.jacobian + held_out.jacobian
+    noisy = problem.shaken.residuals(model.system, model.values)
+    return replace(
+        Refit.bare(model.system, model.values, residuals, jacobian),
+        shaken=[r - other for r, other in zip(residuals, noisy, strict=True)],
     )
