@@ -10,6 +10,8 @@ from geocontact.geometry.kernels.compile import kernel
 TOLERANCE = 1e-10
 """Largest residual of a solved load, over the load (or over the load scale where the load is smaller)."""
 ATTEMPTS = 100
+FINEST = 1e-8
+"""Distance of two attempts, over the load and one unit more, below which rounding makes the slope between them."""
 BELOW, ABOVE, LAST, RESIDUAL, COUNT, SLOPE = range(6)
 
 
@@ -39,8 +41,9 @@ def next_load(load: float, residual: float, search: Float[np.ndarray, " six"]) -
         search[BELOW] = max(search[BELOW], load)
     else:
         search[ABOVE] = min(search[ABOVE], load)
-    slope = (residual - search[RESIDUAL]) / (load - search[LAST])
-    if np.isfinite(slope) and slope > 0.0:
+    apart = load - search[LAST]
+    slope = (residual - search[RESIDUAL]) / apart
+    if np.isfinite(slope) and slope > 0.0 and abs(apart) > FINEST * (1.0 + abs(load)):
         search[SLOPE] = slope
     search[LAST], search[RESIDUAL] = load, residual
     search[COUNT] += 1.0

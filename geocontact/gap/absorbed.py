@@ -18,6 +18,7 @@ from geocontact.gap.refit import derivatives
 
 VISIBLE = 0.03  # share of the energy that may be left of an effect that counts as absorbed
 MOST = 10
+TIED = 6  # digits of a share; what agrees in these is listed by name
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ def absorbed(problem: Problem, candidates: Sequence[Candidate], named: Sequence[
     for each in visibilities(problem, candidates):
         least[each.name] = min(each.share, least.get(each.name, np.inf))
     kept = [Visibility(name, share) for name, share in least.items() if share < VISIBLE and name not in named]
-    return sorted(kept, key=lambda each: each.share)[:MOST]
+    return sorted(kept, key=lambda each: (round(each.share, TIED), each.name))[:MOST]
 
 
 def visibilities(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibility]:

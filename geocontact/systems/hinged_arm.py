@@ -249,10 +249,11 @@ def step(
         angle, rate, _, _ = moved(guess, h, start, beta, ahead, before)
         found, known = acceleration(angle, rate, h, w, n, table, law, old, new, before, after, inner)
         off = abs(guess - found)
-        guess = next_load(guess, guess - found, search)
         solved = known and off <= CLOSE * max(abs(found), SLOW)
         if solved:
+            guess -= (guess - found) / search[SLOPE]
             break
+        guess = next_load(guess, guess - found, search)
     after[ANGLE], after[RATE], after[CHORD], after[JERK] = moved(guess, h, start, beta, ahead, before)
     after[ACCELERATION], after[STEP] = guess, h
     return abs(guess - headed), solved
