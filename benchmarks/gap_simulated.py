@@ -50,12 +50,13 @@ def trial_of(
 def disturbed(noise: Noise, time: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     """White noise and noise with a memory, of every channel."""
     levels, made = noise.levels, np.zeros((len(time), len(noise.levels.white)))
-    for c, (white, coloured, memory) in enumerate(zip(levels.white, levels.coloured, levels.memory, strict=True)):
-        state = rng.standard_normal()
-        kept = np.exp(-np.diff(time, prepend=time[0]) / memory)
-        for k, share in enumerate(kept):
-            state = share * state + np.sqrt(1.0 - share**2) * rng.standard_normal()
-            made[k, c] = coloured * state
+    for c, white in enumerate(levels.white):
+        for coloured, memory in zip(levels.coloured[:, c], levels.memory[:, c], strict=True):
+            state = rng.standard_normal()
+            kept = np.exp(-np.diff(time, prepend=time[0]) / memory)
+            for k, share in enumerate(kept):
+                state = share * state + np.sqrt(1.0 - share**2) * rng.standard_normal()
+                made[k, c] += coloured * state
         made[:, c] += white * rng.standard_normal(len(time))
     return made
 

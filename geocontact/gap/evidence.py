@@ -71,18 +71,18 @@ def judged(problem: Problem, model: Refit, noise: Noise, bends: list[Float[np.nd
     design = np.concatenate([model.whitened_jacobian, bent], axis=1)
     spread = np.concatenate([spread, np.ones(bent.shape[1])])
     fitted = scales[: len(problem.calibration.trials)].sum() + noise.surprise
-    passed_on = passed(model, weighings)
+    smoothed = by_smoothing(problem, model, weighings)
     return Judged(
         model,
         noise,
         log_evidence(model.whitened, design, spread)
         + held_back(model)
-        + 0.5 * float(passed_on @ passed_on)
+        - float(smoothed.sum())
         - float(scales.sum())
         - noise.surprise,
         log_evidence(model.whitened[:rows], design[:rows], spread)
         + held_back(model, rows)
-        + 0.5 * float(passed_on[:rows] @ passed_on[:rows])
+        - float(smoothed[: len(problem.calibration.trials)].sum())
         - float(fitted),
         rows,
         bends,
@@ -90,16 +90,20 @@ def judged(problem: Problem, model: Refit, noise: Noise, bends: list[Float[np.nd
     )
 
 
-def passed(model: Refit, weighings: Sequence[Weighing]) -> Float[np.ndarray, " n"]:
-    """What more noise of the inputs makes of the prediction, whitened; nothing where nobody asked.
+def by_smoothing(problem: Problem, model: Refit, weighings: Sequence[Weighing]) -> Float[np.ndarray, " k"]:
+    """What each trial's squared residual owes to passing less noise of the inputs on than the base model does [nats].
 
-    A model that passes less of it on, as a low-pass or a damper does, has smaller residuals without being any better:
-    its own half square of this counts beside that of the residual (corrected likelihood: Nakamura 1990,
-    Biometrika 77:127; by noise added in simulation: Cook & Stefanski 1994, J. Am. Stat. Assoc. 89:1314).
+    A low-pass or a damper has smaller residuals for it without being any better. The half square of what more noise
+    makes of the prediction says by how much (corrected likelihood: Nakamura 1990, Biometrika 77:127; by noise added in
+    simulation: Cook & Stefanski 1994, J. Am. Stat. Assoc. 89:1314). Whoever passes more of it on gains nothing by it.
     """
-    if not model.shaken:
-        return np.zeros(len(model.whitened))
-    return np.concatenate([w(part[..., None])[:, 0] for w, part in zip(weighings, model.shaken, strict=True)])
+    own, base = (
+        np.array([0.5 * float((w(part[..., None]) ** 2).sum()) for w, part in zip(weighings, parts, strict=False)])
+        for parts in (model.passed_on, problem.passed_on)
+    )
+    if not len(own) or not float(base.sum() - own.sum()) > 0.0:
+        return np.zeros(len(weighings))
+    return np.asarray(base - own)
 
 
 def settled(problem: Problem, one: Judged, noises: Sequence[Noise]) -> Judged:

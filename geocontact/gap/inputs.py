@@ -48,7 +48,7 @@ def shaken(trial: Trial, noise: Mapping[str, float], passed: LowPass, rng: np.ra
     def change(even: Float[np.ndarray, " n"], step: float, sd: float) -> Float[np.ndarray, " n"]:
         more, own = drawn(rng, len(even), step, sd, passed), Stretches.of(even, step, passed)
         shares = own.shares(sd)
-        return more - own.summed(shares) - Stretches.of(more, step, passed).summed(shares)
+        return np.asarray(more - own.summed(shares) - Stretches.of(more, step, passed).summed(shares))
 
     return changed(trial, noise, change)
 
@@ -76,7 +76,7 @@ def drawn(rng: np.random.Generator, count: int, step: float, sd: float, passed: 
     long = 2 * count  # the end does not know of the beginning
     power = passed.power(np.fft.rfftfreq(long, step))
     white = np.fft.rfft(rng.standard_normal(long))
-    return np.fft.irfft(white * np.sqrt(power * (long // 2 + 1) / power.sum()), long)[:count] * sd
+    return np.asarray(sd * np.fft.irfft(white * np.sqrt(power * (long // 2 + 1) / power.sum()), long)[:count])
 
 
 def seen_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float | None:
@@ -131,14 +131,14 @@ class Left:
 
     def __call__(self, frequency: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
         """At some frequencies."""
-        return np.interp(frequency, self.frequency, self.share)
+        return np.asarray(np.interp(frequency, self.frequency, self.share))
 
 
 def left(trials: Sequence[Trial], name: str, sd: float, passed: LowPass) -> Left | None:
     """What `denoised` leaves of an input's noise, on average over all stretches; None where it takes nothing off.
 
     Where it takes off the share s of the power N + X, it leaves (1 - s) N of noise and of movement it should not have
-    taken.
+    taken. What a cubic follows within a stretch stays as it is.
     """
     found = []
     for trial in trials:
@@ -146,8 +146,8 @@ def left(trials: Sequence[Trial], name: str, sd: float, passed: LowPass) -> Left
         if there.sum() < 4 * FEWEST:
             continue
         even = np.interp(grid, trial.time[there], trial.column(name)[there])
-        shares = Stretches.of(even, float(grid[1] - grid[0]), passed).shares(sd)
-        found.append((np.fft.rfftfreq(2 * shares.shape[1] - 2, grid[1] - grid[0]), 1.0 - shares))
+        own = Stretches.of(even, float(grid[1] - grid[0]), passed)
+        found.append((np.fft.rfftfreq(own.width, grid[1] - grid[0]), 1.0 - own.shares(sd) * own.beside_cubics))
     if not found:
         return None
     frequency = found[0][0]
@@ -198,6 +198,15 @@ class Stretches:
         spectra = np.fft.rfft(window * (each - (each @ slow) @ slow.T))
         return cls(len(values), width, begin, window, spectra, passed.power(np.fft.rfftfreq(width, step)))
 
+    @property
+    def beside_cubics(self) -> Float[np.ndarray, " f"]:
+        """Share of the power at each frequency of the spectra that a stretch less its cubic keeps."""
+        place = (np.arange(self.width) + 0.5) / self.width
+        slow, _ = np.linalg.qr(np.vander(2.0 * place - 1.0, 4))
+        waves = np.exp(2j * np.pi * np.outer(np.arange(len(self.shape)), np.arange(self.width)) / self.width)
+        rest = self.window * (waves - (waves @ slow) @ slow.T)
+        return np.asarray((np.abs(rest) ** 2).sum(axis=1) / (self.window**2).sum())
+
     def shares(self, sd: float) -> Float[np.ndarray, "k f"]:
         """Share of each power that is noise of this standard deviation."""
         from scipy.ndimage import uniform_filter1d
@@ -205,14 +214,14 @@ class Stretches:
         shape = self.shape
         noise = sd**2 * float(self.window @ self.window) * self.width * shape / (2.0 * shape.sum() - shape[0])
         power = uniform_filter1d(np.abs(self.spectra) ** 2, SMOOTH, axis=1, mode="nearest")
-        return np.minimum(noise / np.maximum(power, 1e-300), 1.0)
+        return np.asarray(np.minimum(noise / np.maximum(power, 1e-300), 1.0))
 
     def summed(self, shares: Float[np.ndarray, "k f"]) -> Float[np.ndarray, " n"]:
         """These shares of the spectra, put together again."""
         off = np.zeros(int(self.begin[-1]) + self.width)
         for begin, part in zip(self.begin, np.fft.irfft(shares * self.spectra, self.width), strict=True):
             off[begin : begin + self.width] += self.window * part
-        return off[self.width : self.width + self.count] / WINDOWS
+        return np.asarray(off[self.width : self.width + self.count] / WINDOWS)
 
 
 def noise_in(values: Float[np.ndarray, " n"], step: float, sd: float, passed: LowPass) -> Float[np.ndarray, " n"]:

@@ -11,7 +11,7 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.corner import filter_of, likely_noise
-from geocontact.gap.inputs import denoised, left, seen_noise, shaken
+from geocontact.gap.inputs import Left, denoised, left, seen_noise, shaken
 from geocontact.gap.refit import Measured, Refit, at, free, refit
 from geocontact.gap.weighing import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
 from geocontact.identify.covariance import Layout, Levels, Whitener, most_likely
@@ -55,6 +55,8 @@ class Problem:
         Of the power of each input's noise, what its taking off left, by frequency.
     shaken
         Calibration trials, then held-out ones, with as much noise again in their inputs as is left in them.
+    passed_on
+        What that noise does to the prediction of the base model, per trial.
     """
 
     system: System
@@ -70,6 +72,7 @@ class Problem:
     passed: LowPass
     left: Mapping[str, Share]
     shaken: Measured
+    passed_on: tuple[Float[np.ndarray, "_ c"], ...]
 
     @property
     def calibration_layouts(self) -> tuple[Layout, ...]:
@@ -197,14 +200,28 @@ def problem_of(case: GapCase, system: System) -> Problem:
     }
     system = _rates(system, case, calibration, rough, passed, seen)
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
-    floor, kept, noisy = rough, {}, everything
+    floor, noisy = rough, everything
+    kept: dict[str, Left] = {}
     for last in (False, True):
         system = system.scaled(calibration.trials, plain.values)
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
         prior, factor = usual_levels(system, case.noise, rough, seen)
         layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present, passed, kept))
         problem = Problem(
-            system, calibration, evaluation, recorded, layouts, prior, factor, usual, plain, floor, passed, kept, noisy
+            system,
+            calibration,
+            evaluation,
+            recorded,
+            layouts,
+            prior,
+            factor,
+            usual,
+            plain,
+            floor,
+            passed,
+            kept,
+            noisy,
+            (),
         )
         noise = problem.weighed(plain)
         if not last:
@@ -219,7 +236,7 @@ def problem_of(case: GapCase, system: System) -> Problem:
             kept = {n: one for n, q in sd.items() if (one := left(recorded.trials, n, q, passed)) is not None}
         floor = floor_of(problem, noise, plain)
         plain = _plain_fit(system, calibration, floor, [plain.values], rounds=20)
-    return replace(problem, plain=plain, floor=floor)
+    return replace(problem, plain=plain, floor=floor, passed_on=_passed_on(everything, noisy, system, plain.values))
 
 
 def _rates(
@@ -325,7 +342,12 @@ def evaluated(problem: Problem, model: Refit) -> Refit:
     held_out = at(model.system, problem.evaluation, None, model.values)
     residuals, jacobian = model.residuals + held_out.residuals, model.jacobian + held_out.jacobian
     noisy = problem.shaken.residuals(model.system, model.values)
-    return replace(
-        Refit.bare(model.system, model.values, residuals, jacobian),
-        shaken=[r - other for r, other in zip(residuals, noisy, strict=True)],
-    )
+    passed_on = tuple(r - other for r, other in zip(residuals, noisy, strict=True))
+    return replace(Refit.bare(model.system, model.values, residuals, jacobian), passed_on=passed_on)
+
+
+def _passed_on(
+    measured: Measured, shaken: Measured, system: System, values: Mapping[str, float]
+) -> tuple[Float[np.ndarray, "_ c"], ...]:
+    both = (each.residuals(system, values) for each in (measured, shaken))
+    return tuple(r - other for r, other in zip(*both, strict=True))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import zip_longest
 
@@ -71,7 +71,7 @@ class Refit:
         Derivative of the prediction, per trial.
     whitened, whitened_jacobian
         The same, weighed, trials one below the other.
-    shaken
+    passed_on
         What more noise in the inputs makes of the prediction, per trial; empty where nobody asked.
     """
 
@@ -81,7 +81,7 @@ class Refit:
     jacobian: list[Float[np.ndarray, "_ c p"]]
     whitened: Float[np.ndarray, " n"]
     whitened_jacobian: Float[np.ndarray, "n p"]
-    shaken: list[Float[np.ndarray, "_ c"]] = field(default_factory=list)
+    passed_on: tuple[Float[np.ndarray, "_ c"], ...] = ()
 
     @classmethod
     def bare(

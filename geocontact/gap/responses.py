@@ -30,17 +30,16 @@ def responses(system: System, trial: Trial, values: Mapping[str, float], spectra
     step = float(np.median(np.diff(trial.time))) if count > 1 else 1.0
     ahead = max(int(np.ceil(2.0 * system.motion.reach / step)), NEIGHBOURS)
     plain = system.simulate(trial, values)
-    rows = {name: _lasting(system, trial, values, name, plain, ahead) for name in system.driving}
-    longest = ahead + max(rows.values(), default=0) + 1
+    faded = {name: _lasting(system, trial, values, name, plain, ahead) for name in system.driving}
+    longest = ahead + max(faded.values(), default=0) + 1
     found = np.zeros((len(system.inputs), count, plain.shape[1], longest))
-    for name, lasting in rows.items():
+    for name, lasting in faded.items():
         width, j = ahead + lasting + 1, system.inputs.index(name)
         for phase in range(min(width, count)):
             changed = np.arange(phase, count, width)
             answer = _answer(system, trial, values, name, plain, changed)
-            for i in changed:
-                first, last = max(i - ahead, 0), min(i + lasting + 1, count)
-                felt = np.arange(first, last)
+            for i in map(int, changed):
+                felt = np.arange(max(i - ahead, 0), min(i + lasting + 1, count))
                 found[j, felt, :, felt - i + ahead] = answer[felt]
     return Lasting(trial.time, found, ahead, spectra)
 

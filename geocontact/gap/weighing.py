@@ -118,17 +118,16 @@ def usual_levels(
 ) -> tuple[Levels, Float[np.ndarray, "h h"]]:
     """What is believed of the noise before the residuals are looked at: medians, and a factor of their covariance.
 
-    The noise that a case tells is split evenly between white and coloured; where it tells none, `rough` stands in and
-    is believed less. Coloured noise remembers a few samples. Inputs are known to about 0.2 % of their half-range, and
-    those of one unit about equally well, since they come from the same markers.
+    The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
+    stands in and is believed less. Quick noise remembers a few samples, slow noise some tenths of a second. Inputs are
+    known as well as their spectra show (`seen`), to 0.2 % of their half-range at best, and those of one unit about
+    equally well, since they come from the same markers.
     """
     known = np.array([name in told for name in system.outputs])
     sd = np.array([told.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
     units = [system.units.get(name, name) for name in system.inputs]
     alike = np.array([[a == b for b in units] for a in units])
-    guess = np.log(
-        [max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs]
-    )
+    guess = np.log([max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs])
     inputs = np.exp(alike @ guess / alike.sum(axis=1))
     covariance = ALIKE**2 * alike + OWN**2 * np.eye(len(units))
     white, quick = np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2)

@@ -8,7 +8,7 @@ followed by a response, and outputs are the sum of these (`Lasting`), r = R n.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -16,6 +16,7 @@ from jaxtyping import Float, Int
 from geocontact.identify.noise_spectrum import NoiseSpectrum
 
 
+@runtime_checkable
 class InputNoise(Protocol):
     """What noise of unit variance of each input makes of some samples of some channels."""
 

@@ -8,7 +8,8 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.corner import USUAL, filter_of
+from geocontact.gap.corner import USUAL, filter_of, likely_noise
+from geocontact.identify.low_pass import LowPass
 
 STEP = 0.005
 
@@ -59,3 +60,14 @@ def test_an_input_that_stands_still_or_is_too_short_says_nothing(still: float) -
     assert filter_of(quiet, ("u",)).corner == USUAL
     short = [Trial(t.name, Signals(t.time[:20], t.signals.values[:20], ("u",), ("rad",))) for t in trials(9.0, 0.003)]
     assert filter_of(short, ("u",)).corner == USUAL
+
+
+@pytest.mark.parametrize("noise", [0.003, 0.03])
+def test_the_level_of_the_noise_is_read_off_too(noise: float) -> None:
+    """The largest is fifteen times what is believed beforehand."""
+    assert likely_noise(trials(9.0, noise), "u", LowPass(9.0, STEP)) == pytest.approx(noise, rel=0.35)
+
+
+def test_an_input_that_stands_still_has_none() -> None:
+    quiet = [Trial(t.name, Signals(t.time, np.full((len(t), 1), 2.0), ("u",), ("rad",))) for t in trials(9.0, 0.003)]
+    assert likely_noise(quiet, "u", LowPass(9.0, STEP)) == 0.0

@@ -139,7 +139,9 @@ def test_a_number_on_its_bound_has_the_whole_range_for_an_interval() -> None:
     n = len(problem.plain.whitened)
     model = replace(problem.plain, values={**problem.plain.values, "x": p.upper}, whitened_jacobian=np.ones((n, 3)))
     one = np.ones(1)
-    judged = Judged(model, Noise(Levels(one, one, one, one), one, 0.0, ()), 0.0, 0.0, n, [], np.zeros((n, 0)))
+    judged = Judged(
+        model, Noise(Levels(one, one[None], one[None], one), one, 0.0, ()), 0.0, 0.0, n, [], np.zeros((n, 0))
+    )
     found = estimates(judged)
     assert found["x"].ci95 == (p.lower, p.upper) and not found["x"].identifiable
     assert found["k"].ci95 != (50.0, 1000.0)

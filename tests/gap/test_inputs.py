@@ -8,7 +8,7 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs import denoised, seen_noise
+from geocontact.gap.inputs import denoised, left, seen_noise, shaken
 from geocontact.identify.low_pass import LowPass
 
 STEP = 0.02
@@ -58,11 +58,40 @@ def test_what_sets_out_sharply_after_a_rest_stays_sharp() -> None:
     share = np.clip((time[:, None] - np.array([4.0, 9.0, 14.0])) / 0.5, 0.0, 1.0)
     clean = (np.array([1.2, -1.2, 1.2]) * share**3 * (10.0 - 15.0 * share + 6.0 * share**2)).sum(axis=1)
     moves = ((share > 0.0) & (share < 1.0)).any(axis=1)
-    left = []
+    rest = []
     for seed in range(6):
         raw = filtfilt(*butter(2, 6.0, fs=1.0 / STEP), np.random.default_rng(seed).standard_normal(len(time) + 200))
         recorded = clean + 0.002 * raw[100:-100] / raw.std()
         trial = Trial("t", Signals(time, recorded[:, None], ("u",), ("rad",)))
-        left.append(denoised(trial, {"u": 0.002}, LowPass(6.0, STEP)).column("u") - clean)
-    assert np.std(np.array(left)[:, ~moves]) < 0.75 * 0.002
-    assert np.std(np.array(left)[:, moves]) < 0.002
+        rest.append(denoised(trial, {"u": 0.002}, LowPass(6.0, STEP)).column("u") - clean)
+    assert np.std(np.array(rest)[:, ~moves]) < 0.75 * 0.002
+    assert np.std(np.array(rest)[:, moves]) < 0.002
+
+
+def test_what_is_left_of_the_noise_is_told_by_frequency() -> None:
+    trials = [trial(0.004, 0.25, seed)[0] for seed in range(4)]
+    kept = left(trials, "u", 0.004, LowPass(6.0, STEP))
+    assert kept is not None
+    assert kept(np.array([0.0]))[0] > 0.99, "what a cubic follows stays"
+    assert kept(np.array([4.0]))[0] < 0.6
+    off = np.concatenate(
+        [
+            denoised(t, {"u": 0.004}, LowPass(6.0, STEP)).column("u") - trial(0.004, 0.25, seed)[1]
+            for seed, t in enumerate(trials)
+        ]
+    )
+    grid = np.linspace(0.0, 10.0, 400)
+    power = LowPass(6.0, STEP).power(grid)
+    share = float((power * kept(grid)).sum() / power.sum())
+    assert float(off.std()) == pytest.approx(0.004 * np.sqrt(share), rel=0.25)
+
+
+def test_as_much_noise_again_is_as_much_as_is_left() -> None:
+    rng, off, more = np.random.default_rng(0), [], []
+    for seed in range(6):
+        recorded, clean = trial(0.004, 0.25, seed)
+        better = denoised(recorded, {"u": 0.004}, LowPass(6.0, STEP)).column("u")
+        off.append(better - clean)
+        more.append(shaken(recorded, {"u": 0.004}, LowPass(6.0, STEP), rng).column("u") - better)
+    assert float(np.std(more)) == pytest.approx(float(np.std(off)), rel=0.25)
+    assert abs(float(np.corrcoef(np.ravel(more), np.ravel(off))[0, 1])) < 0.2

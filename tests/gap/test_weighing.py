@@ -7,7 +7,8 @@ import pytest
 
 from geocontact.gap.evidence import log_evidence
 from geocontact.gap.weighing import Weighing
-from geocontact.identify.covariance import Layout, Levels, Sensitivity
+from geocontact.identify.covariance import Layout, Levels
+from geocontact.identify.input_noise import Instant
 from geocontact.identify.low_pass import LowPass
 from geocontact.identify.noise_spectrum import NoiseSpectrum
 
@@ -17,9 +18,9 @@ SPECTRUM = NoiseSpectrum.after(LowPass(6.0, 0.05), lambda frequency: 2.0 * np.pi
 def parts(rng: np.random.Generator) -> tuple[Layout, Levels, np.ndarray]:
     time = 0.05 * np.arange(60)
     still = np.zeros((60, 1, 1))
-    levels = Levels(np.array([0.4]), np.array([0.6]), np.array([0.2]), np.array([1.0]))
+    levels = Levels(np.array([0.4]), np.array([[0.6]]), np.array([[0.2]]), np.array([1.0]))
     return (
-        Layout.of(time, np.ones((60, 1), bool), Sensitivity(still, still), SPECTRUM),
+        Layout.of(time, np.ones((60, 1), bool), Instant(time, still, still, (SPECTRUM,))),
         levels,
         rng.standard_normal((60, 1, 2)),
     )

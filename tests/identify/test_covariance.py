@@ -7,7 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.signal import butter, filtfilt
 
-from geocontact.identify.covariance import Block, Layout, Levels, Sensitivity, most_likely
+from geocontact.identify.covariance import Block, Layout, Levels, most_likely
+from geocontact.identify.input_noise import Instant
 from geocontact.identify.low_pass import LowPass
 from geocontact.identify.noise_spectrum import NoiseSpectrum
 
@@ -27,10 +28,10 @@ def layout(present: np.ndarray | None = None) -> Layout:
     to_value = np.ones((COUNT, 2, 1)) * np.array([[[5.0], [2.0]]])
     to_rate = np.zeros((COUNT, 2, 1))
     to_rate[:, 1] = 0.3
-    return Layout.of(time, there, Sensitivity(to_value, to_rate), PASSED)
+    return Layout.of(time, there, Instant(time, to_value, to_rate, (PASSED,)))
 
 
-LEVELS = Levels(np.array([0.3, 0.2]), np.array([0.5, 0.1]), np.array([0.1, 0.05]), np.array([0.04]))
+LEVELS = Levels(np.array([0.3, 0.2]), np.array([[0.5, 0.1]]), np.array([[0.1, 0.05]]), np.array([0.04]))
 
 
 def differences(frequency: np.ndarray) -> np.ndarray:
@@ -116,12 +117,33 @@ def test_levels_are_found_again() -> None:
     prior = LEVELS.at(LEVELS.logarithms() + 0.5)
     nothing = [np.zeros((COUNT, 2, 0)) for _ in layouts]
     found, surprise, _ = most_likely(layouts, residuals, nothing, prior, np.eye(7), prior)
-    assert_allclose(found.coloured[0], 0.5, rtol=0.15)
-    assert_allclose(found.memory[0], 0.1, rtol=0.35)
+    assert_allclose(found.coloured[0, 0], 0.5, rtol=0.15)
+    assert_allclose(found.memory[0, 0], 0.1, rtol=0.35)
     assert_allclose(found.inputs, 0.04, rtol=0.15)
     assert surprise > 0.0
 
 
 def test_a_covariance_without_a_factor_is_raised_until_it_has_one() -> None:
-    loud = Levels(np.full(2, 1e-9), np.full(2, 1e-9), LEVELS.memory, np.array([1e3]))
+    loud = Levels(np.full(2, 1e-9), np.full((1, 2), 1e-9), LEVELS.memory, np.array([1e3]))
     assert np.isfinite(layout().whitener(loud).log_scale)
+
+
+def test_a_slow_part_is_told_from_a_quick_one() -> None:
+    """Two processes with a memory: one would leave what is slow out, and sums over seconds would look like a gap."""
+    time, rng = STEP * np.arange(400), np.random.default_rng(5)
+    nothing = np.zeros((400, 1, 1))
+    heard = Instant(time, nothing, nothing, (PASSED,))
+    layouts = [Layout.of(time, np.ones((400, 1), bool), heard) for _ in range(6)]
+    true = Levels(np.array([0.3]), np.array([[0.3], [0.25]]), np.array([[0.03], [0.5]]), np.array([1.0]))
+    residuals = []
+    for each in layouts:
+        flat, whitener = np.zeros(400), each.whitener(true)
+        flat[np.concatenate(whitener.rows)] = whitener.coloured(rng.standard_normal(len(each.rows)))
+        residuals.append(flat[:, None])
+    prior = Levels(np.array([0.3]), np.array([[0.3], [0.1]]), np.array([[0.04], [0.4]]), np.array([1.0]))
+    none = [np.zeros((400, 1, 0)) for _ in layouts]
+    found, _, nats = most_likely(layouts, residuals, none, prior, np.eye(6), prior)
+    assert found.coloured[1, 0] == pytest.approx(0.25, rel=0.3)
+    assert found.memory[1, 0] > 5.0 * found.memory[0, 0]
+    quick = Levels(prior.white, prior.coloured[:1], prior.memory[:1], prior.inputs)
+    assert nats > most_likely(layouts, residuals, none, quick, np.eye(4), quick)[2] + 10.0

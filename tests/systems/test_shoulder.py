@@ -193,6 +193,19 @@ def test_more_weight_is_the_same_as_a_larger_mass() -> None:
     np.testing.assert_allclose(got, shoulder().simulate(trial, {**VALUES, "m": 2.0}), rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.parametrize("k_t", [700.0, 1003.0, 1050.0, 2400.0])
+def test_rounding_of_the_input_stays_rounding(k_t: float) -> None:
+    """A step that ended in the middle of a bracket, not at the root, made 1e-8 rad of it, and slopes of that."""
+    system, trial = shoulder(), raised_trial(0.5, 0.02)
+    rng = np.random.default_rng(0)
+    signals = trial.signals
+    rounded = signals.values * (1.0 + 1e-15 * rng.standard_normal((len(trial), len(signals.channels))))  # noqa: PD011
+    other = replace(trial, signals=replace(signals, values=rounded))
+    known = {**VALUES, "k_t": k_t}
+    off = np.abs(system.simulate(trial, known) - system.simulate(other, known)).max(axis=0)
+    assert (off < 1e-11 * NOISE / NOISE[0]).all()
+
+
 def test_a_linear_spring_in_series_is_a_softer_spring() -> None:
     trial = raised_trial(0.5)
     softer = with_effect("series_compliance", trial, compliance=1.0 / 2100.0, exponent=1.0)

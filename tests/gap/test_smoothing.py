@@ -1,0 +1,55 @@
+"""What a model gains by passing less noise of its inputs on. The cases are synthetic."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.contest import base_contender
+from geocontact.gap.evidence import by_smoothing
+from geocontact.gap.problem import Problem, evaluated, problem_of
+from geocontact.gap.refit import at
+from geocontact.systems.catalogue import system_of
+from tests.gap.cases import elbow_case
+
+
+@pytest.fixture(scope="module")
+def problem() -> Problem:
+    case = elbow_case(seed=3)
+    return problem_of(case, system_of(case))
+
+
+def owed(problem: Problem, label: str, values: dict[str, float]) -> float:
+    """By a candidate at some values, the base as it was fitted [nats]."""
+    base = base_contender(problem).judged
+    one = next(c for c in candidates(problem.system) if c.label == label)
+    fitted = at(one.apply(problem.system), problem.calibration, None, {**base.model.values, **values})
+    model = evaluated(problem, fitted)
+    return float(by_smoothing(problem, model, problem.weighings(base.noise, model)).sum())
+
+
+def test_a_low_pass_owes_what_it_smooths(problem: Problem) -> None:
+    little = owed(problem, "filter_lag", {"filter_lag.lag": 0.05, "filter_lag.order": 1.0})
+    much = owed(problem, "filter_lag", {"filter_lag.lag": 0.3, "filter_lag.order": 1.0})
+    assert 0.0 < little < much
+
+
+def test_a_delay_smooths_nothing_and_a_gain_owes_nothing(problem: Problem) -> None:
+    much = owed(problem, "filter_lag", {"filter_lag.lag": 0.3, "filter_lag.order": 1.0})
+    assert owed(problem, "time_shift", {"time_shift.delay": 0.3}) < 0.2 * much
+    assert owed(problem, "sensor_gain.force", {"sensor_gain.force.gain": 0.5}) == 0.0
+
+
+def test_noise_that_is_added_is_that_of_the_inputs(problem: Problem) -> None:
+    """Of the same size over all trials as what taking it off has left, by the levels of the residuals."""
+    moved = np.concatenate(
+        [
+            noisy.column("beta") - clean.column("beta")
+            for noisy, clean in zip(
+                problem.shaken.trials, problem.calibration.trials + problem.evaluation.trials, strict=True
+            )
+        ]
+    )
+    level = float(problem.weighed(problem.plain).levels.inputs[0])
+    assert 0.2 * level < float(moved.std()) < 1.5 * level
