@@ -97,13 +97,12 @@ def by_smoothing(problem: Problem, model: Refit, weighings: Sequence[Weighing]) 
     makes of the prediction says by how much (corrected likelihood: Nakamura 1990, Biometrika 77:127; by noise added in
     simulation: Cook & Stefanski 1994, J. Am. Stat. Assoc. 89:1314). Whoever passes more of it on gains nothing by it.
     """
-    own, base = (
-        np.array([0.5 * float((w(part[..., None]) ** 2).sum()) for w, part in zip(weighings, parts, strict=False)])
-        for parts in (model.passed_on, problem.passed_on)
-    )
-    if not len(own) or not float(base.sum() - own.sum()) > 0.0:
-        return np.zeros(len(weighings))
-    return np.asarray(base - own)
+    owed = np.zeros(len(weighings))
+    for i, (weigh, own, base) in enumerate(zip(weighings, model.passed_on, problem.passed_on, strict=False)):
+        if np.isfinite(own).all() and np.isfinite(base).all():
+            owed[i] = 0.5 * float((weigh(base[..., None]) ** 2).sum() - (weigh(own[..., None]) ** 2).sum())
+    total, positive = float(owed.sum()), np.maximum(owed, 0.0)
+    return np.asarray(positive * (total / positive.sum())) if total > 0.0 else np.zeros(len(weighings))
 
 
 def settled(problem: Problem, one: Judged, noises: Sequence[Noise]) -> Judged:

@@ -14,7 +14,7 @@ import numpy as np
 from geocontact.chain.candidate import Candidate
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.contest import Contender, base_contender
-from geocontact.gap.evidence import Judged
+from geocontact.gap.evidence import Judged, by_smoothing
 from geocontact.gap.faults import gross, recognised
 from geocontact.gap.mending import mended
 from geocontact.gap.problem import Problem, base_starts, problem_of
@@ -59,7 +59,13 @@ def undone(problem: Problem, case: GapCase, one: Contender) -> Contender:
         )
         for m in (problem.calibration, problem.evaluation)
     )
-    there = replace(base, nats=base.nats - calibration - evaluation, calibration=base.calibration - calibration)
+    count = len(problem.calibration.trials)  # there nobody passes less on than the base; here everyone pays for it
+    owed = by_smoothing(problem, one.judged.model, problem.weighings(one.judged.noise, one.judged.model))
+    there = replace(
+        base,
+        nats=base.nats - calibration - evaluation - float(owed.sum()),
+        calibration=base.calibration - calibration - float(owed[:count].sum()),
+    )
     return (
         one
         if there.nats <= one.judged.nats

@@ -1,11 +1,11 @@
 """Measured inputs with their noise taken off, so that no candidate gains by smoothing them.
 
 A low-pass filter, an inertia or a damper that a model does not have can look useful merely because it smooths the noise
-of the inputs that the model is driven by. The noise of each input is estimated from what the base model misses
-(`identify.covariance`), its spectrum is that of the low-pass filter that motion usually has been through, and the
-Wiener filter 1 - N/P takes it off: P is the spectrum of the recording, N that of the noise. Both hold for a stretch of
-it: a movement that sets out sharply after a rest keeps its high frequencies, and the rest loses its noise. Where the
-signal stands far above the noise nothing changes.
+of the inputs that the model is driven by. The noise of each input is read off its spectrum, or estimated from what the
+base model misses (`identify.covariance`); its spectrum is that of the low-pass filter that motion usually has been
+through, and the Wiener filter 1 - N/P takes it off: P is the spectrum of the recording, N that of the noise. Both hold
+for a stretch of it: a movement that sets out sharply after a rest keeps its high frequencies, and the rest loses its
+noise. Where the signal stands far above the noise nothing changes.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ PLATEAU = (0.25, 0.42, 0.58, 0.75, 0.92)  # of the corner
 FLAT = 2.5  # largest over smallest power of a plateau
 SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
 PERIODS, FEWEST = 8.0, 8  # of the corner in a stretch, and samples in a quarter of it at the least
+BOTH = 2  # values of an input that goes on and off
 WINDOWS = 1.5  # sum of the squares of Hann windows that stand a quarter of their width apart
 
 
@@ -40,9 +41,10 @@ def denoised(trial: Trial, noise: Mapping[str, float], passed: LowPass) -> Trial
 
 
 def shaken(trial: Trial, noise: Mapping[str, float], passed: LowPass, rng: np.random.Generator) -> Trial:
-    """What `denoised` makes of a recording, with as much noise again as that leaves in it.
+    """What `denoised` makes of a recording, with noise again as that leaves it.
 
-    Noise of these standard deviations is drawn, and taken off as far as the filter takes it off the recording.
+    Noise of these standard deviations is drawn, and taken off as far as the filter takes it off the recording. Of
+    movement that was taken off along with it nothing is added.
     """
 
     def change(even: Float[np.ndarray, " n"], step: float, sd: float) -> Float[np.ndarray, " n"]:
@@ -77,6 +79,12 @@ def drawn(rng: np.random.Generator, count: int, step: float, sd: float, passed: 
     power = passed.power(np.fft.rfftfreq(long, step))
     white = np.fft.rfft(rng.standard_normal(long))
     return np.asarray(sd * np.fft.irfft(white * np.sqrt(power * (long // 2 + 1) / power.sum()), long)[:count])
+
+
+def switches(trials: Sequence[Trial], name: str) -> bool:
+    """Whether an input only goes on and off, or stands still: then it is no measurement, and has no noise."""
+    values = np.concatenate([trial.column(name) for trial in trials])
+    return len(np.unique(values[np.isfinite(values)])) <= BOTH
 
 
 def seen_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float | None:
@@ -205,7 +213,7 @@ class Stretches:
         slow, _ = np.linalg.qr(np.vander(2.0 * place - 1.0, 4))
         waves = np.exp(2j * np.pi * np.outer(np.arange(len(self.shape)), np.arange(self.width)) / self.width)
         rest = self.window * (waves - (waves @ slow) @ slow.T)
-        return np.asarray((np.abs(rest) ** 2).sum(axis=1) / (self.window**2).sum())
+        return np.asarray(np.minimum((np.abs(rest) ** 2).sum(axis=1) / (self.window**2).sum(), 1.0))
 
     def shares(self, sd: float) -> Float[np.ndarray, "k f"]:
         """Share of each power that is noise of this standard deviation."""

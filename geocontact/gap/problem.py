@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.system import System
+from geocontact.chain.system import FAR, System
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.corner import filter_of, likely_noise
-from geocontact.gap.inputs import Left, denoised, left, seen_noise, shaken
-from geocontact.gap.refit import Measured, Refit, at, free, refit
+from geocontact.gap.inputs import Left, denoised, left, seen_noise, shaken, switches
+from geocontact.gap.refit import NO_VALUE, Measured, Refit, at, free, refit
 from geocontact.gap.weighing import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
 from geocontact.identify.covariance import Layout, Levels, Whitener, most_likely
 from geocontact.identify.low_pass import LowPass
@@ -22,7 +22,6 @@ REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own
 BARELY = 1.0  # trials that the usual variation counts as where the trials are to speak
 MEMORY = 2.0  # times its usual correlation time that quiet noise may remember
-FLAG = "-"  # unit of an input that is no measurement
 SEED = 0  # of the noise that is added to inputs
 MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
 
@@ -192,15 +191,12 @@ def problem_of(case: GapCase, system: System) -> Problem:
     )
     recorded = everything
     passed = filter_of(recorded.trials, system.inputs)
-    shown = {name: seen_noise(calibration.trials, name, passed) for name in system.inputs}
-    seen = {
-        name: shown[name] or likely_noise(recorded.trials, name, passed)
-        for name in system.inputs
-        if system.unit(name) != FLAG
-    }
+    noisy = [name for name in system.inputs if not switches(recorded.trials, name)]
+    shown = {name: seen_noise(calibration.trials, name, passed) for name in noisy}
+    seen = {name: level or likely_noise(recorded.trials, name, passed) for name, level in shown.items()}
     system = _rates(system, case, calibration, rough, passed, seen)
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
-    floor, noisy = rough, everything
+    floor, more = rough, everything
     kept: dict[str, Left] = {}
     for last in (False, True):
         system = system.scaled(calibration.trials, plain.values)
@@ -220,23 +216,21 @@ def problem_of(case: GapCase, system: System) -> Problem:
             floor,
             passed,
             kept,
-            noisy,
+            more,
             (),
         )
         noise = problem.weighed(plain)
         if not last:
-            sd = {
-                name: shown[name] or float(level)
-                for name, level in zip(system.inputs, noise.levels.inputs, strict=True)
-            }
+            levels = dict(zip(system.inputs, map(float, noise.levels.inputs), strict=True))
+            sd = {name: shown[name] or levels[name] for name in noisy}
             calibration, evaluation = (_denoised(each, sd, passed) for each in (calibration, evaluation))
             rng = np.random.default_rng(SEED)
-            noisy = replace(recorded, trials=tuple(shaken(trial, sd, passed, rng) for trial in recorded.trials))
+            more = replace(recorded, trials=tuple(shaken(trial, sd, passed, rng) for trial in recorded.trials))
             everything = replace(everything, trials=calibration.trials + evaluation.trials)
             kept = {n: one for n, q in sd.items() if (one := left(recorded.trials, n, q, passed)) is not None}
         floor = floor_of(problem, noise, plain)
         plain = _plain_fit(system, calibration, floor, [plain.values], rounds=20)
-    return replace(problem, plain=plain, floor=floor, passed_on=_passed_on(everything, noisy, system, plain.values))
+    return replace(problem, plain=plain, floor=floor, passed_on=_passed_on(everything, more, system, plain.values))
 
 
 def _rates(
@@ -341,13 +335,26 @@ def evaluated(problem: Problem, model: Refit) -> Refit:
     """A fitted model at its values on all trials, nothing fitted to the held-out ones, nothing whitened."""
     held_out = at(model.system, problem.evaluation, None, model.values)
     residuals, jacobian = model.residuals + held_out.residuals, model.jacobian + held_out.jacobian
-    noisy = problem.shaken.residuals(model.system, model.values)
-    passed_on = tuple(r - other for r, other in zip(residuals, noisy, strict=True))
+    passed_on = differences(problem.shaken, model.system, model.values, residuals)
     return replace(Refit.bare(model.system, model.values, residuals, jacobian), passed_on=passed_on)
 
 
 def _passed_on(
     measured: Measured, shaken: Measured, system: System, values: Mapping[str, float]
 ) -> tuple[Float[np.ndarray, "_ c"], ...]:
-    both = (each.residuals(system, values) for each in (measured, shaken))
-    return tuple(r - other for r, other in zip(*both, strict=True))
+    return differences(shaken, system, values, measured.residuals(system, values))
+
+
+def differences(
+    shaken: Measured, system: System, values: Mapping[str, float], residuals: Sequence[Float[np.ndarray, "_ c"]]
+) -> tuple[Float[np.ndarray, "_ c"], ...]:
+    """What noise in the inputs does to a prediction whose residuals are given, per trial.
+
+    0 where the model has no value, with it or without; NaN throughout a trial in which a simulation fails.
+    """
+    found = []
+    for before, after in zip(residuals, shaken.residuals(system, values), strict=True):
+        silent = (before == NO_VALUE * shaken.rough) | (after == NO_VALUE * shaken.rough)
+        failed = max(np.abs(before).max(), np.abs(after).max()) > 0.5 * FAR
+        found.append(np.full(before.shape, np.nan) if failed else np.where(silent, 0.0, before - after))
+    return tuple(found)

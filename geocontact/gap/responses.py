@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.chain.movement import NEIGHBOURS
-from geocontact.chain.system import System
+from geocontact.chain.system import FAR, System
 from geocontact.data.trial import Trial
 from geocontact.identify.input_noise import Lasting
 from geocontact.identify.noise_spectrum import NoiseSpectrum
@@ -17,18 +17,19 @@ from geocontact.identify.noise_spectrum import NoiseSpectrum
 BUMP = 1e-3  # of an input's half-range
 PLACES = (0.2, 0.35, 0.5, 0.65)  # of a trial, where it is seen how long a response lasts
 FADED = 0.02  # of its largest value, below which a response is over
-AT_MOST = 0.4  # of a trial
+AT_MOST, LONGEST = 0.4, 1.5  # of a trial, and s, that a response is followed
 
 
 def responses(system: System, trial: Trial, values: Mapping[str, float], spectra: tuple[NoiseSpectrum, ...]) -> Lasting:
     """Responses to a change of every sample of every input that the base uses, by differences.
 
     Samples that do not feel each other any more are changed at once, so that as many simulations are needed as a
-    response has samples (Curtis, Powell & Reid 1974, J. Inst. Math. Appl. 13:117).
+    response has samples (Curtis, Powell & Reid 1974, J. Inst. Math. Appl. 13:117). That grows with the sampling rate:
+    200 Hz over 20 s take seconds, 1 kHz over a minute minutes. A response is cut off after `LONGEST`.
     """
     count = len(trial)
     step = float(np.median(np.diff(trial.time))) if count > 1 else 1.0
-    ahead = max(int(np.ceil(2.0 * system.motion.reach / step)), NEIGHBOURS)
+    ahead = max(int(np.ceil(2.0 * system.motion.reach / step)), NEIGHBOURS) + _longest_gap(system, trial)
     plain = system.simulate(trial, values)
     faded = {name: _lasting(system, trial, values, name, plain, ahead) for name in system.driving}
     longest = ahead + max(faded.values(), default=0) + 1
@@ -44,6 +45,15 @@ def responses(system: System, trial: Trial, values: Mapping[str, float], spectra
     return Lasting(trial.time, found, ahead, spectra)
 
 
+def _longest_gap(system: System, trial: Trial) -> int:
+    """Most samples in a row in which an input that drives the model was not measured: both sides fill them."""
+    most = 0
+    for name in system.driving:
+        there = np.flatnonzero(np.isfinite(trial.column(name)))
+        most = max(most, int(np.diff(there, prepend=-1, append=len(trial)).max()) - 1)
+    return most
+
+
 def _lasting(
     system: System, trial: Trial, values: Mapping[str, float], name: str, plain: Float[np.ndarray, "t c"], ahead: int
 ) -> int:
@@ -55,7 +65,8 @@ def _lasting(
         loud: Bool[np.ndarray, " t"] = (answer > FADED * answer.max(axis=0)).any(axis=1) & (answer.max() > 0.0)
         last = int(np.flatnonzero(loud)[-1]) if loud.any() else at
         longest = max(longest, last - at)
-    return min(max(longest, ahead), int(AT_MOST * count))
+    step = float(np.median(np.diff(trial.time)))
+    return min(max(longest, ahead), int(AT_MOST * count), int(LONGEST / step))
 
 
 def _answer(
@@ -71,4 +82,7 @@ def _answer(
     moved = trial.signals.values.copy()
     moved[changed, trial.signals.channels.index(name)] += step
     other = replace(trial, signals=replace(trial.signals, values=moved))
-    return np.asarray(np.nan_to_num((system.simulate(other, values) - plain) / step))
+    answer = system.simulate(other, values)
+    if (answer == FAR).any() or (plain == FAR).any():
+        return np.zeros_like(plain)  # nothing is known of it
+    return np.asarray(np.nan_to_num((answer - plain) / step))

@@ -2,13 +2,13 @@
 
 Over a trial the residual r = measured - predicted is, to first order,
 
-    r = w + c + sum_j (a_j n_j + b_j n_j') + B d
+    r = w + c + sum_j R_j n_j + B d
 
-with w white sensor noise, c an Ornstein-Uhlenbeck process per channel (muscle tone, sway, a filter in the measuring
-chain), n_j the noise of input j, whose spectrum is known, a_j and b_j the
-model's sensitivities to that input and to its rate, and d the trial's own deviation of some parameters (donning,
+with w white sensor noise, c one or more Ornstein-Uhlenbeck processes per channel (a filter in the measuring chain is
+quick, muscle tone and sway are slow), n_j the noise of input j, whose spectrum is known, R_j what the model makes of
+it (`input_noise`), and d the trial's own deviation of some parameters (donning,
 placement; `trial_variation`). The time axis is cut into blocks that are taken as independent of each other, apart from
-d, because all noise has a short memory; that keeps matrices small.
+d; that keeps matrices small, and is right for what is forgotten within a block.
 """
 
 from __future__ import annotations

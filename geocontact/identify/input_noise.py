@@ -48,8 +48,11 @@ class Instant:
         lag = self.time[at][:, None] - self.time[at]
         found = np.empty((self.to_value.shape[-1], len(at), len(at)))
         for j, spectrum in enumerate(self.spectra):
-            value, mixed, rate = spectrum.covariance(lag)
             a, b = self.to_value[at, channel, j], self.to_rate[at, channel, j]
+            if not a.any() and not b.any():
+                found[j] = 0.0
+                continue
+            value, mixed, rate = spectrum.covariance(lag)
             found[j] = value * np.outer(a, a) + mixed * (np.outer(b, a) - np.outer(a, b)) + rate * np.outer(b, b)
         return found
 
@@ -85,6 +88,9 @@ class Lasting:
         apart = self.time[felt][:, None] - self.time[felt]
         found = np.empty((len(self.response), len(at), len(at)))
         for j, response in enumerate(self.response):
+            if not response.any():
+                found[j] = 0.0
+                continue
             rows = np.where(inside, response[at[:, None], channel[:, None], np.where(inside, lag, 0)], 0.0)
             found[j] = rows @ self.spectra[j].covariance(apart)[0] @ rows.T
         return found

@@ -250,10 +250,11 @@ def step(
         found, known = acceleration(angle, rate, h, w, n, table, law, old, new, before, after, inner)
         off = abs(guess - found)
         solved = known and off <= CLOSE * max(abs(found), SLOW)
+        there = next_load(guess, guess - found, search)
         if solved:
             guess -= (guess - found) / search[SLOPE]
             break
-        guess = next_load(guess, guess - found, search)
+        guess = there
     after[ANGLE], after[RATE], after[CHORD], after[JERK] = moved(guess, h, start, beta, ahead, before)
     after[ACCELERATION], after[STEP] = guess, h
     return abs(guess - headed), solved

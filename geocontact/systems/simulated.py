@@ -77,8 +77,12 @@ def simulated_system(
     names: tuple[str, ...] | None,
     parameters: tuple[Parameter, ...],
     constants: Mapping[str, float],
+    dynamic: bool = False,
 ) -> System:
-    """The base model that a simulator is; `names` of the numbers that it is told, all where None."""
+    """The base model that a simulator is; `names` of the numbers that it is told, all where None.
+
+    `dynamic`: whether its outputs feel what inputs did before, or differentiate them (`chain.system.System`).
+    """
     return System(
         name=name,
         motion=Motion(simulator.inputs),
@@ -90,6 +94,7 @@ def simulated_system(
         constants=dict(constants),
         scale=Scale(),
         units=dict(simulator.units),
+        dynamic=dynamic,
     )
 
 
@@ -120,7 +125,9 @@ class PythonSimulator:
         return found
 
 
-def simulator_base(name: str, inputs: Mapping[str, str], outputs: Mapping[str, str], run: Run) -> Base:
+def simulator_base(
+    name: str, inputs: Mapping[str, str], outputs: Mapping[str, str], run: Run, dynamic: bool = False
+) -> Base:
     """A function as a base model of one's own, for `system = "package.module:OBJECT"`.
 
     Parameters
@@ -132,10 +139,13 @@ def simulator_base(name: str, inputs: Mapping[str, str], outputs: Mapping[str, s
     run
         (time [s], inputs (a row each), numbers by name) → outputs (t, c), or (t,) of a single one. Numbers are
         parameters, constants and the trial's covariates, SI; others may be among them.
+    dynamic
+        Whether outputs feel what inputs did before (inertia, creep), or `run` differentiates its inputs. Noise of the
+        inputs is then followed through `run` sample by sample, which takes some hundred runs per trial.
     """
     simulator = PythonSimulator(run, tuple(inputs), tuple(outputs), {**inputs, **outputs})
 
     def build(parameters: tuple[Parameter, ...], constants: Mapping[str, float], _tables: object) -> System:
-        return simulated_system(name, simulator, None, parameters, constants)
+        return simulated_system(name, simulator, None, parameters, constants, dynamic)
 
     return Base(name, simulator.inputs, simulator.outputs, build)

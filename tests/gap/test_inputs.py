@@ -8,7 +8,7 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs import denoised, left, seen_noise, shaken
+from geocontact.gap.inputs import denoised, left, seen_noise, shaken, switches
 from geocontact.identify.low_pass import LowPass
 
 STEP = 0.02
@@ -95,3 +95,18 @@ def test_as_much_noise_again_is_as_much_as_is_left() -> None:
         more.append(shaken(recorded, {"u": 0.004}, LowPass(6.0, STEP), rng).column("u") - better)
     assert float(np.std(more)) == pytest.approx(float(np.std(off)), rel=0.25)
     assert abs(float(np.corrcoef(np.ravel(more), np.ravel(off))[0, 1])) < 0.2
+
+
+def test_an_input_that_never_moves_leaves_no_more_than_there_was() -> None:
+    still = [Trial("t", Signals(STEP * np.arange(500), np.full((500, 1), 1.0), ("u",), ("m",)))]
+    kept = left(still, "u", 0.004, LowPass(6.0, STEP))
+    assert kept is not None
+    assert kept.share.min() >= 0.0
+    assert kept.share.max() <= 1.0
+
+
+@pytest.mark.parametrize(("values", "flag"), [([0.0, 1.0], True), ([0.3], True), ([0.0, 0.1, 1.0], False)])
+def test_what_goes_on_and_off_is_no_measurement(values: list[float], flag: bool) -> None:
+    column = np.resize(values, 100)
+    recorded = Trial("t", Signals(STEP * np.arange(100), column[:, None], ("u",), ("-",)))
+    assert switches([recorded], "u") is flag

@@ -12,6 +12,7 @@ from geocontact.data.trial import Trial
 from geocontact.gap.benchmark.drawing import Lot, drawn
 from geocontact.gap.inputs import drawn as noise
 from geocontact.gap.weighing import heard
+from geocontact.identify.input_noise import Lasting
 from geocontact.identify.low_pass import LowPass
 from geocontact.systems.catalogue import system_of
 
@@ -57,3 +58,22 @@ def test_without_a_motion_of_its_own_the_force_would_hardly_feel_it() -> None:
     lasting = heard(system, trial, values, passed, {}).covariance(at, channel)[0]
     instant = heard(replace(system, dynamic=False), trial, values, passed, {}).covariance(at, channel)[0]
     assert np.abs(np.diag(lasting) / np.diag(instant) - 1.0).min() > 0.3
+
+
+def test_a_dropout_is_filled_from_both_sides() -> None:
+    """Rates within it come from samples far away; they are not put on other samples."""
+    system, trial, values, passed = scene()
+    signals = trial.signals
+    gone = signals.values.copy()
+    column = signals.channels.index("arm")
+    gone[200:230, column] = np.nan
+    broken = replace(trial, signals=replace(signals, values=gone))
+    found = heard(system, broken, values, passed, {})
+    assert isinstance(found, Lasting)
+    step = 1e-4
+    moved = gone.copy()
+    moved[230, column] += step
+    other = replace(broken, signals=replace(signals, values=moved))
+    answer = (system.simulate(other, values) - system.simulate(broken, values)) / step
+    stored = np.array([found.response[0, i, :, i - 230 + found.ahead] for i in range(200, 240)])
+    assert_allclose(stored, answer[200:240], rtol=0.02, atol=0.02 * np.abs(answer).max())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -35,10 +37,30 @@ def test_a_low_pass_owes_what_it_smooths(problem: Problem) -> None:
     assert 0.0 < little < much
 
 
-def test_a_delay_smooths_nothing_and_a_gain_owes_nothing(problem: Problem) -> None:
+def test_a_delay_smooths_nothing(problem: Problem) -> None:
     much = owed(problem, "filter_lag", {"filter_lag.lag": 0.3, "filter_lag.order": 1.0})
     assert owed(problem, "time_shift", {"time_shift.delay": 0.3}) < 0.2 * much
+
+
+def test_who_passes_more_on_gains_nothing(problem: Problem) -> None:
     assert owed(problem, "sensor_gain.force", {"sensor_gain.force.gain": 0.5}) == 0.0
+    assert owed(problem, "sensor_gain.force", {"sensor_gain.force.gain": -0.5}) > 0.0
+
+
+def test_no_trial_gains_by_what_another_owes(problem: Problem) -> None:
+    """All trials together owe something, so none gets anything, whatever it passes on by itself."""
+    base = base_contender(problem).judged
+    model = base.model
+    doubled = [2.0 * part if i < 2 else 0.0 * part for i, part in enumerate(problem.passed_on)]
+    owing = by_smoothing(problem, replace(model, passed_on=tuple(doubled)), problem.weighings(base.noise, model))
+    assert (owing >= 0.0).all()
+
+
+def test_a_simulation_that_fails_says_nothing(problem: Problem) -> None:
+    base = base_contender(problem).judged
+    weighings = problem.weighings(base.noise, base.model)
+    failed = replace(base.model, passed_on=tuple(np.full(part.shape, np.nan) for part in problem.passed_on))
+    assert not by_smoothing(problem, failed, weighings).any()
 
 
 def test_noise_that_is_added_is_that_of_the_inputs(problem: Problem) -> None:
@@ -51,5 +73,7 @@ def test_noise_that_is_added_is_that_of_the_inputs(problem: Problem) -> None:
             )
         ]
     )
-    level = float(problem.weighed(problem.plain).levels.inputs[0])
-    assert 0.2 * level < float(moved.std()) < 1.5 * level
+    level, kept = float(problem.weighed(problem.plain).levels.inputs[0]), problem.left["beta"]
+    grid = np.linspace(0.0, 12.0, 600)
+    power = problem.passed.power(grid)
+    assert float(moved.std()) == pytest.approx(level * np.sqrt((power * kept(grid)).sum() / power.sum()), rel=0.3)
