@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
+import secrets
 import shutil
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -32,11 +32,13 @@ def written_whole(out: Path) -> Iterator[Path]:
         if folder.exists() and not folder.is_dir():
             raise InputError(folder, "", "is a file", "--out names a folder")
     base = next(folder for folder in (out, *out.absolute().parents) if folder.is_dir())
+    draft = base / f".geocontact-{secrets.token_hex(8)}"
+    _drafts.add(draft)  # before it is there: whoever is terminated in between leaves nothing behind
     try:
-        draft = Path(tempfile.mkdtemp(prefix=".geocontact-", dir=base))
+        draft.mkdir(mode=0o700)
     except OSError as error:
+        _drafts.discard(draft)
         raise InputError(base, "", f"cannot be written to ({error.strerror})", "choose another --out") from error
-    _drafts.add(draft)
     try:
         yield draft
         os.chmod(draft, 0o755)
