@@ -88,21 +88,27 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
                     for part, jacobian in zip(features, one.model.jacobian, strict=True)
                 )
                 best = Surrogate(name, found.gain, found.calibration, found.price, predicted)
-        return replace(
-            best,
-            gain=best.gain + one.nats - judged.nats,
-            calibration=best.calibration + one.calibration - judged.calibration,
-        )
+        return best
 
     quiet = judged_as(problem, judged.model, problem.quieter(judged.noise), judged.bends)
-    found = [under(judged), under(quiet)]
+    found = [(judged, under(judged)), (quiet, under(quiet))]
     for _ in range(RENEWED):
-        if not found[-1].family:
+        if not found[-1][1].family:
             break
-        left = [a - b for a, b in zip(judged.model.residuals, found[-1].predicted, strict=True)]
+        left = [a - b for a, b in zip(judged.model.residuals, found[-1][1].predicted, strict=True)]
         noise = problem.weighed(replace(judged.model, residuals=left), quiet.noise)
-        found.append(under(judged_as(problem, judged.model, noise, judged.bends)))
-    return max(found, key=lambda each: each.nats)
+        other = judged_as(problem, judged.model, noise, judged.bends)
+        found.append((other, under(other)))
+    bare = max((one for one, _ in found), key=lambda one: one.nats)  # better noise alone is no gain of the stand-in
+    gained = [
+        replace(
+            best,
+            gain=best.gain + one.nats - bare.nats,
+            calibration=best.calibration + one.calibration - bare.calibration,
+        )
+        for one, best in found
+    ]
+    return max(gained, key=lambda each: each.nats)
 
 
 def _without(bends: Float[np.ndarray, "n m"]) -> Callable[[Float[np.ndarray, "n k"]], Float[np.ndarray, "n k"]]:

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from geocontact.gap.surrogate import chosen
+from geocontact.gap.contest import base_contender
+from geocontact.gap.evidence import judged
+from geocontact.gap.problem import problem_of
+from geocontact.gap.surrogate import chosen, surrogate
+from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
-from tests.gap.cases import Bump, stairs, stood_in
+from tests.gap.cases import Bump, elbow_case, stairs, stood_in
 
 
 def test_a_bump_is_found_among_many_columns() -> None:
@@ -62,3 +68,15 @@ def test_coarse_steps_below_the_noise_are_waves_over_the_prediction(elsewhere: E
 
 def test_the_stand_in_finds_nothing_where_nothing_is(elsewhere: Elsewhere) -> None:
     assert elsewhere(stood_in, None).nats < 3.0
+
+
+def test_better_noise_alone_is_no_gain() -> None:
+    """Where the search for noise ended too early, noise estimated anew makes the same model more probable."""
+    case = elbow_case(seed=1)
+    problem = problem_of(case, system_of(case))
+    model = base_contender(problem).judged
+    loud = replace(model.noise.levels, white=3.0 * model.noise.levels.white)
+    whiteners = tuple(layout.whitener(loud) for layout in problem.layouts)
+    poor = judged(problem, model.model, replace(model.noise, levels=loud, whiteners=whiteners), model.bends)
+    assert poor.nats < model.nats - 20.0
+    assert surrogate(problem, poor).nats < 3.0
