@@ -163,6 +163,11 @@ def left(trials: Sequence[Trial], name: str, sd: float, passed: LowPass) -> Left
     return Left(frequency, each.mean(axis=0))
 
 
+def cubics(width: int) -> Float[np.ndarray, "w four"]:
+    """Orthonormal polynomials up to the third degree over a stretch."""
+    return np.asarray(np.linalg.qr(np.vander((2.0 * np.arange(width) + 1.0) / width - 1.0, 4))[0])
+
+
 @dataclass(frozen=True)
 class Stretches:
     """Spectra of overlapping stretches of evenly spaced values.
@@ -198,9 +203,8 @@ class Stretches:
         hop = max(round(0.25 * PERIODS / (passed.corner * step)), FEWEST)
         width = 4 * hop
         longer = np.pad(values, (width, 2 * width), mode="reflect", reflect_type="odd")
-        place = (np.arange(width) + 0.5) / width
-        window = np.sin(np.pi * place) ** 2
-        slow, _ = np.linalg.qr(np.vander(2.0 * place - 1.0, 4))
+        window = np.sin(np.pi * (np.arange(width) + 0.5) / width) ** 2
+        slow = cubics(width)
         begin = np.arange(0, len(longer) - width + 1, hop)
         each = longer[begin[:, None] + np.arange(width)]
         spectra = np.fft.rfft(window * (each - (each @ slow) @ slow.T))
@@ -209,8 +213,7 @@ class Stretches:
     @property
     def beside_cubics(self) -> Float[np.ndarray, " f"]:
         """Share of the power at each frequency of the spectra that a stretch less its cubic keeps."""
-        place = (np.arange(self.width) + 0.5) / self.width
-        slow, _ = np.linalg.qr(np.vander(2.0 * place - 1.0, 4))
+        slow = cubics(self.width)
         waves = np.exp(2j * np.pi * np.outer(np.arange(len(self.shape)), np.arange(self.width)) / self.width)
         rest = self.window * (waves - (waves @ slow) @ slow.T)
         return np.asarray(np.minimum((np.abs(rest) ** 2).sum(axis=1) / (self.window**2).sum(), 1.0))

@@ -53,7 +53,7 @@ class Problem:
     left
         Of the power of each input's noise, what its taking off left, by frequency.
     shaken
-        Calibration trials, then held-out ones, with as much noise again in their inputs as is left in them.
+        Calibration trials, then held-out ones, with noise again in their inputs as its taking off leaves it.
     passed_on
         What that noise does to the prediction of the base model, per trial.
     """
@@ -230,7 +230,8 @@ def problem_of(case: GapCase, system: System) -> Problem:
             kept = {n: one for n, q in sd.items() if (one := left(recorded.trials, n, q, passed)) is not None}
         floor = floor_of(problem, noise, plain)
         plain = _plain_fit(system, calibration, floor, [plain.values], rounds=20)
-    return replace(problem, plain=plain, floor=floor, passed_on=_passed_on(everything, more, system, plain.values))
+    passed_on = differences(more, system, plain.values, everything.residuals(system, plain.values))
+    return replace(problem, plain=plain, floor=floor, passed_on=passed_on)
 
 
 def _rates(
@@ -337,12 +338,6 @@ def evaluated(problem: Problem, model: Refit) -> Refit:
     residuals, jacobian = model.residuals + held_out.residuals, model.jacobian + held_out.jacobian
     passed_on = differences(problem.shaken, model.system, model.values, residuals)
     return replace(Refit.bare(model.system, model.values, residuals, jacobian), passed_on=passed_on)
-
-
-def _passed_on(
-    measured: Measured, shaken: Measured, system: System, values: Mapping[str, float]
-) -> tuple[Float[np.ndarray, "_ c"], ...]:
-    return differences(shaken, system, values, measured.residuals(system, values))
 
 
 def differences(

@@ -31,7 +31,8 @@ def responses(system: System, trial: Trial, values: Mapping[str, float], spectra
     step = float(np.median(np.diff(trial.time))) if count > 1 else 1.0
     ahead = max(int(np.ceil(2.0 * system.motion.reach / step)), NEIGHBOURS) + _longest_gap(system, trial)
     plain = system.simulate(trial, values)
-    faded = {name: _lasting(system, trial, values, name, plain, ahead) for name in system.driving}
+    most = min(int(AT_MOST * count), int(LONGEST / step))
+    faded = {name: min(max(_lasting(system, trial, values, name, plain), ahead), most) for name in system.driving}
     longest = ahead + max(faded.values(), default=0) + 1
     found = np.zeros((len(system.inputs), count, plain.shape[1], longest))
     for name, lasting in faded.items():
@@ -55,7 +56,7 @@ def _longest_gap(system: System, trial: Trial) -> int:
 
 
 def _lasting(
-    system: System, trial: Trial, values: Mapping[str, float], name: str, plain: Float[np.ndarray, "t c"], ahead: int
+    system: System, trial: Trial, values: Mapping[str, float], name: str, plain: Float[np.ndarray, "t c"]
 ) -> int:
     """Samples after which a response has faded, in the channel and at the place where it takes longest."""
     count, longest = len(trial), 0
@@ -65,8 +66,7 @@ def _lasting(
         loud: Bool[np.ndarray, " t"] = (answer > FADED * answer.max(axis=0)).any(axis=1) & (answer.max() > 0.0)
         last = int(np.flatnonzero(loud)[-1]) if loud.any() else at
         longest = max(longest, last - at)
-    step = float(np.median(np.diff(trial.time)))
-    return min(max(longest, ahead), int(AT_MOST * count), int(LONGEST / step))
+    return longest
 
 
 def _answer(
