@@ -9,9 +9,11 @@ from geocontact import __version__
 from geocontact.cli.gap_diagnose import DiagnoseOptions
 from geocontact.cli.gap_results import write_results
 from geocontact.cli.output import written_whole
+from geocontact.cli.patience import stages
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
+from geocontact.gap.attribute import Listener, nobody
 from geocontact.gap.diagnose import Findings, diagnose
 from geocontact.io.case_cells import cells_file
 from geocontact.io.gap_case import read_gap_case
@@ -27,7 +29,8 @@ def diagnose_one(folder: Path, o: DiagnoseOptions) -> int:
         raise InputError("", "--workers", "does nothing without --many", "leave it out")
     record = Record(COMMAND, {"case": folder, **asdict(o)})
     with record.catching_warnings(), written_whole(o.out) as draft:
-        findings = diagnosed(record, folder, draft, o)
+        with stages(folder.resolve().name) as at:
+            findings = diagnosed(record, folder, draft, o, at)
         written = sorted(file.name for file in draft.iterdir())
     for sentence in verdict_sentences(findings.diagnosis, findings.cells):
         record.say(sentence)
@@ -36,17 +39,19 @@ def diagnose_one(folder: Path, o: DiagnoseOptions) -> int:
     return 0
 
 
-def diagnosed(record: Record, folder: Path, draft: Path, o: DiagnoseOptions) -> Findings:
-    """Diagnosis of the case in a folder, its results in `draft`."""
+def diagnosed(record: Record, folder: Path, draft: Path, o: DiagnoseOptions, at: Listener = nobody) -> Findings:
+    """Diagnosis of the case in a folder, its results in `draft`; `at` is told what is being done."""
+    at("reading")
     case = read_gap_case(folder, run_programs=o.run_simulator)
     system = system_of(case)
     add_inputs(record, folder, case)
-    findings = diagnose(case, system, __version__)
+    findings = diagnose(case, system, __version__, at)
     record.results["diagnosis"] = {
         "verdict": findings.diagnosis.verdict,
         "effects": list(findings.diagnosis.effects),
         "seconds": round(findings.diagnosis.seconds, 3),
     }
+    at("figures and page" if not o.bare else "tables")
     write_results(record, case, findings, draft, pictures=not o.bare)
     record.write(draft)
     return findings

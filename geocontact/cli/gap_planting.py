@@ -17,6 +17,7 @@ from geocontact.cli.gap_diagnose import DiagnoseOptions
 from geocontact.cli.gap_plant import PlantOptions
 from geocontact.cli.json_text import plain
 from geocontact.cli.output import written_whole
+from geocontact.cli.patience import stages
 from geocontact.cli.record import Record
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.errors import InputError
@@ -49,13 +50,9 @@ def planted(folder: Path, o: PlantOptions) -> int:
         write_trials(made.case, home)
         (draft / "diagnosis").mkdir()
         own = Record("gap diagnose", {"case": o.out / "case", "out": o.out / "diagnosis", "bare": o.bare})
-        with own.catching_warnings():
-            found = diagnosed(
-                own,
-                home,
-                draft / "diagnosis",
-                DiagnoseOptions(out=draft / "diagnosis", bare=o.bare, run_simulator=o.run_simulator),
-            )
+        options = DiagnoseOptions(out=draft / "diagnosis", bare=o.bare, run_simulator=o.run_simulator)
+        with own.catching_warnings(), stages(f"{folder.resolve().name} with {o.effect}") as at:
+            found = diagnosed(own, home, draft / "diagnosis", options, at)
         said = _said(one, made, found.diagnosis)
         (draft / "planted.json").write_text(json.dumps(plain(said), indent=2) + "\n", encoding="utf-8")
         record.results["planted"] = said

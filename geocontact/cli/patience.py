@@ -1,4 +1,4 @@
-"""What is said while something takes long: the first compilation on a machine, and many frames."""
+"""What is said while something takes long: the first compilation on a machine, many frames, stages of a search."""
 
 from __future__ import annotations
 
@@ -36,3 +36,18 @@ def progress(label: str, total: int) -> Iterator[Callable[[], None]]:
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(label, total=total)
         yield lambda: bar.advance(task)
+
+
+@contextmanager
+def stages(label: str) -> Iterator[Callable[[str], None]]:
+    """What is being done, and for how long, on stderr when it is a terminal; the block names stages as they begin."""
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as line:
+        task = line.add_task(label, total=None)
+        yield lambda stage: line.update(task, description=f"{label}: {stage}")

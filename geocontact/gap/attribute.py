@@ -28,6 +28,12 @@ CLIPPED = "saturation"  # what a flat top speaks for
 ODD = 5.0  # nats from which an oddity counts as something unknown
 
 Offer = Callable[[System], Sequence[Candidate]]
+Listener = Callable[[str], None]
+"""Is told what is being done, as each stage of a diagnosis begins."""
+
+
+def nobody(_: str) -> None:
+    """Does not listen."""
 
 
 @dataclass(frozen=True)
@@ -67,35 +73,42 @@ class Attribution:
     answer: Answer
 
 
-def attribute(case: GapCase, system: System, offer: Offer) -> Attribution:
+def attribute(case: GapCase, system: System, offer: Offer, at: Listener = nobody) -> Attribution:
     """Which effect a case lacks; `offer` gives the candidates for a system once its scale is known.
 
     A mistake in the data is undone before anything else is judged: a gross one is found beforehand; one that refitted
     parameters hide wins against the effects, and the contest is held again without it.
     """
+    at("the base model and the noise")
     problem = problem_of(case, system)
     fault = fault_of(problem, offer(problem.system))
     if fault is None:
-        found = _attributed(problem, None, problem, offer, case)
+        found = _attributed(problem, None, problem, offer, case, at)
         mistaken = [one for one in found.answer.chosen.candidates if one.somewhere is not None]
         if not found.answer.effects or not mistaken:
             return found
         fault = recognised(problem, mistaken[0], found.answer.chosen.judged.model)
+    at(f"the {fault.candidate.name} undone")
     case = mended(case, fault)
-    return _attributed(problem, fault, problem_of(case, system), offer, case)
+    return _attributed(problem, fault, problem_of(case, system), offer, case, at)
 
 
-def _attributed(problem: Problem, fault: Fault | None, clean: Problem, offer: Offer, case: GapCase) -> Attribution:
+def _attributed(
+    problem: Problem, fault: Fault | None, clean: Problem, offer: Offer, case: GapCase, at: Listener
+) -> Attribution:
     """The contest of the effects, a mistake undone; `case` is what `clean` was made of."""
     candidates = offer(clean.system)
     base = base_contender(clean)
     hidden = hidden_mistakes(clean, base.judged, candidates) if fault is None else ()
     entered = [*(one for one in candidates if one.parameters), *hidden]
     flat = flat_tops(clean)
+    at("every effect alone")
     single = _with_clipped(clean, base, singles(clean, base, entered), candidates, flat)
     contenders = [*single]
+    at("whatever else it may be")
     remaining = {"none": surrogate(clean, base.judged)}
     if single[0].nats - base.nats > WORTH_A_PAIR:
+        at("two effects together")
         contenders += _credited(pairs(clean, _different(single)[:FIRSTS], candidates), flat)
     base, *contenders = compared(clean, [base, *contenders])
     most = max(c.nats for c in contenders)
@@ -110,6 +123,7 @@ def _attributed(problem: Problem, fault: Fault | None, clean: Problem, offer: Of
     odd = tuple(each for each in oddities(clean, held.leader.judged) if each.nats > ODD)
     strange = float(sum(each.nats for each in odd))
     best = held.best
+    at("what is left over")
     rest = surrogate(clean, best.judged)
     said = answer(held, _believed(remaining["none"], share), strange, _believed(rest, share) + strange)
     remaining |= {best.label: rest}

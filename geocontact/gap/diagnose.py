@@ -15,7 +15,7 @@ from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.absorbed import absorbed
 from geocontact.gap.admission import admitted
-from geocontact.gap.attribute import Attribution, attribute
+from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.contest import base_contender
 from geocontact.gap.evidence import Judged, prior_spread
 from geocontact.gap.leave_one_out import TrialGain, leave_one_out
@@ -46,7 +46,7 @@ class Findings:
     surface: tuple[SurfaceGap, ...] = ()
 
 
-def diagnose(case: GapCase, system: System, version: str = "") -> Findings:
+def diagnose(case: GapCase, system: System, version: str = "", at: Listener = nobody) -> Findings:
     """Where the base model of a case misses the measurement, why, and how far the gap shrinks, on one core.
 
     Parameters
@@ -57,21 +57,26 @@ def diagnose(case: GapCase, system: System, version: str = "") -> Findings:
         Its base model (`systems.catalogue.system_of`).
     version
         Of the package, for the record.
+    at
+        Is told in words what is being done, as each stage begins: for progress.
     """
     with threadpool_limits(limits=1):  # matrices are small: threads would only wait for each other
-        return _diagnosed(case, system, version)
+        return _diagnosed(case, system, version, at)
 
 
-def _diagnosed(case: GapCase, system: System, version: str) -> Findings:
+def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Findings:
     began = time.perf_counter()
     case = admitted(case, system)
-    found = attribute(case, system, candidates)
+    found = attribute(case, system, candidates, at)
     said, problem = found.answer, found.problem
     named = bool(said.effects) or said.verdict == "unresolved"
     chosen = said.chosen.judged
     offered = candidates(found.clean.system)
+    at("what would be invisible")
     hidden = absorbed(found.clean, offered, said.effects)
+    at("the experiment to run next")
     then = next_experiment(found, first_of(offered, [each.name for each in hidden]))
+    at("where it misses, and how far that shrinks")
     cells = gap_map(found.clean, found.base.judged)
     as_came = cells if found.fault is None else gap_map(problem, base_contender(problem).judged)
     gap = {

@@ -33,6 +33,8 @@ DAMPING = 25.0
 """N s/m."""
 NOISE = 0.15
 """N, white."""
+TOLD: list[str] = []
+"""Stages of `diagnosed_elbow`, as they were told."""
 SETTINGS = f"""format = 1
 system = "elbow"
 calibration = {list(CALIBRATION)}
@@ -89,15 +91,15 @@ def diagnosed_elbow() -> tuple[GapCase, Findings]:
     with TemporaryDirectory() as folder:
         case = read_gap_case(damped_elbow(Path(folder) / "elbow_7"))
     system = system_of(case)
-    return case, diagnose(admitted(case, system), system, __version__)
+    return case, diagnose(admitted(case, system), system, __version__, TOLD.append)
 
 
 @contextmanager
-def known() -> Iterator[None]:
+def known() -> Iterator[mock.Mock]:
     """The command line is given that diagnosis instead of making it again."""
     findings = diagnosed_elbow()[1]
-    with mock.patch("geocontact.cli.gap_analysis.diagnose", return_value=findings):
-        yield
+    with mock.patch("geocontact.cli.gap_analysis.diagnose", return_value=findings) as instead:
+        yield instead
 
 
 def write_trial(folder: Path, name: str, time: np.ndarray, beta: np.ndarray, force: np.ndarray) -> None:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 import pandas as pd
@@ -16,7 +18,7 @@ import pytest
 
 from geocontact.cli.json_text import plain
 from tests.cli.calls import Call, call, done, inventory, process
-from tests.cli.gap_cases import DAMPING, damped_elbow, in_degrees_and_kilonewtons, known, reordered, spoilt
+from tests.cli.gap_cases import DAMPING, TOLD, damped_elbow, in_degrees_and_kilonewtons, known, reordered, spoilt
 
 TABLES = {"diagnosis.json", "run.json", "gap_map.csv", "ranking.csv", "held_out.csv", "trials.csv"}
 FIGURES = {f"{name}.{ending}" for name in ("gap_map", "ranking", "gap_residuals") for ending in ("png", "svg")}
@@ -35,6 +37,7 @@ def good(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def diagnosed(good: Path, tmp_path_factory: pytest.TempPathFactory) -> Call:
     """Its diagnosis with everything that is written."""
     out = tmp_path_factory.mktemp("diagnosed") / "out"
+
     with known():
         return done(call("gap", "diagnose", good, "--out", out, folder=out))
 
@@ -71,6 +74,24 @@ def test_everything_is_written_and_listed(diagnosed: Call) -> None:
     roles = [entry["role"] for entry in record["inputs"]]
     assert roles == ["case", "calibration", "calibration", "evaluation", "evaluation"]
     assert all(re.fullmatch("[0-9a-f]{64}", entry["sha256"]) for entry in record["inputs"])
+
+
+def test_stages_are_told_as_they_begin(good: Path, tmp_path: Path) -> None:
+    heard: list[tuple[str, str]] = []
+
+    @contextmanager
+    def listening(label: str) -> Iterator[Callable[[str], None]]:
+        yield lambda stage: heard.append((label, stage))
+
+    with known() as diagnose, mock.patch("geocontact.cli.gap_analysis.stages", listening):
+        done(call("gap", "diagnose", good, "--bare", "--out", tmp_path / "out", folder=tmp_path))
+        diagnose.call_args.args[3]("every effect alone")
+    assert heard == [("elbow_7", stage) for stage in ("reading", "tables", "every effect alone")]
+    assert TOLD == [
+        "the base model and the noise", "every effect alone", "whatever else it may be", "two effects together",
+        "what is left over", "what would be invisible", "the experiment to run next",
+        "where it misses, and how far that shrinks",
+    ]  # fmt: skip
 
 
 def test_the_answer_has_the_keys_of_the_contract_and_values_in_range(answer: dict[str, Any]) -> None:

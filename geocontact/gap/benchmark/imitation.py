@@ -39,18 +39,26 @@ def imitation(
     rough
         Noise of each channel, for samples where the model has no value.
     """
+    before, left = what_each_leaves(system, trials, candidates, rough)
+    label = min(left, key=lambda one: left[one], default="")
+    if not label or left[label] >= before or before <= 0.0:
+        return 1.0, ""
+    return left[label] / before, label
+
+
+def what_each_leaves(
+    system: System, trials: Sequence[IdealTrial], candidates: Sequence[Candidate], rough: Mapping[str, float]
+) -> tuple[float, dict[str, float]]:
+    """Visible energy [nats] that the refitted base leaves, and that each candidate leaves, by label; as above."""
     system = system.as_measured()
     measured = _measured(system, trials, np.array([rough[name] for name in system.outputs]))
     base = refit(system, measured, trials, [trials[0].nominal], ROUNDS)
-    label, best = "", base.cost
+    left = {}
     for one in candidates:
-        if not one.parameters:
-            continue
-        starts = [{**base.values, **start} for start in one.starts]
-        found = refit(one.apply(system), measured, trials, starts, ROUNDS)
-        if found.cost < best:
-            label, best = one.label, found.cost
-    return (best / base.cost if base.cost > 0.0 else 1.0), label
+        if one.parameters:
+            starts = [{**base.values, **start} for start in one.starts]
+            left[one.label] = float(refit(one.apply(system), measured, trials, starts, ROUNDS).cost)
+    return float(base.cost), left
 
 
 def _measured(system: System, trials: Sequence[IdealTrial], rough: Float[np.ndarray, " c"]) -> Measured:

@@ -1,0 +1,122 @@
+"""How often could anybody rank the planted effect first? `python -m benchmarks.gap_attainable --seed N`.
+
+Planted effects do not have their candidate's form, and another candidate may come nearer to one than its own does. Here
+every candidate is refitted, together with the base, to the calibration trials of the gap benchmark's visible single
+effects as they would be without noise (`gap.benchmark.imitation`), weighed by the true covariance. The margin is what
+the best of the other effects leaves more than the best candidate of the planted one, in nats. Where it is clearly
+below zero, whoever weighs these candidates by how well they fit is wrong, however well the noise is known; about zero,
+noise and the number of parameters decide. Mistakes in the data are exact by nature and not asked about. With `--cases`
+the margins stand beside what the diagnosis said of the same cases.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+KINDS = ("single", "shift")
+CLEAR = 3.0
+"""Nats by which the planted effect's own candidate must be ahead, or behind, for noise not to decide."""
+SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
+
+
+def arguments() -> argparse.Namespace:
+    """Command line."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.gap_attainable", description=__doc__.splitlines()[0])
+    parser.add_argument("--seed", type=int, required=True, help="of the gap benchmark")
+    parser.add_argument("--systems", nargs="+", default=list(SYSTEMS), choices=SYSTEMS)
+    parser.add_argument("--of", type=int, default=200, help="cases of each system, all kinds, as in the gap benchmark")
+    parser.add_argument("--cases", type=Path, help="cases.csv that the gap benchmark wrote with this seed")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--out", type=Path, default=HERE / "results" / "gap_attainable.json", help="the JSON")
+    return parser.parse_args()
+
+
+def margin(lot: Any) -> dict[str, Any] | None:
+    """One case; None where its effect is not visible."""
+    from threadpoolctl import threadpool_limits
+
+    from geocontact.effects.catalogue import candidates
+    from geocontact.gap.admission import admitted
+    from geocontact.gap.benchmark.drawing import drawn
+    from geocontact.gap.benchmark.imitation import what_each_leaves
+    from geocontact.gap.benchmark.score import visible
+    from geocontact.systems.catalogue import system_of
+
+    with threadpool_limits(limits=1):
+        planted = drawn(lot)
+        label = planted.label
+        if not visible(label.as_dict()):
+            return None
+        system = system_of(planted.case)
+        system = system.scaled(admitted(planted.case, system).calibration)
+        offered = candidates(system)
+        name_of = {one.label: one.name for one in offered}
+        before, left = what_each_leaves(system, planted.ideal, offered, label.floor)
+    (truth,) = label.effects
+    own = min((left[one] for one in left if name_of[one] == truth), default=before)
+    rival = min((one for one in left if name_of[one] != truth), key=lambda one: left[one])
+    row: dict[str, Any] = {"name": planted.case.name, "system": lot.system, "kind": lot.kind, "place": lot.place}
+    row |= {"effect": truth, "nats": label.nats[truth], "base": before, "own": own}
+    return row | {"rival": name_of[rival], "rival_label": rival, "rival_left": left[rival], "margin": left[rival] - own}
+
+
+def asked(options: argparse.Namespace) -> Iterator[Any]:
+    """The lots, as the gap benchmark draws them."""
+    from geocontact.gap.benchmark.drawing import KINDS as EVERY
+    from geocontact.gap.benchmark.drawing import lots
+
+    yield from (lot for lot in lots(options.systems, options.of, EVERY, options.seed) if lot.kind in KINDS)
+
+
+def summary(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """How often the planted effect is ahead, hardly told or behind, and how often it was ranked first there."""
+    from geocontact.gap.benchmark.rates import Rate
+
+    found = {}
+    for name, low, high in (("ahead", CLEAR, np.inf), ("hardly", -CLEAR, CLEAR), ("behind", -np.inf, -CLEAR)):
+        rate = Rate.of(low <= row["margin"] < high for row in rows)
+        told = [row for row in rows if "first" in row and low <= row["margin"] < high]
+        first = Rate.of(row["first"] == row["effect"] for row in told)
+        found[name] = {"hits": rate.hits, "count": rate.count, "ci95": list(rate.interval())}
+        found[name] |= {"ranked_first": first.hits, "of": first.count}
+    return found
+
+
+def said(path: Path | None) -> dict[str, str]:
+    """What the diagnosis ranked first, by the name of the case."""
+    if path is None:
+        return {}
+    with path.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {row["case"]: (row["ambiguity"].split() or row["effects"].split(" + "))[0] for row in rows}
+
+
+def main() -> None:
+    """Draw, refit, write the JSON after every case, print the shares."""
+    from benchmarks.machine import machine
+    from geocontact.cli.workers import each
+
+    options, rows = arguments(), []
+    first = said(options.cases)
+    about = {"seed": options.seed, "of": options.of, "clear_nats": CLEAR, "machine": machine()}
+    for _, became in each(margin, list(asked(options)), options.jobs):
+        if isinstance(became, BaseException):
+            raise became
+        if became is None:
+            continue
+        rows.append(became | ({"first": first[became["name"]]} if became["name"] in first else {}))
+        own = {system: summary([row for row in rows if row["system"] == system]) for system in options.systems}
+        options.out.write_text(json.dumps({**about, "all": summary(rows), "of": own, "rows": rows}, indent=1) + "\n")
+    print(json.dumps(summary(rows), indent=1))
+
+
+if __name__ == "__main__":
+    main()

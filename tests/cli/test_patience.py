@@ -1,0 +1,50 @@
+"""What is said while something takes long: to a terminal, and to nothing else."""
+
+from __future__ import annotations
+
+import io
+import sys
+
+import pytest
+
+from geocontact.cli.patience import progress, stages
+
+
+class Terminal(io.StringIO):
+    """Somebody who looks."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
+    """In the place of stderr; not a fixture, which would come before the test's own capture."""
+    shown = Terminal()
+    monkeypatch.setattr(sys, "stderr", shown)
+    monkeypatch.setenv("TERM", "xterm")
+    return shown
+
+
+def test_stages_are_shown_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown = terminal(monkeypatch)
+    with stages("knee_07") as at:
+        at("every effect alone")
+        at("two effects together")
+    assert "knee_07: two effects together" in shown.getvalue()
+
+
+def test_steps_are_counted_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown = terminal(monkeypatch)
+    with progress("frames", 3) as step:
+        step()
+        step()
+    assert "2/3" in shown.getvalue()
+
+
+def test_a_file_gets_neither(monkeypatch: pytest.MonkeyPatch) -> None:
+    written = io.StringIO()
+    monkeypatch.setattr(sys, "stderr", written)
+    with stages("knee_07") as at, progress("frames", 3) as step:
+        at("every effect alone")
+        step()
+    assert written.getvalue() == ""
