@@ -208,7 +208,7 @@ def test_the_truth_must_not_depend_on_the_step(stages):
 
 @pytest.mark.parametrize(
     ("system", "name"),
-    [(s, one.name) for s in SCENES for one in (*plans(s), *outsiders(s)) if one.name not in ("held_samples", "jump")],
+    [(s, one.name) for s in SCENES for one in (*plans(s), *outsiders(s)) if one.name != "jump"],
 )
 def test_every_effect_converges_with_the_step(system, name, stages):
     """Each changes the outputs, and a truth from steps half as long is the same."""
@@ -226,6 +226,25 @@ def test_every_effect_converges_with_the_step(system, name, stages):
     off = np.nan_to_num(with_it - finer) / stage.floor[:, None]
     assert np.abs(effect).max() > 0.0
     assert np.sqrt(np.mean(off**2)) < 0.05
+
+
+def test_a_recorder_repeats_and_rounds_what_it_is_given_noise_and_all(stages):
+    scene, path = stages["knee"].scene, stages["knee"].trials[0].path
+    named = {one.name: one for one in outsiders("knee")}
+
+    def recorded(name, size):
+        hooks = named[name].drawn(np.random.default_rng(1), stages["knee"].scale).hooks(size)
+        return record(scene, path, np.random.default_rng(2), hooks).outputs
+
+    plain = record(scene, path, np.random.default_rng(2)).outputs
+    repeated = (np.diff(recorded("held_samples", 0.03)) == 0.0).mean(axis=1)
+    assert (np.diff(plain) != 0.0).all() and (repeated > 0.05).all()
+    coarse = recorded("quantisation", 25.0)
+    row = int(np.argmax(np.abs(coarse - plain).max(axis=1)))
+    steps = np.diff(coarse[row]) / 25.0
+    np.testing.assert_allclose(steps, np.round(steps), atol=1e-9)
+    assert np.abs(coarse - plain)[row].max() <= 12.5 + 1e-9
+    np.testing.assert_array_equal(np.delete(coarse, row, axis=0), np.delete(plain, row, axis=0))
 
 
 def test_mistakes_are_exact_and_can_be_mended(stages):

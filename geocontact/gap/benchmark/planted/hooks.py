@@ -64,6 +64,8 @@ class Hooks:
         Added to the outputs.
     sensor
         (rank, outputs → outputs); lower ranks first.
+    recorder
+        From what the sensors gave, noise and all, to what is written down, sample by sample.
     places
         What is hooked in at one interface of several only.
     """
@@ -78,6 +80,7 @@ class Hooks:
     hinge: tuple[Callable[[Swing], Values], ...] = ()
     load: tuple[Callable[[Course, Mapping[str, float]], Outputs], ...] = ()
     sensor: tuple[tuple[float, Callable[[Course, Outputs], Outputs]], ...] = ()
+    recorder: tuple[Callable[[Course, Outputs], Outputs], ...] = ()
 
     places: Mapping[str, Hooks] = field(default_factory=dict)
 
@@ -112,5 +115,12 @@ BASE = Hooks()
 def read(hooks: Hooks, course: Course, outputs: Outputs) -> Outputs:
     """What the sensors make of the outputs."""
     for _, change in sorted(hooks.sensor, key=lambda one: one[0]):
+        outputs = change(course, outputs)
+    return outputs
+
+
+def written_down(hooks: Hooks, course: Course, outputs: Outputs) -> Outputs:
+    """What the recorder makes of samples."""
+    for change in hooks.recorder:
         outputs = change(course, outputs)
     return outputs

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.benchmark.planted.course import Course, Path, through
-from geocontact.gap.benchmark.planted.hooks import BASE, Hooks, Outputs
+from geocontact.gap.benchmark.planted.hooks import BASE, Hooks, Outputs, written_down
 from geocontact.gap.benchmark.planted.interface import NotConvergedError
 from geocontact.gap.benchmark.planted.noise import smooth_noise
 from geocontact.gap.benchmark.planted.scene import Rng, Scene
@@ -74,9 +74,15 @@ class Recording:
 
 
 def truth(scene: Scene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int) -> Outputs:
-    """Outputs at `count` samples from steps `fine` times as short; no centre of pressure off the ground."""
+    """What would be written down at `count` samples without noise; no centre of pressure off the ground."""
+    outputs = sensed(scene, path, count, theta, hooks, fine)
+    return scene.body.recorded(written_down(hooks, path(np.arange(count) * scene.step), outputs))
+
+
+def sensed(scene: Scene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int) -> Outputs:
+    """What the sensors give at `count` samples without noise, from steps `fine` times as short."""
     grid = np.arange((count - 1) * fine + 1) * (scene.step / fine)
-    return scene.body.recorded(scene.respond(path(grid), theta, hooks)[:, ::fine])
+    return scene.respond(path(grid), theta, hooks)[:, ::fine]
 
 
 def samples(scene: Scene, path: Path) -> int:
@@ -88,9 +94,9 @@ def fine_enough(scene: Scene, path: Path, hooks: Hooks) -> int:
     """Steps per sample at which the truth no longer depends on them; raises when even the finest do not do."""
     count = samples(scene, path)
     fine = scene.body.fine
-    coarse = truth(scene, path, count, scene.theta, hooks, fine)
+    coarse = sensed(scene, path, count, scene.theta, hooks, fine)
     while fine < FINEST:
-        finer = truth(scene, path, count, scene.theta, hooks, 2 * fine)
+        finer = sensed(scene, path, count, scene.theta, hooks, 2 * fine)
         off = np.abs(coarse - finer) / np.array([one.sd for one in scene.noise])[:, None]
         off = off[np.isfinite(off)]
         if np.sqrt(np.mean(off**2)) <= AGREE and off.max() <= AT_MOST:
@@ -111,10 +117,10 @@ def record(
     """One trial: its own base parameters, noise on outputs and inputs, rows that got lost."""
     count = samples(scene, path)
     theta = vary(scene, rng)
-    outputs = truth(scene, path, count, theta, hooks, fine or scene.body.fine)
-    outputs = outputs + np.array([one.draw(rng, count, scene.step) for one in scene.noise])
-    outputs = scene.body.recorded(outputs)
     course = path(np.arange(count) * scene.step)
+    outputs = sensed(scene, path, count, theta, hooks, fine or scene.body.fine)
+    outputs = outputs + np.array([one.draw(rng, count, scene.step) for one in scene.noise])
+    outputs = scene.body.recorded(written_down(hooks, course, outputs))
     noise = [smooth_noise(rng, sd, count, scene.step, scene.corner) for sd in scene.input_noise]
     inputs = course.position + np.array(noise)
     rows = np.arange(count) if gaps is None else gaps(rng, count)

@@ -17,15 +17,13 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     def hooks(share: float) -> Hooks:
         def held(course: Course, outputs: Outputs) -> Outputs:
             begin = np.sort((course.phase / (2.0 * np.pi) + golden * np.arange(1, count + 1)) % 1.0) * course.duration
-            at = course.time.copy()
+            given = np.arange(len(course.time))
             for one in begin:
                 inside = (course.time >= one) & (course.time < one + share * course.duration)
-                at[inside] = np.minimum(at[inside], one)
-            # the recorder repeats a sample, so it is a sample's time that is repeated
-            at = np.where(at < course.time, np.floor(at / scale.step) * scale.step, course.time)
-            return np.array([np.interp(at, course.time, row) for row in outputs])
+                given[inside] = np.minimum(given[inside], max(np.searchsorted(course.time, one) - 1, 0))
+            return outputs[:, given]
 
-        return Hooks(sensor=((80.0, held),))
+        return Hooks(recorder=(held,))
 
     return Draw(0.002, 0.12, hooks, lambda s: f"{count} stretches of {s:.2%} of a trial in which values are repeated")
 

@@ -1,4 +1,4 @@
-"""A converter with too few steps."""
+"""A converter with too few steps; noise is rounded with the rest."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
             out[row] = (np.round(outputs[row] / step + zero) - zero) * step
             return out
 
-        return Hooks(sensor=((90.0, rounded),))
+        return Hooks(recorder=(rounded,))
 
     return Draw(1e-3 * most, 0.3 * most, hooks, lambda s: f"{names[row]} comes in steps of {s:.3g}")
 
