@@ -1,0 +1,56 @@
+"""How near other effects come to a planted one: told from the truth, and the same as is found by hand."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import pytest
+
+from benchmarks.gap_attainable import KINDS, asked, margin, said, summary
+from geocontact.gap.benchmark.drawing import Lot
+from tests.elsewhere import Elsewhere
+
+CASES = """case,kind,truth,effects,ambiguity
+elbow_1,single,damping,damping,damping relaxation
+elbow_2,single,damping,,
+elbow_3,pair,damping + slip,damping + slip,
+"""
+
+
+def test_lots_are_those_of_the_gap_benchmark() -> None:
+    lots = list(asked(argparse.Namespace(systems=["knee"], of=200, seed=5)))
+    assert {lot.kind for lot in lots} == set(KINDS) and len(lots) == 73
+    assert lots[0] == Lot("knee", "single", 5, 0)
+
+
+def test_what_was_ranked_first_is_read(tmp_path: Path) -> None:
+    (tmp_path / "cases.csv").write_text(CASES, encoding="utf-8")
+    assert said(tmp_path / "cases.csv") == {"elbow_1": "damping", "elbow_2": "", "elbow_3": "damping"}
+    assert said(None) == {}
+
+
+def test_margins_are_counted_where_they_belong() -> None:
+    rows = [
+        {"margin": 3.0, "effect": "slip", "first": "slip"}, {"margin": 40.0, "effect": "slip", "first": "damping"},
+        {"margin": 2.9, "effect": "slip"}, {"margin": -3.0, "effect": "slip", "first": "slip"},
+        {"margin": -3.1, "effect": "slip", "first": "damping"},
+    ]  # fmt: skip
+    found = summary(rows)
+    assert [(found[k]["hits"], found[k]["count"]) for k in ("ahead", "hardly", "behind")] == [(2, 5), (2, 5), (1, 5)]
+    assert [(found[k]["ranked_first"], found[k]["of"]) for k in ("ahead", "hardly", "behind")] == [
+        (1, 2),
+        (1, 1),
+        (0, 1),
+    ]
+
+
+@pytest.mark.slow
+def test_a_gain_of_one_side_and_an_asymmetry_cannot_be_told_and_a_drift_can(elsewhere: Elsewhere) -> None:
+    """Of the knee, without noise: places of a seed that is used."""
+    alike, apart = (elsewhere(margin, Lot("knee", "single", 20261132, place)) for place in (8, 7))
+    assert (alike["effect"], alike["rival"]) == ("sensor_gain", "asymmetry")
+    assert abs(alike["margin"]) < 0.1 < 0.01 * alike["base"]
+    assert (apart["effect"], apart["rival"]) == ("sensor_drift", "sensor_offset")
+    assert apart["margin"] > 100.0 and apart["own"] < 0.1 * apart["base"] < 0.2 * apart["nats"]
+    assert elsewhere(margin, Lot("knee", "single", 20261132, 1)) is None, "not visible"
