@@ -114,14 +114,14 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
         reference = min(found.values(), key=lambda model: model.cost)
         noise = problem.weighed(reference, base.judged.noise)
     first, second = rounds
-    leading = [one.label for one in entered]
-    others = [one.label for one in sorted(candidates, key=lambda one: first[one.label].cost)[:FORERUNNERS]]
-    contenders = [
-        finished(problem, (one,), (second if one.label in leading else first)[one.label], noise)
-        for one in candidates
-        if one.label in leading or one.label in others
-    ]
-    return sorted(contenders, key=lambda c: -c.judged.nats)
+    ahead = sorted(candidates, key=lambda one: first[one.label].cost)[:FORERUNNERS]
+    chosen = [*((one, second) for one in entered), *((one, first) for one in ahead)]
+    done: dict[str, Contender] = {}
+    for one, fits in chosen:
+        own = finished(problem, (one,), fits[one.label], noise)
+        if one.label not in done or own.judged.nats > done[one.label].judged.nats:
+            done[one.label] = own
+    return sorted(done.values(), key=lambda c: -c.judged.nats)
 
 
 def pairs(problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Candidate]) -> list[Contender]:

@@ -28,6 +28,7 @@ from geocontact.identify.input_noise import InputNoise
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
 RAISED = 1e-7  # of the diagonal, first try where a covariance has no factor
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
+ENOUGH = 2e-3  # nats that a step of the search must gain for another
 JITTER = 1e-9  # of the diagonal, so that a factor always exists
 
 
@@ -202,7 +203,7 @@ def most_likely(
     prior: Levels,
     factor: Float[np.ndarray, "h h"],
     start: Levels,
-    rounds: int = 40,
+    rounds: int = 80,
 ) -> tuple[Levels, float, float]:
     """Levels that make the residuals most likely, given what was believed of them.
 
@@ -240,13 +241,13 @@ def most_likely(
             pull += block.pulls(levels, inverse.T - np.outer(solved, solved))
         return total, x + 0.5 * factor.T @ pull
 
-    begin = np.linalg.solve(factor, start.logarithms() - middle)
+    begin = np.clip(np.linalg.solve(factor, start.logarithms() - middle), -FARTHEST, FARTHEST)
     found = minimize(
         cost,
-        np.clip(begin, -FARTHEST, FARTHEST),
+        begin,
         jac=True,
         method="L-BFGS-B",
         bounds=[(-FARTHEST, FARTHEST)] * len(begin),
-        options={"maxiter": rounds, "ftol": 1e-5},
+        options={"maxiter": rounds, "ftol": ENOUGH / max(abs(cost(begin)[0]), 1.0)},
     )
     return prior.at(middle + factor @ found.x), 0.5 * float(found.x @ found.x), -float(found.fun)

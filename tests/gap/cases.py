@@ -9,6 +9,7 @@ from unittest.mock import patch
 import numpy as np
 from scipy.signal import butter, filtfilt
 
+from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
@@ -17,7 +18,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from geocontact.gap import contest
-from geocontact.gap.contest import base_contender, pairs, singles
+from geocontact.gap.contest import Contender, base_contender, pairs, singles
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.evidence import judged
 from geocontact.gap.flat_tops import FlatTop, flat_tops
@@ -25,7 +26,7 @@ from geocontact.gap.form import forms
 from geocontact.gap.locate import Window, gap_map, windows
 from geocontact.gap.map_cell import Cell
 from geocontact.gap.oddities import oddities
-from geocontact.gap.problem import problem_of
+from geocontact.gap.problem import Problem, problem_of
 from geocontact.gap.refit import Measured
 from geocontact.gap.surrogate import Surrogate, surrogate
 from geocontact.systems.catalogue import system_of
@@ -180,6 +181,25 @@ def contest_work(*, cut: bool) -> tuple[list[str], list[str], int, int]:
         single = simulated.call_count
         both = pairs(problem, first, offered)
     return [one.label for one in first], [one.label for one in both], single, simulated.call_count - single
+
+
+def finished_twice(*, later_is_better: bool) -> dict[str, tuple[list[float], float]]:
+    """By label, the evidence that each fit of a single got, made up in the order of the calls, and what was kept."""
+    case = elbow_case("damping", {"damping.b": 12.0, "damping.exponent": 1.0}, seed=5)
+    problem = problem_of(case, system_of(case))
+    base = base_contender(problem)
+    offered = [one for one in candidates(problem.system) if one.name in ("damping", "inertia_load", "end_stop")]
+    got: dict[str, list[float]] = {}
+
+    def made_up(_: Problem, those: tuple[Candidate, ...], *__: object) -> Contender:
+        count = sum(map(len, got.values()))
+        nats = float(count if later_is_better else -count)
+        got.setdefault(those[0].label, []).append(nats)
+        return Contender(those, replace(base.judged, nats=nats))
+
+    with patch.object(contest, "finished", made_up):
+        kept = singles(problem, base, offered)
+    return {one.label: (got[one.label], one.judged.nats) for one in kept}
 
 
 def flat(recorded: Change | None) -> tuple[FlatTop, ...]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import pytest
+
 from tests.elsewhere import Elsewhere
-from tests.gap.cases import contest_work, paired
+from tests.gap.cases import contest_work, finished_twice, paired
 
 
 def test_two_effects_are_found_and_each_two_are_tried_once(elsewhere: Elsewhere) -> None:
@@ -19,3 +21,14 @@ def test_what_cannot_lead_is_left_early_and_the_leaders_stay(elsewhere: Elsewher
     assert (singles, pairs) == (all_singles, all_pairs)
     assert simulated < 0.85 * at_most
     assert simulated_for_pairs < at_most_for_pairs
+
+
+@pytest.mark.parametrize("later", [False, True])
+def test_who_leads_under_quiet_noise_and_under_its_own_is_finished_from_both_fits(
+    elsewhere: Elsewhere, later: bool
+) -> None:
+    """Noise that suits another fit may lead away from a good one: the better of the two ends is kept."""
+    found = elsewhere(finished_twice, later_is_better=later)
+    assert sum(len(each) == 2 for each, _ in found.values()) >= 3
+    for each, kept in found.values():
+        assert kept == max(each)

@@ -147,3 +147,21 @@ def test_a_slow_part_is_told_from_a_quick_one() -> None:
     assert found.memory[1, 0] > 5.0 * found.memory[0, 0]
     quick = Levels(prior.white, prior.coloured[:1], prior.memory[:1], prior.inputs)
     assert nats > most_likely(layouts, residuals, none, quick, np.eye(4), quick)[2] + 10.0
+
+
+def test_a_search_ends_where_it_does_not_matter_from_where_it_set_out() -> None:
+    """Noise of the inputs and of the sensor, alike but for their spectra, where one is far quieter than the other."""
+    time, rng = STEP * np.arange(300), np.random.default_rng(6)
+    answers = np.full((300, 1, 1), 5.0)
+    heard = Instant(time, answers, np.zeros((300, 1, 1)), (PASSED,))
+    layouts = [Layout.of(time, np.ones((300, 1), bool), heard) for _ in range(6)]
+    true = Levels(np.array([0.002]), np.array([[0.1], [0.05]]), np.array([[0.03], [0.6]]), np.array([0.02]))
+    residuals = []
+    for each in layouts:
+        flat, whitener = np.zeros(300), each.whitener(true)
+        flat[np.concatenate(whitener.rows)] = whitener.coloured(rng.standard_normal(len(each.rows)))
+        residuals.append(flat[:, None])
+    prior = Levels(np.array([0.07]), np.array([[0.07], [0.02]]), np.array([[0.08], [0.4]]), np.array([0.005]))
+    none = [np.zeros((300, 1, 0)) for _ in layouts]
+    ends = [most_likely(layouts, residuals, none, prior, np.eye(6), start)[2] for start in (prior, true)]
+    assert ends[0] == pytest.approx(ends[1], abs=0.05)
