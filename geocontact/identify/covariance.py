@@ -28,7 +28,7 @@ from geocontact.identify.input_noise import InputNoise
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
 RAISED = 1e-7  # of the diagonal, first try where a covariance has no factor
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
-ENOUGH = 2e-3  # nats that a step of the search must gain for another
+ENOUGH = 5e-3  # nats that a step of the search must gain for another
 JITTER = 1e-9  # of the diagonal, so that a factor always exists
 
 
@@ -220,7 +220,7 @@ def most_likely(
     start
         Where the search sets out.
     """
-    from scipy.optimize import minimize
+    from scipy.optimize import OptimizeResult, minimize
 
     middle = prior.logarithms()
     pieces = []
@@ -242,12 +242,20 @@ def most_likely(
         return total, x + 0.5 * factor.T @ pull
 
     begin = np.clip(np.linalg.solve(factor, start.logarithms() - middle), -FARTHEST, FARTHEST)
+    reached = [cost(begin)[0]]
+
+    def enough(intermediate_result: OptimizeResult) -> None:
+        reached.append(float(intermediate_result.fun))
+        if reached[-2] - reached[-1] < ENOUGH:
+            raise StopIteration
+
     found = minimize(
         cost,
         begin,
+        callback=enough,
         jac=True,
         method="L-BFGS-B",
         bounds=[(-FARTHEST, FARTHEST)] * len(begin),
-        options={"maxiter": rounds, "ftol": ENOUGH / max(abs(cost(begin)[0]), 1.0)},
+        options={"maxiter": rounds, "ftol": 0.0},
     )
     return prior.at(middle + factor @ found.x), 0.5 * float(found.x @ found.x), -float(found.fun)

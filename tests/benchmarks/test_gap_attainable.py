@@ -5,29 +5,34 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from benchmarks.gap_attainable import KINDS, asked, margin, said, summary
+from benchmarks.gap_attainable import ASKED, asked, beside, margin, said, summary
 from geocontact.gap.benchmark.drawing import Lot
 from tests.elsewhere import Elsewhere
 
-CASES = """case,kind,truth,effects,ambiguity
-elbow_1,single,damping,damping,damping relaxation
-elbow_2,single,damping,,
-elbow_3,pair,damping + slip,damping + slip,
+CASES = """case,kind,truth,nats,effects,ambiguity
+elbow_1,single,damping,12.5,damping,damping relaxation
+elbow_2,single,damping,30,,
+elbow_3,none,,,damping + slip,
 """
 
 
 def test_lots_are_those_of_the_gap_benchmark() -> None:
     lots = list(asked(argparse.Namespace(systems=["knee"], of=200, seed=5)))
-    assert {lot.kind for lot in lots} == set(KINDS) and len(lots) == 73
+    assert {lot.kind for lot in lots} == set(ASKED) and len(lots) == 73
     assert lots[0] == Lot("knee", "single", 5, 0)
 
 
 def test_what_was_ranked_first_is_read(tmp_path: Path) -> None:
     (tmp_path / "cases.csv").write_text(CASES, encoding="utf-8")
-    assert said(tmp_path / "cases.csv") == {"elbow_1": "damping", "elbow_2": "", "elbow_3": "damping"}
-    assert said(None) == {}
+    first = said(tmp_path / "cases.csv")
+    assert [first[f"elbow_{k}"][0] for k in (1, 2, 3)] == ["damping", "", "damping"] and said(None) == {}
+    row = {"name": "elbow_1", "nats": 12.5}
+    assert beside(row, first) == row | {"first": "damping"} and beside(row, {}) == row
+    with pytest.raises(SystemExit, match="drawn by another version"):
+        beside(row | {"nats": 12.6}, first)
 
 
 def test_margins_are_counted_where_they_belong() -> None:
@@ -36,13 +41,13 @@ def test_margins_are_counted_where_they_belong() -> None:
         {"margin": 2.9, "effect": "slip"}, {"margin": -3.0, "effect": "slip", "first": "slip"},
         {"margin": -3.1, "effect": "slip", "first": "damping"},
     ]  # fmt: skip
-    found = summary(rows)
-    assert [(found[k]["hits"], found[k]["count"]) for k in ("ahead", "hardly", "behind")] == [(2, 5), (2, 5), (1, 5)]
-    assert [(found[k]["ranked_first"], found[k]["of"]) for k in ("ahead", "hardly", "behind")] == [
-        (1, 2),
-        (1, 1),
-        (0, 1),
-    ]
+    found = [summary(rows)[name] for name in ("ahead", "hardly", "behind")]
+    assert [(one["hits"], one["count"]) for one in found] == [(2, 5), (2, 5), (1, 5)]
+    assert [(one["ranked_first"], one["of"]) for one in found] == [(1, 2), (1, 1), (0, 1)]
+    rng = np.random.default_rng(0)
+    margins = np.array([row["margin"] for row in rows])
+    seen = margins + np.sqrt(2.0 * np.abs(margins)) * rng.standard_normal((20000, len(rows)))
+    assert summary(rows)["attainable"] == pytest.approx((seen > 0.0).mean(), abs=0.01)
 
 
 @pytest.mark.slow

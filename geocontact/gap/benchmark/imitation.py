@@ -1,4 +1,4 @@
-"""Whether some candidate imitates an effect outside the table; from the truth, not from a diagnosis.
+"""How near candidates come to what was planted, and whether one imitates an effect outside the table; from the truth.
 
 Every candidate is refitted together with the base to the calibration trials as they would be without noise and without
 trial-to-trial variation, residuals weighed by the true covariance of both (that of the label's nats). The effect is
@@ -40,6 +40,7 @@ def imitation(
         Noise of each channel, for samples where the model has no value.
     """
     before, left = what_each_leaves(system, trials, candidates, rough)
+    left = {label: cost for label, cost in left.items() if np.isfinite(cost)}
     label = min(left, key=lambda one: left[one], default="")
     if not label or left[label] >= before or before <= 0.0:
         return 1.0, ""

@@ -75,7 +75,7 @@ class Recording:
 
 def truth(scene: Scene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int) -> Outputs:
     """What would be written down at `count` samples without noise; no centre of pressure off the ground."""
-    outputs = sensed(scene, path, count, theta, hooks, fine)
+    outputs = scene.body.recorded(sensed(scene, path, count, theta, hooks, fine))
     return scene.body.recorded(written_down(hooks, path(np.arange(count) * scene.step), outputs))
 
 
@@ -94,9 +94,9 @@ def fine_enough(scene: Scene, path: Path, hooks: Hooks) -> int:
     """Steps per sample at which the truth no longer depends on them; raises when even the finest do not do."""
     count = samples(scene, path)
     fine = scene.body.fine
-    coarse = sensed(scene, path, count, scene.theta, hooks, fine)
+    coarse = scene.body.recorded(sensed(scene, path, count, scene.theta, hooks, fine))
     while fine < FINEST:
-        finer = sensed(scene, path, count, scene.theta, hooks, 2 * fine)
+        finer = scene.body.recorded(sensed(scene, path, count, scene.theta, hooks, 2 * fine))
         off = np.abs(coarse - finer) / np.array([one.sd for one in scene.noise])[:, None]
         off = off[np.isfinite(off)]
         if np.sqrt(np.mean(off**2)) <= AGREE and off.max() <= AT_MOST:
@@ -118,7 +118,7 @@ def record(
     count = samples(scene, path)
     theta = vary(scene, rng)
     course = path(np.arange(count) * scene.step)
-    outputs = sensed(scene, path, count, theta, hooks, fine or scene.body.fine)
+    outputs = scene.body.recorded(sensed(scene, path, count, theta, hooks, fine or scene.body.fine))
     outputs = outputs + np.array([one.draw(rng, count, scene.step) for one in scene.noise])
     outputs = scene.body.recorded(written_down(hooks, course, outputs))
     noise = [smooth_noise(rng, sd, count, scene.step, scene.corner) for sd in scene.input_noise]

@@ -16,6 +16,12 @@ from geocontact.gap.benchmark.planted.plan import Draw, Plan, Rng, Scale
 
 
 @loop
+def slower(phase: float, begin: float) -> float:
+    """Rate of primary creep at a phase of the trial, as a share of that at its beginning."""
+    return float((begin / (begin + phase)) ** (2.0 / 3.0))
+
+
+@loop
 def crept(
     time: Float[np.ndarray, " t"], u: Float[np.ndarray, " t"], d: float, c: float, m: float, begin: float, whole: float
 ) -> Float[np.ndarray, " t"]:
@@ -26,13 +32,7 @@ def crept(
     k = np.zeros(4)
     for i in range(1, u.size):
         h, du = time[i] - time[i - 1], u[i] - u[i - 1]
-        stiffness = (
-            c
-            * (begin / (begin + time[i - 1] / whole)) ** (2.0 / 3.0)
-            * m
-            / d
-            * max(abs((u[i] - s) / d), 0.05) ** (m - 1.0)
-        )
+        stiffness = c * slower(time[i - 1] / whole, begin) * m / d * max(abs((u[i] - s) / d), 0.05) ** (m - 1.0)
         pieces = int(4.0 * h * stiffness) + 1
         step = h / pieces
         for j in range(pieces):
@@ -40,8 +40,8 @@ def crept(
                 part = 0.0 if a == 0 else (1.0 if a == 3 else 0.5)
                 gone = s + (part * step * k[a - 1] if a > 0 else 0.0)
                 e = (u[i - 1] + du * (j + part) / pieces - gone) / d
-                fresh = (begin / (begin + (time[i - 1] + h * (j + part) / pieces) / whole)) ** (2.0 / 3.0)
-                k[a] = c * fresh * np.sign(e) * abs(e) ** m
+                phase = (time[i - 1] + h * (j + part) / pieces) / whole
+                k[a] = c * slower(phase, begin) * np.sign(e) * abs(e) ** m
             s += step * (k[0] + 2.0 * k[1] + 2.0 * k[2] + k[3]) / 6.0
         out[i] = u[i] - s
     return out

@@ -20,7 +20,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
             given = np.arange(len(course.time))
             for one in begin:
                 inside = (course.time >= one) & (course.time < one + share * course.duration)
-                given[inside] = np.minimum(given[inside], max(np.searchsorted(course.time, one) - 1, 0))
+                given[inside] = given[max(int(np.searchsorted(course.time, one)) - 1, 0)]
             return outputs[:, given]
 
         return Hooks(recorder=(held,))
