@@ -15,6 +15,7 @@ from geocontact.gap.benchmark.planted.cases import prepared
 from geocontact.gap.benchmark.planted.catalogue import TABLE, plans
 from geocontact.gap.benchmark.planted.course import through
 from geocontact.gap.benchmark.planted.effects.contact_loss import seated
+from geocontact.gap.benchmark.planted.effects.slip import crept
 from geocontact.gap.benchmark.planted.foot import Sole, foot
 from geocontact.gap.benchmark.planted.hooks import BASE, Hooks
 from geocontact.gap.benchmark.planted.interface import NotConvergedError, pull
@@ -245,6 +246,16 @@ def test_a_recorder_repeats_and_rounds_what_it_is_given_noise_and_all(stages):
     np.testing.assert_allclose(steps, np.round(steps), atol=1e-9)
     assert np.abs(coarse - plain)[row].max() <= 12.5 + 1e-9
     np.testing.assert_array_equal(np.delete(coarse, row, axis=0), np.delete(plain, row, axis=0))
+
+
+def test_an_attachment_creeps_slower_and_slower_and_stays_where_it_is():
+    """Held at a stroke of 0.01 m for half the time, unloaded for the other half."""
+    time = np.linspace(0.0, 4.0, 401)
+    u = np.where(time < 2.0, 0.01, 0.0)
+    slid = u - crept(time, u, 0.01, 4e-3, 4.0, 0.05, 4.0)
+    at = {t: slid[round(100 * t)] for t in (0.5, 1.0, 1.5, 1.99, 2.1, 4.0)}
+    assert at[0.5] > 1.5 * (at[1.0] - at[0.5]) > 1.5 * (at[1.5] - at[1.0]) > 0.0
+    assert at[1.99] > 5e-4 and at[4.0] == pytest.approx(at[2.1], rel=0.01)
 
 
 def test_mistakes_are_exact_and_can_be_mended(stages):
