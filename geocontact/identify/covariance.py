@@ -242,7 +242,7 @@ def most_likely(
         return total, x + 0.5 * factor.T @ pull
 
     begin = np.clip(np.linalg.solve(factor, start.logarithms() - middle), -FARTHEST, FARTHEST)
-    reached = [cost(begin)[0]]
+    reached = [np.inf]
 
     def enough(intermediate_result: OptimizeResult) -> None:
         reached.append(float(intermediate_result.fun))

@@ -105,15 +105,17 @@ def test_derivatives_are_those_of_the_covariance() -> None:
         assert exact[k] == pytest.approx(float((pull * change).sum()), rel=1e-4, abs=1e-6)
 
 
+def noise_of(one: Layout, levels: Levels, rng: np.random.Generator) -> np.ndarray:
+    """A draw of one trial's residual."""
+    flat, whitener = np.zeros(one.shape[0] * one.shape[1]), one.whitener(levels)
+    flat[np.concatenate(whitener.rows)] = whitener.coloured(rng.standard_normal(len(one.rows)))
+    return flat.reshape(one.shape)
+
+
 def test_levels_are_found_again() -> None:
     rng = np.random.default_rng(3)
     layouts = [layout() for _ in range(5)]
-    residuals = []
-    for each in layouts:
-        flat = np.zeros(COUNT * 2)
-        whitener = each.whitener(LEVELS)
-        flat[np.concatenate(whitener.rows)] = whitener.coloured(rng.standard_normal(len(each.rows)))
-        residuals.append(flat.reshape(COUNT, 2))
+    residuals = [noise_of(each, LEVELS, rng) for each in layouts]
     prior = LEVELS.at(LEVELS.logarithms() + 0.5)
     nothing = [np.zeros((COUNT, 2, 0)) for _ in layouts]
     found, surprise, _ = most_likely(layouts, residuals, nothing, prior, np.eye(7), prior)
@@ -135,11 +137,7 @@ def test_a_slow_part_is_told_from_a_quick_one() -> None:
     heard = Instant(time, nothing, nothing, (PASSED,))
     layouts = [Layout.of(time, np.ones((400, 1), bool), heard) for _ in range(6)]
     true = Levels(np.array([0.3]), np.array([[0.3], [0.25]]), np.array([[0.03], [0.5]]), np.array([1.0]))
-    residuals = []
-    for each in layouts:
-        flat, whitener = np.zeros(400), each.whitener(true)
-        flat[np.concatenate(whitener.rows)] = whitener.coloured(rng.standard_normal(len(each.rows)))
-        residuals.append(flat[:, None])
+    residuals = [noise_of(each, true, rng) for each in layouts]
     prior = Levels(np.array([0.3]), np.array([[0.3], [0.1]]), np.array([[0.04], [0.4]]), np.array([1.0]))
     none = [np.zeros((400, 1, 0)) for _ in layouts]
     found, _, nats = most_likely(layouts, residuals, none, prior, np.eye(6), prior)
@@ -156,11 +154,7 @@ def test_a_search_ends_where_it_does_not_matter_from_where_it_set_out() -> None:
     heard = Instant(time, answers, np.zeros((300, 1, 1)), (PASSED,))
     layouts = [Layout.of(time, np.ones((300, 1), bool), heard) for _ in range(6)]
     true = Levels(np.array([0.002]), np.array([[0.1], [0.05]]), np.array([[0.03], [0.6]]), np.array([0.02]))
-    residuals = []
-    for each in layouts:
-        flat, whitener = np.zeros(300), each.whitener(true)
-        flat[np.concatenate(whitener.rows)] = whitener.coloured(rng.standard_normal(len(each.rows)))
-        residuals.append(flat[:, None])
+    residuals = [noise_of(each, true, rng) for each in layouts]
     prior = Levels(np.array([0.07]), np.array([[0.07], [0.02]]), np.array([[0.08], [0.4]]), np.array([0.005]))
     none = [np.zeros((300, 1, 0)) for _ in layouts]
     ends = [most_likely(layouts, residuals, none, prior, np.eye(6), start)[2] for start in (prior, true)]
