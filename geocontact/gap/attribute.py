@@ -13,6 +13,7 @@ from geocontact.gap.contest import Contender, base_contender, pairs, settled_in,
 from geocontact.gap.evidence import settled
 from geocontact.gap.faults import Fault, fault_of, recognised
 from geocontact.gap.flat_tops import FlatTop, flat_tops
+from geocontact.gap.foretold import calibration_share
 from geocontact.gap.hidden_faults import hidden_mistakes, undone
 from geocontact.gap.mending import mended
 from geocontact.gap.oddities import Oddity, oddities
@@ -119,7 +120,8 @@ def _attributed(
         for c in contenders
     ]
     share = base.judged.fitted_rows / len(base.judged.model.whitened)
-    held = standing(base, contenders, share, Counter(one.name for one in entered))
+    shares = {c.label: calibration_share(clean, base, c) for c in contenders}
+    held = standing(base, contenders, shares, Counter(one.name for one in entered))
     odd = tuple(each for each in oddities(clean, held.leader.judged) if each.nats > ODD)
     strange = float(sum(each.nats for each in odd))
     best = held.best

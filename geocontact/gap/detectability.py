@@ -62,7 +62,8 @@ class Detectability:
 class Gainer:
     """A model that may gain on residuals: directions of its own on all rows and on calibration rows, and its price.
 
-    `sign` is +1 where the amplitude may only be positive along the one direction, 0 where either way will do.
+    `share` of what it changes, the base refitted, lies in the calibration rows. `sign` is +1 where the amplitude may
+    only be positive along the one direction, 0 where either way will do.
     """
 
     name: str
@@ -71,6 +72,7 @@ class Gainer:
     price: float
     calibration_price: float
     chosen_from: float
+    share: float
     sign: int
 
 
@@ -140,7 +142,7 @@ def power(ground: Ground, one: Sized, others: Sequence[Gainer], variants: int) -
     draws = rng.standard_normal((REPETITIONS, rows.shape[1])) + rows.T @ ground.left(moved)
     best: dict[str, Float[np.ndarray, " r"]] = {}
     for each in gainers:
-        gain = _gains(each, rows, draws, ground.share)
+        gain = _gains(each, rows, draws)
         best[each.name] = np.maximum(best.get(each.name, gain), gain)
     return float(np.mean(_outweighs(np.stack(list(best.values())))))
 
@@ -153,14 +155,12 @@ def _outweighs(gains: Float[np.ndarray, "e r"]) -> Float[np.ndarray, " r"]:
     return np.asarray(effects > np.exp((SURE - most) / tolerance), dtype=float)
 
 
-def _gains(
-    one: Gainer, rows: Float[np.ndarray, "n k"], draws: Float[np.ndarray, "r k"], share: float
-) -> Float[np.ndarray, " r"]:
+def _gains(one: Gainer, rows: Float[np.ndarray, "n k"], draws: Float[np.ndarray, "r k"]) -> Float[np.ndarray, " r"]:
     """Over the base model, as far as the calibration trials bear them out [nats]."""
     along = draws @ (rows.T @ one.directions)
     total = 0.5 * (along**2).sum(axis=1) - one.price
     part = 0.5 * ((draws @ (rows.T @ one.calibration)) ** 2).sum(axis=1) - one.calibration_price
-    borne = np.array([borne_out(float(a), float(b), share) for a, b in zip(total, part, strict=True)])
+    borne = np.array([borne_out(float(a), float(b), one.share) for a, b in zip(total, part, strict=True)])
     borne = borne - one.chosen_from
     return np.where(along[:, 0] > 0.0, borne, -np.inf) if one.sign else borne
 
@@ -209,8 +209,17 @@ def _gainer(
         _price(slopes * spread, ground.base),
         _price((slopes * spread)[inside], known),
         float(np.log(variants)),
+        _calibration_share(ground, moved),
         int(amplitude.lower >= rest_of(candidate) or amplitude.upper <= rest_of(candidate)),
     )
+
+
+def _calibration_share(ground: Ground, moved: Float[np.ndarray, " n"]) -> float:
+    """Part, in the calibration rows, of what is left of a change once the base is refitted to these."""
+    inside = slice(0, ground.fitted_rows)
+    left = moved - ground.slopes @ np.linalg.lstsq(ground.slopes[inside], moved[inside])[0]
+    whole = float(left @ left)
+    return float(left[inside] @ left[inside]) / whole if whole > 0.0 else ground.share
 
 
 def _spread(width: float, size: float) -> float:

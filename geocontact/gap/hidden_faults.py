@@ -26,17 +26,18 @@ ASSIGNMENTS = 3  # times that trials are told apart anew
 
 
 def hidden_mistakes(problem: Problem, base: Judged, candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
-    """Wrong units by a modest factor, and reversed inputs in the trials where that fits better.
+    """Wrong units by a modest factor; reversed inputs and exchanged outputs in the trials where that fits better.
 
-    Trials differ by themselves, so residuals are weighed by noise and variation of the base model. A reversal is
-    dropped where the model that fits best with it still misses something grossly.
+    Trials differ by themselves, so residuals are weighed by noise and variation of the base model. A reversal or an
+    exchange is dropped where the model that fits best with it still misses something grossly.
     """
-    found = [one for one in candidates if one.somewhere is not None and 1.0 / MODEST <= one.factor <= MODEST]
-    found = [one for one in found if one.factor != 1.0]
-    reversals = [one for one in candidates if one.somewhere is not None and one.factor < 0.0]
+    mistakes = [one for one in candidates if one.somewhere is not None]
+    found = [one for one in mistakes if 1.0 / MODEST <= one.factor <= MODEST and one.factor != 1.0]
+    reversed_ = [one for one in mistakes if one.factor < 0.0 and one.channel in problem.system.inputs]
+    exchanged = [one for one in mistakes if one.factor == 1.0]
     weighings = problem.weighings(problem.quieter(base.noise), base.model)
-    for one in reversals:
-        best = _reversal(problem, one, weighings) if one.channel in problem.system.inputs else None
+    for one in (*reversed_, *exchanged):
+        best = _where(problem, one, weighings)
         found += [] if best is None else [best]
     return tuple(found)
 
@@ -73,8 +74,8 @@ def undone(problem: Problem, case: GapCase, one: Contender) -> Contender:
     )
 
 
-def _reversal(problem: Problem, one: Candidate, weighings: Sequence[Weigh]) -> Candidate | None:
-    """The reversal in all calibration trials, or in those that differ from the others; what fits best."""
+def _where(problem: Problem, one: Candidate, weighings: Sequence[Weigh]) -> Candidate | None:
+    """A reversal or an exchange in all calibration trials, or in those that differ from the others; what fits best."""
     calibration = problem.calibration
     every = frozenset(t.name for t in calibration.trials)
     alone = replace(calibration, trials=calibration.trials[:1], outputs=calibration.outputs[:1])
@@ -109,7 +110,7 @@ def _reversal(problem: Problem, one: Candidate, weighings: Sequence[Weigh]) -> C
 def _fitted(
     problem: Problem, one: Candidate, some: frozenset[str], measured: Measured, weighings: Sequence[Weigh]
 ) -> Refit:
-    """The base model with the channel reversed in some trials."""
+    """The base model with the mistake in some trials."""
     system = one.only(some).apply(problem.system)
     return refit(system, measured, weighings, [*base_starts(problem.system)[:2], problem.plain.values], ROUNDS)
 
@@ -117,10 +118,10 @@ def _fitted(
 def _turned(
     problem: Problem, one: Candidate, measured: Measured, weighings: Sequence[Weigh], values: dict[str, float]
 ) -> frozenset[str]:
-    """Trials that a model at these values predicts better with the channel reversed."""
+    """Trials that a model at these values predicts better with the mistake."""
     every = frozenset(t.name for t in measured.trials)
-    reversed_ = one.only(every).apply(problem.system)
-    pairs = zip(measured.residuals(problem.system, values), measured.residuals(reversed_, values), strict=True)
+    mistaken = one.only(every).apply(problem.system)
+    pairs = zip(measured.residuals(problem.system, values), measured.residuals(mistaken, values), strict=True)
     return frozenset(
         t.name
         for t, weigh, (a, b) in zip(measured.trials, weighings, pairs, strict=True)

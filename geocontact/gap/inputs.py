@@ -18,11 +18,13 @@ import numpy as np
 from jaxtyping import Complex, Float, Int
 
 from geocontact.data.trial import Trial
+from geocontact.gap.corner import USUAL
 from geocontact.gap.grids import even_grid
 from geocontact.identify.low_pass import LowPass
 
 PLATEAU = (0.25, 0.42, 0.58, 0.75, 0.92)  # of the corner
 FLAT = 2.5  # largest over smallest power of a plateau
+SURELY = 1.5  # times the noise of its quietest band that an input's may be
 SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
 PERIODS, FEWEST = 8.0, 8  # of the corner in a stretch, and samples in a quarter of it at the least
 BOTH = 2  # values of an input that goes on and off
@@ -89,13 +91,32 @@ def switches(trials: Sequence[Trial], name: str) -> bool:
 
 def seen_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float | None:
     """Noise of an input as its spectrum over all trials shows it, None where the movement hides it."""
+    return plateau(_evenly(trials, name), passed)
+
+
+def loudest(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
+    """Standard deviation that an input's noise cannot exceed by much: that of the quietest band of its spectrum.
+
+    Movement only adds to what a band holds. Bands are those of the plateau, below the corner and below that of most
+    laboratories, of which the one that allows more counts, since the corner may have come out too high. Infinite where
+    no trial is long enough.
+    """
+    recordings = _evenly(trials, name)
+    levels = [in_bands(recordings, passed, corner) for corner in {passed.corner, min(passed.corner, USUAL)}]
+    if not all(levels):
+        return float("inf")
+    return SURELY * float(np.sqrt(max(min(each) for each in levels)))
+
+
+def _evenly(trials: Sequence[Trial], name: str) -> list[tuple[Float[np.ndarray, " _"], float]]:
+    """Evenly spaced values of an input and their step [s], of each trial that is long enough."""
     recordings = []
     for trial in trials:
         column, grid = trial.column(name), even_grid(trial.time)
         there = np.isfinite(column)
         if there.sum() > 4 * FEWEST:
             recordings.append((np.interp(grid, trial.time[there], column[there]), float(grid[1] - grid[0])))
-    return plateau(recordings, passed) if recordings else None
+    return recordings
 
 
 def plateau(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed: LowPass) -> float | None:
@@ -105,8 +126,16 @@ def plateau(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed:
     over the bands from a quarter of it up to it power per power let through is the same. `recordings` are evenly
     spaced values and their step [s].
     """
+    levels = in_bands(recordings, passed, passed.corner)
+    return float(np.sqrt(np.mean(levels))) if levels and max(levels) < FLAT * min(levels) else None
+
+
+def in_bands(
+    recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed: LowPass, corner: float
+) -> list[float]:
+    """Variance of noise with the power of each band of the plateau below `corner` [Hz]; none if all are too short."""
     levels = []
-    for low, high in pairwise(passed.corner * share for share in PLATEAU):
+    for low, high in pairwise(corner * share for share in PLATEAU):
         power = []
         for values, step in recordings:
             spectrum, frequency, scale = _spectrum(values, step, passed)
@@ -114,9 +143,9 @@ def plateau(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed:
             if inside.any():
                 power.append(float(np.mean(np.abs(spectrum[inside]) ** 2 / passed.power(frequency[inside])) / scale))
         if not power:
-            return None
+            return []
         levels.append(float(np.mean(power)))
-    return float(np.sqrt(np.mean(levels))) if max(levels) < FLAT * min(levels) else None
+    return levels
 
 
 def _spectrum(

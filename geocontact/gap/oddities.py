@@ -19,6 +19,7 @@ from geocontact.gap.recording_steps import measured_columns, resolution
 WINDOWS = (4, 8, 16, 32, 64)  # samples
 SHORTEST = 64  # samples of a trial whose spectrum is looked at
 BESIDE = (-8, -7, -6, -5, -4, -3, 3, 4, 5, 6, 7, 8)  # bins that a line is compared with
+TURNS = 6  # periods in a trial from which something is a line and no part of the movement
 OTHERS = 4  # times the width of a stretch that what it is compared with counts for
 PACKETS = (16, 24, 32)  # samples that an oscillation is looked for in
 CYCLES = 4  # periods per window from which it counts as one
@@ -74,20 +75,23 @@ def lines(problem: Problem, judged: Judged) -> list[Oddity]:
         doubt = np.zeros(len(grid))
         for x in series:
             power = np.abs(np.fft.rfft((x - x.mean()) * np.hanning(len(x)))) ** 2
-            ratio = power / _around(power)
-            nats = -f.logsf(ratio, 2, len(BESIDE))  # neighbours overlap under the window, so half of them count
-            doubt += np.interp(grid, np.arange(len(power)) / len(x), nats)
-        inside = slice(len(BESIDE), -len(BESIDE))
-        peak = int(np.argmax(doubt[inside])) + len(BESIDE)
+            usual, beside = _around(power)
+            nats = -f.logsf(power / usual, 2, beside)  # neighbours overlap under the window, so half of them count
+            turns = np.arange(len(power))
+            doubt += np.interp(grid, turns / len(x), np.where(turns < TURNS, 0.0, nats))
+        peak = int(np.argmax(doubt))
         nats = -float(gamma.logsf(doubt[peak], len(series))) - float(np.log(len(grid)))
         hertz = grid[peak] / problem.system.scale.step
         found.append(Oddity(f"a line at {hertz:.3g} Hz", name, max(nats, 0.0)))
     return found
 
 
-def _around(power: Float[np.ndarray, " f"]) -> Float[np.ndarray, " f"]:
-    """Mean power of the bins a little to either side."""
-    return np.asarray(np.mean([np.roll(power, shift) for shift in BESIDE], axis=0))
+def _around(power: Float[np.ndarray, " f"]) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
+    """Mean power of the bins a little to either side, and how many of them there are."""
+    at = np.arange(len(power))[:, None] + np.array(BESIDE)
+    there = (at > 0) & (at < len(power))
+    count = there.sum(axis=1).astype(float)
+    return (power[np.where(there, at, 0)] * there).sum(axis=1) / count, count
 
 
 def ringing(problem: Problem, judged: Judged) -> list[Oddity]:

@@ -11,11 +11,12 @@ from jaxtyping import Float
 from geocontact.chain.system import FAR, System
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.corner import filter_of, likely_noise
-from geocontact.gap.inputs import Left, denoised, left, seen_noise, shaken, switches
+from geocontact.gap.inputs import Left, denoised, left, loudest, seen_noise, shaken, switches
 from geocontact.gap.refit import NO_VALUE, Measured, Refit, at, free, refit
 from geocontact.gap.weighing import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
-from geocontact.identify.covariance import Layout, Levels, Whitener, most_likely
+from geocontact.identify.covariance import Layout, Whitener, most_likely
 from geocontact.identify.low_pass import LowPass
+from geocontact.identify.noise_levels import Beliefs, Levels
 from geocontact.identify.trial_variation import Products, variation
 
 REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
@@ -40,8 +41,8 @@ class Problem:
         All trials as they were measured, in the same order.
     layouts
         Of the calibration trials, then of the evaluation trials.
-    prior, factor
-        What was believed of the noise levels: medians, and a factor of the covariance of their logarithms.
+    beliefs
+        What was believed of the noise levels.
     usual
         Usual standard deviation of each free base parameter from trial to trial.
     plain
@@ -63,8 +64,7 @@ class Problem:
     evaluation: Measured
     recorded: Measured
     layouts: tuple[Layout, ...]
-    prior: Levels
-    factor: Float[np.ndarray, "h h"]
+    beliefs: Beliefs
     usual: Float[np.ndarray, " q"]
     plain: Refit
     floor: Float[np.ndarray, " c"]
@@ -81,7 +81,7 @@ class Problem:
     @property
     def floor_of_noise(self) -> Float[np.ndarray, " c"]:
         """Noise of each channel as it was believed beforehand: a scale, no estimate."""
-        return np.asarray(np.sqrt(self.prior.white**2 + (self.prior.coloured**2).sum(axis=0)))
+        return self.beliefs.middle.sensors
 
     def weighed(self, model: Refit, before: Noise | None = None) -> Noise:
         """Noise levels and variation that make a model's residuals most likely, calibration trials only."""
@@ -93,9 +93,8 @@ class Problem:
                 self.calibration_layouts,
                 model.residuals[:fitted],
                 [j[..., :count] * sd for j in model.jacobian[:fitted]],
-                self.prior,
-                self.factor,
-                self.prior if levels is None else levels,
+                self.beliefs,
+                self.beliefs.middle if levels is None else levels,
             )
             sd = self._variation(model, levels)
         if levels is None:
@@ -110,14 +109,15 @@ class Problem:
         """
         units = [self.system.units.get(name, name) for name in self.system.inputs]
         best = [min(v for v, u in zip(noise.levels.inputs, units, strict=True) if u == own) for own in units]
+        usual = self.beliefs.middle
         levels = replace(
             noise.levels,
-            white=np.minimum(noise.levels.white, self.prior.white),
-            coloured=np.minimum(noise.levels.coloured, self.prior.coloured),
-            memory=np.minimum(noise.levels.memory, MEMORY * self.prior.memory),
-            inputs=np.minimum(np.array(best), self.prior.inputs),
+            white=np.minimum(noise.levels.white, usual.white),
+            coloured=np.minimum(noise.levels.coloured, usual.coloured),
+            memory=np.minimum(noise.levels.memory, MEMORY * usual.memory),
+            inputs=np.minimum(np.array(best), usual.inputs),
         )
-        x = np.linalg.solve(self.factor, levels.logarithms() - self.prior.logarithms())
+        x = self.beliefs.point(levels)
         return Noise(levels, np.minimum(noise.varies, self.usual), 0.5 * float(x @ x), self._whiteners(levels))
 
     def _whiteners(self, levels: Levels) -> tuple[Whitener, ...]:
@@ -194,14 +194,15 @@ def problem_of(case: GapCase, system: System) -> Problem:
     noisy = [name for name in system.inputs if not switches(recorded.trials, name)]
     shown = {name: seen_noise(calibration.trials, name, passed) for name in noisy}
     seen = {name: level or likely_noise(recorded.trials, name, passed) for name, level in shown.items()}
-    system = _rates(system, case, calibration, rough, passed, seen)
+    most = {name: max(loudest(recorded.trials, name, passed), seen[name]) for name in noisy}
+    system = _rates(system, case, calibration, rough, passed, seen, most)
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
     floor, more = rough, everything
     kept: dict[str, Left] = {}
     for last in (False, True):
         system = system.scaled(calibration.trials, plain.values)
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
-        prior, factor = usual_levels(system, case.noise, rough, seen)
+        beliefs = usual_levels(system, case.noise, rough, seen, most)
         layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present, passed, kept))
         problem = Problem(
             system,
@@ -209,8 +210,7 @@ def problem_of(case: GapCase, system: System) -> Problem:
             evaluation,
             recorded,
             layouts,
-            prior,
-            factor,
+            beliefs,
             usual,
             plain,
             floor,
@@ -241,6 +241,7 @@ def _rates(
     rough: Float[np.ndarray, " c"],
     passed: LowPass,
     seen: Mapping[str, float],
+    most: Mapping[str, float],
 ) -> System:
     """The system with the smoothing of rates that makes the base model's residuals most likely.
 
@@ -253,7 +254,7 @@ def _rates(
         sensitivity(system, trial, plain.values, ()).to_rate.any() for trial in measured.trials
     ):
         return system
-    prior, factor = usual_levels(system, case.noise, rough, seen)
+    beliefs = usual_levels(system, case.noise, rough, seen, most)
     usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
     likely = []
     for reach in REACHES:
@@ -261,7 +262,7 @@ def _rates(
         model = _plain_fit(other, measured, rough, [plain.values], rounds=6)
         layouts = layouts_of(other, measured.trials, model.values, measured.present, passed, {})
         varied = [j[..., : len(usual)] * usual for j in model.jacobian]
-        _, __, nats = most_likely(layouts, model.residuals, varied, prior, factor, prior, rounds=15)
+        _, __, nats = most_likely(layouts, model.residuals, varied, beliefs, beliefs.middle, rounds=15)
         likely.append((nats, reach))
     return system.reaching(max(likely)[1])
 
@@ -312,7 +313,7 @@ def _jumpiness(case: GapCase, name: str) -> float:
 
 def floor_of(problem: Problem, noise: Noise, model: Refit) -> Float[np.ndarray, " c"]:
     """Root mean square of what no model can predict, per channel: noise, noise of inputs, trial-to-trial variation."""
-    squares, counts = np.zeros(len(problem.prior.white)), np.zeros(len(problem.prior.white))
+    squares, counts = np.zeros(len(problem.floor)), np.zeros(len(problem.floor))
     for layout, jacobian, present in zip(
         problem.calibration_layouts, model.jacobian, problem.calibration.present, strict=True
     ):

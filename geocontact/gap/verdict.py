@@ -21,10 +21,11 @@ SURE = 6.0  # nats below which a gain may be luck
 FORM = 0.02  # tolerance of form, as a share of what is explained
 LEFT_OVER = 0.2  # of all there is to explain may be left by the effect that is named
 PAIR = 0.07  # of what is explained that a second effect must add
-ALIVE = 0.03  # least probability of a candidate that is still in question
+ALIVE = 0.04  # least probability of a candidate that is still in question
 BEYOND = 0.3  # part of what a gain exceeds that by that counts
 STRANGER = 3.0  # nats more that something without a name must gain: a stand-in also finds what models smooth away
 ANY_FORM = 0.1  # of what something without a name gains, it gains because it has any form
+LEAST = 1e-3  # share of what changes, from which calibration trials bear nothing out
 ALLOWED = 4.0  # nats that luck may add on held-out trials
 MOST = 4  # candidates still in question beyond which nothing is named
 
@@ -43,10 +44,10 @@ class Answer:
 def borne_out(total: float, calibration: float, share: float) -> float:
     """Gain over all trials, as far as the calibration trials bear it out.
 
-    An effect that is there shows in the trials that it was fitted to about as much as in the others. `share` is the
-    calibration trials' part of all samples.
+    An effect that is there shows in the trials that it was fitted to as much as in the others, in proportion to what it
+    changes there. `share` is the calibration trials' part of that.
     """
-    expected = calibration / share + ALLOWED
+    expected = calibration / max(share, LEAST) + ALLOWED
     return total if total <= expected else expected + BEYOND * (total - expected)
 
 
@@ -78,7 +79,9 @@ class Standing:
         return self.best if self.gains.get(self.best.label, 0.0) > 0.0 else self.base
 
 
-def standing(base: Contender, contenders: Sequence[Contender], share: float, variants: Mapping[str, int]) -> Standing:
+def standing(
+    base: Contender, contenders: Sequence[Contender], shares: Mapping[str, float], variants: Mapping[str, int]
+) -> Standing:
     """What the contenders gain; a pair is weighed where it adds enough to the best single.
 
     Who has no evidence that is a number is not weighed.
@@ -89,8 +92,8 @@ def standing(base: Contender, contenders: Sequence[Contender], share: float, var
         The base model.
     contenders
         Models with one candidate or two.
-    share
-        Calibration trials' part of all samples.
+    shares
+        Calibration trials' part of what each changes, by label.
     variants
         How many candidates each effect has: they share what is believed of it beforehand.
     """
@@ -99,7 +102,7 @@ def standing(base: Contender, contenders: Sequence[Contender], share: float, var
     chosen_from = {
         c.label: float(np.log([variants[one.name] * one.ways for one in c.candidates]).sum()) for c in contenders
     }
-    over_base = {c.label: gain_of(c, base, share) - chosen_from[c.label] for c in contenders}
+    over_base = {c.label: gain_of(c, base, shares[c.label]) - chosen_from[c.label] for c in contenders}
     best_single = max((over_base[c.label] for c in single), default=0.0)
     needed = SURE + PAIR * max(best_single, 0.0)
     pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]

@@ -14,9 +14,10 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.gap.responses import responses
-from geocontact.identify.covariance import Layout, Levels, Whitener
+from geocontact.identify.covariance import Layout, Whitener
 from geocontact.identify.input_noise import InputNoise, Instant
 from geocontact.identify.low_pass import LowPass
+from geocontact.identify.noise_levels import Beliefs, Levels
 from geocontact.identify.noise_spectrum import NoiseSpectrum
 
 POSITION_VARIES = 1e-3  # m
@@ -24,6 +25,7 @@ ANGLE_VARIES = 0.01  # rad
 SHARE_VARIES = 0.04  # of any other parameter
 INPUT_NOISE = 2e-3  # of an input's half-range
 ALIKE, OWN = 0.8, 0.5  # standard deviations of the logarithm of input noise: of a unit, and of one input beyond that
+LOUDER = 3.0  # times what is believed of an input's noise that it may be
 Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 """Of power that is left, by frequency [Hz]."""
 
@@ -114,21 +116,26 @@ def _bumped(system: System, kind: str, row: int, by: float) -> System:
 
 
 def usual_levels(
-    system: System, told: Mapping[str, float], rough: Float[np.ndarray, " c"], seen: Mapping[str, float]
-) -> tuple[Levels, Float[np.ndarray, "h h"]]:
-    """What is believed of the noise before the residuals are looked at: medians, and a factor of their covariance.
+    system: System,
+    told: Mapping[str, float],
+    rough: Float[np.ndarray, " c"],
+    seen: Mapping[str, float],
+    most: Mapping[str, float],
+) -> Beliefs:
+    """What is believed of the noise before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
     stands in and is believed less. Quick noise remembers a few samples, slow noise some tenths of a second. Inputs are
     known as well as their spectra show (`seen`), to 0.2 % of their half-range at best, and those of one unit about
-    equally well, since they come from the same markers.
+    equally well, since they come from the same markers. Nor is a sensor much noisier than was told, or an input than
+    `LOUDER` times what is believed of it, or than `most`.
     """
     known = np.array([name in told for name in system.outputs])
     sd = np.array([told.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
     units = [system.units.get(name, name) for name in system.inputs]
     alike = np.array([[a == b for b in units] for a in units])
-    guess = np.log([max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs])
-    inputs = np.exp(alike @ guess / alike.sum(axis=1))
+    own = np.array([max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs])
+    inputs = np.exp(alike @ np.log(own) / alike.sum(axis=1))
     covariance = ALIKE**2 * alike + OWN**2 * np.eye(len(units))
     white, quick = np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2)
     sure = np.ones(len(sd))
@@ -137,7 +144,9 @@ def usual_levels(
     factor[: len(widths), : len(widths)] = np.diag(widths)
     factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
     memory = np.array([2.0 * system.scale.step * sure, SLOW * sure])
-    return Levels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor
+    sensors = np.array([told.get(name, np.inf) for name in system.outputs])
+    loudest = np.minimum(LOUDER * own, [most.get(name, np.inf) for name in system.inputs])
+    return Beliefs(Levels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, loudest)
 
 
 def layouts_of(

@@ -24,45 +24,13 @@ from scipy.linalg import lapack
 
 from geocontact.identify.block_sums import pulled, summed
 from geocontact.identify.input_noise import InputNoise
+from geocontact.identify.noise_levels import Beliefs, Levels
 
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
 RAISED = 1e-7  # of the diagonal, first try where a covariance has no factor
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
 ENOUGH = 5e-3  # nats that a step of the search must gain for another
 JITTER = 1e-9  # of the diagonal, so that a factor always exists
-
-
-@dataclass(frozen=True)
-class Levels:
-    """Standard deviations and correlation times that make up the covariance.
-
-    Parameters
-    ----------
-    white
-        Of each output channel, in its unit.
-    coloured
-        Of each process with a memory, by channel.
-    memory
-        Its correlation time [s].
-    inputs
-        Of each input, in its unit, after the low-pass filter.
-    """
-
-    white: Float[np.ndarray, " c"]
-    coloured: Float[np.ndarray, "k c"]
-    memory: Float[np.ndarray, "k c"]
-    inputs: Float[np.ndarray, " j"]
-
-    def logarithms(self) -> Float[np.ndarray, " h"]:
-        """All numbers in one vector of logarithms."""
-        parts = (self.white, self.coloured.ravel(), self.memory.ravel(), self.inputs)
-        return np.asarray(np.log(np.concatenate(parts)))
-
-    def at(self, logarithms: Float[np.ndarray, " h"]) -> Levels:
-        """Levels of the same shape from such a vector."""
-        sizes = np.cumsum([self.white.size, self.coloured.size, self.memory.size])
-        white, coloured, memory, inputs = np.split(np.exp(logarithms), sizes)
-        return Levels(white, coloured.reshape(self.coloured.shape), memory.reshape(self.memory.shape), inputs)
 
 
 @dataclass(frozen=True)
@@ -200,8 +168,7 @@ def most_likely(
     layouts: Sequence[Layout],
     residuals: Sequence[Float[np.ndarray, "_ c"]],
     jitter: Sequence[Float[np.ndarray, "_ c q"]],
-    prior: Levels,
-    factor: Float[np.ndarray, "h h"],
+    beliefs: Beliefs,
     start: Levels,
     rounds: int = 80,
 ) -> tuple[Levels, float, float]:
@@ -215,14 +182,13 @@ def most_likely(
         One per trial.
     jitter
         Derivatives with respect to what varies from trial to trial, times its standard deviation.
-    prior, factor
-        Median of each level, and a factor F of the covariance F Fᵀ of their logarithms: log-normal priors.
+    beliefs
+        What was believed of the levels, and their limits.
     start
         Where the search sets out.
     """
     from scipy.optimize import OptimizeResult, minimize
 
-    middle = prior.logarithms()
     pieces = []
     for layout, residual, moved in zip(layouts, residuals, jitter, strict=True):
         flat = moved.reshape(residual.size, moved.shape[-1])
@@ -231,17 +197,17 @@ def most_likely(
             pieces.append((block, residual.ravel()[block.rows], own @ own.T))
 
     def cost(x: Float[np.ndarray, " h"]) -> tuple[float, Float[np.ndarray, " h"]]:
-        levels = prior.at(middle + factor @ x)
-        total, pull = 0.5 * float(x @ x), np.zeros(len(middle))
+        levels = beliefs.levels(x)
+        total, pull = 0.5 * float(x @ x), np.zeros(len(x))
         for block, residual, moved in pieces:
             root, log_scale = _factor(block.covariance(levels) + moved)
             solved, _ = lapack.dpotrs(root, residual, lower=1)
             inverse, _ = lapack.dpotri(root, lower=1)  # its lower half, by columns: the upper by rows
             total += 0.5 * float(residual @ solved) + log_scale
             pull += block.pulls(levels, inverse.T - np.outer(solved, solved))
-        return total, x + 0.5 * factor.T @ pull
+        return total, x + 0.5 * beliefs.slope(x, pull)
 
-    begin = np.clip(np.linalg.solve(factor, start.logarithms() - middle), -FARTHEST, FARTHEST)
+    begin = np.clip(beliefs.point(start), -FARTHEST, FARTHEST)
     reached = [np.inf]
 
     def enough(intermediate_result: OptimizeResult) -> None:
@@ -258,4 +224,4 @@ def most_likely(
         bounds=[(-FARTHEST, FARTHEST)] * len(begin),
         options={"maxiter": rounds, "ftol": 0.0},
     )
-    return prior.at(middle + factor @ found.x), 0.5 * float(found.x @ found.x), -float(found.fun)
+    return beliefs.levels(found.x), 0.5 * float(found.x @ found.x), -float(found.fun)

@@ -12,7 +12,7 @@ from geocontact.data.diagnosis import Diagnosis
 from geocontact.gap.diagnose import diagnose, estimates
 from geocontact.gap.evidence import Judged
 from geocontact.gap.problem import Noise, problem_of
-from geocontact.identify.covariance import Levels
+from geocontact.identify.noise_levels import Levels
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Late, Times, Tremor, diagnosis, diagnosis_of_renamed, diagnosis_of_reversed, elbow_case

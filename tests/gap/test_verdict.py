@@ -12,7 +12,7 @@ from geocontact.gap.evidence import Judged
 from geocontact.gap.problem import Noise
 from geocontact.gap.refit import Refit
 from geocontact.gap.verdict import FORM, SURE, answer, standing, with_mistake
-from geocontact.identify.covariance import Levels
+from geocontact.identify.noise_levels import Levels
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
 
@@ -32,6 +32,11 @@ def contender(nats: float, *labels: str, **values: float) -> Contender:
     return Contender(offered, judged)
 
 
+def shares(*contenders: Contender) -> dict[str, float]:
+    """Everyone changes the calibration trials as much as the others, sample by sample."""
+    return {one.label: SHARE for one in contenders}
+
+
 def said(
     *contenders: Contender,
     variants: dict[str, int] | None = None,
@@ -40,7 +45,7 @@ def said(
     rest: float = 0.0,
 ):
     counts = {one.name: 1 for one in OFFERED.values()} | (variants or {})
-    return answer(standing(contender(0.0), contenders, SHARE, counts), unnamed, strange, rest)
+    return answer(standing(contender(0.0), contenders, shares(*contenders), counts), unnamed, strange, rest)
 
 
 def test_a_gain_that_may_be_luck_is_no_gap() -> None:
@@ -128,7 +133,7 @@ def test_which_ends_of_an_amplitude_cut_a_search_short(label: str, end: str, cut
 def test_what_the_best_contender_leaves_is_asked_of_the_best_contender() -> None:
     """A pair leads by its nats, the single that is as likely without the pair's price is what is weighed."""
     single, pair = contender(200.0, "damping"), contender(205.0, "damping", "sensor_drift.force")
-    held = standing(contender(0.0), (pair, single), SHARE, {one.name: 1 for one in OFFERED.values()})
+    held = standing(contender(0.0), (pair, single), shares(pair, single), {one.name: 1 for one in OFFERED.values()})
     assert held.best is single
     assert held.leader is single
     assert said(single, rest=150.0).verdict == "unknown"
@@ -137,7 +142,7 @@ def test_what_the_best_contender_leaves_is_asked_of_the_best_contender() -> None
 
 def test_of_contenders_that_gain_nothing_none_leads() -> None:
     base, worse = contender(0.0), contender(-3.0, "damping")
-    held = standing(base, (worse,), SHARE, {one.name: 1 for one in OFFERED.values()})
+    held = standing(base, (worse,), shares(worse), {one.name: 1 for one in OFFERED.values()})
     assert held.leader is base
     assert held.best is worse
 
@@ -158,7 +163,7 @@ def test_a_mistake_takes_what_speaks_for_nothing_else() -> None:
 
 def test_who_has_no_evidence_is_not_weighed() -> None:
     rivals = contender(np.nan, "preload"), contender(50.0, "damping"), contender(np.nan, "damping", "preload")
-    held = standing(contender(0.0), rivals, SHARE, {one.name: 1 for one in OFFERED.values()})
+    held = standing(contender(0.0), rivals, shares(*rivals), {one.name: 1 for one in OFFERED.values()})
     assert held.best is rivals[1]
     assert said(*rivals).effects == ("damping",)
 

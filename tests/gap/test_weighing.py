@@ -7,9 +7,10 @@ import pytest
 
 from geocontact.gap.evidence import log_evidence
 from geocontact.gap.weighing import Weighing
-from geocontact.identify.covariance import Layout, Levels
+from geocontact.identify.covariance import Layout
 from geocontact.identify.input_noise import Instant
 from geocontact.identify.low_pass import LowPass
+from geocontact.identify.noise_levels import Levels
 from geocontact.identify.noise_spectrum import NoiseSpectrum
 
 SPECTRUM = NoiseSpectrum.after(LowPass(6.0, 0.05), lambda frequency: 2.0 * np.pi * frequency)

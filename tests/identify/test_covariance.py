@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.signal import butter, filtfilt
 
-from geocontact.identify.covariance import Block, Layout, Levels, most_likely
+from geocontact.identify.covariance import Block, Layout, most_likely
 from geocontact.identify.input_noise import Instant
 from geocontact.identify.low_pass import LowPass
+from geocontact.identify.noise_levels import BEYOND, Beliefs, Levels
 from geocontact.identify.noise_spectrum import NoiseSpectrum
 
 COUNT, STEP = 150, 0.02
@@ -112,17 +115,39 @@ def noise_of(one: Layout, levels: Levels, rng: np.random.Generator) -> np.ndarra
     return flat.reshape(one.shape)
 
 
+def unlimited(prior: Levels) -> Beliefs:
+    """Every logarithm is known to about one."""
+    sensors, inputs = np.full(len(prior.white), np.inf), np.full(len(prior.inputs), np.inf)
+    return Beliefs(prior, np.eye(len(prior.logarithms())), sensors, inputs)
+
+
 def test_levels_are_found_again() -> None:
     rng = np.random.default_rng(3)
     layouts = [layout() for _ in range(5)]
     residuals = [noise_of(each, LEVELS, rng) for each in layouts]
     prior = LEVELS.at(LEVELS.logarithms() + 0.5)
     nothing = [np.zeros((COUNT, 2, 0)) for _ in layouts]
-    found, surprise, _ = most_likely(layouts, residuals, nothing, prior, np.eye(7), prior)
+    found, surprise, _ = most_likely(layouts, residuals, nothing, unlimited(prior), prior)
     assert_allclose(found.coloured[0, 0], 0.5, rtol=0.15)
     assert_allclose(found.memory[0, 0], 0.1, rtol=0.35)
     assert_allclose(found.inputs, 0.04, rtol=0.15)
     assert surprise > 0.0
+
+
+def test_what_is_limited_does_not_grow_with_what_a_model_misses() -> None:
+    """Both channels hold a sine ten times as large as all their noise; limits are what the noise is."""
+    rng = np.random.default_rng(7)
+    layouts = [layout() for _ in range(3)]
+    missed = 8.0 * np.sin(2.0 * np.pi * 0.7 * STEP * np.arange(COUNT))[:, None]
+    residuals = [noise_of(each, LEVELS, rng) + missed for each in layouts]
+    nothing = [np.zeros((COUNT, 2, 0)) for _ in layouts]
+    free = unlimited(LEVELS)
+    limited = replace(free, sensors=LEVELS.sensors, inputs=LEVELS.inputs)
+    loud = most_likely(layouts, residuals, nothing, free, LEVELS)[0]
+    held = most_likely(layouts, residuals, nothing, limited, LEVELS)[0]
+    assert (loud.sensors > 3.0).all()
+    assert (held.sensors < np.exp(BEYOND) * LEVELS.sensors).all()
+    assert (held.inputs < np.exp(BEYOND) * LEVELS.inputs).all()
 
 
 def test_a_covariance_without_a_factor_is_raised_until_it_has_one() -> None:
@@ -140,11 +165,11 @@ def test_a_slow_part_is_told_from_a_quick_one() -> None:
     residuals = [noise_of(each, true, rng) for each in layouts]
     prior = Levels(np.array([0.3]), np.array([[0.3], [0.1]]), np.array([[0.04], [0.4]]), np.array([1.0]))
     none = [np.zeros((400, 1, 0)) for _ in layouts]
-    found, _, nats = most_likely(layouts, residuals, none, prior, np.eye(6), prior)
+    found, _, nats = most_likely(layouts, residuals, none, unlimited(prior), prior)
     assert found.coloured[1, 0] == pytest.approx(0.25, rel=0.3)
     assert found.memory[1, 0] > 5.0 * found.memory[0, 0]
     quick = Levels(prior.white, prior.coloured[:1], prior.memory[:1], prior.inputs)
-    assert nats > most_likely(layouts, residuals, none, quick, np.eye(4), quick)[2] + 10.0
+    assert nats > most_likely(layouts, residuals, none, unlimited(quick), quick)[2] + 10.0
 
 
 def test_a_search_ends_where_it_does_not_matter_from_where_it_set_out() -> None:
@@ -157,5 +182,5 @@ def test_a_search_ends_where_it_does_not_matter_from_where_it_set_out() -> None:
     residuals = [noise_of(each, true, rng) for each in layouts]
     prior = Levels(np.array([0.07]), np.array([[0.07], [0.02]]), np.array([[0.08], [0.4]]), np.array([0.005]))
     none = [np.zeros((300, 1, 0)) for _ in layouts]
-    ends = [most_likely(layouts, residuals, none, prior, np.eye(6), start)[2] for start in (prior, true)]
+    ends = [most_likely(layouts, residuals, none, unlimited(prior), start)[2] for start in (prior, true)]
     assert ends[0] == pytest.approx(ends[1], abs=0.05)

@@ -1,0 +1,130 @@
+"""Levels of noise, and what is believed of them before residuals are looked at.
+
+Noise that is estimated grows with whatever the model misses, so that a strong gap passes for loud noise. What is known
+of it beforehand is therefore a belief and a limit: a sensor is hardly noisier than was told, and noise of an input no
+louder than the quietest part of its own spectrum.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+BEYOND = 0.3  # of the logarithm, that a level can come to exceed what it is limited to
+
+
+@dataclass(frozen=True)
+class Levels:
+    """Standard deviations and correlation times that make up the covariance.
+
+    Parameters
+    ----------
+    white
+        Of each output channel, in its unit.
+    coloured
+        Of each process with a memory, by channel.
+    memory
+        Its correlation time [s].
+    inputs
+        Of each input, in its unit, after the low-pass filter.
+    """
+
+    white: Float[np.ndarray, " c"]
+    coloured: Float[np.ndarray, "k c"]
+    memory: Float[np.ndarray, "k c"]
+    inputs: Float[np.ndarray, " j"]
+
+    def logarithms(self) -> Float[np.ndarray, " h"]:
+        """All numbers in one vector of logarithms."""
+        parts = (self.white, self.coloured.ravel(), self.memory.ravel(), self.inputs)
+        return np.asarray(np.log(np.concatenate(parts)))
+
+    def at(self, logarithms: Float[np.ndarray, " h"]) -> Levels:
+        """Levels of the same shape from such a vector."""
+        sizes = np.cumsum([self.white.size, self.coloured.size, self.memory.size])
+        white, coloured, memory, inputs = np.split(np.exp(logarithms), sizes)
+        return Levels(white, coloured.reshape(self.coloured.shape), memory.reshape(self.memory.shape), inputs)
+
+    def times(self, sensors: Float[np.ndarray, " c"], inputs: Float[np.ndarray, " j"]) -> Levels:
+        """All noise of each output channel, and that of each input, so many times as loud."""
+        return Levels(self.white * sensors, self.coloured * sensors, self.memory, self.inputs * inputs)
+
+    @property
+    def sensors(self) -> Float[np.ndarray, " c"]:
+        """Whole noise of each output channel."""
+        return np.asarray(np.sqrt(self.white**2 + (self.coloured**2).sum(axis=0)))
+
+
+@dataclass(frozen=True)
+class Beliefs:
+    """Log-normal beliefs, and limits, of levels.
+
+    Unlimited levels have the logarithms m + F x with x standard normal. Where the whole noise of a sensor, or that of
+    an input, then exceeds its limit by e of the logarithm, it is scaled down until it exceeds it by b tanh(e/b), with
+    b = `BEYOND`: below the limit nothing changes.
+
+    Parameters
+    ----------
+    middle
+        Medians.
+    factor
+        F, a factor of the covariance of the logarithms.
+    sensors, inputs
+        Limits of the whole noise of each output channel and of each input, infinite where there is none.
+    """
+
+    middle: Levels
+    factor: Float[np.ndarray, "h h"]
+    sensors: Float[np.ndarray, " c"]
+    inputs: Float[np.ndarray, " j"]
+
+    def levels(self, x: Float[np.ndarray, " h"]) -> Levels:
+        """Levels at a point of the search."""
+        return self._limited(self._free(x))
+
+    def slope(self, x: Float[np.ndarray, " h"], pull: Float[np.ndarray, " h"]) -> Float[np.ndarray, " h"]:
+        """Derivative with respect to x of what has the derivatives `pull` with respect to the levels' logarithms."""
+        free = self._free(x)
+        sensors, inputs = self._excess(free)
+        channels, kinds = len(sensors), len(free.coloured)
+        back = pull.copy()
+        powers = np.concatenate([free.white[None], free.coloured]) ** 2 / free.sensors**2
+        noise = back[: channels * (1 + kinds)].reshape(1 + kinds, channels)  # a view
+        noise += powers * ((_steepness(sensors) - 1.0) * noise.sum(axis=0))
+        back[len(back) - len(inputs) :] *= _steepness(inputs)
+        return np.asarray(self.factor.T @ back)
+
+    def point(self, levels: Levels) -> Float[np.ndarray, " h"]:
+        """Where in the search levels are; those beyond what can be reached are taken as just within."""
+        sensors, inputs = (_released(each) for each in self._excess(levels))
+        free = levels.times(np.exp(sensors), np.exp(inputs))
+        return np.linalg.solve(self.factor, free.logarithms() - self.middle.logarithms())
+
+    def _free(self, x: Float[np.ndarray, " h"]) -> Levels:
+        return self.middle.at(self.middle.logarithms() + self.factor @ x)
+
+    def _limited(self, free: Levels) -> Levels:
+        sensors, inputs = (_held(each) for each in self._excess(free))
+        return free.times(np.exp(sensors), np.exp(inputs))
+
+    def _excess(self, levels: Levels) -> tuple[Float[np.ndarray, " c"], Float[np.ndarray, " j"]]:
+        return np.log(levels.sensors) - np.log(self.sensors), np.log(levels.inputs) - np.log(self.inputs)
+
+
+def _held(excess: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    """What is added to logarithms that exceed their limit so that they hardly do."""
+    over = np.maximum(excess, 0.0)
+    return np.asarray(BEYOND * np.tanh(over / BEYOND) - over)
+
+
+def _steepness(excess: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    """Derivative of the excess that is left with respect to the excess."""
+    return np.asarray(1.0 / np.cosh(np.minimum(np.maximum(excess, 0.0) / BEYOND, 30.0)) ** 2)
+
+
+def _released(left: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    """What was taken off logarithms of which this excess is left."""
+    over = np.minimum(np.maximum(left, 0.0) / BEYOND, 1.0 - 1e-6)
+    return np.asarray(BEYOND * np.arctanh(over) - np.maximum(left, 0.0))
