@@ -14,9 +14,10 @@ from __future__ import annotations
 
 import weakref
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.data.motion import Signals
 from geocontact.geometry.kernels.compile import kernel
@@ -27,6 +28,9 @@ NEIGHBOURS = 5
 CORE = 0.8
 """Share of the window in which neighbours count."""
 DEGREE = 3
+REMEMBERED = 32
+"""Time axes whose weights are remembered."""
+Weights = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -96,6 +100,54 @@ def solve(matrix: Float[np.ndarray, "n n"], right: Float[np.ndarray, "n i"]) -> 
 
 
 @kernel
+def weights_of(
+    time: Float[np.ndarray, " n"], at: Float[np.ndarray, " t"], reach: float, neighbours: int, degree: int
+) -> tuple[Int[np.ndarray, " t"], Int[np.ndarray, " t"], Float[np.ndarray, "two t w"]]:
+    """First sample and last + 1 of each window, and what each sample of it weighs in value and first derivative."""
+    first, last, wide = np.empty(at.size, np.int64), np.empty(at.size, np.int64), np.empty(at.size)
+    for i in range(at.size):
+        first[i], last[i], wide[i] = window(time, at[i], reach, neighbours)
+    weights = np.zeros((2, at.size, (last - first).max() if at.size else 0))
+    for i in range(at.size):
+        count = last[i] - first[i]
+        size = min(degree, count - 1) + 1
+        normal, right = np.zeros((size, size)), np.zeros((size, count))
+        powers = np.ones(2 * size)
+        for j in range(count):
+            s = (time[first[i] + j] - at[i]) / wide[i]
+            weight = (1.0 - min(abs(s), 1.0) ** 3) ** 3
+            for k in range(1, 2 * size):
+                powers[k] = powers[k - 1] * s
+            for a in range(size):
+                right[a, j] = weight * powers[a]
+                for b in range(size):
+                    normal[a, b] += weight * powers[a + b]
+        solve(normal, right)
+        for a in range(min(size, 2)):
+            for j in range(count):
+                weights[a, i, j] = right[a, j] / wide[i] ** a
+    return first, last, weights
+
+
+@kernel
+def weighed(
+    first: Int[np.ndarray, " t"],
+    last: Int[np.ndarray, " t"],
+    weights: Float[np.ndarray, "two t w"],
+    values: Float[np.ndarray, "i n"],
+) -> Float[np.ndarray, "two i t"]:
+    """Values and derivatives as weighed sums over windows."""
+    out = np.zeros((2, values.shape[0], first.size))
+    for a in range(2):
+        for c in range(values.shape[0]):
+            for i in range(first.size):
+                total = 0.0
+                for j in range(last[i] - first[i]):
+                    total += weights[a, i, j] * values[c, first[i] + j]
+                out[a, c, i] = total
+    return out
+
+
 def local_fit(
     time: Float[np.ndarray, " n"],
     values: Float[np.ndarray, "i n"],
@@ -104,29 +156,13 @@ def local_fit(
     neighbours: int,
     degree: int,
 ) -> Float[np.ndarray, "two i t"]:
-    """Value and first derivative at `at` of polynomials fitted around it."""
-    out = np.zeros((2, values.shape[0], at.size))
-    for i in range(at.size):
-        first, last, wide = window(time, at[i], reach, neighbours)
-        size = min(degree, last - first - 1) + 1
-        normal = np.zeros((size, size))
-        right = np.zeros((size, values.shape[0]))
-        powers = np.ones(2 * size)
-        for j in range(first, last):
-            s = (time[j] - at[i]) / wide
-            weight = (1.0 - min(abs(s), 1.0) ** 3) ** 3
-            for k in range(1, 2 * size):
-                powers[k] = powers[k - 1] * s
-            for a in range(size):
-                for c in range(values.shape[0]):
-                    right[a, c] += weight * powers[a] * values[c, j]
-                for b in range(size):
-                    normal[a, b] += weight * powers[a + b]
-        solve(normal, right)
-        for a in range(min(size, 2)):
-            for c in range(values.shape[0]):
-                out[a, c, i] = right[a, c] / wide**a
-    return out
+    """Value and first derivative at `at` of polynomials fitted around it; weights of the same times are remembered."""
+    return np.asarray(weighed(*_weights(time.tobytes(), at.tobytes(), reach, neighbours, degree), values))
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _weights(time: bytes, at: bytes, reach: float, neighbours: int, degree: int) -> Weights:
+    return weights_of(np.frombuffer(time), np.frombuffer(at), reach, neighbours, degree)
 
 
 def movement(

@@ -13,7 +13,7 @@ from geocontact.gap.contest import Contender, base_contender, pairs, settled_in,
 from geocontact.gap.evidence import settled
 from geocontact.gap.faults import Fault, fault_of, recognised
 from geocontact.gap.flat_tops import FlatTop, flat_tops
-from geocontact.gap.foretold import calibration_share
+from geocontact.gap.foretold import calibration_share, changes
 from geocontact.gap.hidden_faults import hidden_mistakes, undone
 from geocontact.gap.mending import mended
 from geocontact.gap.oddities import Oddity, oddities
@@ -119,24 +119,23 @@ def _attributed(
         else c
         for c in contenders
     ]
-    share = base.judged.fitted_rows / len(base.judged.model.whitened)
-    shares = {c.label: calibration_share(clean, base, c) for c in contenders}
+    shares = {c.label: calibration_share(clean, changes(clean, base, c)) for c in contenders}
     held = standing(base, contenders, shares, Counter(one.name for one in entered))
     odd = tuple(each for each in oddities(clean, held.leader.judged) if each.nats > ODD)
     strange = float(sum(each.nats for each in odd))
     best = held.best
     at("what is left over")
     rest = surrogate(clean, best.judged)
-    said = answer(held, _believed(remaining["none"], share), strange, _believed(rest, share) + strange)
+    said = answer(held, _believed(clean, remaining["none"]), strange, _believed(clean, rest) + strange)
     remaining |= {best.label: rest}
     if fault is not None:
         said = with_mistake(said, fault.candidate.name)
     return Attribution(problem, fault, clean, base, tuple(contenders), remaining, odd, flat, said)
 
 
-def _believed(found: Surrogate, share: float) -> float:
+def _believed(problem: Problem, found: Surrogate) -> float:
     """What a stand-in gains, as far as the calibration trials bear it out, its choice paid for [nats]."""
-    return borne_out(found.gain, found.calibration, share) - found.price
+    return borne_out(found.gain, found.calibration, calibration_share(problem, found.predicted)) - found.price
 
 
 def compared(problem: Problem, contenders: Sequence[Contender]) -> list[Contender]:

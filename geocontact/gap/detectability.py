@@ -25,7 +25,7 @@ from jaxtyping import Float
 from geocontact.chain.candidate import Candidate
 from geocontact.gap.evidence import FLAT
 from geocontact.gap.refit import magnitude
-from geocontact.gap.signatures import Ground, Sized, at_nats, orthonormal, own_slopes, reach_of, rest_of, sized
+from geocontact.gap.signatures import ADDS, Ground, Sized, at_nats, orthonormal, own_slopes, reach_of, rest_of, sized
 from geocontact.gap.verdict import FORM, SURE, borne_out
 
 POWER = 0.8  # share of repetitions in which an effect of the stated amplitude is seen
@@ -217,7 +217,9 @@ def _gainer(
 def _calibration_share(ground: Ground, moved: Float[np.ndarray, " n"]) -> float:
     """Part, in the calibration rows, of what is left of a change once the base is refitted to these."""
     inside = slice(0, ground.fitted_rows)
-    left = moved - ground.slopes @ np.linalg.lstsq(ground.slopes[inside], moved[inside])[0]
+    size = np.linalg.norm(ground.slopes[inside], axis=0)
+    slopes = ground.slopes[:, size > 0.0] / size[size > 0.0]
+    left = moved - slopes @ np.linalg.lstsq(slopes[inside], moved[inside], rcond=ADDS)[0]
     whole = float(left @ left)
     return float(left[inside] @ left[inside]) / whole if whole > 0.0 else ground.share
 

@@ -1,25 +1,40 @@
-"""How much of what an effect changes lies in the calibration trials.
+"""How much of what a model changes of the base model's prediction lies in the calibration trials.
 
 Held-out trials may be faster, larger or longer: an effect that calibration trials hardly show may show there. Its gain
-is to be borne out in proportion to what it changes, not to the number of samples.
+is to be borne out in proportion to what the model with it changes, not to the number of samples.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.gap.contest import Contender
 from geocontact.gap.problem import Problem
+from geocontact.gap.refit import NO_VALUE
+
+ROUNDING = 1e-2  # of the noise floor squared, over all samples, up to which a change is that of a search's end
 
 
-def calibration_share(problem: Problem, base: Contender, one: Contender) -> float:
-    """Part of a model's changes of the prediction, squared, in units of the noise floor, in the calibration trials.
+def changes(problem: Problem, base: Contender, one: Contender) -> list[Float[np.ndarray, "_ c"]]:
+    """What a model predicts otherwise than the base model, per trial, base parameters refitted.
 
-    That part of all samples where it changes nothing that is a number.
+    0 where either has no value.
     """
+    silent = NO_VALUE * problem.calibration.rough
     models = zip(base.judged.model.residuals, one.judged.model.residuals, strict=True)
-    changed = np.array([float(np.sum(((a - b) / problem.floor) ** 2)) for a, b in models])
-    whole = float(changed.sum())
-    if not 0.0 < whole < np.inf:
-        return base.judged.fitted_rows / len(base.judged.model.whitened)
-    return float(changed[: len(problem.calibration.trials)].sum()) / whole
+    return [np.where((a == silent) | (b == silent), 0.0, a - b) for a, b in models]
+
+
+def calibration_share(problem: Problem, changed: Sequence[Float[np.ndarray, "_ c"]]) -> float:
+    """Part of changes of all trials, squared, in units of the noise floor, that is in the calibration trials.
+
+    That part of all samples where the changes are no more than rounding, or no number.
+    """
+    count = len(problem.calibration.trials)
+    size = np.array([float(np.sum((each / problem.floor) ** 2)) for each in changed])
+    if not ROUNDING < size.sum() < np.inf:
+        size = np.array([float(each.size) for each in changed])
+    return float(size[:count].sum() / size.sum())

@@ -1,7 +1,8 @@
 """Mistakes in the data that refitted parameters may hide, so that nothing about them is gross.
 
-Base parameters swallow a force that reads 9.8 times too much, and a model that is nearly even in an input hardly tells
-its sign. Such mistakes compete with the effects, by evidence, and one that comes near is judged where it is undone.
+Base parameters swallow a force that reads 9.8 times too much, a model that is nearly even in an input hardly tells
+its sign, and two sides that carry much the same hardly tell that they were exchanged. Such mistakes compete with the
+effects, by evidence, and one that comes near is judged where it is undone.
 """
 
 from __future__ import annotations
@@ -32,9 +33,9 @@ def hidden_mistakes(problem: Problem, base: Judged, candidates: Sequence[Candida
     exchange is dropped where the model that fits best with it still misses something grossly.
     """
     mistakes = [one for one in candidates if one.somewhere is not None]
-    found = [one for one in mistakes if 1.0 / MODEST <= one.factor <= MODEST and one.factor != 1.0]
+    found = [one for one in mistakes if one.channel and 1.0 / MODEST <= one.factor <= MODEST]
     reversed_ = [one for one in mistakes if one.factor < 0.0 and one.channel in problem.system.inputs]
-    exchanged = [one for one in mistakes if one.factor == 1.0]
+    exchanged = [one for one in mistakes if not one.channel]
     weighings = problem.weighings(problem.quieter(base.noise), base.model)
     for one in (*reversed_, *exchanged):
         best = _where(problem, one, weighings)

@@ -24,7 +24,8 @@ from geocontact.identify.low_pass import LowPass
 
 PLATEAU = (0.25, 0.42, 0.58, 0.75, 0.92)  # of the corner
 FLAT = 2.5  # largest over smallest power of a plateau
-SURELY = 1.5  # times the noise of its quietest band that an input's may be
+CHANCE = 1e-3  # that the noise of an input is louder than the limit that a band sets
+BLACKMAN = 1.73  # bins as wide as one under the window (Harris 1978, Proc. IEEE 66:51)
 SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
 PERIODS, FEWEST = 8.0, 8  # of the corner in a stretch, and samples in a quarter of it at the least
 BOTH = 2  # values of an input that goes on and off
@@ -95,17 +96,23 @@ def seen_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float | N
 
 
 def loudest(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
-    """Standard deviation that an input's noise cannot exceed by much: that of the quietest band of its spectrum.
+    """Standard deviation that an input's noise cannot well exceed: that of the quietest band of its spectrum.
 
-    Movement only adds to what a band holds. Bands are those of the plateau, below the corner and below that of most
+    Movement only adds to what a band holds; how little noise may hold there by chance is told by a χ² of as many values
+    as are independent under the window. Bands are those of the plateau, below the corner and below that of most
     laboratories, of which the one that allows more counts, since the corner may have come out too high. Infinite where
     no trial is long enough.
     """
-    recordings = _evenly(trials, name)
-    levels = [in_bands(recordings, passed, corner) for corner in {passed.corner, min(passed.corner, USUAL)}]
-    if not all(levels):
-        return float("inf")
-    return SURELY * float(np.sqrt(max(min(each) for each in levels)))
+    from scipy.stats import chi2
+
+    recordings, found = _evenly(trials, name), []
+    for corner in {passed.corner, min(passed.corner, USUAL)}:
+        bands = in_bands(recordings, passed, corner)
+        if not bands:
+            return float("inf")
+        freedom = [2.0 * band.values / BLACKMAN for band in bands]
+        found.append(min(band.variance * f / chi2.ppf(CHANCE, f) for band, f in zip(bands, freedom, strict=True)))
+    return float(np.sqrt(max(found)))
 
 
 def _evenly(trials: Sequence[Trial], name: str) -> list[tuple[Float[np.ndarray, " _"], float]]:
@@ -126,26 +133,33 @@ def plateau(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed:
     over the bands from a quarter of it up to it power per power let through is the same. `recordings` are evenly
     spaced values and their step [s].
     """
-    levels = in_bands(recordings, passed, passed.corner)
+    levels = [band.variance for band in in_bands(recordings, passed, passed.corner)]
     return float(np.sqrt(np.mean(levels))) if levels and max(levels) < FLAT * min(levels) else None
 
 
-def in_bands(
-    recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed: LowPass, corner: float
-) -> list[float]:
-    """Variance of noise with the power of each band of the plateau below `corner` [Hz]; none if all are too short."""
-    levels = []
+@dataclass(frozen=True)
+class Band:
+    """Variance of noise that would have the power of a band, and how many values of spectra that is the mean of."""
+
+    variance: float
+    values: int
+
+
+def in_bands(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed: LowPass, corner: float) -> list[Band]:
+    """Each band of the plateau below `corner` [Hz]; none where recordings are too short to have values in all."""
+    bands = []
     for low, high in pairwise(corner * share for share in PLATEAU):
-        power = []
+        power, values_in = [], 0
         for values, step in recordings:
             spectrum, frequency, scale = _spectrum(values, step, passed)
             inside = (frequency >= low) & (frequency < high)
             if inside.any():
                 power.append(float(np.mean(np.abs(spectrum[inside]) ** 2 / passed.power(frequency[inside])) / scale))
+                values_in += int(inside.sum())
         if not power:
             return []
-        levels.append(float(np.mean(power)))
-    return levels
+        bands.append(Band(float(np.mean(power)), values_in))
+    return bands
 
 
 def _spectrum(

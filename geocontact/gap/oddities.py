@@ -7,11 +7,13 @@ corrected for everything that was looked at) how far off it is.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
+from geocontact.data.trial import Trial
 from geocontact.gap.evidence import Judged, bent_off
 from geocontact.gap.problem import Problem
 from geocontact.gap.recording_steps import measured_columns, resolution
@@ -19,7 +21,8 @@ from geocontact.gap.recording_steps import measured_columns, resolution
 WINDOWS = (4, 8, 16, 32, 64)  # samples
 SHORTEST = 64  # samples of a trial whose spectrum is looked at
 BESIDE = (-8, -7, -6, -5, -4, -3, 3, 4, 5, 6, 7, 8)  # bins that a line is compared with
-TURNS = 6  # periods in a trial from which something is a line and no part of the movement
+TURNS = 6  # periods in a trial from which something may be a line
+MOVES = 0.01  # of the largest amplitude in an input's spectrum, from which a frequency belongs to the movement
 OTHERS = 4  # times the width of a stretch that what it is compared with counts for
 PACKETS = (16, 24, 32)  # samples that an oscillation is looked for in
 CYCLES = 4  # periods per window from which it counts as one
@@ -62,27 +65,50 @@ def innovations(problem: Problem, judged: Judged) -> list[list[Float[np.ndarray,
 
 
 def lines(problem: Problem, judged: Judged) -> list[Oddity]:
-    """A narrow line in the spectrum: power at one frequency against that of its neighbours, trials taken together."""
+    """A narrow line in the spectrum: power at one frequency against that of its neighbours, trials taken together.
+
+    At frequencies of the movement a model misses something, and nothing is odd.
+    """
     from scipy.stats import f, gamma
 
     found = []
+    trials = [*problem.calibration.trials, *problem.evaluation.trials]
     rows = innovations(problem, judged)
     for c, name in enumerate(problem.system.outputs):
-        series = [trial[c] for trial in rows if len(trial[c]) >= SHORTEST]
+        long = [(trial, row[c]) for trial, row in zip(trials, rows, strict=True) if len(row[c]) >= SHORTEST]
+        series = [x for _, x in long]
         if not series:
             continue
         grid = np.linspace(0.0, 0.5, max(map(len, series)) // 2)
         doubt = np.zeros(len(grid))
-        for x in series:
+        for trial, x in long:
             power = np.abs(np.fft.rfft((x - x.mean()) * np.hanning(len(x)))) ** 2
             usual, beside = _around(power)
             nats = -f.logsf(power / usual, 2, beside)  # neighbours overlap under the window, so half of them count
-            turns = np.arange(len(power))
-            doubt += np.interp(grid, turns / len(x), np.where(turns < TURNS, 0.0, nats))
+            ruled_out = moving(trial, problem.system.inputs, len(power))
+            ruled_out[:TURNS] = True
+            doubt += np.interp(grid, np.arange(len(power)) / len(x), np.where(ruled_out, 0.0, nats))
         peak = int(np.argmax(doubt))
         nats = -float(gamma.logsf(doubt[peak], len(series))) - float(np.log(len(grid)))
         hertz = grid[peak] / problem.system.scale.step
         found.append(Oddity(f"a line at {hertz:.3g} Hz", name, max(nats, 0.0)))
+    return found
+
+
+def moving(trial: Trial, inputs: Sequence[str], count: int) -> Bool[np.ndarray, " f"]:
+    """Which of `count` frequencies from 0 to Nyquist's are part of the movement of some input."""
+    frequency = np.linspace(0.0, 0.5, count)
+    found = np.zeros(count, bool)
+    for name in inputs:
+        column = trial.column(name)
+        there = np.isfinite(column)
+        if not there.any() or np.ptp(column[there]) == 0.0:
+            continue
+        grid = np.arange(len(column))
+        even = np.interp(grid, grid[there], column[there])
+        size = np.abs(np.fft.rfft((even - even.mean()) * np.hanning(len(even))))
+        wide = np.maximum.reduce([size, np.roll(size, 1), np.roll(size, -1)])
+        found |= np.interp(frequency, np.fft.rfftfreq(len(even)), wide) > MOVES * size.max()
     return found
 
 

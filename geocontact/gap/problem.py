@@ -203,7 +203,8 @@ def problem_of(case: GapCase, system: System) -> Problem:
         system = system.scaled(calibration.trials, plain.values)
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
         beliefs = usual_levels(system, case.noise, rough, seen, most)
-        layouts = tuple(layouts_of(system, everything.trials, plain.values, everything.present, passed, kept))
+        heard = everything if last else calibration  # held-out trials do not tell how loud noise is
+        layouts = tuple(layouts_of(system, heard.trials, plain.values, heard.present, passed, kept))
         problem = Problem(
             system,
             calibration,

@@ -22,6 +22,7 @@ from geocontact.gap.refit import STEP, Measured, Refit, at, magnitude
 from geocontact.gap.weighing import Weighing
 
 ROUNDS, CLOSE = 16, 0.02  # steps to an amplitude of given nats, and how close these must be
+ADDS = 1e-9  # of the largest singular value, from which a direction counts
 LEAST, FAINT = 1e-6, 1e-3  # of the way to the end of its bounds, and of the nats asked for, that are looked at
 
 
@@ -99,7 +100,7 @@ def orthonormal(columns: Float[np.ndarray, "n p"]) -> Float[np.ndarray, "n k"]:
     """Directions that columns span, those left out that hardly add one."""
     size = np.linalg.norm(columns, axis=0)
     left, singular, _ = np.linalg.svd(columns[:, size > 0.0] / size[size > 0.0], full_matrices=False)
-    return np.asarray(left[:, singular > 1e-9 * max(singular.max(initial=0.0), 1e-300)])
+    return np.asarray(left[:, singular > ADDS * max(singular.max(initial=0.0), 1e-300)])
 
 
 def rest_of(candidate: Candidate, near: float = np.inf) -> float:

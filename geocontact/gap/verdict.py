@@ -21,11 +21,11 @@ SURE = 6.0  # nats below which a gain may be luck
 FORM = 0.02  # tolerance of form, as a share of what is explained
 LEFT_OVER = 0.2  # of all there is to explain may be left by the effect that is named
 PAIR = 0.12  # of what is explained that a second effect must add
-ALIVE = 0.04  # least probability of a candidate that is still in question
+ALIVE = 0.03  # least probability of a candidate that is still in question
 BEYOND = 0.3  # part of what a gain exceeds that by that counts
 STRANGER = 3.0  # nats more that something without a name must gain: a stand-in also finds what models smooth away
 ANY_FORM = 0.1  # of what something without a name gains, it gains because it has any form
-LEAST = 1e-3  # share of what changes, from which calibration trials bear nothing out
+LEAST = 0.02  # share of what changes below which their gain counts for no more: fifty times as much at the most
 ALLOWED = 4.0  # nats that luck may add on held-out trials
 MOST = 4  # candidates still in question beyond which nothing is named
 
@@ -45,9 +45,9 @@ def borne_out(total: float, calibration: float, share: float) -> float:
     """Gain over all trials, as far as the calibration trials bear it out.
 
     An effect that is there shows in the trials that it was fitted to as much as in the others, in proportion to what it
-    changes there. `share` is the calibration trials' part of that.
+    changes there. `share` is the calibration trials' part of that. What is lost there is a price, and stays as it is.
     """
-    expected = calibration / max(share, LEAST) + ALLOWED
+    expected = max(calibration, 0.0) / max(share, LEAST) + min(calibration, 0.0) + ALLOWED
     return total if total <= expected else expected + BEYOND * (total - expected)
 
 

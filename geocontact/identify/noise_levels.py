@@ -1,8 +1,8 @@
 """Levels of noise, and what is believed of them before residuals are looked at.
 
 Noise that is estimated grows with whatever the model misses, so that a strong gap passes for loud noise. What is known
-of it beforehand is therefore a belief and a limit: a sensor is hardly noisier than was told, and noise of an input no
-louder than the quietest part of its own spectrum.
+of it beforehand is therefore a belief and, where there is one, a limit: of the whole noise of a sensor, and of that of
+an input.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 BEYOND = 0.3  # of the logarithm, that a level can come to exceed what it is limited to
+REACHABLE = 1.0 - 1e-6  # share of that, at which levels are taken to be that exceed it more
 
 
 @dataclass(frozen=True)
@@ -121,10 +122,10 @@ def _held(excess: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
 
 def _steepness(excess: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
     """Derivative of the excess that is left with respect to the excess."""
-    return np.asarray(1.0 / np.cosh(np.minimum(np.maximum(excess, 0.0) / BEYOND, 30.0)) ** 2)
+    return np.asarray(1.0 - np.tanh(np.maximum(excess, 0.0) / BEYOND) ** 2)
 
 
 def _released(left: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
     """What was taken off logarithms of which this excess is left."""
-    over = np.minimum(np.maximum(left, 0.0) / BEYOND, 1.0 - 1e-6)
+    over = np.minimum(np.maximum(left, 0.0) / BEYOND, REACHABLE)
     return np.asarray(BEYOND * np.arctanh(over) - np.maximum(left, 0.0))

@@ -137,9 +137,9 @@ def evidence_of_bends(lean: float) -> tuple[float, float, float]:
     return float(gain), squares / float(net @ net), sum(b.shape[-1] for b in flips)
 
 
-def odd(change: Change | None, after: Change | None = None) -> dict[str, float]:
+def odd(change: Change | None, after: Change | None = None, duration: float = 24.0) -> dict[str, float]:
     """Everything odd in the residual of the base model, by words; `after` alters what was recorded."""
-    case = elbow_case(seed=8, duration=24.0, change=change)
+    case = elbow_case(seed=8, duration=duration, change=change)
     for trial in case.calibration + case.evaluation:
         if after:
             trial.signals.values[:, 1] = after(trial.name, trial.time, trial.signals.values[:, 1])

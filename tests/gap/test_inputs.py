@@ -8,7 +8,7 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs import denoised, left, seen_noise, shaken, switches
+from geocontact.gap.inputs import denoised, left, loudest, seen_noise, shaken, switches
 from geocontact.identify.low_pass import LowPass
 
 STEP = 0.02
@@ -36,6 +36,37 @@ def test_noise_is_looked_for_below_the_corner_of_its_filter() -> None:
 
 def test_a_fast_movement_hides_it() -> None:
     assert seen_noise([trial(0.0001, 2.2, seed)[0] for seed in range(3)], "u", LowPass(6.0, STEP)) is None
+
+
+def test_no_input_is_noisier_than_the_quietest_band_of_its_spectrum() -> None:
+    """Nor is the limit below the noise where the corner is taken for too high by half."""
+    slow = [trial(0.004, 0.25, seed)[0] for seed in range(3)]
+    assert 0.004 < loudest(slow, "u", LowPass(6.0, STEP)) < 0.008
+    assert loudest(slow, "u", LowPass(9.0, STEP)) > 0.004
+    fast = [trial(0.0001, 2.2, seed)[0] for seed in range(3)]
+    assert 0.0001 < loudest(fast, "u", LowPass(6.0, STEP)) < 0.1
+
+
+@pytest.mark.parametrize(("count", "samples"), [(1, 50), (1, 100), (3, 50), (5, 200)])
+def test_noise_is_hardly_ever_louder_than_its_limit(count: int, samples: int) -> None:
+    """Nothing but noise, few and short trials: the quietest of the bands is quiet by chance."""
+    over = 0
+    for seed in range(60):
+        trials = []
+        for k in range(count):
+            raw = filtfilt(
+                *butter(2, 6.0, fs=1.0 / STEP), np.random.default_rng([seed, k]).standard_normal(samples + 200)
+            )
+            values = 0.004 * raw[100:-100] / raw.std()
+            trials.append(Trial("t", Signals(STEP * np.arange(samples), values[:, None], ("u",), ("rad",))))
+        over += loudest(trials, "u", LowPass(6.0, STEP)) < 0.004
+    assert over <= 3
+
+
+def test_trials_too_short_for_a_spectrum_set_no_limit() -> None:
+    whole = trial(0.004, 0.25, 0)[0]
+    few = Trial("t", Signals(whole.time[:20], whole.signals.values[:20], ("u",), ("rad",)))
+    assert loudest([few], "u", LowPass(6.0, STEP)) == np.inf
 
 
 @pytest.mark.parametrize("lost", [False, True])

@@ -18,6 +18,19 @@ def test_a_tremor_is_a_line_at_its_frequency(elsewhere: Elsewhere) -> None:
     assert float(words.split()[3]) == pytest.approx(7.0, abs=0.3)
 
 
+def test_a_slow_tremor_is_a_line_too(elsewhere: Elsewhere) -> None:
+    """Ten periods in a trial, whose neighbours in the spectrum reach to its beginning."""
+    words, nats = max(elsewhere(odd, Tremor(0.6, 1.3), duration=8.0).items(), key=lambda each: each[1])
+    assert nats > 10.0
+    assert float(words.split()[3]) == pytest.approx(1.3, abs=0.15)
+
+
+def test_what_a_model_misses_at_the_frequency_of_the_movement_is_no_line(elsewhere: Elsewhere) -> None:
+    """The elbow goes to and fro 0.41 times a second."""
+    seen = elsewhere(odd, Tremor(1.0, 0.41))
+    assert max(nats for words, nats in seen.items() if "line" in words) < 5.0
+
+
 def test_a_knock_in_one_trial_is_a_burst(elsewhere: Elsewhere) -> None:
     assert elsewhere(odd, knock)["a burst"] > 15.0
 

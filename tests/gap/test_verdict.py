@@ -11,7 +11,7 @@ from geocontact.gap.contest import Contender
 from geocontact.gap.evidence import Judged
 from geocontact.gap.problem import Noise
 from geocontact.gap.refit import Refit
-from geocontact.gap.verdict import FORM, SURE, answer, standing, with_mistake
+from geocontact.gap.verdict import ALLOWED, BEYOND, FORM, LEAST, SURE, answer, borne_out, standing, with_mistake
 from geocontact.identify.noise_levels import Levels
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
@@ -51,6 +51,25 @@ def said(
 def test_a_gain_that_may_be_luck_is_no_gap() -> None:
     assert said(contender(SURE - 2.0, "damping")).verdict == "no_gap"
     assert said(contender(SURE + 6.0, "damping")).effects == ("damping",)
+
+
+def test_a_gain_is_borne_out_in_proportion_to_what_changes_in_the_calibration_trials() -> None:
+    assert borne_out(100.0, 60.0, 0.6) == 100.0
+    assert borne_out(100.0, 10.0, 0.1) == 100.0
+    assert borne_out(100.0, 10.0, 0.5) == pytest.approx(24.0 + BEYOND * 76.0)
+    assert borne_out(500.0, 10.0, LEAST / 10.0) == borne_out(500.0, 10.0, LEAST)
+
+
+@pytest.mark.parametrize("share", [0.01, 0.1, 0.6])
+def test_a_price_that_calibration_trials_paid_is_no_loss_in_all(share: float) -> None:
+    assert borne_out(100.0, -2.0, share) == pytest.approx(ALLOWED - 2.0 + BEYOND * (102.0 - ALLOWED))
+
+
+def test_everyone_is_borne_out_by_what_it_changes_itself() -> None:
+    one, other = contender(60.0, "damping"), contender(60.0, "dry_friction.rate")
+    counts = {each.name: 1 for each in OFFERED.values()}
+    held = standing(contender(0.0), (one, other), {one.label: 1.0, other.label: SHARE}, counts)
+    assert held.gains[one.label] < held.gains[other.label] == pytest.approx(60.0)
 
 
 def test_variants_share_what_is_believed_of_their_effect() -> None:

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 from geocontact.gap.evidence import log_evidence
-from geocontact.gap.weighing import Weighing
+from geocontact.gap.weighing import LOUDER, SENSOR_LOUDER, Weighing, usual_levels
 from geocontact.identify.covariance import Layout
 from geocontact.identify.input_noise import Instant
 from geocontact.identify.low_pass import LowPass
 from geocontact.identify.noise_levels import Levels
 from geocontact.identify.noise_spectrum import NoiseSpectrum
+from geocontact.systems.catalogue import system_of
+from tests.gap.cases import elbow_case
 
 SPECTRUM = NoiseSpectrum.after(LowPass(6.0, 0.05), lambda frequency: 2.0 * np.pi * frequency)
 
@@ -50,3 +52,18 @@ def test_evidence_is_that_of_the_dense_normal_distribution() -> None:
     dense = np.eye(40) + (design * spread) @ (design * spread).T
     expected = -0.5 * r @ np.linalg.solve(dense, r) - 0.5 * np.linalg.slogdet(dense)[1]
     assert log_evidence(r, design, spread) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(("told", "limit"), [({"force": 0.2}, 0.2 * SENSOR_LOUDER), ({}, np.inf)])
+def test_a_sensor_is_hardly_noisier_than_was_told(told: dict[str, float], limit: float) -> None:
+    case = elbow_case(duration=2.0)
+    system = system_of(case).scaled(case.calibration)
+    assert usual_levels(system, told, np.array([0.15]), {"beta": 0.01}, {}).sensors == pytest.approx([limit])
+
+
+def test_an_input_is_hardly_noisier_than_is_believed_or_than_its_spectrum_allows() -> None:
+    case = elbow_case(duration=2.0)
+    system = system_of(case).scaled(case.calibration)
+    believed = usual_levels(system, {}, np.array([0.15]), {"beta": 0.01}, {})
+    assert believed.inputs == pytest.approx([LOUDER * 0.01])
+    assert usual_levels(system, {}, np.array([0.15]), {"beta": 0.01}, {"beta": 0.02}).inputs == pytest.approx([0.02])
