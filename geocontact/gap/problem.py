@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -257,15 +257,29 @@ def _rates(
         return system
     beliefs = usual_levels(system, case.noise, rough, seen, most)
     usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
-    likely = []
-    for reach in REACHES:
+
+    def likelihood(reach: float) -> float:
         other = system.reaching(reach)
         model = _plain_fit(other, measured, rough, [plain.values], rounds=6)
         layouts = layouts_of(other, measured.trials, model.values, measured.present, passed, {})
         varied = [j[..., : len(usual)] * usual for j in model.jacobian]
-        _, __, nats = most_likely(layouts, model.residuals, varied, beliefs, beliefs.middle, rounds=15)
-        likely.append((nats, reach))
-    return system.reaching(max(likely)[1])
+        return most_likely(layouts, model.residuals, varied, beliefs, beliefs.middle, rounds=15)[2]
+
+    return system.reaching(best_of(likelihood, REACHES))
+
+
+def best_of(likelihood: Callable[[float], float], points: Sequence[float]) -> float:
+    """Where a function with one peak is largest among ordered points, from the middle uphill."""
+    at = len(points) // 2
+    known = {at: likelihood(points[at]), at - 1: likelihood(points[at - 1])}
+    step = -1 if known[at - 1] > known[at] else 1
+    at = max(known, key=lambda k: known[k])
+    while 0 <= at + step < len(points):
+        known[at + step] = likelihood(points[at + step])
+        if known[at + step] <= known[at]:
+            break
+        at += step
+    return points[at]
 
 
 def _denoised(measured: Measured, noise: Mapping[str, float], passed: LowPass) -> Measured:
