@@ -30,6 +30,8 @@ CORE = 0.8
 DEGREE = 3
 REMEMBERED = 32
 """Time axes whose weights are remembered."""
+PIECE = 2000
+"""Samples of the longest of them; at 200 Hz their weights take a megabyte."""
 Weights = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
@@ -102,14 +104,15 @@ def solve(matrix: Float[np.ndarray, "n n"], right: Float[np.ndarray, "n i"]) -> 
 @kernel
 def weights_of(
     time: Float[np.ndarray, " n"], at: Float[np.ndarray, " t"], reach: float, neighbours: int, degree: int
-) -> tuple[Int[np.ndarray, " t"], Int[np.ndarray, " t"], Float[np.ndarray, "two t w"]]:
-    """First sample and last + 1 of each window, and what each sample of it weighs in value and first derivative."""
-    first, last, wide = np.empty(at.size, np.int64), np.empty(at.size, np.int64), np.empty(at.size)
+) -> tuple[Int[np.ndarray, " t"], Int[np.ndarray, " t_and_one"], Float[np.ndarray, "two w"]]:
+    """First sample of each window, where its weights begin, and what samples weigh in value and first derivative."""
+    first, begin, wide = np.empty(at.size, np.int64), np.zeros(at.size + 1, np.int64), np.empty(at.size)
     for i in range(at.size):
-        first[i], last[i], wide[i] = window(time, at[i], reach, neighbours)
-    weights = np.zeros((2, at.size, (last - first).max() if at.size else 0))
+        first[i], last, wide[i] = window(time, at[i], reach, neighbours)
+        begin[i + 1] = begin[i] + last - first[i]
+    weights = np.zeros((2, begin[at.size]))
     for i in range(at.size):
-        count = last[i] - first[i]
+        count = begin[i + 1] - begin[i]
         size = min(degree, count - 1) + 1
         normal, right = np.zeros((size, size)), np.zeros((size, count))
         powers = np.ones(2 * size)
@@ -125,15 +128,15 @@ def weights_of(
         solve(normal, right)
         for a in range(min(size, 2)):
             for j in range(count):
-                weights[a, i, j] = right[a, j] / wide[i] ** a
-    return first, last, weights
+                weights[a, begin[i] + j] = right[a, j] / wide[i] ** a
+    return first, begin, weights
 
 
 @kernel
 def weighed(
     first: Int[np.ndarray, " t"],
-    last: Int[np.ndarray, " t"],
-    weights: Float[np.ndarray, "two t w"],
+    begin: Int[np.ndarray, " t_and_one"],
+    weights: Float[np.ndarray, "two w"],
     values: Float[np.ndarray, "i n"],
 ) -> Float[np.ndarray, "two i t"]:
     """Values and derivatives as weighed sums over windows."""
@@ -142,8 +145,8 @@ def weighed(
         for c in range(values.shape[0]):
             for i in range(first.size):
                 total = 0.0
-                for j in range(last[i] - first[i]):
-                    total += weights[a, i, j] * values[c, first[i] + j]
+                for j in range(begin[i + 1] - begin[i]):
+                    total += weights[a, begin[i] + j] * values[c, first[i] + j]
                 out[a, c, i] = total
     return out
 
@@ -156,12 +159,19 @@ def local_fit(
     neighbours: int,
     degree: int,
 ) -> Float[np.ndarray, "two i t"]:
-    """Value and first derivative at `at` of polynomials fitted around it; weights of the same times are remembered."""
-    return np.asarray(weighed(*_weights(time.tobytes(), at.tobytes(), reach, neighbours, degree), values))
+    """Value and first derivative at `at` of polynomials fitted around it.
+
+    Weights of the same times are remembered, up to `PIECE` of them; more are worked out piece by piece.
+    """
+    time, at, values = (np.ascontiguousarray(each, dtype=float) for each in (time, at, values))
+    if at.size <= PIECE:
+        return np.asarray(weighed(*_remembered(time.tobytes(), at.tobytes(), reach, neighbours, degree), values))
+    pieces = (at[k : k + PIECE] for k in range(0, at.size, PIECE))
+    return np.concatenate([weighed(*weights_of(time, p, reach, neighbours, degree), values) for p in pieces], axis=2)
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _weights(time: bytes, at: bytes, reach: float, neighbours: int, degree: int) -> Weights:
+def _remembered(time: bytes, at: bytes, reach: float, neighbours: int, degree: int) -> Weights:
     return weights_of(np.frombuffer(time), np.frombuffer(at), reach, neighbours, degree)
 
 

@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
+from geocontact.chain.system import FAR
 from geocontact.gap.contest import Contender
 from geocontact.gap.problem import Problem
 from geocontact.gap.refit import NO_VALUE
@@ -21,11 +22,15 @@ ROUNDING = 1e-2  # of the noise floor squared, over all samples, up to which a c
 def changes(problem: Problem, base: Contender, one: Contender) -> list[Float[np.ndarray, "_ c"]]:
     """What a model predicts otherwise than the base model, per trial, base parameters refitted.
 
-    0 where either has no value.
+    0 where either has no value, or no solution.
     """
-    silent = NO_VALUE * problem.calibration.rough
+    no_value = NO_VALUE * problem.calibration.rough
+
+    def silent(residual: Float[np.ndarray, "_ c"]) -> Bool[np.ndarray, "_ c"]:
+        return np.asarray((residual == no_value) | (np.abs(residual) > 0.5 * FAR))
+
     models = zip(base.judged.model.residuals, one.judged.model.residuals, strict=True)
-    return [np.where((a == silent) | (b == silent), 0.0, a - b) for a, b in models]
+    return [np.where(silent(a) | silent(b), 0.0, a - b) for a, b in models]
 
 
 def calibration_share(problem: Problem, changed: Sequence[Float[np.ndarray, "_ c"]]) -> float:

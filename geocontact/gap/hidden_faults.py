@@ -33,7 +33,7 @@ def hidden_mistakes(problem: Problem, base: Judged, candidates: Sequence[Candida
     exchange is dropped where the model that fits best with it still misses something grossly.
     """
     mistakes = [one for one in candidates if one.somewhere is not None]
-    found = [one for one in mistakes if one.channel and 1.0 / MODEST <= one.factor <= MODEST]
+    found = [one for one in mistakes if one.factor != 1.0 and 1.0 / MODEST <= one.factor <= MODEST]
     reversed_ = [one for one in mistakes if one.factor < 0.0 and one.channel in problem.system.inputs]
     exchanged = [one for one in mistakes if not one.channel]
     weighings = problem.weighings(problem.quieter(base.noise), base.model)

@@ -24,7 +24,7 @@ from geocontact.identify.low_pass import LowPass
 
 PLATEAU = (0.25, 0.42, 0.58, 0.75, 0.92)  # of the corner
 FLAT = 2.5  # largest over smallest power of a plateau
-CHANCE = 1e-3  # that the noise of an input is louder than the limit that a band sets
+CHANCE = 1e-3  # that the noise of an input is louder than the limit that its spectrum sets
 BLACKMAN = 1.73  # bins as wide as one under the window (Harris 1978, Proc. IEEE 66:51)
 SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
 PERIODS, FEWEST = 8.0, 8  # of the corner in a stretch, and samples in a quarter of it at the least
@@ -110,8 +110,9 @@ def loudest(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
         bands = in_bands(recordings, passed, corner)
         if not bands:
             return float("inf")
+        least = CHANCE / len(bands)
         freedom = [2.0 * band.values / BLACKMAN for band in bands]
-        found.append(min(band.variance * f / chi2.ppf(CHANCE, f) for band, f in zip(bands, freedom, strict=True)))
+        found.append(min(band.variance * f / chi2.ppf(least, f) for band, f in zip(bands, freedom, strict=True)))
     return float(np.sqrt(max(found)))
 
 
@@ -139,26 +140,26 @@ def plateau(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed:
 
 @dataclass(frozen=True)
 class Band:
-    """Variance of noise that would have the power of a band, and how many values of spectra that is the mean of."""
+    """Variance of noise that would have the power of a band, and how many values of one spectrum its mean is worth."""
 
     variance: float
-    values: int
+    values: float
 
 
 def in_bands(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed: LowPass, corner: float) -> list[Band]:
     """Each band of the plateau below `corner` [Hz]; none where recordings are too short to have values in all."""
     bands = []
     for low, high in pairwise(corner * share for share in PLATEAU):
-        power, values_in = [], 0
+        power, spread = [], 0.0
         for values, step in recordings:
             spectrum, frequency, scale = _spectrum(values, step, passed)
             inside = (frequency >= low) & (frequency < high)
             if inside.any():
                 power.append(float(np.mean(np.abs(spectrum[inside]) ** 2 / passed.power(frequency[inside])) / scale))
-                values_in += int(inside.sum())
+                spread += 1.0 / int(inside.sum())
         if not power:
             return []
-        bands.append(Band(float(np.mean(power)), values_in))
+        bands.append(Band(float(np.mean(power)), len(power) ** 2 / spread))
     return bands
 
 

@@ -15,6 +15,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.data.trial import Trial
 from geocontact.gap.evidence import Judged, bent_off
+from geocontact.gap.inputs import switches
 from geocontact.gap.problem import Problem
 from geocontact.gap.recording_steps import measured_columns, resolution
 
@@ -67,12 +68,14 @@ def innovations(problem: Problem, judged: Judged) -> list[list[Float[np.ndarray,
 def lines(problem: Problem, judged: Judged) -> list[Oddity]:
     """A narrow line in the spectrum: power at one frequency against that of its neighbours, trials taken together.
 
-    At frequencies of the movement a model misses something, and nothing is odd.
+    At frequencies of the movement a model misses something, and nothing is odd. What only goes on and off has all
+    frequencies, and is no movement.
     """
     from scipy.stats import f, gamma
 
     found = []
     trials = [*problem.calibration.trials, *problem.evaluation.trials]
+    moved = [name for name in problem.system.inputs if not switches(trials, name)]
     rows = innovations(problem, judged)
     for c, name in enumerate(problem.system.outputs):
         long = [(trial, row[c]) for trial, row in zip(trials, rows, strict=True) if len(row[c]) >= SHORTEST]
@@ -85,8 +88,8 @@ def lines(problem: Problem, judged: Judged) -> list[Oddity]:
             power = np.abs(np.fft.rfft((x - x.mean()) * np.hanning(len(x)))) ** 2
             usual, beside = _around(power)
             nats = -f.logsf(power / usual, 2, beside)  # neighbours overlap under the window, so half of them count
-            ruled_out = moving(trial, problem.system.inputs, len(power))
-            ruled_out[:TURNS] = True
+            ruled_out = moving(trial, moved, len(power))
+            ruled_out[:TURNS] = ruled_out[-1] = True  # at Nyquist's frequency power has half the freedom
             doubt += np.interp(grid, np.arange(len(power)) / len(x), np.where(ruled_out, 0.0, nats))
         peak = int(np.argmax(doubt))
         nats = -float(gamma.logsf(doubt[peak], len(series))) - float(np.log(len(grid)))

@@ -203,7 +203,7 @@ def problem_of(case: GapCase, system: System) -> Problem:
         system = system.scaled(calibration.trials, plain.values)
         usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
         beliefs = usual_levels(system, case.noise, rough, seen, most)
-        heard = everything if last else calibration  # held-out trials do not tell how loud noise is
+        heard = everything if last else calibration  # levels are those of calibration trials
         layouts = tuple(layouts_of(system, heard.trials, plain.values, heard.present, passed, kept))
         problem = Problem(
             system,
@@ -246,7 +246,8 @@ def _rates(
 ) -> System:
     """The system with the smoothing of rates that makes the base model's residuals most likely.
 
-    How far rates have to be smoothed depends on the noise of the inputs, which is not known. Where the base does not
+    That is a local best, searched from the middle of `REACHES` uphill. How far rates have to be smoothed depends on the
+    noise of the inputs, which is not known. Where the base does not
     depend on rates the usual smoothing stays.
     """
     plain = _plain_fit(system, measured, rough, base_starts(system), rounds=40)

@@ -27,6 +27,7 @@ INPUT_NOISE = 2e-3  # of an input's half-range
 ALIKE, OWN = 0.8, 0.5  # standard deviations of the logarithm of input noise: of a unit, and of one input beyond that
 LOUDER = 2.0  # times what is believed of an input's noise that it may be
 SENSOR_LOUDER = 1.2  # times what was told of a sensor's
+QUIETEST = 0.1  # of `INPUT_NOISE`, that an input's limit is at the least: resolution, slow errors
 Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 """Of power that is left, by frequency [Hz]."""
 
@@ -127,9 +128,10 @@ def usual_levels(
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
     stands in and is believed less. Quick noise remembers a few samples, slow noise some tenths of a second. Inputs are
-    known as well as their spectra show (`seen`), to 0.2 % of their half-range at best, and those of one unit about
-    equally well, since they come from the same markers. A sensor is hardly noisier than `SENSOR_LOUDER` times what was
-    told, an input than `LOUDER` times what is believed, or than `most`; nothing more is believed of it than that.
+    known as well as their spectra show (`seen`), 0.2 % of their half-range at the least unless `most` is less, and
+    those of one unit about equally well, since they come from the same markers. A sensor is hardly noisier than
+    `SENSOR_LOUDER` times what was told, an input than `LOUDER` times what is believed, or than `most` (a tenth of the
+    0.2 % at the least); nothing more is believed of it than that.
     """
     known = np.array([name in told for name in system.outputs])
     sd = np.array([told.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
@@ -147,6 +149,7 @@ def usual_levels(
     memory = np.array([2.0 * system.scale.step * sure, SLOW * sure])
     sensors = SENSOR_LOUDER * np.array([told.get(name, np.inf) for name in system.outputs])
     loudest = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
+    loudest = np.maximum(loudest, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs])
     inputs = np.minimum(inputs, loudest)
     return Beliefs(Levels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, loudest)
 

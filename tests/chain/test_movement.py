@@ -102,3 +102,42 @@ def test_what_is_remembered_goes_with_its_recording() -> None:
     del signals
     gc.collect()
     assert key not in module._SEEN
+
+
+def fresh(*arguments: object) -> np.ndarray:
+    """A fit of which nothing is remembered."""
+    module._remembered.cache_clear()
+    return module.local_fit(*arguments)
+
+
+def test_weights_are_remembered_by_times_reach_neighbours_and_degree() -> None:
+    rng = np.random.default_rng(4)
+    time, values = np.cumsum(rng.uniform(0.004, 0.012, 150)), rng.standard_normal((2, 150))
+    gone = np.delete(time, slice(40, 60))
+    asked = [
+        (time, values, time, 0.07, 5, 3), (time, values, time, 0.035, 5, 3), (time, values, time, 0.07, 9, 3),
+        (time, values, time, 0.07, 5, 2), (time, values, time[:50], 0.07, 5, 3),
+        (gone, np.delete(values, slice(40, 60), axis=1), time, 0.07, 5, 3),
+    ]  # fmt: skip
+    alone = [fresh(*each) for each in asked]
+    module._remembered.cache_clear()
+    for _ in range(2):
+        for each, want in zip(asked, alone, strict=True):
+            np.testing.assert_array_equal(module.local_fit(*each), want)
+    assert module._remembered.cache_info().hits == len(asked)
+
+
+def test_a_long_recording_is_fitted_piece_by_piece() -> None:
+    time = 0.001 * np.arange(module.PIECE + 700)
+    values = np.sin(3.0 * time)[None]
+    module._remembered.cache_clear()
+    got = module.local_fit(time, values, time, 0.01, 5, 3)
+    assert not module._remembered.cache_info().currsize
+    np.testing.assert_allclose(got[1, 0], 3.0 * np.cos(3.0 * time), atol=1e-3)
+    middle = module.local_fit(time, values, time[1500:2500], 0.01, 5, 3)
+    np.testing.assert_allclose(middle, got[:, :, 1500:2500], rtol=1e-12)
+
+
+def test_times_may_be_of_single_precision() -> None:
+    time = np.arange(8, dtype=np.float32)
+    np.testing.assert_allclose(of(time, np.arange(8.0) ** 2).rate[0], 2.0 * np.arange(8.0), atol=1e-9)

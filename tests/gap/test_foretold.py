@@ -8,6 +8,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
+from geocontact.chain.system import FAR
 from geocontact.gap.foretold import calibration_share, changes
 from geocontact.gap.refit import NO_VALUE
 
@@ -42,6 +43,8 @@ def test_of_samples_where_nothing_changes_or_no_number(nothing: tuple[float, ...
 def test_samples_without_a_value_change_nothing() -> None:
     base, one = of(0.0, 0.0, 0.0), of(1.0, 1.0, 1.0)
     one[2][:, 0] = NO_VALUE * ROUGH[0]
+    one[1][:] = FAR
     fakes = (SimpleNamespace(judged=SimpleNamespace(model=SimpleNamespace(residuals=each))) for each in (base, one))
     found = unchecked(changes)(PROBLEM, *fakes)
     assert not found[2][:, 0].any() and (found[2][:, 1] == -FLOOR[1]).all() and (found[0] == -FLOOR).all()
+    assert not found[1].any()

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from geocontact.data.motion import Signals
+from geocontact.data.trial import Trial
+from geocontact.gap.inputs import switches
+from geocontact.gap.oddities import moving
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung
 
@@ -49,3 +54,13 @@ def test_ringing_at_the_same_phase_of_every_trial(elsewhere: Elsewhere) -> None:
     words, nats = max((each for each in seen.items() if "ringing" in each[0]), key=lambda each: each[1])
     assert nats > 15.0
     assert float(words.split()[2]) == pytest.approx(8.0, abs=1.6)
+
+
+def test_what_only_goes_on_and_off_hides_no_line() -> None:
+    """Its harmonics are everywhere; a smooth movement has few frequencies."""
+    time = 0.02 * np.arange(400)
+    values = np.column_stack([np.sin(2.0 * np.pi * 0.4 * time) > 0.0, np.sin(2.0 * np.pi * 0.4 * time)]).astype(float)
+    trial = Trial("t", Signals(time, values, ("on", "angle"), ("", "rad")))
+    assert moving(trial, ("on",), 201).mean() > 0.5
+    assert 0 < moving(trial, ("angle",), 201).sum() < 20
+    assert switches([trial], "on") and not switches([trial], "angle")
