@@ -29,7 +29,7 @@ from geocontact.identify.noise_levels import Beliefs, Levels
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
 RAISED = 1e-7  # of the diagonal, first try where a covariance has no factor
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
-ENOUGH = 5e-3  # nats that a step of the search must gain for another
+ENOUGH = 1e-6  # nats that a step of the search must gain for another
 JITTER = 1e-9  # of the diagonal, so that a factor always exists
 
 

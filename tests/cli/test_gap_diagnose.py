@@ -208,17 +208,14 @@ def test_a_wrong_case_costs_the_others_nothing(many: Many) -> None:
 
 @pytest.mark.parametrize("name", SAME)
 def test_names_order_and_units_do_not_change_the_answer(answer: dict[str, Any], many: Many, name: str) -> None:
-    """Also not from one process to another: the answer beside it was made in this one.
-
-    Searches for noise end within thousandths of a nat of each other, so numbers may differ in their fourth digit.
-    """
+    """Also not from one process to another: the answer beside it was made in this one."""
     again = answer_in(many.folder / name)
     assert again["case"] == name
     same, other = ({k: v for k, v in a.items() if k not in ("case", "seconds")} for a in (answer, again))
     for key in ("verdict", "effects", "ambiguity", "absorbed", "faults", "remarks"):
         assert same[key] == other[key]
     for first, second in zip(numbers(same), numbers(other), strict=True):
-        assert first == pytest.approx(second, rel=1e-3, abs=1e-6)
+        assert first == pytest.approx(second, rel=1e-5, abs=1e-9)
 
 
 def test_bare_leaves_pictures_out_and_takes_old_ones_away(good: Path, tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -127,10 +128,25 @@ def test_the_case_holds_forces_cells_and_their_places(case: Path) -> None:
     assert '[layout]\nthigh = "thigh_layout.csv"' in settings and "from" not in settings
 
 
-def test_the_diagnosis_says_where_the_strap_pulls(case: Path, tmp_path: Path, elsewhere: Elsewhere) -> None:
+@pytest.fixture(scope="module")
+def strapped(case: Path, tmp_path_factory: pytest.TempPathFactory, elsewhere: Elsewhere) -> tuple[Any, Path]:
+    """What the diagnosis prints, and where it writes: a strap pulls at one end of the mat all the time."""
+    out = tmp_path_factory.mktemp("strapped") / "out"
+    return done(elsewhere(call, "gap", "diagnose", case, "--out", out)), out
+
+
+@pytest.mark.xfail(
+    strict=True, reason="a spring in series stays in question too, at 6 %: FORM is 2 % of larger gains now"
+)
+def test_only_what_the_model_cannot_tell_from_a_preload_is_in_question(strapped: tuple[Any, Path]) -> None:
+    said = json.loads((strapped[1] / "diagnosis.json").read_text("utf-8"))
+    assert set(said["ambiguity"]) == {"preload", "motion_offset", "sensor_offset"}
+
+
+def test_the_diagnosis_says_where_the_strap_pulls(strapped: tuple[Any, Path]) -> None:
     """Pulled at one end of the mat all the time: a preload, or what the model cannot tell from one."""
-    out = done(elsewhere(call, "gap", "diagnose", case, "--out", tmp_path / "out"))
-    said = json.loads((tmp_path / "out" / "diagnosis.json").read_text("utf-8"))
+    out, folder = strapped
+    said = json.loads((folder / "diagnosis.json").read_text("utf-8"))
     assert said["verdict"] == "explained" and set(said["effects"]) <= set(said["ambiguity"])
     assert set(said["ambiguity"][:3]) == {"preload", "motion_offset", "sensor_offset"}
     assert sum(said["probabilities"][name] for name in said["ambiguity"][:3]) > 0.9
@@ -138,11 +154,11 @@ def test_the_diagnosis_says_where_the_strap_pulls(case: Path, tmp_path: Path, el
     edge = {f"r{r}c{c}" for r, c in zip(ROW[EDGE], COLUMN[EDGE], strict=True)}
     assert entry["channel"] == "thigh_force" and set(entry["cells"]) <= edge and len(entry["cells"]) >= 8
     assert entry["cells_p_value"] < 0.05 and entry["cells_load"] < 0.3 < 0.7 <= entry["cells_share"]
-    table = pd.read_csv(tmp_path / "out" / "surface.csv")
+    table = pd.read_csv(folder / "surface.csv")
     assert table["gap_share [-]"].sum() == pytest.approx(1.0) and set(table["site"]) == {"thigh"}
     assert "cells that carry" in out.out
-    assert "Where on the surface" in (tmp_path / "out" / "report.html").read_text("utf-8")
-    assert (tmp_path / "out" / "gap_surface_thigh.svg").is_file()
+    assert "Where on the surface" in (folder / "report.html").read_text("utf-8")
+    assert (folder / "gap_surface_thigh.svg").is_file()
 
 
 @pytest.mark.parametrize(
