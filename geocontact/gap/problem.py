@@ -14,9 +14,10 @@ from geocontact.gap.corner import filter_of, likely_noise
 from geocontact.gap.inputs import Left, denoised, left, loudest, seen_noise, shaken, switches
 from geocontact.gap.refit import NO_VALUE, Measured, Refit, at, free, refit
 from geocontact.gap.weighing import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
-from geocontact.identify.covariance import Layout, Whitener, most_likely
+from geocontact.identify.covariance import Layout, Whitener
 from geocontact.identify.low_pass import LowPass
 from geocontact.identify.noise_levels import Beliefs, Levels
+from geocontact.identify.noise_search import most_likely
 from geocontact.identify.trial_variation import Products, variation
 
 REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over

@@ -100,3 +100,44 @@ def pulled(
                 total += pull[a, b] * inputs[j, a, b]
             of_inputs[j] += 2.0 * total
     return white, out, of_inputs
+
+
+@kernel
+def carried(
+    time: Float[np.ndarray, " n"],
+    channel: Int[np.ndarray, " n"],
+    inputs: Float[np.ndarray, "j n n"],
+    memory: Float[np.ndarray, "k c"],
+    values: Float[np.ndarray, " n"],
+) -> Float[np.ndarray, "h n"]:
+    """What `pulled` sums over, as products with a vector: of each channel's diagonal, of exp(-lag/τ) for each τ, of
+    lag exp(-lag/τ) [s] for each τ, and of each input's covariance.
+    """
+    kinds, channels = memory.shape
+    size, slow, first = time.size, channels * (1 + kinds), channels * (1 + 2 * kinds)
+    out = np.zeros((first + inputs.shape[0], size))
+    for a in range(size):
+        out[channel[a], a] = values[a]
+    for k in range(kinds):
+        kept = decays(time, channel, memory[k])
+        for a in range(size):
+            c = channel[a]
+            level, lagged = channels * (1 + k) + c, slow + channels * k + c
+            out[level, a] += values[a]
+            correlation = 1.0
+            for b in range(a + 1, size):
+                if channel[b] != c:
+                    break
+                correlation *= kept[b]
+                lag = correlation * (time[b] - time[a])
+                out[level, a] += correlation * values[b]
+                out[level, b] += correlation * values[a]
+                out[lagged, a] += lag * values[b]
+                out[lagged, b] += lag * values[a]
+    for j in range(inputs.shape[0]):
+        for a in range(size):
+            total = 0.0
+            for b in range(size):
+                total += inputs[j, a, b] * values[b]
+            out[first + j, a] = total
+    return out

@@ -13,7 +13,6 @@ d; that keeps matrices small, and is right for what is forgotten within a block.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -22,14 +21,12 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.linalg import lapack
 
-from geocontact.identify.block_sums import pulled, summed
+from geocontact.identify.block_sums import carried, pulled, summed
 from geocontact.identify.input_noise import InputNoise
-from geocontact.identify.noise_levels import Beliefs, Levels
+from geocontact.identify.noise_levels import Levels
 
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
 RAISED = 1e-7  # of the diagonal, first try where a covariance has no factor
-FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
-ENOUGH = 1e-6  # nats that a step of the search must gain for another
 JITTER = 1e-9  # of the diagonal, so that a factor always exists
 
 
@@ -63,14 +60,25 @@ class Block:
         `pull` is symmetric; its upper half is read.
         """
         white, (coloured, lagged), inputs = pulled(self.time, self.channel, self.inputs, levels.memory, pull)
-        return np.concatenate(
-            [
-                2.0 * levels.white**2 * white,
-                (2.0 * levels.coloured**2 * coloured).ravel(),
-                (levels.coloured**2 * lagged / levels.memory).ravel(),
-                2.0 * levels.inputs**2 * inputs,
-            ]
-        )
+        sums = np.concatenate([white, coloured.ravel(), lagged.ravel(), inputs])
+        return np.asarray(_per_logarithm(levels) * sums)
+
+    def derivatives_times(self, levels: Levels, values: Float[np.ndarray, " n"]) -> Float[np.ndarray, "h n"]:
+        """Derivative of the covariance with respect to each logarithm of a level, times `values`."""
+        moved = carried(self.time, self.channel, self.inputs, levels.memory, values)
+        return np.asarray(_per_logarithm(levels)[:, None] * moved)
+
+
+def _per_logarithm(levels: Levels) -> Float[np.ndarray, " h"]:
+    """What the parts of a covariance, or its coloured ones' slopes by 1/τ, are multiplied by for its derivatives."""
+    coloured = levels.coloured**2
+    parts = (
+        2.0 * levels.white**2,
+        (2.0 * coloured).ravel(),
+        (coloured / levels.memory).ravel(),
+        2.0 * levels.inputs**2,
+    )
+    return np.concatenate(parts)
 
 
 @dataclass(frozen=True)
@@ -95,7 +103,7 @@ class Layout:
 
     def whitener(self, levels: Levels) -> Whitener:
         """What turns noise of these levels into independent numbers of unit variance."""
-        factors = [_factor(block.covariance(levels)) for block in self.blocks]
+        factors = [factor_of(block.covariance(levels)) for block in self.blocks]
         inverses = tuple(lapack.dtrtri(factor, lower=1)[0] for factor, _ in factors)
         return Whitener(tuple(block.rows for block in self.blocks), inverses, sum(scale for _, scale in factors))
 
@@ -145,7 +153,7 @@ def _block(
     return Block(at * present.shape[1] + which, time[at], which, heard.covariance(at, which))
 
 
-def _factor(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:
+def factor_of(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:
     """Lower Cholesky factor, and half the logarithm of the determinant.
 
     Tables of the low-pass kernel are exact to a few digits; where input noise dwarfs the rest, the diagonal is raised
@@ -162,66 +170,3 @@ def _factor(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n 
             raise ValueError("a noise covariance has no finite factor")
         raised = covariance + more * np.diag(np.diag(covariance))
         more *= 10.0
-
-
-def most_likely(
-    layouts: Sequence[Layout],
-    residuals: Sequence[Float[np.ndarray, "_ c"]],
-    jitter: Sequence[Float[np.ndarray, "_ c q"]],
-    beliefs: Beliefs,
-    start: Levels,
-    rounds: int = 80,
-) -> tuple[Levels, float, float]:
-    """Levels that make the residuals most likely, given what was believed of them.
-
-    With them half their squared surprise, and the logarithm of what was maximised.
-
-    Parameters
-    ----------
-    layouts, residuals
-        One per trial.
-    jitter
-        Derivatives with respect to what varies from trial to trial, times its standard deviation.
-    beliefs
-        What was believed of the levels, and their limits.
-    start
-        Where the search sets out.
-    """
-    from scipy.optimize import OptimizeResult, minimize
-
-    pieces = []
-    for layout, residual, moved in zip(layouts, residuals, jitter, strict=True):
-        flat = moved.reshape(residual.size, moved.shape[-1])
-        for block in layout.blocks:
-            own = flat[block.rows]
-            pieces.append((block, residual.ravel()[block.rows], own @ own.T))
-
-    def cost(x: Float[np.ndarray, " h"]) -> tuple[float, Float[np.ndarray, " h"]]:
-        levels = beliefs.levels(x)
-        total, pull = 0.5 * float(x @ x), np.zeros(len(x))
-        for block, residual, moved in pieces:
-            root, log_scale = _factor(block.covariance(levels) + moved)
-            solved, _ = lapack.dpotrs(root, residual, lower=1)
-            inverse, _ = lapack.dpotri(root, lower=1)  # its lower half, by columns: the upper by rows
-            total += 0.5 * float(residual @ solved) + log_scale
-            pull += block.pulls(levels, inverse.T - np.outer(solved, solved))
-        return total, x + 0.5 * beliefs.slope(x, pull)
-
-    begin = np.clip(beliefs.point(start), -FARTHEST, FARTHEST)
-    reached = [np.inf]
-
-    def enough(intermediate_result: OptimizeResult) -> None:
-        reached.append(float(intermediate_result.fun))
-        if reached[-2] - reached[-1] < ENOUGH:
-            raise StopIteration
-
-    found = minimize(
-        cost,
-        begin,
-        callback=enough,
-        jac=True,
-        method="L-BFGS-B",
-        bounds=[(-FARTHEST, FARTHEST)] * len(begin),
-        options={"maxiter": rounds, "ftol": 0.0},
-    )
-    return beliefs.levels(found.x), 0.5 * float(found.x @ found.x), -float(found.fun)

@@ -85,17 +85,18 @@ class Beliefs:
         """Levels at a point of the search."""
         return self._limited(self._free(x))
 
-    def slope(self, x: Float[np.ndarray, " h"], pull: Float[np.ndarray, " h"]) -> Float[np.ndarray, " h"]:
+    def slope(self, x: Float[np.ndarray, " h"], pull: Float[np.ndarray, "... h"]) -> Float[np.ndarray, "... h"]:
         """Derivative with respect to x of what has the derivatives `pull` with respect to the levels' logarithms."""
         free = self._free(x)
         sensors, inputs = self._excess(free)
         channels, kinds = len(sensors), len(free.coloured)
         back = pull.copy()
         powers = np.concatenate([free.white[None], free.coloured]) ** 2 / free.sensors**2
-        noise = back[: channels * (1 + kinds)].reshape(1 + kinds, channels)  # a view
-        noise += powers * ((_steepness(sensors) - 1.0) * noise.sum(axis=0))
-        back[len(back) - len(inputs) :] *= _steepness(inputs)
-        return np.asarray(self.factor.T @ back)
+        noise = pull[..., : channels * (1 + kinds)].reshape(*pull.shape[:-1], 1 + kinds, channels)
+        held = powers * ((_steepness(sensors) - 1.0) * noise.sum(axis=-2))[..., None, :]
+        back[..., : channels * (1 + kinds)] += held.reshape(*pull.shape[:-1], -1)
+        back[..., pull.shape[-1] - len(inputs) :] *= _steepness(inputs)
+        return np.asarray(back @ self.factor)
 
     def point(self, levels: Levels) -> Float[np.ndarray, " h"]:
         """Where in the search levels are; those beyond what can be reached are taken as just within."""

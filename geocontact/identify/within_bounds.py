@@ -43,11 +43,22 @@ class Found:
 
 @dataclass(frozen=True)
 class Bend:
-    """The sum of squares to second order: gradient and curvature, and which unknowns may move."""
+    """A cost to second order: gradient and curvature, and which unknowns may move."""
 
     gradient: Float[np.ndarray, " p"]
     curvature: Float[np.ndarray, "p p"]
     free: Bool[np.ndarray, " p"]
+
+    @classmethod
+    def within(
+        cls,
+        gradient: Float[np.ndarray, " p"],
+        curvature: Float[np.ndarray, "p p"],
+        low: Float[np.ndarray, " p"],
+        high: Float[np.ndarray, " p"],
+    ) -> Bend:
+        """With unknowns held that the gradient pushes against where there is no room: `low` ≤ 0 ≤ `high` is left."""
+        return cls(gradient, curvature, ~(((low >= 0.0) & (gradient > 0.0)) | ((high <= 0.0) & (gradient < 0.0))))
 
     def step(
         self, damping: float, low: Float[np.ndarray, " p"], high: Float[np.ndarray, " p"]
@@ -141,6 +152,4 @@ def _bend(
     lower: Float[np.ndarray, " p"],
     upper: Float[np.ndarray, " p"],
 ) -> Bend:
-    gradient = slope.T @ residual
-    pushed = ((x <= lower) & (gradient > 0.0)) | ((x >= upper) & (gradient < 0.0))
-    return Bend(gradient, slope.T @ slope, ~pushed)
+    return Bend.within(slope.T @ residual, slope.T @ slope, lower - x, upper - x)
