@@ -13,29 +13,40 @@ from dataclasses import dataclass
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
-from geocontact.gap.problem import Plain, Problem
-from geocontact.gap.refit import derivatives
+from geocontact.gap.problem import Plain, Problem, base_starts
+from geocontact.gap.refit import Measured, derivatives, refit
 
 VISIBLE = 0.03  # share of the energy that may be left of an effect that counts as absorbed
+UNSEEN = 5.0  # nats that may be left of a mistake that counts as absorbed
+ROUNDS = 8  # of a refit to trials with a mistake
 MOST = 10
 TIED = 6  # digits of a share; what agrees in these is listed by name
 
 
 @dataclass(frozen=True)
 class Visibility:
-    """Visible share of an effect, the least over its variants, shapes and signs."""
+    """Visible share of an effect, the least over its variants, shapes and signs; `nats` are left of a mistake."""
 
     name: str
     share: float
+    nats: float = 0.0
+
+    @property
+    def absorbed(self) -> bool:
+        """Whether base parameters swallow it."""
+        return self.share < VISIBLE and self.nats < UNSEEN
+
+
+NOTHING = Visibility("", np.inf)
 
 
 def absorbed(problem: Problem, candidates: Sequence[Candidate], named: Sequence[str]) -> list[Visibility]:
     """Effects that the base parameters swallow, the most completely swallowed first."""
-    least: dict[str, float] = {}
-    for each in visibilities(problem, candidates):
-        least[each.name] = min(each.share, least.get(each.name, np.inf))
-    kept = [Visibility(name, share) for name, share in least.items() if share < VISIBLE and name not in named]
-    return sorted(kept, key=lambda each: (round(each.share, TIED), each.name))[:MOST]
+    least: dict[str, Visibility] = {}
+    for each in (*visibilities(problem, candidates), *mistakes(problem, candidates)):
+        if each.absorbed and each.name not in named and each.share < least.get(each.name, NOTHING).share:
+            least[each.name] = each
+    return sorted(least.values(), key=lambda each: (round(each.share, TIED), each.name))[:MOST]
 
 
 def visibilities(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibility]:
@@ -58,4 +69,25 @@ def visibilities(problem: Problem, candidates: Sequence[Candidate]) -> list[Visi
             if energy > 0.0:
                 rest = moved - basis @ (basis.T @ moved)
                 found.append(Visibility(one.name, float(rest @ rest) / energy))
+    return found
+
+
+def mistakes(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibility]:
+    """Of every mistake in the data that changes a prediction, in all trials."""
+    system, values, measured = problem.system, problem.plain.values, problem.calibration
+    weigh = [Plain(there, problem.floor_of_noise) for there in measured.present]
+    before = measured.residuals(system, values)
+    still = [o - r for o, r in zip(measured.outputs, before, strict=True)]
+    starts = [values, *base_starts(system)[:1]]
+    found = []
+    for one in candidates:
+        if one.somewhere is None:
+            continue
+        outputs = [o - r for o, r in zip(measured.outputs, measured.residuals(one.apply(system), values), strict=True)]
+        moved = [w((a - b)[..., None])[:, 0] for w, a, b in zip(weigh, outputs, still, strict=True)]
+        energy = 0.5 * sum(float(each @ each) for each in moved)
+        if energy > 0.0:
+            trials = Measured(measured.trials, tuple(outputs), measured.rough)
+            left = refit(system, trials, weigh, starts, ROUNDS, useful=min(UNSEEN, VISIBLE * energy)).cost
+            found.append(Visibility(one.name, left / energy, left))
     return found

@@ -16,7 +16,7 @@ from geocontact.gap.absorbed import absorbed
 from geocontact.gap.admission import admitted
 from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.detectability import Detectability, detectabilities
-from geocontact.gap.next_experiment import next_experiment
+from geocontact.gap.next_experiment import first_of, next_experiment
 from geocontact.gap.separability import Separation, classes, separations
 from geocontact.gap.signatures import Ground, Sized, at_nats, ground_of
 
@@ -40,7 +40,7 @@ class Confusion:
     detectabilities
         From which amplitude on each is seen.
     absorbed
-        Effects that refitted base parameters swallow, the most completely swallowed first.
+        Effects, and mistakes in the data, that refitted base parameters swallow, the most completely swallowed first.
     proposal
         What to record next.
     """
@@ -57,8 +57,12 @@ class Confusion:
 
 def offered(system: System, names: Sequence[str] = ()) -> tuple[Candidate, ...]:
     """Candidates with a parameter, those of some effects only where names are given."""
-    known = tuple(one for one in candidates(system) if one.parameters)
-    return tuple(one for one in known if one.name in names or one.label in names) if names else known
+    return tuple(one for one in known(system, names) if one.parameters)
+
+
+def known(system: System, names: Sequence[str] = ()) -> tuple[Candidate, ...]:
+    """The same with mistakes in the data, which have no parameter."""
+    return tuple(one for one in candidates(system) if not names or one.name in names or one.label in names)
 
 
 def confuse(
@@ -91,8 +95,7 @@ def confuse(
         asked = offered(problem.system, names)
         effects = tuple(at_nats(ground, one, nats) for one in asked)
         apart = separations(ground, effects, step)
-        hidden = tuple(each.name for each in absorbed(problem, asked, ()))
+        hidden = tuple(each.name for each in absorbed(problem, known(problem.system, names), ()))
         seen = detectabilities(ground, offered(problem.system), asked, step)
-        swallowed = [next(one for one in asked if one.name == name) for name in hidden]
-        proposal = next_experiment(found, swallowed)
+        proposal = next_experiment(found, first_of(asked, hidden))
     return Confusion(found, ground, effects, apart, classes(apart), seen, hidden, proposal)

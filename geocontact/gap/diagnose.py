@@ -21,7 +21,7 @@ from geocontact.gap.evidence import Judged, prior_spread
 from geocontact.gap.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.locate import gap_map, windows
 from geocontact.gap.map_cell import Cell
-from geocontact.gap.next_experiment import next_experiment
+from geocontact.gap.next_experiment import first_of, next_experiment
 from geocontact.gap.on_surface import SurfaceGap, on_surface
 from geocontact.gap.refit import free
 from geocontact.gap.shrink import shrinkage
@@ -119,11 +119,6 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     return Findings(diagnosis, found, cells, trials, surface)
-
-
-def first_of(offered: tuple[Candidate, ...], names: list[str]) -> list[Candidate]:
-    """The first candidate of each of these effects."""
-    return [next(one for one in offered if one.name == name and one.parameters) for name in names]
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:

@@ -49,6 +49,12 @@ def next_experiment(found: Attribution, swallowed: Sequence[Candidate] = ()) -> 
     return None if one is None else one.said
 
 
+def first_of(offered: Sequence[Candidate], names: Sequence[str]) -> list[Candidate]:
+    """The first candidate with a parameter of each of these effects, of those that have one."""
+    firsts = [[one for one in offered if one.name == name and one.parameters][:1] for name in names]
+    return [one for some in firsts for one in some]
+
+
 def proposed(found: Attribution, swallowed: Sequence[Candidate] = ()) -> Proposal | None:
     """The same with what it was chosen by.
 

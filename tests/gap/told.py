@@ -19,9 +19,8 @@ from geocontact.gap.absorbed import absorbed
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.contest import base_contender, singles
 from geocontact.gap.detectability import SURE, detectabilities, power
-from geocontact.gap.diagnose import first_of
 from geocontact.gap.experiments import menu
-from geocontact.gap.next_experiment import next_experiment
+from geocontact.gap.next_experiment import first_of, next_experiment
 from geocontact.gap.problem import problem_of
 from geocontact.gap.separability import classes, imitator_of, refitted, separation, separations
 from geocontact.gap.signatures import Ground, at_nats, ground_of, own_slopes, sized
