@@ -4,7 +4,8 @@ Motion is slow; above its own frequencies a recording holds noise up to the corn
 The spectrum of every input is taken for a movement that falls off with frequency, noise as the filter leaves it
 (`identify.low_pass`) and a white rest (rounding), S = A exp(-(f/b)^q) + N H²(f; f_c) + R, fitted by Whittle's
 likelihood (Whittle 1953, J. R. Stat. Soc. B 15:125) with one f_c for all inputs. Noise much louder or quieter than
-usual is believed less, and so are corners far from 6 Hz: where the movement hides the noise, f_c stays near that.
+usual is believed less, and so are corners far from 6 Hz: where the movement hides the noise, f_c stays near that. A
+rest that is louder than rounding is believed less as well, so that noise which nobody filtered is not taken for it.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from geocontact.identify.low_pass import BELOW_NYQUIST, LowPass
 USUAL, USUALLY = 6.0, 0.6  # Hz, and the standard deviation of its logarithm (Winter 2009, ch. 3: 4 to 8 Hz in gait)
 LOWEST, HIGHEST, CORNERS = 2.5, 40.0, 17  # Hz, that are compared, and how many
 LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
+ROUNDED = 1e-4  # of a half-range, up to which a white rest is rounding
+UNFILTERED = 3.0  # nats that must speak for no filter at all
 TREND = 3  # degree of the polynomial that is taken off before the window
 APART = 3  # bins from which spectral values under the window count as independent
 FEWEST = 24  # samples of a trial that has a spectrum
@@ -48,7 +51,7 @@ class Spectrum:
 
 
 def filter_of(trials: Sequence[Trial], inputs: Sequence[str]) -> LowPass:
-    """The filter that makes the spectra of all inputs most likely; the usual one where there are none."""
+    """The filter that makes the spectra of all inputs most likely, or none; the usual one where there are no spectra."""
     step = float(np.median(np.concatenate([np.diff(trial.time) for trial in trials])))
     spectra = [each for each in (spectrum(trials, name) for name in inputs) if each is not None]
     if not spectra:
@@ -57,10 +60,13 @@ def filter_of(trials: Sequence[Trial], inputs: Sequence[str]) -> LowPass:
     corners = corners[corners < BELOW_NYQUIST * 0.5 / step]
     if not len(corners):
         return LowPass(USUAL, step)
-    costs = [
-        0.5 * (np.log(f / USUAL) / USUALLY) ** 2 + sum(split(each, LowPass(f, step)).unlikely for each in spectra)
-        for f in corners
-    ]
+
+    def unlikely(passed: LowPass) -> float:
+        return sum(split(each, passed).unlikely for each in spectra)
+
+    costs = [0.5 * (np.log(f / USUAL) / USUALLY) ** 2 + unlikely(LowPass(f, step)) for f in corners]
+    if UNFILTERED + unlikely(LowPass.none(step)) < min(costs):
+        return LowPass.none(step)
     return LowPass(_between(np.log(corners), np.array(costs)), step)
 
 
@@ -125,6 +131,7 @@ def split(seen: Spectrum, through: LowPass) -> Split:
     passed = through.power(f)
     part = float(through.power(np.linspace(0.0, 0.5 / through.step, 400)).mean())  # of white noise, let through
     usual = 2.0 * np.log(LEVEL * seen.half_range) - np.log(part)
+    rounding = 2.0 * np.log(ROUNDED * seen.half_range)
     top, (bottom, middle) = float(np.log(p.max())), np.log(np.quantile(p, [0.05, 0.3]))
 
     def cost(x: Float[np.ndarray, " 5"]) -> tuple[float, Float[np.ndarray, " 5"]]:
@@ -134,15 +141,15 @@ def split(seen: Spectrum, through: LowPass) -> Split:
         movement, noise, rest = np.exp(x[0] - fall), np.exp(x[2]) * passed, np.exp(x[3])
         total = movement + noise + rest
         pull = (1.0 - p / total) / total
-        off = (x[2] - usual) / LOUDER
+        off, over = (x[2] - usual) / LOUDER, max(x[3] - rounding, 0.0) / LOUDER
         slope = [
             (pull * movement).sum(),
             (pull * movement * fall).sum() * steep,
             (pull * noise).sum() + off / LOUDER,
-            pull.sum() * rest,
+            pull.sum() * rest + over / LOUDER,
             -(pull * movement * fall * ratio).sum() * steep,
         ]
-        return float((np.log(total) + p / total).sum() + 0.5 * off**2), np.array(slope)
+        return float((np.log(total) + p / total).sum() + 0.5 * (off**2 + over**2)), np.array(slope)
 
     low = np.array([top - 20.0, np.log(0.02), top - 60.0, top - 80.0, FLATTEST])
     high = np.array([top + 40.0, np.log(20.0), top + 2.0, top, STEEPEST])

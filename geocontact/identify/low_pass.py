@@ -22,7 +22,7 @@ class LowPass:
     Parameters
     ----------
     corner
-        Frequency at which a quarter of the power passes both ways [Hz].
+        Frequency at which a quarter of the power passes both ways [Hz]; from Nyquist's on nothing was filtered.
     step
         Time between two samples [s].
     """
@@ -30,9 +30,16 @@ class LowPass:
     corner: float
     step: float
 
+    @classmethod
+    def none(cls, step: float) -> LowPass:
+        """Nothing was filtered."""
+        return cls(0.5 / step, step)
+
     def power(self, frequency: Float[np.ndarray, " f"]) -> Float[np.ndarray, " f"]:
         """Share of the power that passes at each frequency [Hz], none from Nyquist's on."""
         nyquist = 0.5 / self.step
+        if self.corner >= nyquist:
+            return np.where(frequency < nyquist, 1.0, 0.0)
         corner = min(self.corner, BELOW_NYQUIST * nyquist)
         angle = np.pi * np.minimum(frequency, (1.0 - 1e-9) * nyquist) * self.step
         return np.asarray(1.0 / (1.0 + (np.tan(angle) / np.tan(np.pi * corner * self.step)) ** 4) ** 2)

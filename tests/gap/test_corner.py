@@ -12,6 +12,7 @@ from geocontact.gap.corner import USUAL, filter_of, likely_noise
 from geocontact.identify.low_pass import LowPass
 
 STEP = 0.005
+NYQUIST = 0.5 / STEP
 
 
 def trials(corner: float, noise: float, count: int = 4, lost: float = 0.0, digits: int = 12) -> list[Trial]:
@@ -21,7 +22,10 @@ def trials(corner: float, noise: float, count: int = 4, lost: float = 0.0, digit
     for k in range(count):
         time = STEP * np.arange(160)
         clean = sum(0.3**h * np.sin(2.0 * np.pi * 1.2 * (h + 1) * time + h + 0.1 * k) for h in range(4))
-        raw = filtfilt(*butter(2, corner, fs=1.0 / STEP), rng.standard_normal(len(time) + 400))[200:-200]
+        raw = rng.standard_normal(len(time) + 400)
+        if corner < NYQUIST:
+            raw = filtfilt(*butter(2, corner, fs=1.0 / STEP), raw)
+        raw = raw[200:-200]
         keep = rng.random(len(time)) >= lost
         values = np.round(clean + noise * raw / raw.std(), digits)
         made.append(Trial(f"t{k}", Signals(time[keep], values[keep, None], ("u",), ("rad",))))
@@ -37,6 +41,14 @@ def test_a_corner_is_found_unless_the_movement_hides_it(corner: float, off: floa
 @pytest.mark.parametrize("digits", [4, 5])
 def test_rounding_is_not_taken_for_noise_of_a_high_corner(digits: int) -> None:
     assert filter_of(trials(6.0, 0.003, digits=digits), ("u",)).corner == pytest.approx(6.0, rel=0.4)
+
+
+@pytest.mark.parametrize("noise", [0.003, 0.02])
+def test_noise_that_nobody_filtered_is_not_taken_for_rounding(noise: float) -> None:
+    made = trials(NYQUIST, noise)
+    passed = filter_of(made, ("u",))
+    assert passed == LowPass.none(passed.step) and passed.corner == pytest.approx(NYQUIST)
+    assert likely_noise(made, "u", passed) == pytest.approx(noise, rel=0.2)
 
 
 def test_without_noise_no_high_corner_is_made_up() -> None:

@@ -91,3 +91,11 @@ def test_derivatives_are_those_of_the_covariance() -> None:
 def test_a_covariance_without_a_factor_is_raised_until_it_has_one() -> None:
     loud = Levels(np.full(2, 1e-9), np.full((1, 2), 1e-9), LEVELS.memory, np.array([1e3]))
     assert np.isfinite(layout().whitener(loud).log_scale)
+
+
+def test_noise_that_nobody_filtered_is_white() -> None:
+    """Every frequency passes; values two samples apart have nothing in common, and rates are those of differences."""
+    spectrum = NoiseSpectrum.after(LowPass.none(0.005), differences)
+    value, _, both = spectrum.covariance(0.005 * np.array([[0.0, 1.0, 2.0]]))
+    assert_allclose(value, [[1.0, 0.0, 0.0]], atol=0.01)
+    assert_allclose(both, 200.0**2 * np.array([[0.5, 0.0, -0.25]]), atol=0.02 * 200.0**2)

@@ -33,7 +33,9 @@ def run(tmp_path, monkeypatch):
 
 
 def test_there_is_one_for_each_part():
-    assert {"contact_area", "gap", "knee", "mat", "elbow", "motion"} <= {notebook.stem for notebook in NOTEBOOKS}
+    assert {"contact_area", "gap", "gap_own_model", "knee", "mat", "elbow", "motion"} <= {
+        notebook.stem for notebook in NOTEBOOKS
+    }
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
@@ -82,6 +84,19 @@ def test_gap_runs_on_the_case_that_it_plants(run):
     said = run(ROOT / "notebooks" / "gap.ipynb")
     assert "on fresh trials of this kind the error shrinks by" in said
     assert "planted: viscous damping" in said and "named: ('damping',) - right" in said
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")  # of the notebook machinery itself
+def test_gap_own_model_finds_what_it_plants_and_nothing_where_nothing_is(run):
+    """The angle's noise went through no filter."""
+    said = run(ROOT / "notebooks" / "gap_own_model.ipynb")
+    assert "as measured: no_gap" in said
+    assert "not to be seen at any plausible size: sensor_gain.torque" in said
+    assert "not to be told apart (less than 5 nats between any two): time_shift and filter_lag" in said
+    planted, found = (float(value) for value in re.findall(r"damping\.b'?:? ([\d.]+)", said)[:2])
+    assert found == pytest.approx(planted, rel=0.1)
+    assert re.search(r"known load of .* N m .*: tells .*sensor_gain.* nats more", said)
 
 
 @pytest.mark.slow
