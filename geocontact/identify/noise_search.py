@@ -135,7 +135,10 @@ def most_likely(
         if bend.promise(bend.step(0.0, low, high)) < ENOUGH:
             break
         step = bend.step(damping, low, high)
-        there = surface.at(np.clip(here.x + step, -FARTHEST, FARTHEST))
+        x = np.clip(here.x + step, -FARTHEST, FARTHEST)
+        if np.array_equal(x, here.x):
+            break
+        there = surface.at(x)
         fall = here.cost - there.cost
         kept = fall / bend.promise(step)
         if kept > KEPT:

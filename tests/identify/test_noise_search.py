@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from geocontact.identify.covariance import Layout
 from geocontact.identify.input_noise import Instant
 from geocontact.identify.noise_levels import BEYOND, Beliefs, Levels
-from geocontact.identify.noise_search import Surface, most_likely, secant
+from geocontact.identify.noise_search import Place, Surface, most_likely, secant
 from tests.identify.synthetic_noise import COUNT, LEVELS, PASSED, STEP, layout, noise_of
 
 
@@ -124,7 +124,7 @@ def test_a_search_from_noise_a_hundred_times_too_quiet_takes_few_evaluations(mon
     evaluations: list[float] = []
     at = Surface.at
 
-    def counted(self: Surface, x: np.ndarray) -> object:
+    def counted(self: Surface, x: np.ndarray) -> Place:
         found = at(self, x)
         evaluations.append(found.cost)
         return found
@@ -137,3 +137,21 @@ def test_a_search_from_noise_a_hundred_times_too_quiet_takes_few_evaluations(mon
     _, _, nats = most_likely(layouts, residuals, jitter, loud, quiet)
     assert len(evaluations) < 30
     assert nats == pytest.approx(most_likely(layouts, residuals, jitter, loud, LEVELS)[2], abs=1e-5)
+
+
+def test_a_search_ends_where_steps_no_longer_move(monkeypatch: pytest.MonkeyPatch) -> None:
+    """From the third place on every step leads uphill, as rounding may have it, however short it is."""
+    layouts, residuals, jitter = drawn()
+    near = most_likely(layouts, residuals, jitter, unlimited(LEVELS), LEVELS)[0]
+    at, count = Surface.at, [0]
+
+    def uphill(self: Surface, x: np.ndarray) -> Place:
+        found = at(self, x)
+        count[0] += 1
+        return replace(found, cost=found.cost + count[0]) if count[0] > 2 else found
+
+    monkeypatch.setattr(Surface, "at", uphill)
+    start = near.times(np.full(2, 1.02), np.full(1, 1.02))
+    found, _, nats = most_likely(layouts, residuals, jitter, unlimited(LEVELS), start, rounds=400)
+    assert 10 < count[0] < 100
+    assert np.isfinite(nats) and np.isfinite(found.logarithms()).all()
