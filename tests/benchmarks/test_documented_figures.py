@@ -288,13 +288,14 @@ def test_the_benchmark_of_the_diagnosis() -> None:
     for system in systems[1:]:
         assert figures[system]["diagnosis"]["false_alarms"]["count"] >= 100
         assert figures[system]["diagnosis"]["first_right"]["count"] >= 60
-    assert told["seed"] == 20261133 and "seed 20261133" in (ROOT / "docs" / page).read_text(encoding="utf-8")
+    assert told["seed"] == 20261137 and "seed 20261137" in (ROOT / "docs" / page).read_text(encoding="utf-8")
 
 
 def test_what_is_attainable() -> None:
-    """Of the same cases as the table of the diagnosis."""
+    """Of cases and answers of one run of the diagnosis, which the page names."""
     told, systems = results("gap_attainable"), ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
-    assert told["seed"] == results("gap_benchmark")["seed"]
+    page = (ROOT / "docs" / "reference/gap_benchmark.md").read_text(encoding="utf-8")
+    assert f"gap_attainable --seed {told['seed']} " in page and f"| {told['seed']}, " in page
     shares = [told["all"], *(told["systems"][system] for system in systems)]
     cells = row("reference/gap_benchmark.md", "attainable for who knows the noise")
     assert cells == [f"{100.0 * s['attainable']:.0f} %" for s in shares]
