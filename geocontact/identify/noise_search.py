@@ -141,10 +141,7 @@ def most_likely(
         there = surface.at(x)
         fall = here.cost - there.cost
         kept = fall / bend.promise(step)
-        if kept > KEPT:
-            damping = max(LOWER * damping, LEAST)
-        elif not kept > BROKEN:
-            damping = max(RAISE * damping, DAMPED)
+        damping = damped(damping, kept)
         if near:
             curvature = secant(curvature, there.x - here.x, there.gradient - here.gradient)
         if fall > 0.0:
@@ -156,6 +153,13 @@ def most_likely(
         elif damping > MOST:
             break
     return here.levels, 0.5 * float(here.x @ here.x), -here.cost
+
+
+def damped(damping: float, kept: float) -> float:
+    """Damping of the next step, by the share of its promise that the last one kept."""
+    if kept > KEPT:
+        return max(LOWER * damping, LEAST)
+    return damping if kept > BROKEN else max(RAISE * damping, DAMPED)
 
 
 def secant(
