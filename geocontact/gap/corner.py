@@ -51,7 +51,7 @@ class Spectrum:
 
 
 def filter_of(trials: Sequence[Trial], inputs: Sequence[str]) -> LowPass:
-    """The filter, if any, that makes the spectra of all inputs most likely; the usual one where there is no spectrum."""
+    """The filter, if any, that makes the spectra of all inputs most likely; the usual one without spectra."""
     step = float(np.median(np.concatenate([np.diff(trial.time) for trial in trials])))
     spectra = [each for each in (spectrum(trials, name) for name in inputs) if each is not None]
     if not spectra:
