@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from pathlib import Path
 from typing import Any
@@ -289,6 +290,17 @@ def test_the_benchmark_of_the_diagnosis() -> None:
         assert figures[system]["diagnosis"]["false_alarms"]["count"] >= 100
         assert figures[system]["diagnosis"]["first_right"]["count"] >= 60
     assert told["seed"] == 20261137 and "seed 20261137" in (ROOT / "docs" / page).read_text(encoding="utf-8")
+
+
+def test_every_case_of_the_benchmark_is_kept() -> None:
+    """What is counted in the file of cases is what the figures say."""
+    file = ROOT / "benchmarks" / "results" / "gap_benchmark_cases.csv"
+    every = list(csv.DictReader(file.read_text(encoding="utf-8").splitlines()))
+    told = results("gap_benchmark")["figures"]["pooled"]["diagnosis"]
+    alarms = [one["verdict"] != "no_gap" for one in every if one["kind"] == "none"]
+    assert (sum(alarms), len(alarms)) == (told["false_alarms"]["hits"], told["false_alarms"]["count"])
+    wrong = [one["confidently_wrong"] == "True" for one in every]
+    assert (sum(wrong), len(wrong)) == (told["confidently_wrong"]["hits"], told["confidently_wrong"]["count"])
 
 
 def test_what_is_attainable() -> None:
