@@ -148,7 +148,7 @@ def most_likely(
             here = there
             if fall < ENOUGH and kept > BROKEN:
                 break
-            if not near:
+            if not near or fall >= NEAR:
                 curvature, near = surface.information(here), fall < NEAR
         elif damping > MOST:
             break

@@ -14,7 +14,7 @@ from geocontact.identify.low_pass import LowPass
 Rates = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 
 FREQUENCIES, HIGHEST = 400, 4.0  # that the spectrum of filtered noise is summed at, up to so many corners
-LAGS = 1001  # that the covariance is tabled at
+LAGS = 1001  # of the periods of the values that the covariance is tabled at
 LONGEST = 6.0  # periods of the mean frequency that are tabled
 
 
@@ -69,8 +69,11 @@ class NoiseSpectrum:
         power[[0, -1]] *= 0.5  # trapezoidal rule
         power /= power.sum()
         power *= self.left
-        mean = max(float(power @ self.frequency) / max(power.sum(), 1e-300), float(self.frequency[1]))
-        grid = np.linspace(0.0, LONGEST / mean, LAGS)
+        first = float(self.frequency[1])
+        means = [float(each @ self.frequency) / max(each.sum(), 1e-300) for each in (power, power * self.rate**2)]
+        own, slowest = max(means[0], first), max(min(means), first)  # smoothed rates may be slower than values
+        longest = min(LONGEST / slowest, 0.5 / first)  # from there on a sum over frequencies runs backwards
+        grid = np.linspace(0.0, longest, max(round((LAGS - 1) * longest * own / LONGEST), 1) + 1)
         phase = 2.0 * np.pi * self.frequency * grid[:, None]
         even, odd = np.cos(phase), np.sin(phase)
         return grid, even @ power, -odd @ (power * self.rate), even @ (power * self.rate**2)

@@ -99,3 +99,19 @@ def test_noise_that_nobody_filtered_is_white() -> None:
     value, _, both = spectrum.covariance(0.005 * np.array([[0.0, 1.0, 2.0]]))
     assert_allclose(value, [[1.0, 0.0, 0.0]], atol=0.01)
     assert_allclose(both, 200.0**2 * np.array([[0.5, 0.0, -0.25]]), atol=0.02 * 200.0**2)
+
+
+@pytest.mark.parametrize("sampled", [50.0, 200.0, 1000.0])
+def test_rates_of_unfiltered_noise_are_remembered_as_long_as_they_are_smoothed(sampled: float) -> None:
+    """Slopes of straight lines through 70 ms to either side: their covariance is that of the lines' weights."""
+    step, half = 1.0 / sampled, round(0.07 * sampled)
+    weights = np.arange(-half, half + 1) / (step * np.sum(np.arange(-half, half + 1.0) ** 2))
+
+    def rates(frequency: np.ndarray) -> np.ndarray:
+        return np.abs(np.sin(2.0 * np.pi * np.outer(frequency, step * np.arange(-half, half + 1))) @ weights)
+
+    lags = np.arange(4 * half + 1)
+    *_, both = NoiseSpectrum.after(LowPass.none(step), rates).covariance(step * lags[None])
+    exact = np.zeros(len(lags))
+    exact[: 2 * half + 1] = np.correlate(weights, weights, "full")[2 * half :]
+    assert_allclose(both[0], exact, atol=0.03 * exact[0])
