@@ -11,8 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
+from geocontact.gap.mending import exchanged
 from geocontact.gap.problem import Plain, Problem, base_starts
 from geocontact.gap.refit import Measured, derivatives, refit
 
@@ -75,7 +77,6 @@ def visibilities(problem: Problem, candidates: Sequence[Candidate]) -> list[Visi
 def mistakes(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibility]:
     """Of every mistake in the data that changes a prediction, in all trials."""
     system, values, measured = problem.system, problem.plain.values, problem.calibration
-    weigh = [Plain(there, problem.floor_of_noise) for there in measured.present]
     before = measured.residuals(system, values)
     still = [o - r for o, r in zip(measured.outputs, before, strict=True)]
     starts = [values, *base_starts(system)[:1]]
@@ -83,6 +84,8 @@ def mistakes(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibili
     for one in candidates:
         if one.somewhere is None:
             continue
+        floor = _written_down(problem, one)
+        weigh = [Plain(there, floor) for there in measured.present]
         outputs = [o - r for o, r in zip(measured.outputs, measured.residuals(one.apply(system), values), strict=True)]
         moved = [w((a - b)[..., None])[:, 0] for w, a, b in zip(weigh, outputs, still, strict=True)]
         energy = 0.5 * sum(float(each @ each) for each in moved)
@@ -91,3 +94,14 @@ def mistakes(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibili
             left = refit(system, trials, weigh, starts, ROUNDS, useful=min(UNSEEN, VISIBLE * energy)).cost
             found.append(Visibility(one.name, left / energy, left))
     return found
+
+
+def _written_down(problem: Problem, one: Candidate) -> Float[np.ndarray, " c"]:
+    """Noise of each channel in the units, and under the name, that a mistake writes it with."""
+    floor, names = problem.floor_of_noise.copy(), problem.system.outputs
+    if one.channel in names:
+        floor[names.index(one.channel)] *= abs(one.factor)
+    elif not one.channel:
+        a, b = exchanged(one.variant, names)
+        floor[[a, b]] = floor[[b, a]]
+    return floor

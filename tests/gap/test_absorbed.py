@@ -47,6 +47,7 @@ def test_effects_and_mistakes_are_listed_the_best_hidden_first(elsewhere: Elsewh
     [
         ("unit_error.force.1_over_4.4482", True),  # k becomes 58
         ("unit_error.force.1_over_9.8066", False),  # k would be 26, below its bound
+        ("unit_error.force.1_over_1000", False),  # its noise is a thousandth, too
         ("unit_error.force.9.8066", False),  # 2550, above it
         ("sign_flip.force", False),
         ("sign_flip.beta", False),  # the model is nearly even in beta, not even
