@@ -41,7 +41,7 @@ def trial_of(
         own[p.name] = float(np.clip(own[p.name] + sd * rng.standard_normal(), p.lower, p.upper))
     outputs = staged(system).simulate(moved, own) + disturbed(noise, moved.time, rng)
     levels = zip(problem.system.inputs, noise.levels.inputs, strict=True)
-    inputs = [moved.column(name) + sd * low_passed(problem.passed, len(moved), rng) for name, sd in levels]
+    inputs = [moved.column(name) + sd * low_passed(problem.passed[name], len(moved), rng) for name, sd in levels]
     names = (*problem.system.inputs, *problem.system.outputs)
     units = tuple(problem.system.unit(name) for name in names)
     return replace(moved, signals=Signals(moved.time, np.column_stack([*inputs, outputs]), names, units))
@@ -62,9 +62,11 @@ def disturbed(noise: Noise, time: np.ndarray, rng: np.random.Generator) -> np.nd
 
 
 def low_passed(passed: LowPass, count: int, rng: np.random.Generator) -> np.ndarray:
-    """Noise of unit variance that came through the filter of the inputs."""
-    corner = min(passed.corner, BELOW_NYQUIST * 0.5 / passed.step)
-    long = filtfilt(*butter(2, corner, fs=1.0 / passed.step), rng.standard_normal(count + 400))
+    """Noise of unit variance that came through a filter, if there was one."""
+    nyquist = 0.5 / passed.step
+    long = rng.standard_normal(count + 400)
+    if passed.corner < nyquist:
+        long = filtfilt(*butter(2, min(passed.corner, BELOW_NYQUIST * nyquist), fs=1.0 / passed.step), long)
     return np.asarray(long[200:-200] / long.std())
 
 

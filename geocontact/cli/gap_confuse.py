@@ -21,7 +21,8 @@ class ConfuseOptions:
     out
         Folder for the results.
     effects
-        Effects asked about, by name ("damping,time_shift") or candidate ("end_stop.upper"); all by default.
+        Effects asked about, by name ("damping,time_shift") or candidate ("end_stop.upper"); all by default. Mistakes
+        in the data have no size: of them only is told whether base parameters hide them.
     nats
         How visible each effect is taken to be when it is held against the others.
     bare

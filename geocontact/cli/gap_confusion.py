@@ -21,7 +21,7 @@ from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.confuse import Confusion, confuse, offered
+from geocontact.gap.confuse import Confusion, confuse, known, offered
 from geocontact.gap.detectability import POWER, Detectability
 from geocontact.gap.separability import APART, table
 from geocontact.gap.signatures import rest_of
@@ -61,15 +61,17 @@ def confused(folder: Path, o: ConfuseOptions) -> int:
 
 
 def asked(text: str | None, system: System) -> tuple[str, ...]:
-    """Names in `--effects`; InputError where the system has no such effect."""
+    """Names in `--effects`; InputError where the system has no such effect, or none of them has a size to speak of."""
     if text is None:
         return ()
     names = tuple(name.strip() for name in text.split(",") if name.strip())
-    known = {name for one in offered(system) for name in (one.name, one.label)}
-    wrong = [name for name in names if name not in known]
+    every = {name for one in known(system) for name in (one.name, one.label)}
+    wrong = [name for name in names if name not in every]
     if wrong or not names:
-        effects = ", ".join(dict.fromkeys(one.name for one in offered(system)))
+        effects = ", ".join(dict.fromkeys(one.name for one in known(system)))
         raise InputError("", "--effects", f"no effect '{wrong[0] if wrong else text}'", f"{system.name} has {effects}")
+    if not offered(system, names):
+        raise InputError("", "--effects", f"no size to compare has {' or '.join(names)}", "name an effect beside it")
     return names
 
 

@@ -1,16 +1,17 @@
-"""The low-pass filter that the inputs of a case came through, read off their spectra.
+"""The low-pass filters that the inputs of a case came through, read off their spectra.
 
 Motion is slow; above its own frequencies a recording holds noise up to the corner of the filter and little beyond it.
 The spectrum of every input is taken for a movement that falls off with frequency, noise as the filter leaves it
 (`identify.low_pass`) and a white rest (rounding), S = A exp(-(f/b)^q) + N H²(f; f_c) + R, fitted by Whittle's
-likelihood (Whittle 1953, J. R. Stat. Soc. B 15:125) with one f_c for all inputs. Noise much louder or quieter than
-usual is believed less, and so are corners far from 6 Hz: where the movement hides the noise, f_c stays near that. A
-rest that is louder than rounding is believed less as well, so that noise which nobody filtered is not taken for it.
+likelihood (Whittle 1953, J. R. Stat. Soc. B 15:125) with one f_c for all inputs that were filtered. Noise much louder
+or quieter than usual is believed less, and so are corners far from 6 Hz: where the movement hides the noise, f_c stays
+near that. A rest that is louder than rounding is believed less as well, so that noise which nobody filtered is not
+taken for it. Usually all inputs were filtered, or none; an input may differ from the others where its spectrum says so.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +25,7 @@ USUAL, USUALLY = 6.0, 0.6  # Hz, and the standard deviation of its logarithm (Wi
 LOWEST, HIGHEST, CORNERS = 2.5, 40.0, 17  # Hz, that are compared, and how many
 LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
 ROUNDED = 1e-4  # of a half-range, up to which a white rest is rounding
-UNFILTERED = 3.0  # nats that must speak for no filter at all
+UNFILTERED = 3.0  # nats that must speak for no filter: of all inputs together, or of one beside others
 TREND = 3  # degree of the polynomial that is taken off before the window
 APART = 3  # bins from which spectral values under the window count as independent
 FEWEST = 24  # samples of a trial that has a spectrum
@@ -50,24 +51,25 @@ class Spectrum:
     half_range: float
 
 
-def filter_of(trials: Sequence[Trial], inputs: Sequence[str]) -> LowPass:
-    """The filter, if any, that makes the spectra of all inputs most likely; the usual one without spectra."""
+def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, LowPass]:
+    """The filter, if any, of each input that makes the spectra most likely; the usual one without spectra."""
     step = float(np.median(np.concatenate([np.diff(trial.time) for trial in trials])))
-    spectra = [each for each in (spectrum(trials, name) for name in inputs) if each is not None]
-    if not spectra:
-        return LowPass(USUAL, step)
     corners = np.geomspace(LOWEST, HIGHEST, CORNERS)
     corners = corners[corners < BELOW_NYQUIST * 0.5 / step]
-    if not len(corners):
-        return LowPass(USUAL, step)
-
-    def unlikely(passed: LowPass) -> float:
-        return sum(split(each, passed).unlikely for each in spectra)
-
-    costs = [0.5 * (np.log(f / USUAL) / USUALLY) ** 2 + unlikely(LowPass(f, step)) for f in corners]
-    if UNFILTERED + unlikely(LowPass.none(step)) < min(costs):
-        return LowPass.none(step)
-    return LowPass(_between(np.log(corners), np.array(costs)), step)
+    found = {name: spectrum(trials, name) for name in inputs}
+    seen = {name: each for name, each in found.items() if each is not None}
+    if not seen or not len(corners):
+        return dict.fromkeys(inputs, LowPass(USUAL, step))
+    through = np.array([[split(each, LowPass(f, step)).unlikely for f in corners] for each in seen.values()])
+    free = np.array([split(each, LowPass.none(step)).unlikely for each in seen.values()])
+    far = 0.5 * (np.log(corners / USUAL) / USUALLY) ** 2
+    costs = far + np.minimum(through, free[:, None] + UNFILTERED).sum(axis=0)
+    if free.sum() + UNFILTERED < costs.min():
+        return dict.fromkeys(inputs, LowPass.none(step))
+    raw = free + UNFILTERED < through[:, np.argmin(costs)]
+    passed = LowPass(_between(np.log(corners), far + through[~raw].sum(axis=0)), step)
+    differ = {name: LowPass.none(step) for name, own in zip(seen, raw, strict=True) if own}
+    return dict.fromkeys(inputs, passed) | differ
 
 
 def _between(at: Float[np.ndarray, " n"], costs: Float[np.ndarray, " n"]) -> float:

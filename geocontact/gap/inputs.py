@@ -10,7 +10,7 @@ noise. Where the signal stands far above the noise nothing changes.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -18,7 +18,7 @@ import numpy as np
 from jaxtyping import Complex, Float, Int
 
 from geocontact.data.trial import Trial
-from geocontact.gap.corner import USUAL
+from geocontact.gap.corner import HIGHEST, USUAL
 from geocontact.gap.grids import even_grid
 from geocontact.identify.low_pass import LowPass
 
@@ -30,49 +30,52 @@ SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
 PERIODS, FEWEST = 8.0, 8  # of the corner in a stretch, and samples in a quarter of it at the least
 BOTH = 2  # values of an input that goes on and off
 WINDOWS = 1.5  # sum of the squares of Hann windows that stand a quarter of their width apart
+Filters = Mapping[str, LowPass]
+"""What each input came through."""
 
 
-def denoised(trial: Trial, noise: Mapping[str, float], passed: LowPass) -> Trial:
+def denoised(trial: Trial, noise: Mapping[str, float], passed: Filters) -> Trial:
     """A trial with the noise of some inputs, standard deviations in their units, taken off by a Wiener filter.
 
-    `passed` is the filter that the inputs came through.
+    `passed` are the filters that the inputs came through.
 
     Samples are put on an even grid for it and back by linear interpolation of what was taken off; where an input was
     not measured nothing is taken off.
     """
-    return changed(trial, noise, lambda even, step, sd: -noise_in(even, step, sd, passed))
+    return changed(trial, noise, lambda name, even, step: -noise_in(even, step, noise[name], passed[name]))
 
 
-def shaken(trial: Trial, noise: Mapping[str, float], passed: LowPass, rng: np.random.Generator) -> Trial:
+def shaken(trial: Trial, noise: Mapping[str, float], passed: Filters, rng: np.random.Generator) -> Trial:
     """What `denoised` makes of a recording, with noise again as that leaves it.
 
     Noise of these standard deviations is drawn, and taken off as far as the filter takes it off the recording. Of
     movement that was taken off along with it nothing is added.
     """
 
-    def change(even: Float[np.ndarray, " n"], step: float, sd: float) -> Float[np.ndarray, " n"]:
-        more, own = drawn(rng, len(even), step, sd, passed), Stretches.of(even, step, passed)
+    def change(name: str, even: Float[np.ndarray, " n"], step: float) -> Float[np.ndarray, " n"]:
+        sd, through = noise[name], passed[name]
+        more, own = drawn(rng, len(even), step, sd, through), Stretches.of(even, step, through)
         shares = own.shares(sd)
-        return np.asarray(more - own.summed(shares) - Stretches.of(more, step, passed).summed(shares))
+        return np.asarray(more - own.summed(shares) - Stretches.of(more, step, through).summed(shares))
 
     return changed(trial, noise, change)
 
 
 def changed(
     trial: Trial,
-    noise: Mapping[str, float],
-    change: Callable[[Float[np.ndarray, " n"], float, float], Float[np.ndarray, " n"]],
+    names: Iterable[str],
+    change: Callable[[str, Float[np.ndarray, " n"], float], Float[np.ndarray, " n"]],
 ) -> Trial:
-    """A trial with something added to some inputs, worked out on an even grid from values, step [s] and noise there."""
+    """A trial with something added to some inputs, worked out on an even grid from name, values and step [s] there."""
     time, grid = trial.time, even_grid(trial.time)
     values = trial.signals.values.copy()
-    for name, sd in noise.items():
+    for name in names:
         column = trial.signals.channels.index(name)
         there = np.isfinite(values[:, column])
         if there.sum() < 4 * FEWEST:
             continue
         even = np.interp(grid, time[there], values[there, column])
-        values[there, column] += np.interp(time[there], grid, change(even, float(grid[1] - grid[0]), sd))
+        values[there, column] += np.interp(time[there], grid, change(name, even, float(grid[1] - grid[0])))
     return replace(trial, signals=replace(trial.signals, values=values))
 
 
@@ -216,7 +219,7 @@ def cubics(width: int) -> Float[np.ndarray, "w four"]:
 class Stretches:
     """Spectra of overlapping stretches of evenly spaced values.
 
-    Stretches last `PERIODS` periods of the corner, less a cubic, a quarter of a stretch apart, weighed by a
+    Stretches last `PERIODS` periods of the corner (of the highest that is looked for, without a filter), less a cubic, a quarter of a stretch apart, weighed by a
     Hann window before and after so that they add up to the whole (Portnoff, IEEE Trans. Acoust. Speech Signal Process.
     28:55, 1980).
 
@@ -244,7 +247,7 @@ class Stretches:
     @classmethod
     def of(cls, values: Float[np.ndarray, " n"], step: float, passed: LowPass) -> Stretches:
         """Of values `step` seconds apart."""
-        hop = max(round(0.25 * PERIODS / (passed.corner * step)), FEWEST)
+        hop = max(round(0.25 * PERIODS / (min(passed.corner, HIGHEST) * step)), FEWEST)
         width = 4 * hop
         longer = np.pad(values, (width, 2 * width), mode="reflect", reflect_type="odd")
         window = np.sin(np.pi * (np.arange(width) + 0.5) / width) ** 2

@@ -10,12 +10,11 @@ from jaxtyping import Float
 
 from geocontact.chain.system import FAR, System
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.corner import filter_of, likely_noise
-from geocontact.gap.inputs import Left, denoised, left, loudest, seen_noise, shaken, switches
+from geocontact.gap.corner import filters_of, likely_noise
+from geocontact.gap.inputs import Filters, Left, denoised, left, loudest, seen_noise, shaken, switches
 from geocontact.gap.refit import NO_VALUE, Measured, Refit, at, free, refit
 from geocontact.gap.weighing import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
 from geocontact.identify.covariance import Layout, Whitener
-from geocontact.identify.low_pass import LowPass
 from geocontact.identify.noise_levels import Beliefs, Levels
 from geocontact.identify.noise_search import most_likely
 from geocontact.identify.trial_variation import Products, variation
@@ -51,7 +50,7 @@ class Problem:
     floor
         Noise plus trial-to-trial variation of each channel.
     passed
-        The low-pass filter that the inputs came through.
+        The low-pass filter that each input came through.
     left
         Of the power of each input's noise, what its taking off left, by frequency.
     shaken
@@ -69,7 +68,7 @@ class Problem:
     usual: Float[np.ndarray, " q"]
     plain: Refit
     floor: Float[np.ndarray, " c"]
-    passed: LowPass
+    passed: Filters
     left: Mapping[str, Share]
     shaken: Measured
     passed_on: tuple[Float[np.ndarray, "_ c"], ...]
@@ -191,11 +190,11 @@ def problem_of(case: GapCase, system: System) -> Problem:
         outputs=calibration.outputs + evaluation.outputs,
     )
     recorded = everything
-    passed = filter_of(recorded.trials, system.inputs)
+    passed = filters_of(recorded.trials, system.inputs)
     noisy = [name for name in system.inputs if not switches(recorded.trials, name)]
-    shown = {name: seen_noise(calibration.trials, name, passed) for name in noisy}
-    seen = {name: level or likely_noise(recorded.trials, name, passed) for name, level in shown.items()}
-    most = {name: max(loudest(recorded.trials, name, passed), seen[name]) for name in noisy}
+    shown = {name: seen_noise(calibration.trials, name, passed[name]) for name in noisy}
+    seen = {name: level or likely_noise(recorded.trials, name, passed[name]) for name, level in shown.items()}
+    most = {name: max(loudest(recorded.trials, name, passed[name]), seen[name]) for name in noisy}
     system = _rates(system, case, calibration, rough, passed, seen, most)
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
     floor, more = rough, everything
@@ -229,7 +228,7 @@ def problem_of(case: GapCase, system: System) -> Problem:
             rng = np.random.default_rng(SEED)
             more = replace(recorded, trials=tuple(shaken(trial, sd, passed, rng) for trial in recorded.trials))
             everything = replace(everything, trials=calibration.trials + evaluation.trials)
-            kept = {n: one for n, q in sd.items() if (one := left(recorded.trials, n, q, passed)) is not None}
+            kept = {n: one for n, q in sd.items() if (one := left(recorded.trials, n, q, passed[n])) is not None}
         floor = floor_of(problem, noise, plain)
         plain = _plain_fit(system, calibration, floor, [plain.values], rounds=20)
     passed_on = differences(more, system, plain.values, everything.residuals(system, plain.values))
@@ -241,7 +240,7 @@ def _rates(
     case: GapCase,
     measured: Measured,
     rough: Float[np.ndarray, " c"],
-    passed: LowPass,
+    passed: Filters,
     seen: Mapping[str, float],
     most: Mapping[str, float],
 ) -> System:
@@ -284,7 +283,7 @@ def best_of(likelihood: Callable[[float], float], points: Sequence[float]) -> fl
     return points[at]
 
 
-def _denoised(measured: Measured, noise: Mapping[str, float], passed: LowPass) -> Measured:
+def _denoised(measured: Measured, noise: Mapping[str, float], passed: Filters) -> Measured:
     return replace(measured, trials=tuple(denoised(trial, noise, passed) for trial in measured.trials))
 
 

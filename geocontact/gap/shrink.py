@@ -25,7 +25,8 @@ from geocontact.gap.faults import Fault
 from geocontact.gap.problem import Problem
 
 FORM = 0.04  # relative standard deviation of g² for the form of the effect
-WIDE = 1.0  # half-width of the interval of log(g²/a²) beyond which its lower end is taken of g²/a² itself
+LEAST = -0.3  # of g²/a²: so much less may noise of the inputs make of the base model's error than of the true one's
+WIDE = 1.0  # half-width of the interval of log(g²/a²) up to which it is taken of the logarithm
 TELLING = 2.0  # times the squared floor that the squared error before must be, for a share to mean something
 
 
@@ -84,15 +85,25 @@ def shrinkage(
             found[name] = Shrinkage(error**0.5, error**0.5, floor**0.5, 0.0, 0.0, 0.0, None)
             continue
         (gone, gone_sd), (left, left_sd) = _gone(problem, errors, c), errors.left[c]
-        ratio = gone / left
-        spread = student * float(np.hypot(gone_sd / max(gone, 1e-300), left_sd / left))
-        least = ratio * (np.exp(-spread) if spread <= WIDE else max(1.0 - spread, 0.0))
-        low, middle, high = (1.0 - (1.0 + each) ** -0.5 for each in (least, ratio, ratio * np.exp(spread)))
+        spread = student * float(np.hypot(gone_sd, gone / left * left_sd)) / left
+        low, middle, high = (1.0 - (1.0 + max(each, LEAST)) ** -0.5 for each in between(gone / left, spread))
         share = None
         if error >= TELLING * floor:
             share = float(max(left - floor, 0.0) / (left + gone - floor)) if left + gone > floor else 0.0
         found[name] = Shrinkage(error**0.5, stays**0.5, floor**0.5, float(middle), float(low), float(high), share)
     return found
+
+
+def between(ratio: float, spread: float) -> tuple[float, float, float]:
+    """An interval of g²/a² around `ratio`, `spread` half of its width: of the logarithm, as long as that is narrow.
+
+    What is spread wider than that may be less than nothing; its interval goes on growing in proportion, without a jump.
+    """
+    relative = spread / ratio if ratio > 0.0 else np.inf
+    down, up = (1.0 - np.exp(-WIDE)) / WIDE, (np.exp(WIDE) - 1.0) / WIDE
+    if relative <= WIDE:
+        return ratio * float(np.exp(-relative)), ratio, ratio * float(np.exp(relative))
+    return ratio - down * spread, ratio, ratio + up * spread
 
 
 def _mean_square(residuals: list[np.ndarray], present: tuple[np.ndarray, ...], c: int) -> float:
@@ -121,4 +132,4 @@ def _gone(problem: Problem, errors: Errors, c: int) -> tuple[float, float]:
     slope, more = np.mean(slopes, axis=0), float(np.mean(alike))
     gone = float(np.mean(squares)) + more
     between = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (0.3 * gone) ** 2
-    return gone, float(np.sqrt(slope @ errors.known @ slope + between + (FORM * gone) ** 2 + more**2))
+    return gone + float(errors.passed_on[c]), float(np.sqrt(slope @ errors.known @ slope + between + (FORM * gone) ** 2 + more**2))

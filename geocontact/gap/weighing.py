@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from jaxtyping import Float
@@ -79,17 +80,19 @@ def varies_by(parameter: Parameter, value: float) -> float:
 
 
 def heard(
-    system: System, trial: Trial, values: Mapping[str, float], passed: LowPass, left: Mapping[str, Share]
+    system: System, trial: Trial, values: Mapping[str, float], passed: Mapping[str, LowPass], left: Mapping[str, Share]
 ) -> InputNoise:
     """What noise of a trial's inputs makes of the outputs that a model predicts.
 
-    It came through the filter `passed`; `left` says by frequency what was left of that of some inputs since.
+    That of each input came through its filter in `passed`; `left` says by frequency what was left of some since.
     """
 
-    def rates(frequency: Float[np.ndarray, " f"]) -> Float[np.ndarray, " f"]:
-        return rate_of_waves(frequency, passed.step, system.motion.reach)
+    def spectrum(name: str) -> NoiseSpectrum:
+        through = passed[name]
+        rates = partial(rate_of_waves, step=through.step, reach=system.motion.reach)
+        return NoiseSpectrum.after(through, rates, left.get(name, np.ones_like))
 
-    spectra = tuple(NoiseSpectrum.after(passed, rates, left.get(name, np.ones_like)) for name in system.inputs)
+    spectra = tuple(spectrum(name) for name in system.inputs)
     return (responses if system.dynamic else sensitivity)(system, trial, values, spectra)
 
 
@@ -159,7 +162,7 @@ def layouts_of(
     trials: Sequence[Trial],
     values: Mapping[str, float],
     present: Sequence[np.ndarray],
-    passed: LowPass,
+    passed: Mapping[str, LowPass],
     left: Mapping[str, Share],
 ) -> list[Layout]:
     """One per trial, inputs' noise (see `heard`) seen through the model at `values`."""

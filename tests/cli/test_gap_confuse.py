@@ -12,7 +12,7 @@ import pytest
 from tests.cli.calls import Call, call, done, inventory
 from tests.cli.gap_cases import damped_elbow, diagnosed_elbow
 
-ASKED = ("damping", "time_shift", "filter_lag", "sensor_gain")
+ASKED = ("damping", "time_shift", "filter_lag", "sensor_gain", "unit_error")
 LABELS = ("time_shift", "filter_lag", "damping", "sensor_gain.force")
 TABLES = {"confuse.json", "separability.csv", "detectability.csv", "run.json"}
 FIGURES = {f"{name}.{ending}" for name in ("separability", "detectability") for ending in ("png", "svg")}
@@ -52,7 +52,7 @@ def test_tables_agree_with_the_answer(confused: Call) -> None:
 
 def test_what_is_known_of_the_elbow_is_said(confused: Call) -> None:
     answer = json.loads((confused.folder / "confuse.json").read_text(encoding="utf-8"))
-    assert answer["absorbed"][0] == "sensor_gain"
+    assert answer["absorbed"] == ["sensor_gain", "unit_error"], "a mistake that is asked about has no row of its own"
     assert answer["detectability"]["sensor_gain.force"]["smallest"] is None
     assert answer["detectability"]["damping"]["smallest"] < 25.0  # which was planted and found
     assert "not to be seen at any plausible size: sensor_gain.force" in confused.out
@@ -69,6 +69,7 @@ def test_what_is_known_of_the_elbow_is_said(confused: Call) -> None:
     [
         (("--effects", "magic"), "no effect 'magic'"),
         (("--effects", ","), "no effect ','"),
+        (("--effects", "sign_flip,unit_error"), "no size to compare has sign_flip or unit_error"),
         (("--nats", "0"), "give a number above 0"),
         (("--nats", "nan"), "give a number above 0"),
     ],

@@ -8,11 +8,13 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.corner import USUAL, filter_of, likely_noise
+from geocontact.gap.corner import USUAL, filters_of, likely_noise
 from geocontact.identify.low_pass import LowPass
 
 STEP = 0.005
 NYQUIST = 0.5 / STEP
+FAINT = 0.0012
+"""rad; noise that speaks with 2.6 nats for itself."""
 
 
 def trials(corner: float, noise: float, count: int = 4, lost: float = 0.0, digits: int = 12) -> list[Trial]:
@@ -35,43 +37,60 @@ def trials(corner: float, noise: float, count: int = 4, lost: float = 0.0, digit
 @pytest.mark.parametrize("lost", [0.0, 0.03])
 @pytest.mark.parametrize(("corner", "off"), [(6.0, 0.4), (10.0, 0.2), (20.0, 0.2)])
 def test_a_corner_is_found_unless_the_movement_hides_it(corner: float, off: float, lost: float) -> None:
-    assert filter_of(trials(corner, 0.003, lost=lost), ("u",)).corner == pytest.approx(corner, rel=off)
+    assert filters_of(trials(corner, 0.003, lost=lost), ("u",))["u"].corner == pytest.approx(corner, rel=off)
 
 
 @pytest.mark.parametrize("digits", [4, 5])
 def test_rounding_is_not_taken_for_noise_of_a_high_corner(digits: int) -> None:
-    assert filter_of(trials(6.0, 0.003, digits=digits), ("u",)).corner == pytest.approx(6.0, rel=0.4)
+    assert filters_of(trials(6.0, 0.003, digits=digits), ("u",))["u"].corner == pytest.approx(6.0, rel=0.4)
 
 
 @pytest.mark.parametrize("noise", [0.003, 0.02])
 def test_noise_that_nobody_filtered_is_not_taken_for_rounding(noise: float) -> None:
     made = trials(NYQUIST, noise)
-    passed = filter_of(made, ("u",))
+    passed = filters_of(made, ("u",))["u"]
     assert passed == LowPass.none(passed.step) and passed.corner == pytest.approx(NYQUIST)
     assert likely_noise(made, "u", passed) == pytest.approx(noise, rel=0.2)
 
 
 def test_without_noise_no_high_corner_is_made_up() -> None:
-    assert filter_of(trials(6.0, 0.0), ("u",)).corner < 1.4 * USUAL
+    assert filters_of(trials(6.0, 0.0), ("u",))["u"].corner < 1.4 * USUAL
+
+
+def beside(first: list[Trial], second: list[Trial]) -> list[Trial]:
+    """Trials with the inputs u and v."""
+    return [
+        Trial(a.name, Signals(a.time, np.column_stack([a.column("u"), b.column("u")]), ("u", "v"), ("rad", "m")))
+        for a, b in zip(first, second, strict=True)
+    ]
 
 
 def test_inputs_share_it() -> None:
-    both = [
-        Trial(
-            a.name,
-            Signals(a.time, np.column_stack([a.column("u"), b.column("u")]), ("u", "v"), ("rad", "m")),
-        )
-        for a, b in zip(trials(15.0, 0.003), trials(15.0, 1e-5), strict=True)
-    ]
-    assert filter_of(both, ("u", "v")).corner == pytest.approx(15.0, rel=0.2)
+    passed = filters_of(beside(trials(15.0, 0.003), trials(15.0, 1e-5)), ("u", "v"))
+    assert passed["u"] == passed["v"] and passed["u"].corner == pytest.approx(15.0, rel=0.2)
+
+
+@pytest.mark.parametrize("corner", [6.0, 15.0])
+def test_an_input_that_nobody_filtered_stands_beside_one_that_was(corner: float) -> None:
+    passed = filters_of(beside(trials(corner, 0.003), trials(NYQUIST, 0.003)), ("u", "v"))
+    assert passed["v"] == LowPass.none(passed["v"].step)
+    assert passed["u"].corner == pytest.approx(corner, rel=0.4)
+
+
+def test_together_inputs_tell_sooner_that_nobody_filtered_them() -> None:
+    """Each alone is too faint a witness."""
+    alone = filters_of(trials(NYQUIST, FAINT), ("u",))["u"]
+    assert alone.corner < 2.0 * USUAL
+    both = filters_of(beside(trials(NYQUIST, FAINT), trials(NYQUIST, FAINT)), ("u", "v"))
+    assert both["u"] == both["v"] == LowPass.none(both["u"].step)
 
 
 @pytest.mark.parametrize("still", [0.0, 1.0])
 def test_an_input_that_stands_still_or_is_too_short_says_nothing(still: float) -> None:
     quiet = [Trial(t.name, Signals(t.time, np.full((len(t), 1), still), ("u",), ("rad",))) for t in trials(9.0, 0.003)]
-    assert filter_of(quiet, ("u",)).corner == USUAL
+    assert filters_of(quiet, ("u",))["u"].corner == USUAL
     short = [Trial(t.name, Signals(t.time[:20], t.signals.values[:20], ("u",), ("rad",))) for t in trials(9.0, 0.003)]
-    assert filter_of(short, ("u",)).corner == USUAL
+    assert filters_of(short, ("u",))["u"].corner == USUAL
 
 
 @pytest.mark.parametrize("noise", [0.003, 0.03])

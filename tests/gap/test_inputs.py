@@ -72,14 +72,14 @@ def test_trials_too_short_for_a_spectrum_set_no_limit() -> None:
 @pytest.mark.parametrize("lost", [False, True])
 def test_most_of_the_noise_goes_and_the_movement_stays(lost: bool) -> None:
     recorded, clean = trial(0.004, 0.25, 4, lost)
-    better = denoised(recorded, {"u": 0.004}, LowPass(6.0, STEP)).column("u")
+    better = denoised(recorded, {"u": 0.004}, {"u": LowPass(6.0, STEP)}).column("u")
     inside = slice(20, -20)
     assert np.std((better - clean)[inside]) < 0.6 * np.std((recorded.column("u") - clean)[inside])
 
 
 def test_without_noise_nothing_changes() -> None:
     recorded, _ = trial(0.004, 0.25, 5)
-    same = denoised(recorded, {"u": 1e-9}, LowPass(6.0, STEP)).column("u")
+    same = denoised(recorded, {"u": 1e-9}, {"u": LowPass(6.0, STEP)}).column("u")
     assert np.abs(same - recorded.column("u")).max() < 1e-6
 
 
@@ -94,7 +94,7 @@ def test_what_sets_out_sharply_after_a_rest_stays_sharp() -> None:
         raw = filtfilt(*butter(2, 6.0, fs=1.0 / STEP), np.random.default_rng(seed).standard_normal(len(time) + 200))
         recorded = clean + 0.002 * raw[100:-100] / raw.std()
         trial = Trial("t", Signals(time, recorded[:, None], ("u",), ("rad",)))
-        rest.append(denoised(trial, {"u": 0.002}, LowPass(6.0, STEP)).column("u") - clean)
+        rest.append(denoised(trial, {"u": 0.002}, {"u": LowPass(6.0, STEP)}).column("u") - clean)
     assert np.std(np.array(rest)[:, ~moves]) < 0.75 * 0.002
     assert np.std(np.array(rest)[:, moves]) < 0.002
 
@@ -107,7 +107,7 @@ def test_what_is_left_of_the_noise_is_told_by_frequency() -> None:
     assert kept(np.array([4.0]))[0] < 0.6
     off = np.concatenate(
         [
-            denoised(t, {"u": 0.004}, LowPass(6.0, STEP)).column("u") - trial(0.004, 0.25, seed)[1]
+            denoised(t, {"u": 0.004}, {"u": LowPass(6.0, STEP)}).column("u") - trial(0.004, 0.25, seed)[1]
             for seed, t in enumerate(trials)
         ]
     )
@@ -121,9 +121,9 @@ def test_as_much_noise_again_is_as_much_as_is_left() -> None:
     rng, off, more = np.random.default_rng(0), [], []
     for seed in range(6):
         recorded, clean = trial(0.004, 0.25, seed)
-        better = denoised(recorded, {"u": 0.004}, LowPass(6.0, STEP)).column("u")
+        better = denoised(recorded, {"u": 0.004}, {"u": LowPass(6.0, STEP)}).column("u")
         off.append(better - clean)
-        more.append(shaken(recorded, {"u": 0.004}, LowPass(6.0, STEP), rng).column("u") - better)
+        more.append(shaken(recorded, {"u": 0.004}, {"u": LowPass(6.0, STEP)}, rng).column("u") - better)
     assert float(np.std(more)) == pytest.approx(float(np.std(off)), rel=0.25)
     assert abs(float(np.corrcoef(np.ravel(more), np.ravel(off))[0, 1])) < 0.2
 

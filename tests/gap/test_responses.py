@@ -42,7 +42,7 @@ def test_covariance_is_that_of_simulated_noise() -> None:
     together = np.array(made).transpose(0, 2, 1).reshape(400, -1)
     seen = together.T @ together / 400.0
     at, channel = np.tile(np.arange(200, 230), 2), np.repeat([0, 1], 30)
-    expected = SD**2 * heard(system, trial, values, passed, {}).covariance(at, channel)[0]
+    expected = SD**2 * heard(system, trial, values, dict.fromkeys(system.inputs, passed), {}).covariance(at, channel)[0]
     for c in (0, 1):
         own = np.flatnonzero(channel == c)
         assert_allclose(np.diag(seen)[own], np.diag(expected)[own], rtol=0.35)
@@ -55,8 +55,8 @@ def test_without_a_motion_of_its_own_the_force_would_hardly_feel_it() -> None:
     """What a resting arm says is not what a shaken one does."""
     system, trial, values, passed = scene()
     at, channel = np.arange(200, 230), np.ones(30, int)
-    lasting = heard(system, trial, values, passed, {}).covariance(at, channel)[0]
-    instant = heard(replace(system, dynamic=False), trial, values, passed, {}).covariance(at, channel)[0]
+    lasting = heard(system, trial, values, dict.fromkeys(system.inputs, passed), {}).covariance(at, channel)[0]
+    instant = heard(replace(system, dynamic=False), trial, values, dict.fromkeys(system.inputs, passed), {}).covariance(at, channel)[0]
     assert np.abs(np.diag(lasting) / np.diag(instant) - 1.0).min() > 0.3
 
 
@@ -68,7 +68,7 @@ def test_a_dropout_is_filled_from_both_sides() -> None:
     column = signals.channels.index("arm")
     gone[200:230, column] = np.nan
     broken = replace(trial, signals=replace(signals, values=gone))
-    found = heard(system, broken, values, passed, {})
+    found = heard(system, broken, values, dict.fromkeys(system.inputs, passed), {})
     assert isinstance(found, Lasting)
     step = 1e-4
     moved = gone.copy()

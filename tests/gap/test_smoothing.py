@@ -76,5 +76,5 @@ def test_noise_that_is_added_is_that_of_the_inputs(problem: Problem) -> None:
     )
     level, kept = float(problem.weighed(problem.plain).levels.inputs[0]), problem.left["beta"]
     grid = np.linspace(0.0, 12.0, 600)
-    power = problem.passed.power(grid)
+    power = problem.passed["beta"].power(grid)
     assert float(moved.std()) == pytest.approx(level * np.sqrt((power * kept(grid)).sum() / power.sum()), rel=0.3)

@@ -120,7 +120,7 @@ def test_a_secant_keeps_what_was_seen_and_stays_positive_definite() -> None:
 
 
 def test_a_search_from_noise_a_hundred_times_too_quiet_takes_few_evaluations(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Secants alone take three times as many; average information of the first place alone does not end in time."""
+    """Secants alone take four times as many; average information of the first place alone does not end in time."""
     evaluations: list[float] = []
     at = Surface.at
 
@@ -137,6 +137,21 @@ def test_a_search_from_noise_a_hundred_times_too_quiet_takes_few_evaluations(mon
     _, _, nats = most_likely(layouts, residuals, jitter, loud, quiet)
     assert len(evaluations) < 30
     assert nats == pytest.approx(most_likely(layouts, residuals, jitter, loud, LEVELS)[2], abs=1e-5)
+
+
+def test_a_search_that_falls_far_again_takes_information_anew() -> None:
+    """Secants of where a step gained little, kept on a slope that is long again, end a third of a nat short here."""
+    rng = np.random.default_rng(18)
+    layouts = [layout() for _ in range(5)]
+    residuals = [noise_of(each, LEVELS, rng) for each in layouts]
+    jitter = [0.05 * np.ones((COUNT, 2, 1)) for _ in layouts]
+    prior = LEVELS.at(LEVELS.logarithms() + rng.normal(0.0, 1.0, 7))
+    limit = float(rng.uniform(0.4, 1.5))
+    beliefs = Beliefs(prior, 2.0 * np.eye(7), limit * LEVELS.sensors, limit * LEVELS.inputs)
+    start = LEVELS.at(LEVELS.logarithms() + rng.normal(0.0, 1.5, 7))
+    there, _, nats = most_likely(layouts, residuals, jitter, beliefs, start)
+    assert nats == pytest.approx(most_likely(layouts, residuals, jitter, beliefs, there)[2], abs=1e-3)
+    assert nats == pytest.approx(most_likely(layouts, residuals, jitter, beliefs, prior)[2], abs=1e-3)
 
 
 def test_a_search_ends_where_steps_no_longer_move(monkeypatch: pytest.MonkeyPatch) -> None:
