@@ -6,7 +6,8 @@ The spectrum of every input is taken for a movement that falls off with frequenc
 likelihood (Whittle 1953, J. R. Stat. Soc. B 15:125) with one f_c for all inputs that were filtered. Noise much louder
 or quieter than usual is believed less, and so are corners far from 6 Hz: where the movement hides the noise, f_c stays
 near that. A rest that is louder than rounding is believed less as well, so that noise which nobody filtered is not
-taken for it. Usually all inputs were filtered, or none; an input may differ from the others where its spectrum says so.
+taken for it. Usually all inputs were filtered, or none: where one was surely not, another counts as filtered only if
+its spectrum says so clearly.
 """
 
 from __future__ import annotations
@@ -25,10 +26,12 @@ USUAL, USUALLY = 6.0, 0.6  # Hz, and the standard deviation of its logarithm (Wi
 LOWEST, HIGHEST, CORNERS = 2.5, 40.0, 17  # Hz, that are compared, and how many
 LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
 ROUNDED = 1e-4  # of a half-range, up to which a white rest is rounding
-UNFILTERED = 3.0  # nats that must speak for no filter: of all inputs together, or of one beside others
+UNFILTERED = 3.0  # nats that must speak for no filter: of all inputs together, or of one by itself
+CLEARLY = 12.0  # nats that must speak for a filter of an input beside one that nobody filtered
 TREND = 3  # degree of the polynomial that is taken off before the window
 APART = 3  # bins from which spectral values under the window count as independent
 FEWEST = 24  # samples of a trial that has a spectrum
+BOTH = 2  # values of an input that goes on and off
 FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
 
 
@@ -63,13 +66,13 @@ def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, L
     through = np.array([[split(each, LowPass(f, step)).unlikely for f in corners] for each in seen.values()])
     free = np.array([split(each, LowPass.none(step)).unlikely for each in seen.values()])
     far = 0.5 * (np.log(corners / USUAL) / USUALLY) ** 2
-    costs = far + np.minimum(through, free[:, None] + UNFILTERED).sum(axis=0)
-    if free.sum() + UNFILTERED < costs.min():
+    speaks = (through + far).min(axis=1) - free  # of each by itself, for no filter [nats]
+    raw = speaks > (-CLEARLY if (speaks > UNFILTERED).any() else np.inf)
+    costs = far + through[~raw].sum(axis=0)
+    if raw.all() or (free.sum() + UNFILTERED < (far + through.sum(axis=0)).min() and not raw.any()):
         return dict.fromkeys(inputs, LowPass.none(step))
-    raw = free + UNFILTERED < through[:, np.argmin(costs)]
-    passed = LowPass(_between(np.log(corners), far + through[~raw].sum(axis=0)), step)
     differ = {name: LowPass.none(step) for name, own in zip(seen, raw, strict=True) if own}
-    return dict.fromkeys(inputs, passed) | differ
+    return dict.fromkeys(inputs, LowPass(_between(np.log(corners), costs), step)) | differ
 
 
 def _between(at: Float[np.ndarray, " n"], costs: Float[np.ndarray, " n"]) -> float:
@@ -82,12 +85,23 @@ def _between(at: Float[np.ndarray, " n"], costs: Float[np.ndarray, " n"]) -> flo
     return float(np.exp(at[k] + 0.5 * (left - right) / max(bend, 1e-12) * (at[k + 1] - at[k])))
 
 
+def switches(trials: Sequence[Trial], name: str) -> bool:
+    """Whether an input only goes on and off, or stands still: then it is no measurement, and has no noise."""
+    values = np.concatenate([trial.column(name) for trial in trials])
+    return len(np.unique(values[np.isfinite(values)])) <= BOTH
+
+
 def spectrum(trials: Sequence[Trial], name: str) -> Spectrum | None:
-    """Periodograms under Nuttall's window, of all trials long enough; None where there are none, or nothing moves."""
+    """Periodograms under Nuttall's window, of all trials long enough.
+
+    None where there are none, where nothing moves, and of an input that only goes on and off.
+    """
     from scipy.interpolate import CubicSpline
     from scipy.signal.windows import nuttall
 
     frequency, power, values = [], [], []
+    if switches(trials, name):
+        return None
     for trial in trials:
         column = trial.column(name)
         there = np.isfinite(column)

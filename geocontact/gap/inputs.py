@@ -28,7 +28,6 @@ CHANCE = 1e-3  # that the noise of an input is louder than the limit that its sp
 BLACKMAN = 1.73  # bins as wide as one under the window (Harris 1978, Proc. IEEE 66:51)
 SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
 PERIODS, FEWEST = 8.0, 8  # of the corner in a stretch, and samples in a quarter of it at the least
-BOTH = 2  # values of an input that goes on and off
 WINDOWS = 1.5  # sum of the squares of Hann windows that stand a quarter of their width apart
 Filters = Mapping[str, LowPass]
 """What each input came through."""
@@ -85,12 +84,6 @@ def drawn(rng: np.random.Generator, count: int, step: float, sd: float, passed: 
     power = passed.power(np.fft.rfftfreq(long, step))
     white = np.fft.rfft(rng.standard_normal(long))
     return np.asarray(sd * np.fft.irfft(white * np.sqrt(power * (long // 2 + 1) / power.sum()), long)[:count])
-
-
-def switches(trials: Sequence[Trial], name: str) -> bool:
-    """Whether an input only goes on and off, or stands still: then it is no measurement, and has no noise."""
-    values = np.concatenate([trial.column(name) for trial in trials])
-    return len(np.unique(values[np.isfinite(values)])) <= BOTH
 
 
 def seen_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float | None:
@@ -219,9 +212,9 @@ def cubics(width: int) -> Float[np.ndarray, "w four"]:
 class Stretches:
     """Spectra of overlapping stretches of evenly spaced values.
 
-    Stretches last `PERIODS` periods of the corner (of the highest that is looked for, without a filter), less a cubic, a quarter of a stretch apart, weighed by a
-    Hann window before and after so that they add up to the whole (Portnoff, IEEE Trans. Acoust. Speech Signal Process.
-    28:55, 1980).
+    Stretches last `PERIODS` periods of the corner, or of the highest corner that is looked for where nothing was
+    filtered, less a cubic, a quarter of a stretch apart, weighed by a Hann window before and after so that they add up to
+    the whole (Portnoff, IEEE Trans. Acoust. Speech Signal Process. 28:55, 1980).
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ from geocontact.gap.faults import Fault
 from geocontact.gap.problem import Problem
 
 FORM = 0.04  # relative standard deviation of g² for the form of the effect
-LEAST = -0.3  # of g²/a²: so much less may noise of the inputs make of the base model's error than of the true one's
+LEAST = -0.75  # of g²/a²: so much less may noise of the inputs make of the base model's error than of the true one's
 WIDE = 1.0  # half-width of the interval of log(g²/a²) up to which it is taken of the logarithm
 TELLING = 2.0  # times the squared floor that the squared error before must be, for a share to mean something
 
@@ -132,4 +132,6 @@ def _gone(problem: Problem, errors: Errors, c: int) -> tuple[float, float]:
     slope, more = np.mean(slopes, axis=0), float(np.mean(alike))
     gone = float(np.mean(squares)) + more
     between = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (0.3 * gone) ** 2
-    return gone + float(errors.passed_on[c]), float(np.sqrt(slope @ errors.known @ slope + between + (FORM * gone) ** 2 + more**2))
+    return gone + float(errors.passed_on[c]), float(
+        np.sqrt(slope @ errors.known @ slope + between + (FORM * gone) ** 2 + more**2)
+    )

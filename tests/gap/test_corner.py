@@ -85,6 +85,16 @@ def test_together_inputs_tell_sooner_that_nobody_filtered_them() -> None:
     assert both["u"] == both["v"] == LowPass.none(both["u"].step)
 
 
+def test_an_input_that_goes_on_and_off_says_nothing() -> None:
+    """A square wave has all frequencies."""
+    flags = [
+        Trial(t.name, Signals(t.time, (t.column("u")[:, None] > 0.0).astype(float), ("u",), ("-",)))
+        for t in trials(6.0, 0.003)
+    ]
+    passed = filters_of(beside(trials(6.0, 0.003), flags), ("u", "v"))
+    assert passed == filters_of(trials(6.0, 0.003), ("u",)) | {"v": passed["u"]}
+
+
 @pytest.mark.parametrize("still", [0.0, 1.0])
 def test_an_input_that_stands_still_or_is_too_short_says_nothing(still: float) -> None:
     quiet = [Trial(t.name, Signals(t.time, np.full((len(t), 1), still), ("u",), ("rad",))) for t in trials(9.0, 0.003)]

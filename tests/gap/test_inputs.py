@@ -8,7 +8,8 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs import denoised, left, loudest, seen_noise, shaken, switches
+from geocontact.gap.corner import switches
+from geocontact.gap.inputs import denoised, left, loudest, seen_noise, shaken
 from geocontact.identify.low_pass import LowPass
 
 STEP = 0.02

@@ -56,7 +56,9 @@ def test_without_a_motion_of_its_own_the_force_would_hardly_feel_it() -> None:
     system, trial, values, passed = scene()
     at, channel = np.arange(200, 230), np.ones(30, int)
     lasting = heard(system, trial, values, dict.fromkeys(system.inputs, passed), {}).covariance(at, channel)[0]
-    instant = heard(replace(system, dynamic=False), trial, values, dict.fromkeys(system.inputs, passed), {}).covariance(at, channel)[0]
+    instant = heard(replace(system, dynamic=False), trial, values, dict.fromkeys(system.inputs, passed), {}).covariance(
+        at, channel
+    )[0]
     assert np.abs(np.diag(lasting) / np.diag(instant) - 1.0).min() > 0.3
 
 

@@ -14,8 +14,8 @@ USUAL = 6.0
 """Low-pass of measured inputs that most laboratories use [Hz]."""
 LOWEST, HIGHEST = 3.0, 20.0
 """That others use [Hz]."""
-OTHERS = 0.6
-"""Share of others."""
+OTHERS, NOBODY = 0.5, 0.1
+"""Shares of others, and of recordings that nobody filtered."""
 FAR_FROM_NYQUIST = 0.3
 """Highest corner as a share of the sampling frequency."""
 ORDER = 4
@@ -60,15 +60,25 @@ class Coloured:
 
 
 def corner_of(rng: np.random.Generator, step: float) -> float:
-    """A laboratory's low-pass of measured inputs [Hz]."""
+    """A laboratory's low-pass of measured inputs [Hz]; Nyquist's frequency where nobody filtered."""
     other = np.exp(rng.uniform(np.log(LOWEST), np.log(min(HIGHEST, FAR_FROM_NYQUIST / step))))
-    return float(other if rng.random() < OTHERS else USUAL)
+    which = rng.random()
+    if which < NOBODY:
+        return 0.5 / step
+    return float(other if which < NOBODY + OTHERS else USUAL)
+
+
+def unfiltered(step: float, corner: float) -> bool:
+    """Whether noise stayed white."""
+    return corner >= 0.5 / step
 
 
 def smooth_noise(
     rng: np.random.Generator, sd: float, count: int, step: float, corner: float
 ) -> Float[np.ndarray, " s"]:
     """White noise through a zero-lag Butterworth low-pass, as motion data come; `sd` is that of the outcome."""
+    if unfiltered(step, corner):
+        return np.asarray(sd * rng.standard_normal(count))
     b, a = butter(ORDER // 2, corner, fs=1.0 / step)
     pad = int(1.0 / step)
     raw = filtfilt(b, a, rng.standard_normal(count + 2 * pad))[pad : pad + count]
@@ -77,8 +87,10 @@ def smooth_noise(
 
 def spectrum(step: float, corner: float) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
     """Angular frequencies [rad/s] and the power at each of unit white noise after the filter."""
-    b, a = butter(ORDER // 2, corner, fs=1.0 / step)
     grid = (np.arange(LONG) + 0.5) * np.pi / LONG
+    if unfiltered(step, corner):
+        return grid / step, np.full(LONG, 1.0 / LONG)
+    b, a = butter(ORDER // 2, corner, fs=1.0 / step)
     _, response = freqz(b, a, worN=grid)
     return grid / step, np.abs(response) ** 4 / LONG
 
