@@ -213,8 +213,8 @@ class Stretches:
     """Spectra of overlapping stretches of evenly spaced values.
 
     Stretches last `PERIODS` periods of the corner, or of the highest corner that is looked for where nothing was
-    filtered, less a cubic, a quarter of a stretch apart, weighed by a Hann window before and after so that they add up to
-    the whole (Portnoff, IEEE Trans. Acoust. Speech Signal Process. 28:55, 1980).
+    filtered, less a cubic, a quarter of a stretch apart, weighed by a Hann window before and after so that they add up
+    to the whole (Portnoff, IEEE Trans. Acoust. Speech Signal Process. 28:55, 1980).
 
     Parameters
     ----------
