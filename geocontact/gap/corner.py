@@ -20,13 +20,14 @@ from jaxtyping import Float
 
 from geocontact.data.trial import Trial
 from geocontact.gap.grids import even_grid
+from geocontact.gap.resolution import resolution
 from geocontact.identify.low_pass import BELOW_NYQUIST, LowPass
 
 USUAL, USUALLY = 6.0, 0.6  # Hz, and the standard deviation of its logarithm (Winter 2009, ch. 3: 4 to 8 Hz in gait)
 LOWEST, HIGHEST, CORNERS = 2.5, 40.0, 17  # Hz, that are compared, and how many
 LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
-ROUNDED = 1e-4  # of a half-range, up to which a white rest is rounding
-UNFILTERED = 3.0  # nats that must speak for no filter: of all inputs together, or of one by itself
+ROUNDED = 1e-5  # of a half-range, up to which a white rest is rounding at any rate: five digits
+UNFILTERED = 2.0  # nats that must speak for no filter: of all inputs together, or of one by itself
 CLEARLY = 12.0  # nats that must speak for a filter of an input beside one that nobody filtered
 TREND = 3  # degree of the polynomial that is taken off before the window
 APART = 3  # bins from which spectral values under the window count as independent
@@ -47,11 +48,14 @@ class Spectrum:
         In the input's unit squared.
     half_range
         Of the input, in its unit.
+    rounding
+        Standard deviation of what rounding adds at the most, in its unit.
     """
 
     frequency: Float[np.ndarray, " f"]
     power: Float[np.ndarray, " f"]
     half_range: float
+    rounding: float
 
 
 def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, LowPass]:
@@ -119,7 +123,8 @@ def spectrum(trials: Sequence[Trial], name: str) -> Spectrum | None:
         return None
     half_range = 0.5 * float(np.ptp(np.concatenate(values)))
     least = (1e-12 * half_range) ** 2
-    return Spectrum(np.concatenate(frequency), np.concatenate(power) + least, half_range)
+    rounding = max(resolution(values) / np.sqrt(12.0), ROUNDED * half_range)
+    return Spectrum(np.concatenate(frequency), np.concatenate(power) + least, half_range, rounding)
 
 
 @dataclass(frozen=True)
@@ -140,36 +145,43 @@ def likely_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
 
 
 def split(seen: Spectrum, through: LowPass) -> Split:
-    """The likeliest movement, noise and rest of a spectrum, given the filter."""
+    """The likeliest movement, noise and rest of a spectrum, given the filter.
+
+    Without one a rest would be noise once more; movement then may have a tail instead, as slow as the lowest corner,
+    which low-passed noise is to a movement of two speeds.
+    """
     from scipy.optimize import minimize
 
     f, p = seen.frequency, seen.power
     passed = through.power(f)
     part = float(through.power(np.linspace(0.0, 0.5 / through.step, 400)).mean())  # of white noise, let through
     usual = 2.0 * np.log(LEVEL * seen.half_range) - np.log(part)
-    rounding = 2.0 * np.log(ROUNDED * seen.half_range)
+    rounding = 2.0 * np.log(seen.rounding)
     top, (bottom, middle) = float(np.log(p.max())), np.log(np.quantile(p, [0.05, 0.3]))
+    filtered = through.corner < 0.5 / through.step
+    shape = np.ones(len(f)) if filtered else LowPass(LOWEST, through.step).power(f)
 
     def cost(x: Float[np.ndarray, " 5"]) -> tuple[float, Float[np.ndarray, " 5"]]:
         ratio = np.log(f) - x[1]
         steep = np.exp(x[4])
         fall = np.minimum(np.exp(steep * ratio), 600.0)
-        movement, noise, rest = np.exp(x[0] - fall), np.exp(x[2]) * passed, np.exp(x[3])
+        movement, noise, rest = np.exp(x[0] - fall), np.exp(x[2]) * passed, np.exp(x[3]) * shape
         total = movement + noise + rest
         pull = (1.0 - p / total) / total
-        off, over = (x[2] - usual) / LOUDER, max(x[3] - rounding, 0.0) / LOUDER
+        off, over = (x[2] - usual) / LOUDER, filtered * max(x[3] - rounding, 0.0) / LOUDER
         slope = [
             (pull * movement).sum(),
             (pull * movement * fall).sum() * steep,
             (pull * noise).sum() + off / LOUDER,
-            pull.sum() * rest + over / LOUDER,
+            (pull * rest).sum() + over / LOUDER,
             -(pull * movement * fall * ratio).sum() * steep,
         ]
         return float((np.log(total) + p / total).sum() + 0.5 * (off**2 + over**2)), np.array(slope)
 
     low = np.array([top - 20.0, np.log(0.02), top - 60.0, top - 80.0, FLATTEST])
     high = np.array([top + 40.0, np.log(20.0), top + 2.0, top, STEEPEST])
-    starts = [[top, np.log(b), n, bottom - 1.0, 0.2] for b in (0.3, 1.5) for n in (usual, middle)]
+    third = bottom - 1.0 if filtered else top - 3.0
+    starts = [[top, np.log(b), n, third, 0.2] for b in (0.3, 1.5) for n in (usual, middle)]
     bounds = list(zip(low, high, strict=True))
     best = min(
         (minimize(cost, np.clip(s, low, high), jac=True, method="L-BFGS-B", bounds=bounds) for s in starts),

@@ -15,7 +15,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap.problem import Problem
-from geocontact.gap.recording_steps import measured_columns, resolution
+from geocontact.gap.recording_steps import measured_columns
+from geocontact.gap.resolution import resolution
 
 ROUND_TOP = 1.0 / (np.sqrt(2.0) - 1.0)
 NEXT = 5  # values below the extreme that it is compared with

@@ -17,7 +17,8 @@ from geocontact.data.trial import Trial
 from geocontact.gap.corner import switches
 from geocontact.gap.evidence import Judged, bent_off
 from geocontact.gap.problem import Problem
-from geocontact.gap.recording_steps import measured_columns, resolution
+from geocontact.gap.recording_steps import measured_columns
+from geocontact.gap.resolution import resolution
 
 WINDOWS = (4, 8, 16, 32, 64)  # samples
 SHORTEST = 64  # samples of a trial whose spectrum is looked at

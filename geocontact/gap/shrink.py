@@ -4,13 +4,13 @@ What is asked for is the reduction on fresh trials of the same kind, of which th
 model with the effect at its true values. Where these lie is best told by all trials together. The error that stays, a²,
 is what that best fit leaves of each trial and what it bent towards it, with what the fitted noise levels imply counted
 as part of a trial more. The error that goes, g², is how far the base model, fitted to few trials, is from the truth on
-the held-out ones: from the best fit, and what that errs by itself. Then
+the held-out ones: from the best fit, and what that errs by itself; and what noise of the inputs makes of the one error
+beyond the other, which may be less than nothing. Then
 
     reduction = 1 - rmse_after / rmse_before = 1 - (1 + g²/a²)^(-1/2).
 
-The interval
-comes from the spread of log(g²/a²): parameters (from the fit), trials that differ in motion and in their deviations,
-and the form of the effect, which is never exactly that of the candidate.
+The interval comes from the spread of g²/a²: parameters and the form of the effect, which is never exactly that of the
+candidate (from the fit), trials that differ in motion and in their deviations.
 """
 
 from __future__ import annotations

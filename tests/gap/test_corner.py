@@ -13,8 +13,8 @@ from geocontact.identify.low_pass import LowPass
 
 STEP = 0.005
 NYQUIST = 0.5 / STEP
-FAINT = 0.0012
-"""rad; noise that speaks with 2.6 nats for itself."""
+FAINT = 0.0002
+"""rad; noise that speaks with 1.6 nats for itself."""
 
 
 def trials(corner: float, noise: float, count: int = 4, lost: float = 0.0, digits: int = 12) -> list[Trial]:
