@@ -71,10 +71,13 @@ def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, L
     free = np.array([split(each, LowPass.none(step)).unlikely for each in seen.values()])
     far = 0.5 * (np.log(corners / USUAL) / USUALLY) ** 2
     speaks = (through + far).min(axis=1) - free  # of each by itself, for no filter [nats]
-    raw = speaks > (-CLEARLY if (speaks > UNFILTERED).any() else np.inf)
-    costs = far + through[~raw].sum(axis=0)
-    if raw.all() or (free.sum() + UNFILTERED < (far + through.sum(axis=0)).min() and not raw.any()):
+    if (speaks > UNFILTERED).any():
+        raw = speaks > -CLEARLY
+    else:
+        raw = np.full(len(free), free.sum() + UNFILTERED < (far + through.sum(axis=0)).min())
+    if raw.all():
         return dict.fromkeys(inputs, LowPass.none(step))
+    costs = far + through[~raw].sum(axis=0)
     differ = {name: LowPass.none(step) for name, own in zip(seen, raw, strict=True) if own}
     return dict.fromkeys(inputs, LowPass(_between(np.log(corners), costs), step)) | differ
 
