@@ -6,8 +6,8 @@ The spectrum of every input is taken for a movement that falls off with frequenc
 likelihood (Whittle 1953, J. R. Stat. Soc. B 15:125) with one f_c for all inputs that were filtered. Noise much louder
 or quieter than usual is believed less, and so are corners far from 6 Hz: where the movement hides the noise, f_c stays
 near that. A rest that is louder than rounding is believed less as well, so that noise which nobody filtered is not
-taken for it. Usually all inputs were filtered, or none: where one was surely not, another counts as filtered only if
-its spectrum says so clearly.
+taken for it. Usually all inputs were filtered, or none: where one was surely not, the others count as filtered only
+if their spectra say so clearly.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ USUAL, USUALLY = 6.0, 0.6  # Hz, and the standard deviation of its logarithm (Wi
 LOWEST, HIGHEST, CORNERS = 2.5, 40.0, 17  # Hz, that are compared, and how many
 LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
 ROUNDED = 1e-5  # of a half-range, up to which a white rest is rounding at any rate: five digits
-UNFILTERED = 2.0  # nats that must speak for no filter: of all inputs together, or of one by itself
-CLEARLY = 12.0  # nats that must speak for a filter of an input beside one that nobody filtered
+UNFILTERED = 4.0  # nats that must speak for no filter: of all inputs together, or of one by itself
+CLEARLY = 12.0  # nats that must speak for a filter of all others beside an input that nobody filtered
 TREND = 3  # degree of the polynomial that is taken off before the window
 APART = 3  # bins from which spectral values under the window count as independent
 FEWEST = 24  # samples of a trial that has a spectrum
@@ -70,14 +70,11 @@ def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, L
     through = np.array([[split(each, LowPass(f, step)).unlikely for f in corners] for each in seen.values()])
     free = np.array([split(each, LowPass.none(step)).unlikely for each in seen.values()])
     far = 0.5 * (np.log(corners / USUAL) / USUALLY) ** 2
-    speaks = (through + far).min(axis=1) - free  # of each by itself, for no filter [nats]
-    if (speaks > UNFILTERED).any():
-        raw = speaks > -CLEARLY
-    else:
-        raw = np.full(len(free), free.sum() + UNFILTERED < (far + through.sum(axis=0)).min())
-    if raw.all():
-        return dict.fromkeys(inputs, LowPass.none(step))
+    raw = free + UNFILTERED < (through + far).min(axis=1)
     costs = far + through[~raw].sum(axis=0)
+    for_filter = float(free[~raw].sum() - costs.min())
+    if for_filter < (CLEARLY if raw.any() else -UNFILTERED):
+        return dict.fromkeys(inputs, LowPass.none(step))
     differ = {name: LowPass.none(step) for name, own in zip(seen, raw, strict=True) if own}
     return dict.fromkeys(inputs, LowPass(_between(np.log(corners), costs), step)) | differ
 
@@ -148,11 +145,7 @@ def likely_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
 
 
 def split(seen: Spectrum, through: LowPass) -> Split:
-    """The likeliest movement, noise and rest of a spectrum, given the filter.
-
-    Without one a rest would be noise once more; movement then may have a tail instead, as slow as the lowest corner,
-    which low-passed noise is to a movement of two speeds.
-    """
+    """The likeliest movement, noise and rest of a spectrum, given the filter."""
     from scipy.optimize import minimize
 
     f, p = seen.frequency, seen.power
@@ -161,30 +154,27 @@ def split(seen: Spectrum, through: LowPass) -> Split:
     usual = 2.0 * np.log(LEVEL * seen.half_range) - np.log(part)
     rounding = 2.0 * np.log(seen.rounding)
     top, (bottom, middle) = float(np.log(p.max())), np.log(np.quantile(p, [0.05, 0.3]))
-    filtered = through.corner < 0.5 / through.step
-    shape = np.ones(len(f)) if filtered else LowPass(LOWEST, through.step).power(f)
 
     def cost(x: Float[np.ndarray, " 5"]) -> tuple[float, Float[np.ndarray, " 5"]]:
         ratio = np.log(f) - x[1]
         steep = np.exp(x[4])
         fall = np.minimum(np.exp(steep * ratio), 600.0)
-        movement, noise, rest = np.exp(x[0] - fall), np.exp(x[2]) * passed, np.exp(x[3]) * shape
+        movement, noise, rest = np.exp(x[0] - fall), np.exp(x[2]) * passed, np.exp(x[3])
         total = movement + noise + rest
         pull = (1.0 - p / total) / total
-        off, over = (x[2] - usual) / LOUDER, filtered * max(x[3] - rounding, 0.0) / LOUDER
+        off, over = (x[2] - usual) / LOUDER, max(x[3] - rounding, 0.0) / LOUDER
         slope = [
             (pull * movement).sum(),
             (pull * movement * fall).sum() * steep,
             (pull * noise).sum() + off / LOUDER,
-            (pull * rest).sum() + over / LOUDER,
+            pull.sum() * rest + over / LOUDER,
             -(pull * movement * fall * ratio).sum() * steep,
         ]
         return float((np.log(total) + p / total).sum() + 0.5 * (off**2 + over**2)), np.array(slope)
 
     low = np.array([top - 20.0, np.log(0.02), top - 60.0, top - 80.0, FLATTEST])
     high = np.array([top + 40.0, np.log(20.0), top + 2.0, top, STEEPEST])
-    third = bottom - 1.0 if filtered else top - 3.0
-    starts = [[top, np.log(b), n, third, 0.2] for b in (0.3, 1.5) for n in (usual, middle)]
+    starts = [[top, np.log(b), n, bottom - 1.0, 0.2] for b in (0.3, 1.5) for n in (usual, middle)]
     bounds = list(zip(low, high, strict=True))
     best = min(
         (minimize(cost, np.clip(s, low, high), jac=True, method="L-BFGS-B", bounds=bounds) for s in starts),

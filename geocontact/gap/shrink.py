@@ -25,7 +25,11 @@ from geocontact.gap.faults import Fault
 from geocontact.gap.problem import Problem
 
 FORM = 0.04  # relative standard deviation of g² for the form of the effect
-LEAST = -0.75  # of g²/a²: so much less may noise of the inputs make of the base model's error than of the true one's
+HEARD, UNHEARD = (
+    2.0,
+    0.05,
+)  # of g²/a², that it may lie below 0: times what noise of the inputs was seen to make, and more
+LEAST = -0.75  # that it is at the least
 WIDE = 1.0  # half-width of the interval of log(g²/a²) up to which it is taken of the logarithm
 TELLING = 2.0  # times the squared floor that the squared error before must be, for a share to mean something
 
@@ -86,7 +90,8 @@ def shrinkage(
             continue
         (gone, gone_sd), (left, left_sd) = _gone(problem, errors, c), errors.left[c]
         spread = student * float(np.hypot(gone_sd, gone / left * left_sd)) / left
-        low, middle, high = (1.0 - (1.0 + max(each, LEAST)) ** -0.5 for each in between(gone / left, spread))
+        least = max(-(HEARD * abs(float(errors.passed_on[c])) / left + UNHEARD), LEAST)
+        low, middle, high = (1.0 - (1.0 + max(each, least)) ** -0.5 for each in between(gone / left, spread))
         share = None
         if error >= TELLING * floor:
             share = float(max(left - floor, 0.0) / (left + gone - floor)) if left + gone > floor else 0.0

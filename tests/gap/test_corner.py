@@ -13,8 +13,8 @@ from geocontact.identify.low_pass import LowPass
 
 STEP = 0.005
 NYQUIST = 0.5 / STEP
-FAINT = 0.0002
-"""rad; noise that speaks with 1.6 nats for itself."""
+FAINT = 0.0003
+"""rad; noise that speaks with 3.6 nats for itself."""
 
 
 def trials(corner: float, noise: float, count: int = 4, lost: float = 0.0, digits: int = 12) -> list[Trial]:
@@ -75,6 +75,17 @@ def test_an_input_that_nobody_filtered_stands_beside_one_that_was(corner: float)
     passed = filters_of(beside(trials(corner, 0.003), trials(NYQUIST, 0.003)), ("u", "v"))
     assert passed["v"] == LowPass.none(passed["v"].step)
     assert passed["u"].corner == pytest.approx(corner, rel=0.4)
+
+
+@pytest.mark.parametrize("level", [0.3, 1.0])
+def test_an_input_that_noise_drowns_is_no_witness(level: float) -> None:
+    """Its noise up to the corner could be a quick movement: the others decide."""
+    drowned = [
+        Trial(t.name, Signals(t.time, t.signals.values - clean.signals.values, ("u",), ("rad",)))
+        for t, clean in zip(trials(15.0, level), trials(15.0, 0.0), strict=True)
+    ]
+    passed = filters_of(beside(trials(15.0, 0.003), drowned), ("u", "v"))
+    assert passed["u"].corner == pytest.approx(15.0, rel=0.2)
 
 
 def test_together_inputs_tell_sooner_that_nobody_filtered_them() -> None:
