@@ -87,14 +87,14 @@ def errors_as_measured(problem: Problem, clean: Problem, answer: Judged, fault: 
     base = problem.system.as_measured()
     values = refit(base, first, weigh, [problem.plain.values], 20).values
     before = whole.residuals(base, values)
-    passed_on = np.zeros(len(outputs))
+    heard = np.zeros(len(outputs))
     if fault is None:
         pair = [(base, values, before[count:]), (model.system.as_measured(), model.values, after[count:])]
-        passed_on = _passed_on(problem, answer, pair)
-    return Errors(before, after, best, derivatives, known, implied, left, sum(used), passed_on)
+        heard = passed_on(problem, answer, pair)
+    return Errors(before, after, best, derivatives, known, implied, left, sum(used), heard)
 
 
-def _passed_on(
+def passed_on(
     problem: Problem, answer: Judged, pair: list[tuple[System, dict[str, float], list[Float[np.ndarray, "_ c"]]]]
 ) -> Float[np.ndarray, " c"]:
     """2 E[a (b - a)] with a, b what noise of the inputs does to the answer's prediction and to the base model's.
