@@ -6,8 +6,7 @@ The spectrum of every input is taken for a movement that falls off with frequenc
 likelihood (Whittle 1953, J. R. Stat. Soc. B 15:125) with one f_c for all inputs that were filtered. Noise much louder
 or quieter than usual is believed less, and so are corners far from 6 Hz: where the movement hides the noise, f_c stays
 near that. A rest that is louder than rounding is believed less as well, so that noise which nobody filtered is not
-taken for it. Usually all inputs were filtered, or none: where one was surely not, the others count as filtered only
-if their spectra say so clearly.
+taken for it. Usually all inputs were filtered, or none; that some were and others not is believed least.
 """
 
 from __future__ import annotations
@@ -27,8 +26,7 @@ USUAL, USUALLY = 6.0, 0.6  # Hz, and the standard deviation of its logarithm (Wi
 LOWEST, HIGHEST, CORNERS = 2.5, 40.0, 17  # Hz, that are compared, and how many
 LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
 ROUNDED = 1e-5  # of a half-range, up to which a white rest is rounding at any rate: five digits
-UNFILTERED = 4.0  # nats that must speak for no filter: of all inputs together, or of one by itself
-CLEARLY = 12.0  # nats that must speak for a filter of all others beside an input that nobody filtered
+UNFILTERED, MIXED = 4.0, 12.0  # nats that must speak for no filter: of any input, of some and not of others
 TREND = 3  # degree of the polynomial that is taken off before the window
 APART = 3  # bins from which spectral values under the window count as independent
 FEWEST = 24  # samples of a trial that has a spectrum
@@ -70,13 +68,12 @@ def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, L
     through = np.array([[split(each, LowPass(f, step)).unlikely for f in corners] for each in seen.values()])
     free = np.array([split(each, LowPass.none(step)).unlikely for each in seen.values()])
     far = 0.5 * (np.log(corners / USUAL) / USUALLY) ** 2
-    raw = free + UNFILTERED < (through + far).min(axis=1)
-    costs = far + through[~raw].sum(axis=0)
-    for_filter = float(free[~raw].sum() - costs.min())
-    if for_filter < (CLEARLY if raw.any() else -UNFILTERED):
+    everyone, each = far + through.sum(axis=0), far + np.minimum(through, free[:, None]).sum(axis=0) + MIXED
+    if free.sum() + UNFILTERED < min(everyone.min(), each.min()):
         return dict.fromkeys(inputs, LowPass.none(step))
+    raw = (free < through[:, np.argmin(each)]) & (each.min() < everyone.min())
     differ = {name: LowPass.none(step) for name, own in zip(seen, raw, strict=True) if own}
-    return dict.fromkeys(inputs, LowPass(_between(np.log(corners), costs), step)) | differ
+    return dict.fromkeys(inputs, LowPass(_between(np.log(corners), far + through[~raw].sum(axis=0)), step)) | differ
 
 
 def _between(at: Float[np.ndarray, " n"], costs: Float[np.ndarray, " n"]) -> float:
@@ -148,7 +145,8 @@ def split(seen: Spectrum, through: LowPass) -> Split:
     """The likeliest movement, noise and rest of a spectrum, given the filter."""
     from scipy.optimize import minimize
 
-    f, p = seen.frequency, seen.power
+    below = seen.frequency < 0.5 / through.step  # a quicker recording than the others goes beyond
+    f, p = seen.frequency[below], seen.power[below]
     passed = through.power(f)
     part = float(through.power(np.linspace(0.0, 0.5 / through.step, 400)).mean())  # of white noise, let through
     usual = 2.0 * np.log(LEVEL * seen.half_range) - np.log(part)

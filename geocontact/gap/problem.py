@@ -23,6 +23,7 @@ REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own
 BARELY = 1.0  # trials that the usual variation counts as where the trials are to speak
 MEMORY = 2.0  # times its usual correlation time that quiet noise may remember
+TAKEN_OFF = 1.25  # times what is believed of an input's noise, that is taken off it at the most
 SEED = 0  # of the noise that is added to inputs
 MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
 
@@ -222,7 +223,8 @@ def problem_of(case: GapCase, system: System) -> Problem:
         )
         noise = problem.weighed(plain)
         if not last:
-            levels = dict(zip(system.inputs, map(float, noise.levels.inputs), strict=True))
+            quiet = np.minimum(noise.levels.inputs, TAKEN_OFF * beliefs.middle.inputs)
+            levels = dict(zip(system.inputs, map(float, quiet), strict=True))
             sd = {name: shown[name] or levels[name] for name in noisy}
             calibration, evaluation = (_denoised(each, sd, passed) for each in (calibration, evaluation))
             rng = np.random.default_rng(SEED)

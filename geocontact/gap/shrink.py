@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geocontact.gap.as_measured import Errors, errors_as_measured, misjudged
+from geocontact.gap.as_measured import Errors, errors_as_measured, misjudged, passed_on
 from geocontact.gap.evidence import Judged
 from geocontact.gap.faults import Fault
 from geocontact.gap.problem import Problem
@@ -80,6 +80,11 @@ def shrinkage(
     errors = errors_as_measured(problem, clean, after, fault)
     count, present = len(problem.calibration.trials), problem.recorded.present
     student = float(t.ppf(0.975, max(errors.told_by - 1, 1)))  # a spread that is known from as few trials
+    heard = np.zeros(len(problem.system.outputs))
+    if named and fault is None:  # beside a mistake in the data noise of the inputs is nothing
+        base = (problem.system.as_measured(), errors.values, errors.before[count:])
+        own = (after.model.system.as_measured(), after.model.values, errors.after[count:])
+        heard = passed_on(problem, after, [base, own])
     found = {}
     for c, name in enumerate(problem.system.outputs):
         error = _mean_square(errors.before[count:], present[count:], c)
@@ -89,20 +94,21 @@ def shrinkage(
             found[name] = Shrinkage(error**0.5, error**0.5, floor**0.5, 0.0, 0.0, 0.0, None)
             continue
         (gone, gone_sd), (left, left_sd) = _gone(problem, errors, c), errors.left[c]
+        gone += float(heard[c])
         spread = student * float(np.hypot(gone_sd, gone / left * left_sd)) / left
-        least = max(-(HEARD * abs(float(errors.passed_on[c])) / left + UNHEARD), LEAST)
+        least = max(-(HEARD * abs(float(heard[c])) / left + UNHEARD), LEAST)
         low, middle, high = (1.0 - (1.0 + max(each, least)) ** -0.5 for each in between(gone / left, spread))
         share = None
         if error >= TELLING * floor:
-            share = float(max(left - floor, 0.0) / (left + gone - floor)) if left + gone > floor else 0.0
+            share = min(max(left - floor, 0.0) / (left + gone - floor), 1.0) if left + gone > floor else 0.0
         found[name] = Shrinkage(error**0.5, stays**0.5, floor**0.5, float(middle), float(low), float(high), share)
     return found
 
 
 def between(ratio: float, spread: float) -> tuple[float, float, float]:
-    """An interval of g²/a² around `ratio`, `spread` half of its width: of the logarithm, as long as that is narrow.
+    """An interval of g²/a²: of its logarithm, `spread`/`ratio` to either side, as long as that is `WIDE` at the most.
 
-    What is spread wider than that may be less than nothing; its interval goes on growing in proportion, without a jump.
+    What is spread wider than that may be less than nothing; its two sides go on growing in proportion, without a jump.
     """
     relative = spread / ratio if ratio > 0.0 else np.inf
     down, up = (1.0 - np.exp(-WIDE)) / WIDE, (np.exp(WIDE) - 1.0) / WIDE
@@ -136,7 +142,5 @@ def _gone(problem: Problem, errors: Errors, c: int) -> tuple[float, float]:
         return 0.0, 0.0
     slope, more = np.mean(slopes, axis=0), float(np.mean(alike))
     gone = float(np.mean(squares)) + more
-    between = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (0.3 * gone) ** 2
-    return gone + float(errors.passed_on[c]), float(
-        np.sqrt(slope @ errors.known @ slope + between + (FORM * gone) ** 2 + more**2)
-    )
+    scatter = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (0.3 * gone) ** 2
+    return gone, float(np.sqrt(slope @ errors.known @ slope + scatter + (FORM * gone) ** 2 + more**2))

@@ -123,9 +123,11 @@ def answer(held: Standing, unnamed: float, strange: float, rest: float) -> Answe
     strange
         How sure it is that something is odd about the residual of the leader [nats].
     rest
-        What the stand-in gains on top of the best contender, with what is odd [nats].
+        What the stand-in gains on top of the best contender, with what is odd [nats]. What is there beside an effect is
+        there without it as well: no more of it is believed than what it gains over the base.
     """
     base, living, gains = held.base, held.living, held.gains
+    rest = min(rest, max(unnamed, 0.0) + strange)
     unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0) + strange
     most = max([*gains.values(), unnamed, 0.0])
     tolerance = 1.0 + FORM * most

@@ -139,14 +139,14 @@ def most_likely(
         if np.array_equal(x, here.x):
             break
         there = surface.at(x)
-        fall, promised = here.cost - there.cost, bend.promise(step)
-        kept = fall / promised if promised > 0.0 else 0.0
+        fall = here.cost - there.cost
+        kept = fall / bend.promise(step)
         damping = damped(damping, kept)
         if near:
             curvature = secant(curvature, there.x - here.x, there.gradient - here.gradient)
         if fall > 0.0:
             here = there
-            if fall < ENOUGH and kept > BROKEN and damping <= DAMPED:
+            if fall < ENOUGH and kept > BROKEN:
                 break
             if not near or fall >= NEAR:
                 curvature, near = surface.information(here), fall < NEAR

@@ -155,8 +155,15 @@ def test_what_the_best_contender_leaves_is_asked_of_the_best_contender() -> None
     held = standing(contender(0.0), (pair, single), shares(pair, single), {one.name: 1 for one in OFFERED.values()})
     assert held.best is single
     assert held.leader is single
-    assert said(single, rest=150.0).verdict == "unknown"
-    assert said(single, rest=10.0).effects == ("damping",)
+    assert said(single, unnamed=190.0, rest=150.0).verdict == "unknown"
+    assert said(single, unnamed=190.0, rest=10.0).effects == ("damping",)
+
+
+def test_what_is_left_beside_an_effect_is_there_without_it() -> None:
+    """A poor candidate that a stand-in mends, where one on the base alone finds nothing."""
+    poor = contender(8.0, "damping")
+    assert said(poor, unnamed=2.0, rest=30.0).verdict != "unknown"
+    assert said(poor, unnamed=40.0, rest=30.0).verdict == "unknown"
 
 
 def test_of_contenders_that_gain_nothing_none_leads() -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 from scipy.linalg import solve_triangular
 
 import geocontact.gap.benchmark.planted as planted
@@ -182,6 +183,17 @@ def test_noise_of_inputs_has_the_covariance_that_it_states(corner):
     slope = (drawn[:, 2:] - drawn[:, :-2]) / 0.01  # 2 % too small at 10 Hz
     assert np.var(slope) == pytest.approx(rate[0, 0], rel=0.05)
     assert np.mean(slope[:, 20] * drawn[:, 11]) == pytest.approx(cross[11, 21], rel=0.15)
+
+
+def test_rates_of_noise_that_nobody_filtered_are_those_of_a_spline():
+    rng = np.random.default_rng(0)
+    drawn = np.array([smooth_noise(rng, 2.0, 40, 0.005, 100.0) for _ in range(3000)])
+    place, cross, rate = smooth_covariance(2.0, 40, 0.005, 100.0)
+    slope = CubicSpline(0.005 * np.arange(40), drawn, axis=1)(0.1, 1)
+    np.testing.assert_allclose(place, 4.0 * np.eye(40), atol=0.02)
+    assert np.var(drawn) == pytest.approx(4.0, rel=0.02)
+    assert np.var(slope) == pytest.approx(rate[0, 0], rel=0.08)
+    assert np.mean(slope * drawn[:, 19]) == pytest.approx(cross[19, 20], rel=0.15)
 
 
 def test_visibility_grows_with_the_square_of_a_linear_effect(stages):

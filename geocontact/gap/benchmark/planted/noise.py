@@ -103,12 +103,16 @@ def smooth_covariance(sd: float, count: int, step: float, corner: float) -> tupl
 
 @functools.lru_cache(maxsize=8)
 def unit_covariance(count: int, step: float, corner: float) -> tuple[Float[np.ndarray, "s s"], ...]:
-    """The same for a standard deviation of 1."""
+    """The same for a standard deviation of 1; rates are those of a cubic spline through the samples.
+
+    A sine of the angular frequency w then has 3 sin(w h)/(h (2 + cos(w h))) for w, h the time between two samples.
+    """
     omega, weight = spectrum(step, corner)
     weight = weight / weight.sum()
     heard = weight > SILENT * weight.max()
     omega, weight = omega[heard], weight[heard]
     angle = np.outer(np.arange(count) * step, omega)
     cosine = np.cos(angle)
-    with_rate = np.sin(angle) @ (weight * omega)  # cov(q(t), q'(s)) = sum w omega sin(omega (t - s))
-    return toeplitz(cosine @ weight), toeplitz(with_rate, -with_rate), toeplitz(cosine @ (weight * omega**2))
+    slope = 3.0 * np.sin(omega * step) / (step * (2.0 + np.cos(omega * step)))
+    with_rate = np.sin(angle) @ (weight * slope)  # cov(q(t), q'(s)) = sum w slope sin(omega (t - s))
+    return toeplitz(cosine @ weight), toeplitz(with_rate, -with_rate), toeplitz(cosine @ (weight * slope**2))
