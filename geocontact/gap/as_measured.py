@@ -11,9 +11,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
-from geocontact.gap.corner import switches
 from geocontact.gap.evidence import Judged, prior_spread
 from geocontact.gap.faults import Fault
+from geocontact.gap.input_spectrum import switches
 from geocontact.gap.inputs import changed, drawn
 from geocontact.gap.mending import put_back
 from geocontact.gap.problem import Plain, Problem, differences, noise_variance

@@ -14,8 +14,8 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.data.trial import Trial
-from geocontact.gap.corner import switches
 from geocontact.gap.evidence import Judged, bent_off
+from geocontact.gap.input_spectrum import switches
 from geocontact.gap.problem import Problem
 from geocontact.gap.recording_steps import measured_columns
 from geocontact.gap.resolution import resolution

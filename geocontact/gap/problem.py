@@ -10,7 +10,8 @@ from jaxtyping import Float
 
 from geocontact.chain.system import FAR, System
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.corner import filters_of, likely_noise, switches
+from geocontact.gap.corner import filters_of, likely_noise
+from geocontact.gap.input_spectrum import switches
 from geocontact.gap.inputs import Filters, Left, denoised, left, loudest, seen_noise, shaken
 from geocontact.gap.refit import NO_VALUE, Measured, Refit, at, free, refit
 from geocontact.gap.weighing import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by

@@ -8,7 +8,7 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.corner import switches
+from geocontact.gap.input_spectrum import switches
 from geocontact.gap.inputs import denoised, left, loudest, seen_noise, shaken
 from geocontact.identify.low_pass import LowPass
 

@@ -1,0 +1,92 @@
+"""Many small problems of greatest likelihood at once, each within bounds, by Fisher's scoring.
+
+Newton's method with the expected instead of the observed curvature (Osborne 1992, Int. Stat. Rev. 60:99), damped as
+Levenberg and Marquardt do where a step does not help. Parameters that lie on a bound and are pushed out of it are left
+out of a step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from jaxtyping import Float, Int
+
+ROUNDS = 200
+CLOSE, TWICE = 1e-6, 2  # nats that a step gains at the least, else this many such steps are the last
+DAMPED, EASED, RAISED = 1e-2, 0.2, 5.0  # damping at the start; what it is multiplied by after a good and a bad step
+FREE, STUCK = 1e-7, 1e8  # least damping, and that from which nothing helps
+FLAT = 1e-3  # curvature below which a parameter is damped as if it had that
+
+Batch: TypeAlias = Float[np.ndarray, "k p"]
+Scored: TypeAlias = tuple[Float[np.ndarray, " k"], Batch, Float[np.ndarray, "k p p"]]
+
+
+@dataclass(frozen=True)
+class Found:
+    """Where each problem ended, (k, p), and its value there."""
+
+    at: Batch
+    value: Float[np.ndarray, " k"]
+
+
+def least(
+    scored: Callable[[Batch, Int[np.ndarray, " k"]], Scored],
+    start: Batch,
+    low: Float[np.ndarray, " p"],
+    high: Float[np.ndarray, " p"],
+    rounds: int = ROUNDS,
+) -> Found:
+    """The least values near the starts.
+
+    Parameters
+    ----------
+    scored
+        Of parameters and the problems (places in `start`) they belong to: values, gradients, and expected curvatures,
+        which must be positive semidefinite.
+    start
+        One row per problem.
+    low, high
+        Bounds of the parameters, the same for all.
+    rounds
+        Steps at the most.
+    """
+    at = np.clip(start, low, high)
+    going = np.arange(len(at))
+    value, gradient, curved = scored(at, going)
+    damping, idle = np.full(len(at), DAMPED), np.zeros(len(at), dtype=int)
+    for _ in range(rounds):
+        new = np.clip(
+            at[going] + _step(at[going], gradient[going], curved[going], damping[going], low, high), low, high
+        )
+        tried = scored(new, going)
+        gain = value[going] - tried[0]
+        good = gain >= 0.0
+        better, worse = going[good], going[~good]
+        at[better] = new[good]
+        value[better], gradient[better], curved[better] = (each[good] for each in tried)
+        idle[better] = np.where(gain[good] < CLOSE, idle[better] + 1, 0)
+        damping[better] = np.maximum(damping[better] * EASED, FREE)
+        damping[worse] *= RAISED
+        going = going[(idle[going] < TWICE) & (damping[going] < STUCK)]
+        if not len(going):
+            break
+    return Found(at, value)
+
+
+def _step(
+    at: Batch,
+    gradient: Batch,
+    curved: Float[np.ndarray, "k p p"],
+    damping: Float[np.ndarray, " k"],
+    low: Float[np.ndarray, " p"],
+    high: Float[np.ndarray, " p"],
+) -> Batch:
+    """Damped step of each problem; nothing for parameters that a bound holds."""
+    held = ((at <= low) & (gradient > 0.0)) | ((at >= high) & (gradient < 0.0))
+    matrix = np.where(held[:, :, None] | held[:, None, :], 0.0, curved)
+    diagonal = np.einsum("kpp->kp", matrix)
+    diagonal += np.where(held, 1.0, damping[:, None] * (diagonal + FLAT) + np.finfo(float).tiny)
+    return np.asarray(-np.linalg.solve(matrix, np.where(held, 0.0, gradient)[..., None])[..., 0])
