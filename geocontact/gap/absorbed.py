@@ -43,12 +43,25 @@ NOTHING = Visibility("", np.inf)
 
 
 def absorbed(problem: Problem, candidates: Sequence[Candidate], named: Sequence[str]) -> list[Visibility]:
-    """Effects that the base parameters swallow, the most completely swallowed first."""
+    """Effects and mistakes that the base parameters swallow, the most completely swallowed first."""
+    return swallowed((*visibilities(problem, candidates), *mistakes(problem, candidates)), named)
+
+
+def swallowed(seen: Sequence[Visibility], named: Sequence[str]) -> list[Visibility]:
+    """Those of them that base parameters swallow and nobody named, once each, the most completely swallowed first."""
     least: dict[str, Visibility] = {}
-    for each in (*visibilities(problem, candidates), *mistakes(problem, candidates)):
+    for each in seen:
         if each.absorbed and each.name not in named and each.share < least.get(each.name, NOTHING).share:
             least[each.name] = each
     return sorted(least.values(), key=lambda each: (round(each.share, TIED), each.name))[:MOST]
+
+
+def shown(seen: Sequence[Visibility]) -> dict[str, float]:
+    """Mistakes that leave a gap in every variant, and how many nats of it at the least, the plainest first."""
+    least: dict[str, float] = {}
+    for each in seen:
+        least[each.name] = min(0.0 if each.absorbed else each.nats, least.get(each.name, np.inf))
+    return {name: nats for name, nats in sorted(least.items(), key=lambda each: -each[1]) if nats > 0.0}
 
 
 def visibilities(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibility]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from threadpoolctl import threadpool_limits
@@ -12,7 +12,7 @@ from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.absorbed import absorbed
+from geocontact.gap.absorbed import mistakes, shown, swallowed, visibilities
 from geocontact.gap.admission import admitted
 from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.detectability import Detectability, detectabilities
@@ -41,6 +41,8 @@ class Confusion:
         From which amplitude on each is seen.
     absorbed
         Effects, and mistakes in the data, that refitted base parameters swallow, the most completely swallowed first.
+    mistakes
+        In the data, that would leave a gap in every variant, and how many nats of it at the least.
     proposal
         What to record next.
     """
@@ -52,6 +54,7 @@ class Confusion:
     classes: tuple[tuple[str, ...], ...]
     detectabilities: tuple[Detectability, ...]
     absorbed: tuple[str, ...]
+    mistakes: Mapping[str, float]
     proposal: NextExperiment | None
 
 
@@ -95,7 +98,8 @@ def confuse(
         asked = offered(problem.system, names)
         effects = tuple(at_nats(ground, one, nats) for one in asked)
         apart = separations(ground, effects, step)
-        hidden = tuple(each.name for each in absorbed(problem, known(problem.system, names), ()))
+        wrong = mistakes(problem, known(problem.system, names))
+        hidden = tuple(each.name for each in swallowed((*visibilities(problem, asked), *wrong), ()))
         seen = detectabilities(ground, offered(problem.system), asked, step)
         proposal = next_experiment(found, first_of(asked, hidden))
-    return Confusion(found, ground, effects, apart, classes(apart), seen, hidden, proposal)
+    return Confusion(found, ground, effects, apart, classes(apart), seen, hidden, shown(wrong), proposal)

@@ -12,7 +12,7 @@ import pytest
 from tests.cli.calls import Call, call, done, inventory
 from tests.cli.gap_cases import damped_elbow, diagnosed_elbow
 
-ASKED = ("damping", "time_shift", "filter_lag", "sensor_gain", "unit_error")
+ASKED = ("damping", "time_shift", "filter_lag", "sensor_gain", "unit_error", "sign_flip")
 LABELS = ("time_shift", "filter_lag", "damping", "sensor_gain.force")
 TABLES = {"confuse.json", "separability.csv", "detectability.csv", "run.json"}
 FIGURES = {f"{name}.{ending}" for name in ("separability", "detectability") for ending in ("png", "svg")}
@@ -53,6 +53,9 @@ def test_tables_agree_with_the_answer(confused: Call) -> None:
 def test_what_is_known_of_the_elbow_is_said(confused: Call) -> None:
     answer = json.loads((confused.folder / "confuse.json").read_text(encoding="utf-8"))
     assert answer["absorbed"] == ["sensor_gain", "unit_error"], "a mistake that is asked about has no row of its own"
+    assert list(answer["mistakes_nats"]) == ["sign_flip"], "a wrong unit is swallowed in one variant"
+    nats = answer["mistakes_nats"]["sign_flip"]
+    assert nats > 100.0 and f"mistakes in the data that would leave a gap: sign_flip ({nats:.0f} nats" in confused.out
     assert answer["detectability"]["sensor_gain.force"]["smallest"] is None
     assert answer["detectability"]["damping"]["smallest"] < 25.0  # which was planted and found
     assert "not to be seen at any plausible size: sensor_gain.force" in confused.out

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.absorbed import UNSEEN, VISIBLE, Visibility, absorbed, mistakes
+from geocontact.gap.absorbed import UNSEEN, VISIBLE, Visibility, absorbed, mistakes, shown
 from geocontact.gap.benchmark.drawing import Lot, drawn
 from geocontact.gap.next_experiment import first_of
 from geocontact.gap.problem import Problem, problem_of
@@ -62,6 +62,16 @@ def test_what_is_small_beside_a_mistake_may_still_be_a_gap() -> None:
     assert Visibility("unit_error", 1e-4, 0.1 * UNSEEN).absorbed
     assert not Visibility("unit_error", 1e-4, 10.0 * UNSEEN).absorbed
     assert not Visibility("sensor_gain", 2.0 * VISIBLE).absorbed
+
+
+def test_a_mistake_is_shown_only_if_all_its_variants_are() -> None:
+    hidden, faint, plain = (
+        Visibility("unit_error", share, nats) for share, nats in ((1e-4, 0.1), (0.4, 9.0), (0.9, 2e3))
+    )
+    flips = Visibility("sign_flip", 0.5, 300.0), Visibility("sign_flip", 0.7, 200.0)
+    assert shown([faint, *flips, plain]) == {"sign_flip": 200.0, "unit_error": 9.0}
+    assert list(shown([faint, *flips, plain])) == ["sign_flip", "unit_error"]
+    assert shown([faint, hidden, plain]) == {}
 
 
 def test_a_reversed_rotation_hides_in_where_the_site_is(elsewhere: Elsewhere) -> None:
