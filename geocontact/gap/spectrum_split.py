@@ -22,6 +22,7 @@ from geocontact.identify.fisher_scoring import Batch, Scored, least
 from geocontact.identify.low_pass import LowPass
 
 LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
+OVER = 1.0  # standard deviation of the logarithm of a rest's power beyond rounding
 TAIL = 2.0  # Hz, from which a movement's tail falls off
 TAILED = 3.0  # nats that must speak for it
 FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
@@ -110,11 +111,11 @@ class Parts:
         gradient = (slope * (1.0 - met)[:, None]).sum(axis=2)
         # half of what is expected, half of what is met: far off, steps stay short
         curved = (slope * 0.5 * (1.0 + np.minimum(met, BENT))[:, None]) @ slope.transpose(0, 2, 1)
-        off, over = (x[:, 3] - self.usual[which]) / LOUDER, np.maximum(x[:, 4] - self.rounding, 0.0) / LOUDER
+        off, over = (x[:, 3] - self.usual[which]) / LOUDER, np.maximum(x[:, 4] - self.rounding, 0.0) / OVER
         gradient[:, 3] += off / LOUDER
-        gradient[:, 4] += over / LOUDER
+        gradient[:, 4] += over / OVER
         curved[:, 3, 3] += LOUDER**-2
-        curved[:, 4, 4] += (over > 0.0) * LOUDER**-2
+        curved[:, 4, 4] += (over > 0.0) * OVER**-2
         return (np.log(total) + met).sum(axis=1) + 0.5 * (off**2 + over**2), gradient, curved
 
 

@@ -13,8 +13,8 @@ from geocontact.identify.low_pass import LowPass
 
 STEP = 0.005
 NYQUIST = 0.5 / STEP
-FAINT = 0.0003
-"""rad; noise that speaks with 3.6 nats for itself."""
+FAINT = 0.00008
+"""rad, of some 1.3 that the input moves: less than one input by itself tells."""
 
 
 def trials(corner: float, noise: float, count: int = 4, lost: float = 0.0, digits: int = 12) -> list[Trial]:
