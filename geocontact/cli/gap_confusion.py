@@ -106,7 +106,7 @@ def answer(case: GapCase, found: Confusion, nats: float) -> dict[str, Any]:
         "power": POWER,
         "apart_nats": APART,
         "absorbed": found.absorbed,
-        "mistakes_nats": dict(found.mistakes),
+        "mistakes": found.mistakes,
         "classes": found.classes,
         "separability": {
             label: dict(zip(["none", *labels], row, strict=True)) for label, row in zip(labels, matrix, strict=True)

@@ -27,7 +27,7 @@ TIED = 6  # digits of a share; what agrees in these is listed by name
 
 @dataclass(frozen=True)
 class Visibility:
-    """Visible share of an effect, the least over its variants, shapes and signs; `nats` are left of a mistake."""
+    """Visible share of an effect, of one variant, shape and sign; `nats` over the noise floor are left of a mistake."""
 
     name: str
     share: float
@@ -56,12 +56,12 @@ def swallowed(seen: Sequence[Visibility], named: Sequence[str]) -> list[Visibili
     return sorted(least.values(), key=lambda each: (round(each.share, TIED), each.name))[:MOST]
 
 
-def shown(seen: Sequence[Visibility]) -> dict[str, float]:
-    """Mistakes that leave a gap in every variant, and how many nats of it at the least, the plainest first."""
-    least: dict[str, float] = {}
+def shown(seen: Sequence[Visibility]) -> tuple[str, ...]:
+    """Mistakes of which every variant that was tried leaves a gap, by name."""
+    gaps: dict[str, bool] = {}
     for each in seen:
-        least[each.name] = min(0.0 if each.absorbed else each.nats, least.get(each.name, np.inf))
-    return {name: nats for name, nats in sorted(least.items(), key=lambda each: -each[1]) if nats > 0.0}
+        gaps[each.name] = gaps.get(each.name, True) and not each.absorbed and each.nats >= UNSEEN
+    return tuple(sorted(name for name, gap in gaps.items() if gap))
 
 
 def visibilities(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibility]:
@@ -88,7 +88,10 @@ def visibilities(problem: Problem, candidates: Sequence[Candidate]) -> list[Visi
 
 
 def mistakes(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibility]:
-    """Of every mistake in the data that changes a prediction, in all trials."""
+    """Of every mistake in the data that changes a prediction, in all trials.
+
+    Nats that cannot decide whether a mistake is absorbed any more are not searched to the end.
+    """
     system, values, measured = problem.system, problem.plain.values, problem.calibration
     before = measured.residuals(system, values)
     still = [o - r for o, r in zip(measured.outputs, before, strict=True)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from threadpoolctl import threadpool_limits
@@ -42,7 +42,7 @@ class Confusion:
     absorbed
         Effects, and mistakes in the data, that refitted base parameters swallow, the most completely swallowed first.
     mistakes
-        In the data, that would leave a gap in every variant, and how many nats of it at the least.
+        Names of mistakes in the data that would leave a gap in every variant, if made in all calibration trials.
     proposal
         What to record next.
     """
@@ -54,7 +54,7 @@ class Confusion:
     classes: tuple[tuple[str, ...], ...]
     detectabilities: tuple[Detectability, ...]
     absorbed: tuple[str, ...]
-    mistakes: Mapping[str, float]
+    mistakes: tuple[str, ...]
     proposal: NextExperiment | None
 
 

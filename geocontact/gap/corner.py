@@ -28,7 +28,7 @@ def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, L
     step = float(np.median(np.concatenate([np.diff(trial.time) for trial in trials])))
     corners = np.geomspace(LOWEST, HIGHEST, CORNERS)
     corners = corners[corners < BELOW_NYQUIST * 0.5 / step]
-    found = {name: spectrum(trials, name) for name in inputs}
+    found = {name: spectrum(trials, name, step) for name in inputs}
     seen = {name: each for name, each in found.items() if each is not None}
     if not seen or not len(corners):
         return dict.fromkeys(inputs, LowPass(USUAL, step))
@@ -56,5 +56,5 @@ def _between(at: Float[np.ndarray, " n"], costs: Float[np.ndarray, " n"]) -> flo
 
 def likely_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
     """Standard deviation of an input's noise by its spectrum, 0 where it has none."""
-    seen = spectrum(trials, name)
+    seen = spectrum(trials, name, passed.step)
     return 0.0 if seen is None else float(split(seen, [passed]).noise[0])

@@ -40,11 +40,6 @@ class Spectrum:
     half_range: float
     rounding: float
 
-    def below(self, frequency: float) -> Spectrum:
-        """What lies below a frequency [Hz]."""
-        there = self.frequency < frequency
-        return Spectrum(self.frequency[there], self.power[there], self.half_range, self.rounding)
-
 
 def switches(trials: Sequence[Trial], name: str) -> bool:
     """Whether an input only goes on and off, or stands still: then it is no measurement, and has no noise."""
@@ -52,8 +47,8 @@ def switches(trials: Sequence[Trial], name: str) -> bool:
     return len(np.unique(values[np.isfinite(values)])) <= BOTH
 
 
-def spectrum(trials: Sequence[Trial], name: str) -> Spectrum | None:
-    """Periodograms under Nuttall's window, of all trials long enough.
+def spectrum(trials: Sequence[Trial], name: str, step: float) -> Spectrum | None:
+    """Periodograms under Nuttall's window, of all trials long enough, below Nyquist's frequency of a `step` [s].
 
     None where there are none, where nothing moves, and of an input that only goes on and off.
     """
@@ -81,4 +76,6 @@ def spectrum(trials: Sequence[Trial], name: str) -> Spectrum | None:
     half_range = 0.5 * float(np.ptp(np.concatenate(values)))
     least = (1e-12 * half_range) ** 2
     rounding = max(resolution(values) / np.sqrt(12.0), ROUNDED * half_range)
-    return Spectrum(np.concatenate(frequency), np.concatenate(power) + least, half_range, rounding)
+    f, p = np.concatenate(frequency), np.concatenate(power) + least
+    below = f < 0.5 / step  # a quicker recording than the others goes beyond
+    return Spectrum(f[below], p[below], half_range, rounding) if below.any() and least > 0.0 else None

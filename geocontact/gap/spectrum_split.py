@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float, Int
 
 from geocontact.gap.input_spectrum import Spectrum
 from geocontact.identify.fisher_scoring import Batch, Scored, least
@@ -28,7 +28,9 @@ TAILED = 3.0  # nats that must speak for it
 FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
 SLOWEST, QUICKEST = np.log([0.02, 20.0])  # of log b
 FALLS, STEEPS = (0.1, 0.4, 1.2, 3.0), (0.9, 1.6)  # b [Hz] and q that a search starts from
+BROAD = ((8.0, 0.7), (20.0, 0.7))  # the same of movements that fill the spectrum
 FIRST, BEST = 40, 4  # steps from all starts, and how many of them, for each filter, go on
+MANY = 400  # values of a spectrum that are not pooled
 FAINT = 600.0  # exponent beyond which a movement is nothing
 BENT = 1e6  # ratio of power to what is expected that counts in the curvature at the most
 
@@ -45,13 +47,15 @@ class Split:
 
 
 def split(seen: Spectrum, filters: Sequence[LowPass]) -> Split:
-    """The likeliest movement, noise and rest of a spectrum, given each of the filters, of one sampling frequency."""
-    seen = seen.below(0.5 / filters[0].step)  # a quicker recording than the others goes beyond
+    """The likeliest movement, noise and rest of a spectrum, given each of the filters, one at least.
+
+    The filters are of one sampling frequency, and the spectrum lies below half of it.
+    """
     parts = Parts.of(seen, filters)
     plain, tailed = (_likeliest(parts, with_tail) for with_tail in (False, True))
-    with_tail = tailed.unlikely + TAILED < plain.unlikely
+    better = tailed.unlikely + TAILED < plain.unlikely
     return Split(
-        np.where(with_tail, tailed.unlikely + TAILED, plain.unlikely), np.where(with_tail, tailed.noise, plain.noise)
+        np.where(better, tailed.unlikely + TAILED, plain.unlikely), np.where(better, tailed.noise, plain.noise)
     )
 
 
@@ -61,8 +65,8 @@ class Parts:
 
     Parameters
     ----------
-    frequency, power
-        Of the spectrum.
+    frequency, power, count
+        Of the spectrum: its values, or means of neighbours and how many of them.
     passed
         Share of the power that each filter lets through at each frequency.
     part
@@ -75,6 +79,7 @@ class Parts:
 
     frequency: Float[np.ndarray, " f"]
     power: Float[np.ndarray, " f"]
+    count: Float[np.ndarray, " f"]
     passed: Float[np.ndarray, "k f"]
     part: Float[np.ndarray, " k"]
     usual: Float[np.ndarray, " k"]
@@ -83,14 +88,18 @@ class Parts:
     @classmethod
     def of(cls, seen: Spectrum, filters: Sequence[LowPass]) -> Parts:
         """Of a spectrum below Nyquist's frequency."""
+        frequency, power, count = _pooled(seen)
         even = np.linspace(0.0, 0.5 / filters[0].step, 400)
         part = np.array([one.power(even).mean() for one in filters])
-        passed = np.array([one.power(seen.frequency) for one in filters])
+        passed = np.array([one.power(frequency) for one in filters])
         usual = 2.0 * np.log(LEVEL * seen.half_range) - np.log(part)
-        return cls(seen.frequency, seen.power, passed, part, usual, 2.0 * float(np.log(seen.rounding)))
+        return cls(frequency, power, count, passed, part, usual, 2.0 * float(np.log(seen.rounding)))
 
     def scored(self, x: Batch, which: Int[np.ndarray, " b"]) -> Scored:
-        """-log likelihoods with their gradients and expected curvatures.
+        """-log likelihoods with their gradients, and curvatures to step by.
+
+        Curvatures are half of what is expected, half of what the powers that are met would make of it: far off, where
+        powers are much larger than expected, steps stay short.
 
         Parameters
         ----------
@@ -103,20 +112,37 @@ class Parts:
         fall = np.minimum(np.exp(steep * ratio), FAINT)
         movement = np.exp(x[:, 0:1] - fall)
         noise, rest = np.exp(x[:, 3:4]) * self.passed[which], np.exp(x[:, 4:5]) * np.ones_like(self.frequency)
-        tail = np.exp(x[:, 5:]) / (1.0 + (self.frequency / TAIL) ** 4) ** 2 if x.shape[1] > 5 else 0.0
-        total = movement + noise + rest + tail
-        slopes = [movement, movement * fall * steep, -movement * fall * steep * ratio, noise, rest]
-        slope = np.stack([*slopes, tail] if x.shape[1] > 5 else slopes, axis=1) / total[:, None]
+        slopes, total = [movement, movement * fall * steep, -movement * fall * steep * ratio], movement + noise + rest
+        slopes += [noise, rest]
+        if x.shape[1] > len(slopes):
+            tail = np.exp(x[:, 5:]) / (1.0 + (self.frequency / TAIL) ** 4) ** 2
+            slopes, total = [*slopes, tail], total + tail
+        slope = np.stack(slopes, axis=1) / total[:, None]
         met = self.power / total
-        gradient = (slope * (1.0 - met)[:, None]).sum(axis=2)
-        # half of what is expected, half of what is met: far off, steps stay short
-        curved = (slope * 0.5 * (1.0 + np.minimum(met, BENT))[:, None]) @ slope.transpose(0, 2, 1)
+        gradient = (slope * (self.count * (1.0 - met))[:, None]).sum(axis=2)
+        curved = (slope * (0.5 * self.count * (1.0 + np.minimum(met, BENT)))[:, None]) @ slope.transpose(0, 2, 1)
         off, over = (x[:, 3] - self.usual[which]) / LOUDER, np.maximum(x[:, 4] - self.rounding, 0.0) / OVER
         gradient[:, 3] += off / LOUDER
         gradient[:, 4] += over / OVER
         curved[:, 3, 3] += LOUDER**-2
         curved[:, 4, 4] += (over > 0.0) * OVER**-2
-        return (np.log(total) + met).sum(axis=1) + 0.5 * (off**2 + over**2), gradient, curved
+        value = (self.count * (np.log(total) + met)).sum(axis=1) + 0.5 * (off**2 + over**2)
+        return value, gradient, curved
+
+
+def _pooled(seen: Spectrum) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
+    """Frequencies, powers, and how many values each is the mean of: neighbours, where there are `MANY` or more.
+
+    The likelihood of values that share what is expected is that of their mean, as often as there are of them.
+    """
+    order = np.argsort(seen.frequency, kind="stable")
+    frequency, power = seen.frequency[order], seen.power[order]
+    if len(frequency) < MANY:
+        return frequency, power, np.ones(len(frequency))
+    edges = np.geomspace(frequency[0], frequency[-1], MANY)
+    _, first = np.unique(np.searchsorted(edges, frequency, side="right"), return_index=True)
+    count = np.diff(np.append(first, len(frequency))).astype(float)
+    return np.add.reduceat(frequency, first) / count, np.add.reduceat(power, first) / count, count
 
 
 def _likeliest(parts: Parts, with_tail: bool) -> Split:
@@ -124,33 +150,33 @@ def _likeliest(parts: Parts, with_tail: bool) -> Split:
     top = float(np.log(parts.power.max()))
     low = np.array([top - 20.0, SLOWEST, FLATTEST, top - 60.0, top - 80.0, top - 60.0])
     high = np.array([top + 40.0, QUICKEST, STEEPEST, top + 2.0, top, top + 20.0])
-    start, which = _starts(parts)
+    start = _starts(parts)
+    places, which = len(start) // len(parts.part), np.repeat(np.arange(len(parts.part)), len(start) // len(parts.part))
     chosen = slice(6 if with_tail else 5)
     low, high, start = low[chosen], high[chosen], start[:, chosen]
     first = least(lambda x, rows: parts.scored(x, which[rows]), start, low, high, FIRST)
-    best = np.concatenate([_least_few(first.value, which == k) for k in range(len(parts.part))])
+    order = np.argsort(first.value.reshape(-1, places), axis=1, kind="stable")[:, :BEST]
+    best = (order + places * np.arange(len(order))[:, None]).ravel()
     found = least(lambda x, rows: parts.scored(x, which[best][rows]), first.at[best], low, high)
-    value, noise = (each.reshape(len(parts.part), -1) for each in (found.value, found.at[:, 3]))
-    k = np.arange(len(parts.part)), value.argmin(axis=1)
+    value, noise = (each.reshape(order.shape) for each in (found.value, found.at[:, 3]))
+    k = np.arange(len(order)), value.argmin(axis=1)
     return Split(value[k], np.sqrt(np.exp(noise[k]) * parts.part))
 
 
-def _least_few(value: Float[np.ndarray, " s"], there: Bool[np.ndarray, " s"]) -> Int[np.ndarray, " b"]:
-    """Places of the least values among those that are there."""
-    places = np.flatnonzero(there)
-    return np.asarray(places[np.argsort(value[places], kind="stable")[:BEST]])
-
-
-def _starts(parts: Parts) -> tuple[Batch, Int[np.ndarray, " s"]]:
-    """Parameters to start from, tail and all, and the filter of each."""
+def _starts(parts: Parts) -> Batch:
+    """Parameters to start from, tail and all: as many rows for each filter, one filter after the other."""
     slow = np.argsort(parts.frequency)[: max(4, len(parts.frequency) // 20)]
-    top = float(np.log(parts.power.max()))
-    bottom, middle = np.log(np.quantile(parts.power, [0.05, 0.3]))
-    rows, which = [], []
-    for (k, usual), b, q in product(enumerate(parts.usual), FALLS, STEEPS):
-        fall = np.minimum((parts.frequency[slow] / b) ** q, 30.0)
-        height = float(np.median(np.log(parts.power[slow]) + fall))
-        for noise in (usual, middle):
-            rows.append([height, np.log(b), np.log(q), noise, bottom - 1.0, top - 6.0])
-            which.append(k)
-    return np.array(rows), np.array(which)
+    powers = np.log(parts.power)
+    top, bottom, middle = float(powers.max()), *np.quantile(powers, [0.05, 0.3])
+    heights = [
+        (b, q, float(np.median(powers[slow] + np.minimum((parts.frequency[slow] / b) ** q, 30.0))))
+        for b, q in product(FALLS, STEEPS)
+    ]
+    heights += [(b, q, float(np.median(powers)) + 1.0) for b, q in BROAD]
+    return np.array(
+        [
+            [height, np.log(b), np.log(q), noise, bottom - 1.0, top - 6.0]
+            for usual, (b, q, height) in product(parts.usual, heights)
+            for noise in (usual, middle)
+        ]
+    )

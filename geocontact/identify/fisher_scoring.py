@@ -1,8 +1,8 @@
 """Many small problems of greatest likelihood at once, each within bounds, by Fisher's scoring.
 
-Newton's method with the expected instead of the observed curvature (Osborne 1992, Int. Stat. Rev. 60:99), damped as
-Levenberg and Marquardt do where a step does not help. Parameters that lie on a bound and are pushed out of it are left
-out of a step.
+Newton's method with a positive semidefinite curvature, such as the expected instead of the observed one (Osborne 1992,
+Int. Stat. Rev. 60:99), damped as Levenberg and Marquardt do where a step does not help. Parameters that lie on a bound
+and are pushed out of it are left out of a step.
 """
 
 from __future__ import annotations
@@ -44,18 +44,25 @@ def least(
     Parameters
     ----------
     scored
-        Of parameters and the problems (places in `start`) they belong to: values, gradients, and expected curvatures,
-        which must be positive semidefinite.
+        Of parameters and the problems (places in `start`) they belong to: values, gradients, and positive semidefinite
+        curvatures.
     start
         One row per problem.
     low, high
         Bounds of the parameters, the same for all.
     rounds
         Steps at the most.
+
+    Raises
+    ------
+    ValueError
+        If a problem has no finite value where it starts.
     """
     at = np.clip(start, low, high)
     going = np.arange(len(at))
     value, gradient, curved = scored(at, going)
+    if not np.isfinite(value).all():
+        raise ValueError(f"problem {int(np.argmin(np.isfinite(value)))} has no finite value where it starts")
     damping, idle = np.full(len(at), DAMPED), np.zeros(len(at), dtype=int)
     for _ in range(rounds):
         new = np.clip(

@@ -21,8 +21,7 @@ def confusion_sentences(c: Confusion) -> list[str]:
             f"base parameters imitate nearly all of {names(c.absorbed)}: they leave wrong parameters, hardly a gap"
         )
     if c.mistakes:
-        told = [f"{name} ({nats:.0f} nats or more)" for name, nats in c.mistakes.items()]
-        said.append(f"mistakes in the data that would leave a gap: {names(told)}")
+        said.append(f"mistakes in the data that would leave a gap, made in all trials: {names(c.mistakes)}")
     said += [f"not to be told apart (less than {APART:g} nats between any two): {names(one)}" for one in c.classes]
     if not c.classes and len(c.effects) > 1:
         said.append(f"any two of these effects would be told apart by {APART:g} nats or more, one way round at least")

@@ -65,13 +65,13 @@ def test_what_is_small_beside_a_mistake_may_still_be_a_gap() -> None:
 
 
 def test_a_mistake_is_shown_only_if_all_its_variants_are() -> None:
-    hidden, faint, plain = (
-        Visibility("unit_error", share, nats) for share, nats in ((1e-4, 0.1), (0.4, 9.0), (0.9, 2e3))
+    hidden, small, faint, plain = (
+        Visibility("unit_error", share, nats) for share, nats in ((1e-4, 0.1), (0.4, 0.3), (0.4, 9.0), (0.9, 2e3))
     )
     flips = Visibility("sign_flip", 0.5, 300.0), Visibility("sign_flip", 0.7, 200.0)
-    assert shown([faint, *flips, plain]) == {"sign_flip": 200.0, "unit_error": 9.0}
-    assert list(shown([faint, *flips, plain])) == ["sign_flip", "unit_error"]
-    assert shown([faint, hidden, plain]) == {}
+    assert shown([faint, *flips, plain]) == ("sign_flip", "unit_error")
+    assert shown([faint, hidden, *flips, plain]) == ("sign_flip",)
+    assert shown([faint, small, plain]) == (), "too small to be hidden, and to be seen"
 
 
 def test_a_reversed_rotation_hides_in_where_the_site_is(elsewhere: Elsewhere) -> None:

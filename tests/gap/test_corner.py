@@ -61,6 +61,17 @@ def test_one_recording_that_is_quicker_than_the_others_changes_nothing() -> None
     assert filters_of(made, ("u",))["u"].corner == pytest.approx(NYQUIST)
 
 
+def test_recordings_too_short_for_a_spectrum_beside_one_that_is_quicker_say_nothing() -> None:
+    """All that the quick one shows lies beyond what the others could."""
+    made = [Trial(t.name, Signals(t.time[:20], t.signals.values[:20], ("u",), ("rad",))) for t in trials(9.0, 0.003)]
+    quick = Signals(
+        0.1 * made[-1].time[0] + 0.0005 * np.arange(24), trials(9.0, 0.003)[0].signals.values[:24], ("u",), ("rad",)
+    )
+    made[-1] = Trial(made[-1].name, quick)
+    passed = filters_of(made, ("u",))["u"]
+    assert passed.corner == USUAL and likely_noise(made, "u", passed) == 0.0
+
+
 def test_without_noise_no_high_corner_is_made_up() -> None:
     assert filters_of(trials(6.0, 0.0), ("u",))["u"].corner < 1.4 * USUAL
 

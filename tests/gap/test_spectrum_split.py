@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from jaxtyping import Float
@@ -47,13 +49,29 @@ def test_the_filter_that_noise_came_through_is_likeliest() -> None:
         assert int(np.argmin(split(seen, FILTERS).unlikely)) == k
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-def test_no_other_start_finds_anything_likelier(seed: int) -> None:
+def tail(height: float) -> Float[np.ndarray, " f"]:
+    """Power of a movement in pieces."""
+    return np.asarray(height / (1.0 + (FREQUENCY / TAIL) ** 4) ** 2)
+
+
+def spread(height: float) -> Float[np.ndarray, " f"]:
+    """Power of a movement that fills the spectrum."""
+    return np.asarray(height * np.exp(-((FREQUENCY / 15.0) ** 0.8)))
+
+
+@pytest.mark.parametrize(
+    "expected",
+    [
+        movement(0.5) + noise(FILTERS[4], 0.004) + 1e-9,
+        movement(0.1) + tail(10.0) + noise(FILTERS[4], 1e-4) + 1e-12,
+        spread(1e-2) + noise(FILTERS[4], 1e-3) + 1e-12,
+    ],
+)
+def test_no_other_start_finds_anything_likelier(expected: Float[np.ndarray, " f"]) -> None:
     """Fifty random ones, each taken downhill by scipy."""
-    seen = drawn(movement(0.5) + 3e-2 / (1.0 + (FREQUENCY / TAIL) ** 4) ** 2 + noise(FILTERS[4], 0.004) + 1e-9, seed)
-    through = FILTERS[4]
+    seen, through = drawn(expected), FILTERS[4]
     parts = Parts.of(seen, [through])
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(1)
     top = float(np.log(seen.power.max()))
 
     def cost(x: Float[np.ndarray, " p"]) -> tuple[float, Float[np.ndarray, " p"]]:
@@ -71,13 +89,51 @@ def test_no_other_start_finds_anything_likelier(seed: int) -> None:
     assert split(seen, [through]).unlikely[0] <= min(others) + 1e-3
 
 
-def test_a_tail_of_the_movement_is_not_taken_for_noise() -> None:
-    """It is 300 times the noise at 5 Hz, where a filter of 3 Hz would let noise through."""
-    tail = 1e-2 / (1.0 + (FREQUENCY / TAIL) ** 4) ** 2
-    seen = drawn(movement(0.3) + tail + noise(FILTERS[-1], 5e-4) + 1e-12)
+def test_few_values_that_a_quick_movement_explains() -> None:
+    """White on the whole, with one quiet value: under a filter only a movement as quick as may be explains it."""
+    power = np.array([1.69e-5, 2.14e-7, 2.47e-6, 7.45e-6, 1.36e-6, 1.89e-6, 1.33e-7, 6.1e-6])
+    seen = Spectrum(6.125 * np.arange(1.0, 9.0), power, 1.0, 1e-5)
+    filters = [LowPass(f, STEP) for f in np.geomspace(2.5, 40.0, 17)]
+    assert split(seen, filters).unlikely.max() < -85.0
+
+
+def test_a_tail_of_the_movement_is_not_taken_for_noise(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without it, noise of a low corner is what explains best what the movement leaves."""
+    seen = drawn(movement(0.1) + tail(10.0) + noise(FILTERS[-1], 1e-4) + 1e-12)
     answer = split(seen, FILTERS)
     assert int(np.argmin(answer.unlikely)) == len(FILTERS) - 1
-    assert answer.noise[-1] == pytest.approx(5e-4, rel=0.3)
+    assert answer.noise[-1] == pytest.approx(1e-4, rel=0.3)
+    monkeypatch.setattr("geocontact.gap.spectrum_split.TAILED", 1e9)
+    assert int(np.argmin(split(seen, FILTERS).unlikely)) < 5
+
+
+def test_many_values_are_pooled() -> None:
+    """A thousand seconds at 100 Hz: what is found, and how much better than the others it is, stays."""
+    frequency = np.linspace(0.05, 49.9, 40000)
+    rng = np.random.default_rng(2)
+    part = FILTERS[5].power(np.linspace(0.0, 0.5 / STEP, 400)).mean()
+    power = 10.0 * np.exp(-((frequency / 0.5) ** 1.2)) + 1e-4**2 / part * FILTERS[5].power(frequency) + 1e-12
+    seen = Spectrum(frequency, power * rng.exponential(size=len(frequency)), 1.0, 1e-5)
+    parts = Parts.of(seen, FILTERS)
+    assert len(parts.power) < 450 and parts.count.sum() == len(frequency)
+    assert parts.count @ parts.power == pytest.approx(seen.power.sum())
+    answer = split(seen, FILTERS)
+    assert int(np.argmin(answer.unlikely)) == 5
+    assert answer.noise[5] == pytest.approx(1e-4, rel=0.05)
+    truth = np.array([[np.log(10.0), np.log(0.5), np.log(1.2), np.log(1e-8 / part), np.log(1e-12)]])
+    (exact,) = Whole.of(seen, FILTERS[5]).scored(truth, np.zeros(1, dtype=int))[0]
+    (pooled,) = parts.scored(truth, np.array([5]))[0]
+    assert pooled == pytest.approx(exact, abs=60.0), "of 40 000 values"
+
+
+class Whole:
+    """The parts of a spectrum of which nothing is pooled."""
+
+    @staticmethod
+    def of(seen: Spectrum, through: LowPass) -> Parts:
+        usual = Parts.of(seen, [through])
+        passed = through.power(seen.frequency)[None]
+        return replace(usual, frequency=seen.frequency, power=seen.power, count=np.ones(len(seen.power)), passed=passed)
 
 
 def test_gradients_are_those_of_the_values() -> None:
@@ -90,3 +146,16 @@ def test_gradients_are_those_of_the_values() -> None:
         differs = (parts.scored(x + off, which)[0] - parts.scored(x - off, which)[0]) / 2e-6
         assert slope[:, k] == pytest.approx(differs, rel=1e-5, abs=1e-5)
     assert (np.linalg.eigvalsh(curved) > -1e-9).all()
+
+
+def test_curvatures_are_those_of_the_values_where_what_is_expected_is_met() -> None:
+    parts = Parts.of(drawn(movement(0.5) + noise(FILTERS[4], 0.004) + 1e-9), FILTERS)
+    x, which = np.array([[2.0, -0.5, 0.2, -11.0, -18.0, -4.0]]), np.array([4])
+    fall = (FREQUENCY / np.exp(-0.5)) ** np.exp(0.2)
+    expected = np.exp(2.0 - fall) + np.exp(-11.0) * FILTERS[4].power(FREQUENCY) + np.exp(-18.0) + tail(np.exp(-4.0))
+    met = replace(parts, power=expected[np.argsort(FREQUENCY, kind="stable")])
+    _, _, curved = met.scored(x, which)
+    for k in range(6):
+        off = 1e-5 * (np.arange(6) == k)
+        bent = (met.scored(x + off, which)[1] - met.scored(x - off, which)[1])[0] / 2e-5
+        assert curved[0, k] == pytest.approx(bent, rel=1e-4, abs=1e-4)

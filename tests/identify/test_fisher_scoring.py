@@ -65,3 +65,8 @@ def test_a_start_beyond_the_bounds_is_brought_back(power: Float[np.ndarray, "3 6
     got = found(power, np.full((3, 2), 50.0))
     assert (got.at <= HIGH).all()
     assert got.at[0] == pytest.approx(by_itself(power[0])[0], abs=1e-3)
+
+
+def test_a_problem_without_a_value_is_named(power: Float[np.ndarray, "3 60"]) -> None:
+    with pytest.raises(ValueError, match="problem 1 has no finite value where it starts"):
+        found(power, np.array([[0.0, 0.0], [np.nan, 0.0], [0.0, 0.0]]))
