@@ -167,7 +167,7 @@ def _starts(parts: Parts) -> Batch:
     """Parameters to start from, tail and all: as many rows for each filter, one filter after the other."""
     slow = np.argsort(parts.frequency)[: max(4, len(parts.frequency) // 20)]
     powers = np.log(parts.power)
-    top, bottom, middle = float(powers.max()), *np.quantile(powers, [0.05, 0.3])
+    top, (bottom, middle) = float(powers.max()), np.quantile(powers, [0.05, 0.3])
     heights = [
         (b, q, float(np.median(powers[slow] + np.minimum((parts.frequency[slow] / b) ** q, 30.0))))
         for b, q in product(FALLS, STEEPS)
