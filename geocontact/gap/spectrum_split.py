@@ -131,13 +131,13 @@ class Parts:
 
 
 def _pooled(seen: Spectrum) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
-    """Frequencies, powers, and how many values each is the mean of: neighbours, where there are `MANY` or more.
+    """Frequencies, powers, and how many values each is the mean of: neighbours, where there are more than `MANY`.
 
     The likelihood of values that share what is expected is that of their mean, as often as there are of them.
     """
     order = np.argsort(seen.frequency, kind="stable")
     frequency, power = seen.frequency[order], seen.power[order]
-    if len(frequency) < MANY:
+    if len(frequency) <= MANY:
         return frequency, power, np.ones(len(frequency))
     edges = np.geomspace(frequency[0], frequency[-1], MANY)
     _, first = np.unique(np.searchsorted(edges, frequency, side="right"), return_index=True)
@@ -151,7 +151,8 @@ def _likeliest(parts: Parts, with_tail: bool) -> Split:
     low = np.array([top - 20.0, SLOWEST, FLATTEST, top - 60.0, top - 80.0, top - 60.0])
     high = np.array([top + 40.0, QUICKEST, STEEPEST, top + 2.0, top, top + 20.0])
     start = _starts(parts)
-    places, which = len(start) // len(parts.part), np.repeat(np.arange(len(parts.part)), len(start) // len(parts.part))
+    places = len(start) // len(parts.part)
+    which = np.repeat(np.arange(len(parts.part)), places)
     chosen = slice(6 if with_tail else 5)
     low, high, start = low[chosen], high[chosen], start[:, chosen]
     first = least(lambda x, rows: parts.scored(x, which[rows]), start, low, high, FIRST)
