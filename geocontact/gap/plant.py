@@ -2,7 +2,9 @@
 
 What was measured stays: noise, deviations of trials and whatever else the model misses. A sensor's effect acts on the
 measured outputs themselves; a mistake in the data is made in the columns; anything else is added as the difference
-between the base model with and without it, y + S(u; θ, φ) - S(u; θ), at the base parameters that fit best.
+between the base model with and without it, y + S(u; θ, φ) - S(u; θ), at the base parameters that fit best. Missing
+samples stay missing, except that a delay moves them with the others. Samples for which one of the two models has no
+value (a centre of pressure without load) stay as measured.
 """
 
 from __future__ import annotations
@@ -145,9 +147,9 @@ def _with(
     values = trial.signals.values.copy()
     measured = values[:, columns]
     same = all(getattr(changed, link) is getattr(system, link) for link in ("motion", "geometry", "law", "balance"))
-    if same and not np.isnan(measured).any():
+    if same:
         numbers = {**trial.covariates, **system.known, **base, **given}
         values[:, columns] = changed.sensor.read(measured, system.motion.seen(trial, numbers), numbers)
     else:
-        values[:, columns] += changed.simulate(trial, {**base, **given}) - system.simulate(trial, base)
+        values[:, columns] += np.nan_to_num(changed.simulate(trial, {**base, **given}) - system.simulate(trial, base))
     return replace(trial, signals=replace(trial.signals, values=values))

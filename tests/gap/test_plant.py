@@ -12,6 +12,7 @@ from geocontact.gap.problem import Problem, problem_of
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import elbow_case
+from tests.systems.examples import FOOT_CONSTANTS, foot, foot_trial, measured, recording, spheres
 
 
 def made_ready() -> tuple[GapCase, Problem]:
@@ -69,6 +70,55 @@ def test_other_effects_add_what_the_model_says(elsewhere: Elsewhere) -> None:
     """A preload of 4 N is 4 N more, on top of every bit of noise."""
     for _, before, after in elsewhere(changes, "preload", {"preload.tension": 4.0, "preload.slackening": 0.0}):
         np.testing.assert_allclose(after - before, 4.0, rtol=1e-9)
+
+
+def foot_made_ready() -> tuple[GapCase, Problem]:
+    """Steps with noise that begin in the air, where there is no centre of pressure."""
+    system, rng = foot(), np.random.default_rng(2)
+    trials = []
+    for name, depth in (("t1", 0.004), ("t2", 0.006), ("t3", 0.005), ("t4", 0.0045)):
+        path = foot_trial(name, depth)
+        falling = {c: path.column(c) for c in path.signals.channels} | {
+            "y": path.column("y") + 0.05 * np.maximum(0.1 - path.time, 0.0)
+        }
+        made = measured(system, recording(name, path.time, falling))
+        columns = {channel: made.column(channel) for channel in made.signals.channels}
+        noise = {"force_x": 0.5, "force_y": 1.5, "cop_x": 5e-4}
+        columns |= {
+            channel: columns[channel] + level * rng.standard_normal(made.time.size) for channel, level in noise.items()
+        }
+        trials.append(recording(name, made.time, columns))
+    told = (system.parameters, FOOT_CONSTANTS, {}, {"spheres": spheres()})
+    case = GapCase("steps", "foot", tuple(trials[:3]), tuple(trials[3:]), *told)
+    return case, problem_of(case, system_of(case))
+
+
+def foot_changes(label: str, values: dict[str, float]) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Of every trial: time, the three outputs before, the outputs with the effect."""
+    case, problem = foot_made_ready()
+    made = plant(case, problem, chosen(candidates(problem.system), label), values, 1.0).case
+    pairs = zip((*case.calibration, *case.evaluation), (*made.calibration, *made.evaluation), strict=True)
+    names = problem.system.outputs
+    return [(a.time, *(np.column_stack([t.column(n) for n in names]) for t in (a, b))) for a, b in pairs]
+
+
+def test_missing_samples_do_not_keep_a_sensor_from_what_was_measured(elsewhere: Elsewhere) -> None:
+    """A foot has no centre of pressure in the air; noise of its forces is amplified and delayed all the same."""
+    gain = elsewhere(foot_changes, "sensor_gain.force_x", {"sensor_gain.force_x.gain": 0.5})
+    for _, before, after in gain:
+        assert np.isnan(before[:, 2]).any() and np.isfinite(before[:, 2]).any()
+        np.testing.assert_allclose(after[:, 0], 1.5 * before[:, 0], rtol=1e-12)
+        np.testing.assert_array_equal(after[:, 1:], before[:, 1:])
+    for time, before, after in elsewhere(foot_changes, "time_shift", {"time_shift.delay": 0.015}):
+        assert time[1] - time[0] == pytest.approx(0.005)
+        np.testing.assert_allclose(after[3:], before[:-3], rtol=1e-9, atol=1e-9)
+
+
+def test_samples_that_a_model_does_not_have_stay_as_measured(elsewhere: Elsewhere) -> None:
+    """Stiffer zones change forces; where base model or effect have no centre of pressure, the measured one stays."""
+    for _, before, after in elsewhere(foot_changes, "stiffening", {}):
+        np.testing.assert_array_equal(np.isnan(after), np.isnan(before))
+        assert (after[:, 1] != before[:, 1]).any()
 
 
 def test_a_mistake_is_made_in_the_trials_that_are_named() -> None:
