@@ -79,6 +79,12 @@ def diagnosis(*arguments: object, **options: object) -> Diagnosis:
     return diagnose(case, system_of(case)).diagnosis
 
 
+def diagnosis_that_names_nothing(*arguments: object, **options: object) -> Diagnosis:
+    """The same where one effect in question is one too many."""
+    with patch("geocontact.gap.verdict.MOST", 0):
+        return diagnosis(*arguments, **options)
+
+
 def renamed(case: GapCase, names: Mapping[str, str]) -> GapCase:
     """The same case under another name, its trials renamed and in another order."""
     return replace(
@@ -244,6 +250,16 @@ class Bump:
 
     def __call__(self, _: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
         return force + self.size * np.exp(-0.5 * ((time - self.time) / self.width) ** 2)
+
+
+@dataclass(frozen=True)
+class Drift:
+    """A force that grows by a rate [N/s]."""
+
+    rate: float
+
+    def __call__(self, _: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
+        return force + self.rate * time
 
 
 @dataclass(frozen=True)

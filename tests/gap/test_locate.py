@@ -7,11 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from geocontact.gap.frequency_map import energies
 from geocontact.gap.locate import BLOCKS, Window, _least, load_outputs, shortest, systematic
 from geocontact.gap.map_cell import Cell
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
-from tests.gap.cases import Bump, Swing, Unmeasured, elbow_case, located
+from tests.gap.cases import Bump, Drift, Swing, Unmeasured, elbow_case, located
 
 Found = tuple[tuple[Cell, ...], tuple[Window, ...]]
 
@@ -58,6 +59,34 @@ def test_what_swings_inside_a_bin_is_seen_in_the_fast_part_only(elsewhere: Elsew
     assert (loud.low, loud.high) == (0.4, 0.45)
     assert loud.share > 0.6 and loud.ci95[0] > 0.4
     assert min(cell.p_value for cell in cells if cell.axis == "phase") > 0.05
+
+
+def test_a_drift_is_not_fast(elsewhere: Elsewhere) -> None:
+    """It is 13 times the noise in the end, so the trial ends far from where it began."""
+    cells, _ = elsewhere(located, Drift(0.1))
+    slow, _, fast = (cell for cell in cells if cell.axis == "band")
+    assert slow.p_value < 0.01 and fast.p_value > 0.05
+    assert min(cell.p_value for cell in cells if cell.axis == "fast phase") > 0.05
+
+
+def test_bands_hold_the_whole_of_the_square() -> None:
+    time = np.arange(800) * 0.01
+    noise = np.random.default_rng(3).standard_normal((800, 2))
+    np.testing.assert_allclose(energies(time, noise)[:, :3].sum(axis=1), (noise**2).mean(axis=0), rtol=1e-12)
+    np.testing.assert_allclose(energies(time, noise)[:, 3:].mean(axis=1), energies(time, noise)[:, 2], rtol=1e-12)
+
+
+def test_what_is_not_measured_and_steps_that_differ_make_nothing_fast() -> None:
+    rng = np.random.default_rng(4)
+    time = np.sort(np.arange(800) * 0.01 + rng.uniform(-0.004, 0.004, 800))
+    time = np.delete(time, np.arange(500, 540))
+    slow = 3.0 + np.sin(2.0 * np.pi * 2.0 * time)
+    lifted = np.where((time > 1.0) & (time < 1.4), np.nan, slow)
+    quick = np.where(abs(time - 3.0) < 0.2, np.sin(2.0 * np.pi * 12.0 * time), 0.0)
+    found = energies(time, np.column_stack([slow, lifted, quick, np.full(time.size, np.nan)]))
+    assert (found[:2, 2] < 2e-3 * found[:2, 1]).all() and (found[:2, 1] > 0.4).all()
+    assert found[2, 2] > 0.9 * found[2, :3].sum() and found[2, 3 + 7] > 0.3 * found[2, 3:].sum()
+    assert (found[3] == 0.0).all()
 
 
 def test_shares_and_floor_make_up_the_whole(elsewhere: Elsewhere, pushed: Found) -> None:
