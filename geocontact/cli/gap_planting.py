@@ -72,7 +72,7 @@ def _planted(case: GapCase, o: PlantOptions) -> tuple[Candidate, Planted]:
         try:
             one = chosen(candidates(problem.system), o.effect)
         except ValueError as error:
-            raise InputError("", "--effect", str(error), "see docs/theory/gap_models.md") from error
+            raise InputError("", "--effect", str(error), "see docs/reference/gap_effects.md") from error
         trials = _trials(case, one, o)
         return one, plant(case, problem, one, _values(one, o), o.size, trials)
 
