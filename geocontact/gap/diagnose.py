@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Estimate, FaultFound, Where
 from geocontact.data.gap_case import GapCase
@@ -109,7 +108,7 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
         parameters=estimates(chosen),
         seconds=time.perf_counter() - began,
         version=version,
-        faults=_faults(found, offered),
+        faults=_faults(found),
         remarks=(
             *(f"{each.words} in {each.channel}" if each.channel else each.words for each in found.odd),
             *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
@@ -153,7 +152,7 @@ def estimates(judged: Judged) -> dict[str, Estimate]:
     return found
 
 
-def _faults(found: Attribution, offered: tuple[Candidate, ...]) -> tuple[FaultFound, ...]:
+def _faults(found: Attribution) -> tuple[FaultFound, ...]:
     if found.fault is None:
         return ()
     one = found.fault.candidate

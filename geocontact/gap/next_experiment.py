@@ -74,7 +74,7 @@ def proposed(found: Attribution, swallowed: Sequence[Candidate] = ()) -> Proposa
     if found.answer.verdict == "no_gap" and swallowed:
         base = _fitted(found.base)
         pairs = [Pair(_swallowed(problem, found.base.judged, one), base) for one in swallowed]
-        return _unveiling(found, problem, found.base.judged, pairs)
+        return _unveiling(problem, found.base.judged, pairs)
     return None
 
 
@@ -149,7 +149,7 @@ def _kept(problem: Problem, lead: Judged, one: Rehearsed, pair: Pair) -> float:
     )
 
 
-def _unveiling(found: Attribution, problem: Problem, base: Judged, pairs: list[Pair]) -> Proposal | None:
+def _unveiling(problem: Problem, base: Judged, pairs: list[Pair]) -> Proposal | None:
     """The change that makes most effects visible that were swallowed, and of several the one that shows them best."""
     before = [_old(problem, base, pair) for pair in pairs]
     best: tuple[int, float, Experiment, list[str]] | None = None

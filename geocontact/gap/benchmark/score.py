@@ -73,31 +73,6 @@ class Score:
     seconds: float
     seconds_most: float
 
-    def lines(self) -> list[str]:
-        """The figures in words, goal beside each."""
-        return [
-            f"false alarms            {self.false_alarms}  (at most 5 %)",
-            f"first-ranked right      {self.first_right}  (at least 92 %)",
-            f"in a set of <= {SMALL}        {self.in_small_set}  (at least 97 %)",
-            f"visible but missed      {self.missed}",
-            f"confidently wrong       {self.confidently_wrong}  (at most 2 %)",
-            f"both of two found       {self.both_found}  (at least 70 %)",
-            f"at least one of two     {self.one_of_two}",
-            f"outside called unknown  {self.unknown_called}  (at least 90 %)",
-            f"absorbed recognised     {self.absorbed_recognised}  (at least 97 %)",
-            f"error of reduction      {self.reduction_error:.4f}  (at most 0.025)",
-            f"  median                {self.reduction_error_median:.4f}",
-            f"inside ci95             {self.coverage}  (90 to 99 %)",
-            f"Brier                   {self.brier:.3f}",
-            f"  constant, oracle      {self.brier_constant:.3f}, {self.brier_oracle:.3f}",
-            f"calibration error       {self.calibration_error:.3f}",
-            f"seconds                 {self.seconds:.2f}, most {self.seconds_most:.2f}  (at most 10)",
-            *(
-                f"  stated {one.low:.1f}-{one.high:.1f}: {one.stated:.2f} came true {one.came_true:.2f} ({one.count})"
-                for one in self.reliability
-            ),
-        ]
-
 
 def visible(label: Plain) -> bool:
     """Whether every effect of a case shows."""

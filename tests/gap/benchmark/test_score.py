@@ -135,4 +135,3 @@ def test_a_case_without_a_diagnosis_is_named():
 def test_figures_are_plain():
     plain = figures(score(LABELS, ORACLE))
     assert plain["first_right"] == {"hits": 30, "count": 30, "ci95": [pytest.approx(0.884, abs=1e-3), 1.0]}
-    assert any("first-ranked right" in line for line in score(LABELS, ORACLE).lines())

@@ -140,11 +140,6 @@ def foot_path(rng: Rng, style: FootStyle, sole: Sole) -> Path:
     return through(time, np.array([x, y, pitch]), stance, rng.uniform(0.0, 2.0 * np.pi))
 
 
-def stance_of(path: Path) -> float:
-    """Duration of a trial [s]."""
-    return path(np.zeros(1)).duration
-
-
 def logistic(u: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
     """1/(1 + exp(-u))."""
     return np.asarray(0.5 * (1.0 + np.tanh(0.5 * u)))
