@@ -14,8 +14,18 @@ from geocontact.gap.evidence import Judged
 from geocontact.gap.problem import Noise, problem_of
 from geocontact.identify.noise_levels import Levels
 from geocontact.systems.catalogue import system_of
+from geocontact.view.gap_words import proposal_words, verdict_sentences
 from tests.elsewhere import Elsewhere
-from tests.gap.cases import Late, Times, Tremor, diagnosis, diagnosis_of_renamed, diagnosis_of_reversed, elbow_case
+from tests.gap.cases import (
+    Late,
+    Times,
+    Tremor,
+    diagnosis,
+    diagnosis_of_renamed,
+    diagnosis_of_reversed,
+    diagnosis_that_names_nothing,
+    elbow_case,
+)
 
 DAMPING = {"damping.b": 15.0, "damping.exponent": 1.0}
 FRICTION = {"dry_friction.rate.limit": 1.5, "dry_friction.rate.turning": 0.003}
@@ -42,6 +52,12 @@ def test_nothing_is_missing_where_nothing_is(elsewhere: Elsewhere) -> None:
     assert found.where == ()
     assert found.gap["force"].reduction == 0.0
     assert {"sensor_gain", "preload", "gravity_load"} <= set(found.absorbed)
+    told = found.as_dict()["next_experiment"]
+    assert set(told["separates"]) <= set(found.absorbed) and "sensor_gain" in told["separates"]
+    assert "known load" in told["change"] and told["gain_nats"] > 5.0
+    said = verdict_sentences(found, ())
+    assert said[-1] == proposal_words(found.next_experiment, "no_gap")
+    assert said[-1].startswith(f"next: {told['change']}; that would show ")
 
 
 def test_damping_is_named_and_measured(damped: Diagnosis) -> None:
@@ -56,6 +72,14 @@ def test_damping_is_named_and_measured(damped: Diagnosis) -> None:
     gap = damped.gap["force"]
     assert gap.rmse_after < 0.7 * gap.rmse_before
     assert gap.reduction == pytest.approx(1.0 - gap.rmse_after / gap.rmse_before, abs=0.12)
+
+
+def test_where_too_many_remain_reductions_are_those_of_the_likeliest(damped: Diagnosis, elsewhere: Elsewhere) -> None:
+    found = elsewhere(diagnosis_that_names_nothing, "damping", DAMPING, seed=1)
+    check(found)
+    assert found.verdict == "unresolved" and found.ambiguity[0] == "damping"
+    assert found.gap == damped.gap and found.where[0].phase == damped.where[0].phase
+    assert found.parameters["damping.b"] == damped.parameters["damping.b"]
 
 
 def test_name_and_order_of_trials_do_not_matter(damped: Diagnosis, elsewhere: Elsewhere) -> None:

@@ -131,6 +131,18 @@ def test_a_delay_and_a_filter_are_told_apart_by_moving_faster(elsewhere: Elsewhe
     assert found.gain_nats > 20.0
 
 
+def test_where_no_change_promises_enough_none_is_proposed(elsewhere: Elsewhere) -> None:
+    assert elsewhere(proposed, {"time_shift.delay": LAG}, 1e6) is None
+
+
+def test_a_slower_trial_goes_the_first_half_of_the_way_in_the_same_time(changes: dict[str, tuple[str, Trial]]) -> None:
+    words, slow = changes["slower"]
+    before = changes["as it was"][1]
+    assert "half as fast" in words and np.ptp(slow.time) == pytest.approx(np.ptp(before.time), rel=0.01)
+    went = np.interp(before.time[0] + 0.5 * slow.time, before.time, before.column("beta"))
+    assert np.abs(slow.column("beta") - went).max() < 0.02 * np.ptp(went)
+
+
 def test_where_nothing_is_found_a_known_weight_shows_what_the_stiffness_swallows(elsewhere: Elsewhere) -> None:
     found = elsewhere(proposed, None)
     assert found is not None

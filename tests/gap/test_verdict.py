@@ -87,6 +87,17 @@ def test_a_second_effect_must_add_its_share() -> None:
     assert set(said(single, much).effects) == {"damping", "sensor_drift"}
 
 
+def test_of_more_than_four_that_remain_none_is_named() -> None:
+    labels = ("damping", "dry_friction.rate", "relaxation", "dead_zone", "stiffening")
+    five = [contender(60.0 + 0.1 * k, label) for k, label in enumerate(labels)]
+    found = said(*five)
+    assert (found.verdict, found.effects) == ("unresolved", ())
+    assert set(found.ambiguity) == {OFFERED[label].name for label in labels}
+    assert found.chosen is five[-1], "reductions are those of the most probable"
+    fewer = said(*five[:4])
+    assert (fewer.verdict, fewer.effects) == ("explained", ("dead_zone",)) and len(fewer.ambiguity) == 4
+
+
 def test_of_two_that_are_named_the_likelier_comes_first() -> None:
     both = contender(120.0, "damping", "sensor_drift.force")
     found = said(contender(100.0, "sensor_drift.force"), both)

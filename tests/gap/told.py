@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from unittest.mock import patch
 
 import numpy as np
 from scipy.stats import ncx2
@@ -20,7 +21,7 @@ from geocontact.gap.attribute import Attribution
 from geocontact.gap.contest import base_contender, singles
 from geocontact.gap.detectability import SURE, detectabilities, power
 from geocontact.gap.experiments import menu
-from geocontact.gap.next_experiment import first_of, next_experiment
+from geocontact.gap.next_experiment import TELLS, first_of, next_experiment
 from geocontact.gap.problem import problem_of
 from geocontact.gap.separability import classes, imitator_of, refitted, separation, separations
 from geocontact.gap.signatures import Ground, at_nats, ground_of, own_slopes, sized
@@ -150,8 +151,11 @@ def smallest() -> dict[str, tuple[float | None, float, float, float]]:
     return found
 
 
-def proposed(effects: Mapping[str, float] | None) -> NextExperiment | None:
-    """What to record next where a delay and a filter are in question, and where nothing was found."""
+def proposed(effects: Mapping[str, float] | None, times: float = TELLS) -> NextExperiment | None:
+    """What to record next where a delay and a filter are in question, and where nothing was found.
+
+    `times` is how much more the change must promise.
+    """
     late = "time_shift" if effects else ""
     case = elbow_case(late, effects, seed=1)
     problem = problem_of(case, system_of(case))
@@ -164,7 +168,8 @@ def proposed(effects: Mapping[str, float] | None) -> NextExperiment | None:
         rivals, said = [], Answer("no_gap", (), {}, (), base)
     found = Attribution(problem, None, problem, base, tuple(rivals), {}, (), (), said)
     names = [each.name for each in absorbed(problem, known, ())]
-    return next_experiment(found, first_of(known, names))
+    with patch("geocontact.gap.next_experiment.TELLS", times):
+        return next_experiment(found, first_of(known, names))
 
 
 def on_the_menu() -> dict[str, tuple[str, Trial]]:
