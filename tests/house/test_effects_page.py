@@ -4,14 +4,50 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
+from dataclasses import dataclass
 from pathlib import Path
+
+import pytest
 
 from geocontact.effects.catalogue import EFFECTS, candidates
 from geocontact.systems.sit_to_stand import SITES
+from tests.elsewhere import Elsewhere
 from tests.systems.examples import example
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "gap_effects.md"
 LISTED = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
+
+
+@dataclass(frozen=True)
+class Offered:
+    """A candidate: its effect, what its label adds to that, names of its parameters without it and units."""
+
+    name: str
+    parts: tuple[str, ...]
+    parameters: tuple[tuple[str, str], ...]
+
+
+def offered() -> dict[str, tuple[set[str], list[Offered]]]:
+    """Channels and candidates by system."""
+    found = {}
+    for name in LISTED:
+        system = example(name)[0]
+        channels = {*system.inputs, *system.outputs}
+        some = [
+            Offered(
+                one.name,
+                tuple(one.label.split(".")[1:]),
+                tuple((p.name.rpartition(".")[2], p.unit) for p in one.parameters),
+            )
+            for one in candidates(system)
+        ]
+        found[name] = (channels, some)
+    return found
+
+
+@pytest.fixture(scope="module")
+def there(elsewhere: Elsewhere) -> dict[str, tuple[set[str], list[Offered]]]:
+    return elsewhere(offered)
 
 
 def rows() -> dict[str, list[str]]:
@@ -27,26 +63,25 @@ def parameters(cell: str) -> set[tuple[str, str]]:
     return {(name, unit.strip()) for name, units in told for unit in units.split(",")}
 
 
-def test_effects_stages_and_systems() -> None:
+def test_effects_stages_and_systems(there: dict[str, tuple[set[str], list[Offered]]]) -> None:
     told = rows()
     assert list(told) == [one.name for one in EFFECTS]
     for one in EFFECTS:
         stage, systems = told[one.name][:2]
-        there = {name for name in LISTED if one.name in {c.name for c in candidates(example(name)[0])}}
+        listed = {name for name, (_, some) in there.items() if one.name in {each.name for each in some}}
         assert stage == one.stage
-        assert (set(LISTED) if systems == "all" else set(systems.split(", "))) == there, one.name
+        assert (set(LISTED) if systems == "all" else set(systems.split(", "))) == listed, one.name
 
 
-def test_parameters_units_and_variants() -> None:
-    told, offered, parts, channels = rows(), defaultdict(set), defaultdict(set), set()
-    for name in LISTED:
-        system = example(name)[0]
-        channels |= {*system.inputs, *system.outputs}
-        for one in candidates(system):
-            offered[one.name] |= {(p.name.rpartition(".")[2], p.unit) for p in one.parameters}
-            parts[one.name] |= {*one.label.split(".")[1:]}
+def test_parameters_units_and_variants(there: dict[str, tuple[set[str], list[Offered]]]) -> None:
+    told, units, parts, channels = rows(), defaultdict(set), defaultdict(set), set()
+    for own, some in there.values():
+        channels |= own
+        for one in some:
+            units[one.name] |= set(one.parameters)
+            parts[one.name] |= set(one.parts)
     for name, (_, _, _, names, variants) in told.items():
-        assert parameters(names) == offered[name], name
+        assert parameters(names) == units[name], name
         listed = set() if variants == "–" else set(variants.split(", "))
         if listed & {"input", "output"}:
             assert parts[name] - {"forces"} <= channels and (listed - {"input", "output"}) == parts[name] - channels
