@@ -55,7 +55,7 @@ def benchmark(*, options: BenchmarkOptions) -> int:
 
     Cases are made by code that shares nothing with the candidates. Writes benchmark.md and benchmark.json (figures with
     exact intervals, beside two residual regressions, a constant answer and an oracle), cases.csv, reliability.png,
-    reliability.svg and run.json into OUT, and prints the table. The default takes about two hours on two cores.
+    reliability.svg and run.json into OUT, and prints the table. The default takes an hour and a half on two cores.
     """
     from geocontact.cli.gap_benchmark_run import run_benchmark  # numpy and friends: not for --help
 
