@@ -13,7 +13,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 from scipy.fft import dct, idct
 
 from geocontact.gap.evidence import Judged
@@ -24,6 +24,7 @@ DRAWS = 200
 BANDS = (0.0, 1.0, 5.0, np.inf)  # Hz
 FAST = 5.0  # Hz, above which the map over the phase looks
 PHASES = 20
+FINEST = 10  # times as many even steps as samples, where steps differ
 BAND, FAST_PHASE = "band", "fast phase"
 """Axes of its cells: frequency [Hz], and the phase of the trial for what is faster than `FAST`."""
 
@@ -40,9 +41,10 @@ def frequency_map(problem: Problem, base: Judged, residuals: list[Float[np.ndarr
     loud, drawn = [], np.zeros((DRAWS, len(channels), len(BANDS) - 1 + PHASES))
     for trial, whitener, residual in zip(trials, base.noise.whiteners, residuals, strict=True):
         rows = np.concatenate(whitener.rows)
-        loud.append(energies(trial.time, _placed(residual.ravel()[rows], rows, residual.shape)))
+        without = ~np.isfinite(base.model.system.simulate(trial, base.model.values))
+        loud.append(energies(trial.time, _placed(residual.ravel()[rows], rows, without)))
         for k in range(DRAWS):
-            noise = _placed(whitener.coloured(rng.standard_normal(len(rows))), rows, residual.shape)
+            noise = _placed(whitener.coloured(rng.standard_normal(len(rows))), rows, without)
             drawn[k] += energies(trial.time, noise) / len(trials)
     each = np.array(loud)
     seen = each.mean(axis=0)
@@ -70,29 +72,32 @@ def frequency_map(problem: Problem, base: Judged, residuals: list[Float[np.ndarr
 def energies(time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "c m"]:
     """Mean square of every channel in every band, then above `FAST` in every part of the phase.
 
-    Missing samples are NaN; a channel without any has no energy. Of as many even steps as there are samples.
+    Missing samples are NaN; a channel without any has no energy. Of even steps as long as the trial's are in the
+    median, so that a pause in the recording makes no others longer.
     """
-    even = np.linspace(time[0], time[-1], len(time))
-    bridged = np.zeros(values.shape)
+    span = time[-1] - time[0]
+    count = min(round(span / float(np.median(np.diff(time)))), FINEST * len(time)) + 1
+    even = np.linspace(time[0], time[-1], count)
+    bridged = np.zeros((count, values.shape[1]))
     for c, column in enumerate(values.T):
         there = np.isfinite(column)
         if there.any():
             bridged[:, c] = np.interp(even, time[there], column[there])
     waves = dct(bridged, axis=0, norm="ortho")
-    frequency = np.arange(len(time)) / (2.0 * len(time) * (even[1] - even[0]))
-    power = waves**2 / len(time)
+    frequency = np.arange(count) / (2.0 * count * (even[1] - even[0]))
+    power = waves**2 / count
     bands = [power[(frequency >= low) & (frequency < high)].sum(axis=0) for low, high in pairwise(BANDS)]
     fast = idct(np.where(frequency[:, None] >= FAST, waves, 0.0), axis=0, norm="ortho") ** 2
-    part = np.minimum(np.arange(len(time)) * PHASES // len(time), PHASES - 1)
+    part = np.arange(count) * PHASES // count
     number = np.maximum(np.bincount(part, minlength=PHASES), 1)
     over = [np.bincount(part, column, PHASES) / number for column in fast.T]
     return np.concatenate([np.array(bands).T, np.array(over)], axis=1)
 
 
 def _placed(
-    values: Float[np.ndarray, " m"], rows: Int[np.ndarray, " m"], shape: tuple[int, ...]
+    values: Float[np.ndarray, " m"], rows: Int[np.ndarray, " m"], without: Bool[np.ndarray, "t c"]
 ) -> Float[np.ndarray, "t c"]:
-    """Values at their rows of the flattened channels, NaN elsewhere."""
-    flat = np.full(int(np.prod(shape)), np.nan)
+    """Values at their rows of the flattened channels; NaN elsewhere, and where the model is without a value."""
+    flat = np.full(without.size, np.nan)
     flat[rows] = values
-    return flat.reshape(shape)
+    return np.where(without, np.nan, flat.reshape(without.shape))

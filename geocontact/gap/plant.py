@@ -3,8 +3,9 @@
 What was measured stays: noise, deviations of trials and whatever else the model misses. A sensor's effect acts on the
 measured outputs themselves; a mistake in the data is made in the columns; anything else is added as the difference
 between the base model with and without it, y + S(u; θ, φ) - S(u; θ), at the base parameters that fit best. Missing
-samples stay missing, except that a delay moves them with the others. Samples for which one of the two models has no
-value (a centre of pressure without load) stay as measured.
+samples stay missing, except that a delay moves them with the others; what comes over from a channel that was not
+measured is the model's. Samples for which one of the two models has no value (a centre of pressure without load) stay
+as measured.
 """
 
 from __future__ import annotations
@@ -146,10 +147,13 @@ def _with(
     columns = [trial.signals.channels.index(name) for name in system.outputs]
     values = trial.signals.values.copy()
     measured = values[:, columns]
-    same = all(getattr(changed, link) is getattr(system, link) for link in ("motion", "geometry", "law", "balance"))
-    if same:
+    by = np.nan_to_num(changed.simulate(trial, {**base, **given}) - system.simulate(trial, base))
+    values[:, columns] = measured + by
+    if all(getattr(changed, link) is getattr(system, link) for link in ("motion", "geometry", "law", "balance")):
+        own = tuple(one for one in changed.sensor.modifiers if one not in system.sensor.modifiers)
         numbers = {**trial.covariates, **system.known, **base, **given}
-        values[:, columns] = changed.sensor.read(measured, system.motion.seen(trial, numbers), numbers)
-    else:
-        values[:, columns] += np.nan_to_num(changed.simulate(trial, {**base, **given}) - system.simulate(trial, base))
+        movement = system.motion.seen(trial, numbers)
+        read = replace(changed.sensor, modifiers=own).read(measured, movement, numbers)
+        kept = np.isfinite(read) | all(one.apart for one in own)
+        values[:, columns] = np.where(kept, read, measured + by)
     return replace(trial, signals=replace(trial.signals, values=values))

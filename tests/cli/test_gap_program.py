@@ -54,7 +54,7 @@ unit = "rad"
 LATE = 0.08
 """s."""
 RAN = "ran.txt"
-pytestmark = pytest.mark.skipif(shutil.which("awk") is None, reason="the simulator is an awk script")
+runs = pytest.mark.skipif(shutil.which("awk") is None, reason="the simulator is an awk script")
 
 
 def wrapped(folder: Path, late: float = LATE) -> Path:
@@ -95,6 +95,7 @@ def test_a_case_starts_no_program_unasked(tmp_path: Path, verb: str, options: tu
     assert not (case / RAN).exists() and not (tmp_path / "out").exists()
 
 
+@runs
 @pytest.mark.slow
 def test_a_delay_of_what_a_program_simulates_is_found(tmp_path: Path, elsewhere: Elsewhere) -> None:
     case, out = wrapped(tmp_path / "own"), tmp_path / "out"
@@ -105,6 +106,7 @@ def test_a_delay_of_what_a_program_simulates_is_found(tmp_path: Path, elsewhere:
     assert told["gap"]["torque"]["reduction"] > 0.5 and (case / RAN).exists()
 
 
+@runs
 def test_what_is_planted_beside_a_program_is_in_the_measured_column(tmp_path: Path) -> None:
     case, out = wrapped(tmp_path / "own", late=0.0), tmp_path / "out"
     with known():

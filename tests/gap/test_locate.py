@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.gap.frequency_map import energies
+from geocontact.gap.frequency_map import PHASES, _placed, energies
 from geocontact.gap.locate import BLOCKS, Window, _least, load_outputs, shortest, systematic
 from geocontact.gap.map_cell import Cell
 from geocontact.systems.catalogue import system_of
@@ -87,6 +87,19 @@ def test_what_is_not_measured_and_steps_that_differ_make_nothing_fast() -> None:
     assert (found[:2, 2] < 2e-3 * found[:2, 1]).all() and (found[:2, 1] > 0.4).all()
     assert found[2, 2] > 0.9 * found[2, :3].sum() and found[2, 3 + 7] > 0.3 * found[2, 3:].sum()
     assert (found[3] == 0.0).all()
+
+
+def test_a_pause_in_the_recording_hides_nothing_fast() -> None:
+    time = np.delete(np.arange(600) * 0.04, np.arange(150, 450))
+    found = energies(time, np.sin(2.0 * np.pi * 9.0 * time)[:, None])
+    assert found[0, 2] == pytest.approx(0.25, rel=0.02)  # half the square of a sine, in half of the time
+    assert found[0, 3 + PHASES // 2] < 0.01 < 0.4 < found[0, 3 + 1]
+
+
+def test_a_sample_that_the_model_has_no_value_for_is_none() -> None:
+    without = np.array([[False, True], [False, False], [True, False]])
+    found = _placed(np.array([1.0, 2.0, 3.0, 4.0]), np.array([0, 1, 2, 4]), without)
+    np.testing.assert_array_equal(found, [[1.0, np.nan], [3.0, np.nan], [np.nan, np.nan]])
 
 
 def test_shares_and_floor_make_up_the_whole(elsewhere: Elsewhere, pushed: Found) -> None:

@@ -72,8 +72,14 @@ def test_other_effects_add_what_the_model_says(elsewhere: Elsewhere) -> None:
         np.testing.assert_allclose(after - before, 4.0, rtol=1e-9)
 
 
-def foot_made_ready() -> tuple[GapCase, Problem]:
-    """Steps with noise that begin in the air, where there is no centre of pressure."""
+AIR = 2
+"""A sample in the air for which a centre of pressure was recorded all the same."""
+HOLE = slice(60, 80)
+"""Samples without the force along the ground, where one is asked for."""
+
+
+def foot_made_ready(hole: bool) -> tuple[GapCase, Problem]:
+    """Steps with noise that begin in the air, where hardly a centre of pressure is recorded."""
     system, rng = foot(), np.random.default_rng(2)
     trials = []
     for name, depth in (("t1", 0.004), ("t2", 0.006), ("t3", 0.005), ("t4", 0.0045)):
@@ -82,20 +88,23 @@ def foot_made_ready() -> tuple[GapCase, Problem]:
             "y": path.column("y") + 0.05 * np.maximum(0.1 - path.time, 0.0)
         }
         made = measured(system, recording(name, path.time, falling))
-        columns = {channel: made.column(channel) for channel in made.signals.channels}
-        noise = {"force_x": 0.5, "force_y": 1.5, "cop_x": 5e-4}
-        columns |= {
-            channel: columns[channel] + level * rng.standard_normal(made.time.size) for channel, level in noise.items()
-        }
+        columns = {channel: made.column(channel).copy() for channel in made.signals.channels}
+        for channel, level in (("force_x", 0.5), ("force_y", 1.5), ("cop_x", 5e-4)):
+            columns[channel] += level * rng.standard_normal(made.time.size)
+        columns["cop_x"][AIR] = 0.1
+        if hole:
+            columns["force_x"][HOLE] = np.nan
         trials.append(recording(name, made.time, columns))
     told = (system.parameters, FOOT_CONSTANTS, {}, {"spheres": spheres()})
     case = GapCase("steps", "foot", tuple(trials[:3]), tuple(trials[3:]), *told)
     return case, problem_of(case, system_of(case))
 
 
-def foot_changes(label: str, values: dict[str, float]) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+def foot_changes(
+    label: str, values: dict[str, float], hole: bool = False
+) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Of every trial: time, the three outputs before, the outputs with the effect."""
-    case, problem = foot_made_ready()
+    case, problem = foot_made_ready(hole)
     made = plant(case, problem, chosen(candidates(problem.system), label), values, 1.0).case
     pairs = zip((*case.calibration, *case.evaluation), (*made.calibration, *made.evaluation), strict=True)
     names = problem.system.outputs
@@ -106,19 +115,33 @@ def test_missing_samples_do_not_keep_a_sensor_from_what_was_measured(elsewhere: 
     """A foot has no centre of pressure in the air; noise of its forces is amplified and delayed all the same."""
     gain = elsewhere(foot_changes, "sensor_gain.force_x", {"sensor_gain.force_x.gain": 0.5})
     for _, before, after in gain:
-        assert np.isnan(before[:, 2]).any() and np.isfinite(before[:, 2]).any()
+        assert np.isnan(before[:, 2]).any() and np.isfinite(before[:, 2]).sum() > 100
+        assert before[AIR, 1] < 20.0 and before[AIR, 2] == 0.1, "what the model would leave out was recorded"
         np.testing.assert_allclose(after[:, 0], 1.5 * before[:, 0], rtol=1e-12)
         np.testing.assert_array_equal(after[:, 1:], before[:, 1:])
     for time, before, after in elsewhere(foot_changes, "time_shift", {"time_shift.delay": 0.015}):
         assert time[1] - time[0] == pytest.approx(0.005)
+        before[AIR, 2] = after[AIR + 3, 2] = np.nan  # between a lone sample and nothing there is nothing
         np.testing.assert_allclose(after[3:], before[:-3], rtol=1e-9, atol=1e-9)
+
+
+def test_what_comes_over_from_a_channel_that_was_not_measured_is_the_models(elsewhere: Elsewhere) -> None:
+    share = {"crosstalk.force_x_in_force_y.share": 0.2}
+    for _, before, after in elsewhere(foot_changes, "crosstalk.force_x_in_force_y", share, True):
+        there = np.isfinite(before[:, 0])
+        assert not there[HOLE].any() and there.sum() == len(there) - 20
+        np.testing.assert_allclose(after[there, 1], before[there, 1] + 0.2 * before[there, 0], rtol=1e-12)
+        over = after[HOLE, 1] - before[HOLE, 1]
+        edge = 0.2 * before[[HOLE.start - 1, HOLE.stop], 0]
+        assert np.isfinite(over).all() and (abs(over) > 0.2 * abs(edge).min()).all()
+        np.testing.assert_array_equal(after[:, [0, 2]], before[:, [0, 2]])
 
 
 def test_samples_that_a_model_does_not_have_stay_as_measured(elsewhere: Elsewhere) -> None:
     """Stiffer zones change forces; where base model or effect have no centre of pressure, the measured one stays."""
     for _, before, after in elsewhere(foot_changes, "stiffening", {}):
         np.testing.assert_array_equal(np.isnan(after), np.isnan(before))
-        assert (after[:, 1] != before[:, 1]).any()
+        assert (after[:, 1] != before[:, 1]).any() and after[AIR, 2] == 0.1
 
 
 def test_a_mistake_is_made_in_the_trials_that_are_named() -> None:

@@ -20,11 +20,12 @@ LISTED = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
 
 @dataclass(frozen=True)
 class Offered:
-    """A candidate: its effect, what its label adds to that, names of its parameters without it and units."""
+    """A candidate: its effect, what its label adds to that, names of its parameters behind the last dot and units."""
 
     name: str
     parts: tuple[str, ...]
     parameters: tuple[tuple[str, str], ...]
+    called: tuple[str, ...]
 
 
 def offered() -> dict[str, tuple[set[str], list[Offered]]]:
@@ -38,6 +39,7 @@ def offered() -> dict[str, tuple[set[str], list[Offered]]]:
                 one.name,
                 tuple(one.label.split(".")[1:]),
                 tuple((p.name.rpartition(".")[2], p.unit) for p in one.parameters),
+                tuple(p.name for p in one.parameters),
             )
             for one in candidates(system)
         ]
@@ -89,3 +91,12 @@ def test_parameters_units_and_variants(there: dict[str, tuple[set[str], list[Off
             assert len(listed) == 1 and parts[name], name
         else:
             assert {"site" if part in SITES else part for part in parts[name]} == listed, name
+
+
+def test_parameters_are_called_by_label_and_name(there: dict[str, tuple[set[str], list[Offered]]]) -> None:
+    told = PAGE.read_text(encoding="utf-8")
+    assert "only that `buffer` and `thinning` have the names of the form without" in told
+    for _, some in there.values():
+        for one in some:
+            label = ".".join((one.name, *(part for part in one.parts if part not in ("buffer", "thinning"))))
+            assert one.called == tuple(f"{label}.{name}" for name, _ in one.parameters)
