@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
@@ -32,6 +32,7 @@ from geocontact.systems.catalogue import system_of
 from geocontact.view.gap_words import names, verdict_sentences
 
 LEAST = 0.5  # of the size that was asked for, from which a bound of the amplitude deserves a word
+IMITATED = 0.05  # times the noise floor that a gap of what base parameters imitate may have
 
 
 def planted(folder: Path, o: PlantOptions) -> int:
@@ -125,8 +126,13 @@ def _said(one: Candidate, made: Planted, d: Diagnosis) -> dict[str, object]:
         "effects": list(d.effects),
         "named": one.name in d.effects,
         "among_possible": one.name in d.ambiguity,
-        "absorbed": one.name in d.absorbed,
+        "absorbed": _imitated(one.name, made.size, d.absorbed),
     }
+
+
+def _imitated(name: str, size: float, absorbed: Sequence[str]) -> bool:
+    """Whether base parameters take what was planted: other variants of its name may be absorbed where it is not."""
+    return name in absorbed and not size > IMITATED
 
 
 def _tell(record: Record, one: Candidate, made: Planted, d: Diagnosis, o: PlantOptions) -> None:
@@ -142,4 +148,4 @@ def _tell(record: Record, one: Candidate, made: Planted, d: Diagnosis, o: PlantO
     elif one.name in d.ambiguity:
         record.say(f"among what is possible: {names(d.ambiguity, 'or')}")
     else:
-        record.say(f"not found{', base parameters imitate it' if one.name in d.absorbed else ''}")
+        record.say(f"not found{', base parameters imitate it' if _imitated(one.name, made.size, d.absorbed) else ''}")

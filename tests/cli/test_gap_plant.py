@@ -8,6 +8,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from geocontact.cli.gap_planting import _imitated
 from tests.cli.calls import Call, call, done
 from tests.cli.gap_cases import damped_elbow
 from tests.elsewhere import Elsewhere
@@ -40,6 +41,12 @@ def test_what_base_parameters_imitate_is_said_not_to_be_found(tmp_path: Path, el
     assert "not found, base parameters imitate it" in made.out
     assert made.warnings == ["the amplitude is as large as its bounds admit; base parameters imitate the rest"]
     assert json.loads((tmp_path / "out" / "planted.json").read_text("utf-8"))["absorbed"] is True
+
+
+def test_a_gap_that_is_there_is_not_called_imitated_because_another_variant_is() -> None:
+    sizes = {0.4: False, 1e-4: True, float("nan"): True}
+    assert {size: _imitated("sensor_gain", size, ("sensor_gain",)) for size in sizes} == sizes
+    assert not _imitated("damping", 1e-4, ("sensor_gain",))
 
 
 @pytest.mark.parametrize(
