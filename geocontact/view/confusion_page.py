@@ -27,7 +27,7 @@ MATRIX = (
     "Nats by which an effect (row) beats a model that is fitted instead (column), base parameters refitted. The column "
     "none is the base model alone: what is visible of the effect."
 )
-SIZES = "Smallest amplitude of each effect that the diagnosis would see in four of five repetitions of these trials."
+SIZES = "Smallest amplitude that the diagnosis is predicted to see in four of five repetitions of these trials."
 CAPTIONS = {"separability": ("Who is told from whom", MATRIX), "detectability": ("What would be seen", SIZES)}
 LIMITS = (
     "Noise, deviations of trials and noise of the inputs are those that the diagnosis of this case estimated, taken as "

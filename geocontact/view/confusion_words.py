@@ -33,7 +33,7 @@ def confusion_sentences(c: Confusion) -> list[str]:
 def sizes_sentence(c: Confusion) -> str:
     """How large every effect that is seen must be; empty where none is."""
     seen = [amplitude_words(one) for one in c.detectabilities if one.smallest is not None]
-    return f"seen in {percent(POWER)} of 100 repetitions: {'; '.join(seen)}" if seen else ""
+    return f"predicted to be seen in {percent(POWER)} of 100 repetitions: {'; '.join(seen)}" if seen else ""
 
 
 def amplitude_words(one: Detectability) -> str:
