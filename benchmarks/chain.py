@@ -21,7 +21,7 @@ from geocontact.chain.system import System  # noqa: E402
 from geocontact.data.gap_case import GapCase  # noqa: E402
 from geocontact.data.trial import Trial  # noqa: E402
 from geocontact.effects.catalogue import candidates  # noqa: E402
-from geocontact.io.gap_case import read_gap_case  # noqa: E402
+from geocontact.io.cases.gap_case import read_gap_case  # noqa: E402
 from geocontact.systems.catalogue import system_of  # noqa: E402
 
 HERE = Path(__file__).resolve().parent

@@ -31,7 +31,7 @@ def name_of(source: str) -> str:
 def bare_case(source: str, seed: int, place: int) -> GapCase:
     """A case without an effect; of a folder always the same."""
     from geocontact.gap.benchmark.planted.cases import plant
-    from geocontact.io.gap_case import read_gap_case
+    from geocontact.io.cases.gap_case import read_gap_case
 
     if is_folder(source):
         return read_gap_case(Path(source))

@@ -16,7 +16,7 @@ import pandas as pd
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
-from geocontact.io.gap_case import read_gap_case
+from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 
 ALIKE = 0.9

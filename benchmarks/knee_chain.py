@@ -26,10 +26,10 @@ from benchmarks import knee_truth as truth
 from benchmarks.knee_truth import Bodies, Course, Withheld
 from benchmarks.machine import machine, versions
 from geocontact.gap.diagnose import diagnose
-from geocontact.io.gap_case import read_gap_case
-from geocontact.io.meshes import read_mesh
-from geocontact.io.poses import motion_from_csv, motion_from_map
-from geocontact.io.tables import read_table
+from geocontact.io.cases.gap_case import read_gap_case
+from geocontact.io.mesh.meshes import read_mesh
+from geocontact.io.motion.poses import motion_from_csv, motion_from_map
+from geocontact.io.text.tables import read_table
 from geocontact.systems.catalogue import system_of
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -188,10 +188,10 @@ def registration(draws: int) -> dict[str, object]:
     from geocontact.geometry.drape.lay import lay
     from geocontact.geometry.drape.mat import Marks, Mat
     from geocontact.geometry.surface import Surface
-    from geocontact.io.mat_landmarks import read_mat_landmarks
     from geocontact.io.mats.catalogue import read_mat
     from geocontact.io.mats.layout import read_layout
-    from geocontact.io.meshes import read_mesh
+    from geocontact.io.mesh.meshes import read_mesh
+    from geocontact.io.recordings.mat_landmarks import read_mat_landmarks
     from geocontact.loads.mat_load import mat_load
     from geocontact.loads.mat_map import mat_map
 

@@ -56,9 +56,9 @@ def kinematics(walk: Path, rounds: int) -> dict[str, Any]:
 
     from geocontact.dynamics.inverse_kinematics import inverse_kinematics
     from geocontact.dynamics.tree import tree_of
-    from geocontact.io.marker_weights import read_marker_weights
-    from geocontact.io.osim_multibody import read_multibody
-    from geocontact.io.trc import read_trc
+    from geocontact.io.mocap.trc import read_trc
+    from geocontact.io.opensim.marker_weights import read_marker_weights
+    from geocontact.io.opensim.osim_multibody import read_multibody
     from tests import opensim_oracle
     from tests.elsewhere import another_process
 

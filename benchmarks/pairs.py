@@ -13,9 +13,9 @@ from scipy.spatial.transform import Rotation
 
 from geocontact.data.motion import Motion
 from geocontact.geometry.surface import Surface
-from geocontact.io.meshes import read_mesh
-from geocontact.io.poses import motion_from_csv, motion_from_map
-from geocontact.io.tables import read_table
+from geocontact.io.mesh.meshes import read_mesh
+from geocontact.io.motion.poses import motion_from_csv, motion_from_map
+from geocontact.io.text.tables import read_table
 from meshes.simple_shapes import cup, sphere
 from meshes.total_knee import RESOLUTIONS, total_knee
 

@@ -190,7 +190,7 @@ def predicted(data: Path, work: Path, used: str, unseen: str) -> dict[str, dict[
 
 def og1_peaks(data: Path) -> list[float]:
     """Of og1 between the times that the study gives for its normal gait."""
-    from geocontact.io.force_curves import read_force_curves
+    from geocontact.io.recordings.force_curves import read_force_curves
 
     found = read_force_curves(data / "gc4_jw_predsim_workshop" / "KCF_ref.mot", "lbf", {})
     inside = (found.time >= STUDIED[0]) & (found.time <= STUDIED[1])
@@ -208,7 +208,7 @@ def load_cells(data: Path, work: Path) -> dict[str, object]:
     import numpy as np
     from scipy.signal import butter, filtfilt
 
-    from geocontact.io.load_cells import read_load_cells
+    from geocontact.io.recordings.load_cells import read_load_cells
     from geocontact.loads.loadcells import PUBLISHED
 
     file = data / "gc4_jw_knee" / "knee_forces" / "jw_ngait_og3_knee_forces.csv"

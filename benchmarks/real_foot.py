@@ -20,7 +20,7 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.paper_004 import geocontact
-from geocontact.io.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
 
 HOME = "opensim_walk"
 LOADED = 20.0  # N, from which the foot is on the plate

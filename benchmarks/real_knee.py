@@ -15,8 +15,8 @@ import pandas as pd
 from scipy.interpolate import PchipInterpolator
 
 from benchmarks.paper_004 import COARSE, FEMUR, INSERT, geocontact
-from geocontact.io.force_curves import read_force_curves
-from geocontact.io.tables import read_table
+from geocontact.io.recordings.force_curves import read_force_curves
+from geocontact.io.text.tables import read_table
 
 HOME = "gc4_jw_predsim_workshop"
 RADIUS = 0.037  # m, the study's

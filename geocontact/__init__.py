@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from geocontact.data.errors import InputError, InputWarning
     from geocontact.data.evolution import AreaEvolution
     from geocontact.data.motion import Motion
-    from geocontact.geometry.area import Refinement
-    from geocontact.geometry.evolution import ContactPair, Settings, area_evolution
-    from geocontact.geometry.maps import DistanceMaps
+    from geocontact.geometry.contact_area.area import Refinement
+    from geocontact.geometry.contact_area.evolution import ContactPair, Settings, area_evolution
+    from geocontact.geometry.contact_area.maps import DistanceMaps
     from geocontact.geometry.plane import Plane
     from geocontact.geometry.proximity import Proximity
     from geocontact.geometry.regions import faces_where
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from geocontact.geometry.shapes import HalfSpace, Sphere, Tube
     from geocontact.geometry.surface import Surface
     from geocontact.geometry.sweep import Axis, sweep
-    from geocontact.io.meshes import read_mesh
-    from geocontact.io.motion import read_motion
+    from geocontact.io.mesh.meshes import read_mesh
+    from geocontact.io.motion.motion import read_motion
     from geocontact.view.contact_page import write_report
 
 __version__ = "0.1.0"
@@ -39,11 +39,11 @@ _PLACES = {
     "InputWarning": "data.errors",
     "AreaEvolution": "data.evolution",
     "Motion": "data.motion",
-    "Refinement": "geometry.area",
-    "ContactPair": "geometry.evolution",
-    "Settings": "geometry.evolution",
-    "area_evolution": "geometry.evolution",
-    "DistanceMaps": "geometry.maps",
+    "Refinement": "geometry.contact_area.area",
+    "ContactPair": "geometry.contact_area.evolution",
+    "Settings": "geometry.contact_area.evolution",
+    "area_evolution": "geometry.contact_area.evolution",
+    "DistanceMaps": "geometry.contact_area.maps",
     "Plane": "geometry.plane",
     "Proximity": "geometry.proximity",
     "faces_where": "geometry.regions",
@@ -55,8 +55,8 @@ _PLACES = {
     "Surface": "geometry.surface",
     "Axis": "geometry.sweep",
     "sweep": "geometry.sweep",
-    "read_mesh": "io.meshes",
-    "read_motion": "io.motion",
+    "read_mesh": "io.mesh.meshes",
+    "read_motion": "io.motion.motion",
     "write_report": "view.contact_page",
 }
 
@@ -98,6 +98,6 @@ def __getattr__(name: str) -> Any:
 def read_surface(path: str, unit: str, assume_closed: bool = False) -> Surface:
     """Surface of a mesh file whose numbers are in `unit` (m, cm, mm or in), ready for queries; see `read_mesh`."""
     from geocontact.geometry.surface import Surface
-    from geocontact.io.meshes import read_mesh
+    from geocontact.io.mesh.meshes import read_mesh
 
     return Surface.of(read_mesh(path, unit), assume_closed)

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.data.marker_trajectories import MarkerTrajectories
-from geocontact.data.multibody import Multibody
-from geocontact.io.osim_multibody import read_multibody
-from geocontact.io.storage_writer import write_storage
-from geocontact.io.trc_writer import write_trc
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
+from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.opensim.storage_writer import write_storage
 
 RATE = 100.0
 GRAVITY = 9.80665

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.data.joint import JointModel
-from geocontact.data.multibody import GROUND, Body, Multibody
+from geocontact.data.multibody.joint import JointModel
+from geocontact.data.multibody.model import GROUND, Body, Multibody
 
 
 def _moves(joint: JointModel) -> list[tuple[str, np.ndarray, str]]:

@@ -11,8 +11,8 @@ from jaxtyping import Float
 
 from benchmarks.engines.engine import Engine, Frame, Step
 from benchmarks.pairs import THRESHOLD, Pair
-from geocontact.geometry.area import AS_GIVEN, Refinement, area_within
-from geocontact.geometry.sampled import Distances, Sampled
+from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement, area_within
+from geocontact.geometry.contact_area.sampled import Distances, Sampled
 
 OURS = "geocontact, map + clip"
 

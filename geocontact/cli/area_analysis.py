@@ -22,12 +22,12 @@ from geocontact.cli.pressure import PressureEvolution, pressure_evolution
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import AreaEvolution
-from geocontact.geometry.area import Refinement
-from geocontact.geometry.evolution import FrameContact, Settings, area_evolution
-from geocontact.geometry.maps import DistanceMaps
-from geocontact.geometry.rules import REFINED
+from geocontact.geometry.contact_area.area import Refinement
+from geocontact.geometry.contact_area.evolution import FrameContact, Settings, area_evolution
+from geocontact.geometry.contact_area.maps import DistanceMaps
+from geocontact.geometry.contact_area.rules import REFINED
+from geocontact.geometry.contact_area.warm_up import warm_up
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.warm_up import warm_up
 from geocontact.view.contact_page import FRAMES
 from geocontact.view.surfaces.vtp_series import require_pyvista
 

@@ -19,10 +19,10 @@ from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
-from geocontact.geometry.evolution import Settings
-from geocontact.geometry.maps import DistanceMaps
+from geocontact.geometry.contact_area.evolution import Settings
+from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
-from geocontact.io.results import write_table
+from geocontact.io.text.results import write_table
 from geocontact.view.area_figure import draw_areas
 from geocontact.view.contact_page import write_report
 from geocontact.view.contact_tables import inputs_table

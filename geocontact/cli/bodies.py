@@ -17,11 +17,11 @@ from geocontact.geometry.patch_names import Values
 from geocontact.geometry.placement import placed
 from geocontact.geometry.regions import faces_where
 from geocontact.geometry.surface import Surface
-from geocontact.io.faces import read_face_indices
-from geocontact.io.meshes import read_mesh
-from geocontact.io.osim_meshes import mesh_placement
-from geocontact.io.poses import read_pose
-from geocontact.io.units import LENGTH
+from geocontact.io.mesh.faces import read_face_indices
+from geocontact.io.mesh.meshes import read_mesh
+from geocontact.io.motion.poses import read_pose
+from geocontact.io.opensim.osim_meshes import mesh_placement
+from geocontact.io.text.units import LENGTH
 
 NOTHING: Mapping[str, Values] = MappingProxyType({})
 

@@ -17,8 +17,8 @@ from geocontact.cli.patience import preparing
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
-from geocontact.io.motion import read_motion
-from geocontact.io.spheres import read_spheres
+from geocontact.io.motion.motion import read_motion
+from geocontact.io.recordings.spheres import read_spheres
 from geocontact.loads.centre_of_pressure import CentreOfPressure, centre_of_pressure
 from geocontact.loads.ground import Ground
 from geocontact.loads.pose_rate import pose_rate

@@ -12,8 +12,8 @@ from jaxtyping import Float, Int
 from geocontact.cli.cop import CopOptions
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.io.force_plates import ForcePlate, plate_named, read_force_plates
-from geocontact.io.poses import read_pose
+from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.io.motion.poses import read_pose
 from geocontact.loads.centre_of_pressure import CentreOfPressure
 
 ALIGNED = 0.7  # smallest cosine between our ground's normal and the plate's

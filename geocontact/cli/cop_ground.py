@@ -13,7 +13,7 @@ from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.geometry.surface import Surface
-from geocontact.io.meshes import read_mesh
+from geocontact.io.mesh.meshes import read_mesh
 from geocontact.loads.ground import Ground, Sheet, Stairs
 
 LEVEL = "plane:0,1,0,0"

@@ -9,7 +9,7 @@ from geocontact.cli.cop import CopOptions
 from geocontact.cli.quantities import length, number
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.io.spheres import LawFile, SphereTable, read_law
+from geocontact.io.recordings.spheres import LawFile, SphereTable, read_law
 from geocontact.loads.sphere_set import SoleLaw
 
 STIFFNESS, EXPONENT = 8e4, 1.2  # N/m^1.2: 75 N press a sphere 3 mm deep

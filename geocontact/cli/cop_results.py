@@ -11,7 +11,7 @@ import pandas as pd
 from geocontact.cli.cop import CopOptions
 from geocontact.cli.cop_comparison import PlateCurves
 from geocontact.data.motion import Motion
-from geocontact.io.results import write_table
+from geocontact.io.text.results import write_table
 from geocontact.loads.centre_of_pressure import CentreOfPressure
 from geocontact.loads.sphere_loads import SphereLoads
 from geocontact.loads.sphere_set import SoleLaw, SphereSet

@@ -25,7 +25,7 @@ from geocontact.data.errors import InputError
 from geocontact.identify.agreement import Agreement, agreement
 from geocontact.identify.even_times import at_times, even_times
 from geocontact.identify.visits import edges_over, visits
-from geocontact.io.results import write_table
+from geocontact.io.text.results import write_table
 from geocontact.systems.elbow_law import NAMES
 from geocontact.systems.elbow_synthetic import ideal
 from geocontact.view.contact_tables import frame_table, inputs_table

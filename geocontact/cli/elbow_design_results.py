@@ -14,7 +14,7 @@ from geocontact.cli.elbow_design import DesignOptions
 from geocontact.cli.figures import save_both
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
-from geocontact.io.results import write_table
+from geocontact.io.text.results import write_table
 from geocontact.systems.compensation import Compensation, needed_ends
 from geocontact.systems.misalignment_design import Stroke
 from geocontact.systems.planar_joint import FOLD, LOST, POLE, SOUND

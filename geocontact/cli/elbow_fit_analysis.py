@@ -20,8 +20,8 @@ from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.identify.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours
 from geocontact.identify.profile_likelihood import Profile
-from geocontact.io.elbow_recording import DISPLACEMENT
-from geocontact.io.elbow_recording import FORCE as FORCE_CHANNEL
+from geocontact.io.recordings.elbow_recording import DISPLACEMENT
+from geocontact.io.recordings.elbow_recording import FORCE as FORCE_CHANNEL
 from geocontact.systems.elbow_bins import FORCE, Binned, binned
 from geocontact.systems.elbow_end_stop import Stiffness, Stroke, curve_of, stiffness_by_displacement, stroke_of
 from geocontact.systems.elbow_explicit import require_no_pole, require_reach

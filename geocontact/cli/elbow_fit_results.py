@@ -22,7 +22,7 @@ from geocontact.cli.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.identify.bin_tests import LEVEL, BinTest, Pair
 from geocontact.identify.visits import places
-from geocontact.io.results import write_table
+from geocontact.io.text.results import write_table
 from geocontact.systems.elbow_bins import Binned
 from geocontact.systems.elbow_end_stop import curve_of
 from geocontact.systems.elbow_fit import r_squared

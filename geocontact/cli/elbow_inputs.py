@@ -14,9 +14,9 @@ from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.identify.even_times import at_times, even_times
 from geocontact.identify.zero_lag import zero_lag
-from geocontact.io import elbow_recording as channels
-from geocontact.io.columns import parse_map
-from geocontact.io.elbow_recording import read_elbow_recording
+from geocontact.io.recordings import elbow_recording as channels
+from geocontact.io.recordings.elbow_recording import read_elbow_recording
+from geocontact.io.text.columns import parse_map
 from geocontact.systems.elbow_bins import FORCE, Binned
 
 LEAST_BINS = 8  # that a fit is made to

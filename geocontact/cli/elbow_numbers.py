@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geocontact.cli import quantities
 from geocontact.data.errors import InputError
-from geocontact.io.units import DIMENSIONS
+from geocontact.io.text.units import DIMENSIONS
 
 MMHG = DIMENSIONS["Pa"]["mmHg"]
 PER_SI = {"k": 1.0, "x": 1e3, "y": 1e3, "l": 1e3, "z": 1e3, "b": 1.0, "s": MMHG}

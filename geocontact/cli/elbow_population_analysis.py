@@ -21,7 +21,7 @@ from geocontact.data.errors import InputError
 from geocontact.identify.influence import Indices, RankRegression, rank_regression, variance_shares
 from geocontact.identify.order_statistics import Estimate, probability, quantile
 from geocontact.identify.sampling import Factor, Normal, People, Sampling, Uniform, root
-from geocontact.io.population import PopulationFile, read_population
+from geocontact.io.recordings.population import PopulationFile, read_population
 from geocontact.systems.misalignment_population import QUANTITIES, Exposure, peak_forces
 from geocontact.systems.planar_joint import FATES, SOUND, STEP
 

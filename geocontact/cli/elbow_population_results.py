@@ -16,7 +16,7 @@ from geocontact.cli.figures import save_both
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.identify.order_statistics import Estimate
-from geocontact.io.results import write_table
+from geocontact.io.text.results import write_table
 from geocontact.systems.misalignment_population import QUANTITIES
 from geocontact.systems.planar_joint import FOLD, LOST, POLE
 from geocontact.view.contact_tables import inputs_table

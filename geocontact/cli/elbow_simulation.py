@@ -20,9 +20,9 @@ from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.io.columns import parse_map
-from geocontact.io.elbow_recording import BETA, MOST_BENT, STRAIGHTEST, read_elbow_recording
-from geocontact.io.results import write_table
+from geocontact.io.recordings.elbow_recording import BETA, MOST_BENT, STRAIGHTEST, read_elbow_recording
+from geocontact.io.text.columns import parse_map
+from geocontact.io.text.results import write_table
 from geocontact.systems.elbow_explicit import Offsets, require_no_pole, require_reach
 from geocontact.systems.elbow_synthetic import PAPER, Design, ideal, synthetic
 from geocontact.view.contact_tables import inputs_table

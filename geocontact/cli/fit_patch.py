@@ -19,7 +19,7 @@ from geocontact.geometry.plane import Plane
 from geocontact.geometry.sagittal import Sagittal
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.sweep import Axis
-from geocontact.io.units import LENGTH
+from geocontact.io.text.units import LENGTH
 
 NEEDS = {
     "radial": "--axis or --centre",

@@ -19,7 +19,7 @@ from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.geometry.fit.found import ShapeFit
 from geocontact.geometry.fit.profile import SagittalProfile
-from geocontact.io.results import write_table
+from geocontact.io.text.results import write_table
 from geocontact.view.contact_tables import inputs_table
 from geocontact.view.curves.save import save
 from geocontact.view.fit_figure import fit_figure

@@ -15,8 +15,8 @@ from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.attribute import Listener, nobody
 from geocontact.gap.diagnose import Findings, diagnose
-from geocontact.io.case_cells import cells_file
-from geocontact.io.gap_case import read_gap_case
+from geocontact.io.cases.case_cells import cells_file
+from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 from geocontact.view.gap_words import verdict_sentences
 

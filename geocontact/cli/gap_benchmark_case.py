@@ -22,8 +22,8 @@ from geocontact.gap.benchmark.imitation import LEFT, imitation
 from geocontact.gap.benchmark.residual_regression import residual_regression
 from geocontact.gap.diagnose import Findings, diagnose
 from geocontact.gap.problem import Problem
-from geocontact.io.gap_case import read_gap_case
-from geocontact.io.gap_case_writer import write_gap_case
+from geocontact.io.cases.gap_case import read_gap_case
+from geocontact.io.cases.gap_case_writer import write_gap_case
 from geocontact.systems.catalogue import system_of
 
 OTHER_UNITS = {"rad": "deg", "N": "kN", "m": "mm"}

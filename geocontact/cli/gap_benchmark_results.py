@@ -27,7 +27,7 @@ from geocontact.gap.benchmark.drawing import KINDS
 from geocontact.gap.benchmark.rates import Rate
 from geocontact.gap.benchmark.score import GAPS, answers, brier, confidently_wrong, figures, reduction_errors, visible
 from geocontact.gap.benchmark.table import OPPONENTS, ROWS, error_interval, lead, markdown, scores
-from geocontact.io.results import write_table
+from geocontact.io.text.results import write_table
 from geocontact.view.curves.reliability import Stated, reliability_figure
 from geocontact.view.curves.save import save
 

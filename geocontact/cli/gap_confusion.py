@@ -25,8 +25,8 @@ from geocontact.gap.confuse import Confusion, confuse, known, offered
 from geocontact.gap.detectability import POWER, Detectability
 from geocontact.gap.separability import APART, table
 from geocontact.gap.signatures import rest_of
-from geocontact.io.gap_case import read_gap_case
-from geocontact.io.results import write_table
+from geocontact.io.cases.gap_case import read_gap_case
+from geocontact.io.text.results import write_table
 from geocontact.systems.catalogue import system_of
 from geocontact.view.confusion_page import confusion_figures, write_confusion_report
 from geocontact.view.confusion_words import confusion_sentences, sizes_sentence

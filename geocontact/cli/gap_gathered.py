@@ -14,14 +14,14 @@ from geocontact.cli.record import Record
 from geocontact.data.cell_channels import CellChannels, CellTrial
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
-from geocontact.io.case_consistency import parameters_of
-from geocontact.io.gap_case import case_of, read_gap_case
-from geocontact.io.gap_case_writer import write_gap_case
-from geocontact.io.gathering import Gathering, read_gathering
-from geocontact.io.mat_results import CELLS, FRAMES, MatResult, read_mat_result
-from geocontact.io.side_table import read_side_table
-from geocontact.io.trial_set import alike
-from geocontact.io.trial_table import read_trial
+from geocontact.io.cases.case_consistency import parameters_of
+from geocontact.io.cases.gap_case import case_of, read_gap_case
+from geocontact.io.cases.gap_case_writer import write_gap_case
+from geocontact.io.cases.gathering import Gathering, read_gathering
+from geocontact.io.cases.trial_set import alike
+from geocontact.io.cases.trial_table import read_trial
+from geocontact.io.recordings.mat_results import CELLS, FRAMES, MatResult, read_mat_result
+from geocontact.io.text.side_table import read_side_table
 
 ELSEWHERE = 0.01  # m, that a cell may lie away from where it lies on average without a word
 

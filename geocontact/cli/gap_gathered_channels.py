@@ -11,13 +11,13 @@ from jaxtyping import Float
 
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.io.area_table import AreaTable, read_area_table
-from geocontact.io.csv_text import Column
-from geocontact.io.force_curves import read_force_curves
-from geocontact.io.force_plates import LOADED, ForcePlate, plate_named, read_force_plates
-from geocontact.io.mat_results import MatResult
-from geocontact.io.trial_sources import PlateSource, SidesSource
-from geocontact.io.trial_table import TrialTable
+from geocontact.io.cases.trial_sources import PlateSource, SidesSource
+from geocontact.io.cases.trial_table import TrialTable
+from geocontact.io.mocap.force_plates import LOADED, ForcePlate, plate_named, read_force_plates
+from geocontact.io.recordings.area_table import AreaTable, read_area_table
+from geocontact.io.recordings.force_curves import read_force_curves
+from geocontact.io.recordings.mat_results import MatResult
+from geocontact.io.text.csv_text import Column
 from geocontact.loads.centre_in_foot import centre_in_foot
 
 SHARED = 0.5  # of a trial's samples that what is put beside them must have been recorded at

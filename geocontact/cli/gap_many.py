@@ -26,8 +26,8 @@ from geocontact.cli.patience import progress
 from geocontact.cli.record import Record
 from geocontact.cli.workers import each
 from geocontact.data.errors import InputError
-from geocontact.io.gap_case import gap_case_folders
-from geocontact.io.results import write_table
+from geocontact.io.cases.gap_case import gap_case_folders
+from geocontact.io.text.results import write_table
 from geocontact.view.gap_words import verdict_sentences
 
 SUMMARY = "summary"

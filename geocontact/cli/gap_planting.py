@@ -26,8 +26,8 @@ from geocontact.effects.catalogue import candidates
 from geocontact.gap.admission import admitted
 from geocontact.gap.plant import Planted, chosen, plant
 from geocontact.gap.problem import problem_of
-from geocontact.io.gap_case import read_gap_case
-from geocontact.io.gap_case_writer import write_trials
+from geocontact.io.cases.gap_case import read_gap_case
+from geocontact.io.cases.gap_case_writer import write_trials
 from geocontact.systems.catalogue import system_of
 from geocontact.view.gap_words import names, verdict_sentences
 

@@ -12,7 +12,7 @@ from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings
-from geocontact.io.results import write_table
+from geocontact.io.text.results import write_table
 from geocontact.view.contact_tables import inputs_table
 from geocontact.view.curves.save import save
 from geocontact.view.gap_curves import HeldOut, held_out

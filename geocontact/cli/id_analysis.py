@@ -16,16 +16,16 @@ from geocontact.cli.provenance import options_table
 from geocontact.cli.quantities import time_span
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody import GROUND, Multibody
+from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.forces_along import SMOOTH, forces_along
 from geocontact.dynamics.tree import tree_of
 from geocontact.identify.even_times import UNEVEN
 from geocontact.identify.zero_lag import as_opensim
-from geocontact.io.coordinates import motion_of
-from geocontact.io.osim_multibody import read_multibody
-from geocontact.io.storage_writer import write_storage
-from geocontact.io.tables import Table, read_table
+from geocontact.io.opensim.coordinates import motion_of
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.io.text.tables import Table, read_table
 from geocontact.view.contact_tables import inputs_table
 from geocontact.view.forces_page import Forces, write_forces_report
 

@@ -12,11 +12,11 @@ from geocontact.cli.id import IdOptions
 from geocontact.cli.quantities import turned_axes
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.multibody import Multibody
+from geocontact.data.multibody.model import Multibody
 from geocontact.data.wrench import Wrench
-from geocontact.io.external_loads import ExternalLoad, read_external_loads
-from geocontact.io.force_plates import OPENSIM_FRAME, ForcePlate, plate_named, read_force_plates
-from geocontact.io.tables import listed
+from geocontact.io.mocap.force_plates import OPENSIM_FRAME, ForcePlate, plate_named, read_force_plates
+from geocontact.io.opensim.external_loads import ExternalLoad, read_external_loads
+from geocontact.io.text.tables import listed
 
 UP = 0.9  # smallest cosine between a plate's normal and the way up
 REACH = 1.0  # m from the body's origin to the point that a plate's force acts at

@@ -19,8 +19,8 @@ from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.tree import tree_of
-from geocontact.io.osim_multibody import read_multibody
-from geocontact.io.results import write_table
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.text.results import write_table
 from geocontact.view.contact_tables import inputs_table
 from geocontact.view.kinematics_page import write_kinematics_report
 

@@ -12,13 +12,13 @@ from jaxtyping import Float
 from geocontact.cli.json_text import plain, write_json
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.joint import Coordinate
-from geocontact.data.knee_angles import SIGN, angles_of_tibia
-from geocontact.data.multibody import Multibody
+from geocontact.data.multibody.joint import Coordinate
+from geocontact.data.multibody.knee_angles import SIGN, angles_of_tibia
+from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
-from geocontact.io.results import write_table
-from geocontact.io.storage_writer import write_storage
-from geocontact.io.tables import listed
+from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.io.text.results import write_table
+from geocontact.io.text.tables import listed
 
 FAR = 50.0  # mm between markers and model that no subject has who stood model for it
 

@@ -9,11 +9,11 @@ import numpy as np
 from geocontact.cli.quantities import number
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.marker_tasks import MarkerTasks
-from geocontact.data.marker_trajectories import MarkerTrajectories
-from geocontact.data.multibody import Multibody
-from geocontact.io.marker_weights import read_marker_weights
-from geocontact.io.tables import listed
+from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
+from geocontact.io.opensim.marker_weights import read_marker_weights
+from geocontact.io.text.tables import listed
 
 HELD = 1e3  # weight of a coordinate that is held, against 1 of a marker: a radian as dear as 30 m of a marker
 

@@ -14,8 +14,8 @@ from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.errors import InputError
-from geocontact.io.columns import parse_map
-from geocontact.io.load_cells import CellRecording, read_load_cells, read_regression
+from geocontact.io.recordings.load_cells import CellRecording, read_load_cells, read_regression
+from geocontact.io.text.columns import parse_map
 from geocontact.loads.loadcells import PUBLISHED, CompartmentForces, compartment_forces
 
 LITTLE = 500.0  # N; a knee under body weight bears more at some time

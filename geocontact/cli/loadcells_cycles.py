@@ -15,7 +15,7 @@ from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.identify.cycles import STEPS, Span, loaded_spans, normalised, strides
 from geocontact.identify.ensemble import mean_and_sd, rms_difference
-from geocontact.io.cycle_table import read_cycle_table
+from geocontact.io.recordings.cycle_table import read_cycle_table
 from geocontact.loads.loadcells import CompartmentForces
 
 SHARE = 0.25  # of the largest total force, at which load sets in unless told otherwise

@@ -12,8 +12,8 @@ from geocontact.cli.loadcells_cycles import SIDES, Cut, cycle_table, ensemble_ta
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.cell_regression import CellRegression
-from geocontact.io.load_cells import CellRecording
-from geocontact.io.results import write_table
+from geocontact.io.recordings.load_cells import CellRecording
+from geocontact.io.text.results import write_table
 from geocontact.loads.loadcells import CompartmentForces
 from geocontact.view.contact_tables import frame_table, inputs_table
 from geocontact.view.curves.given import SERIES

@@ -11,7 +11,7 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
-from geocontact.geometry.maps import DistanceMaps
+from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
 from geocontact.view.surfaces.scene import ContactSeries, MappedBody
 

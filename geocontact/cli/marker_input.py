@@ -10,10 +10,10 @@ import numpy as np
 from geocontact.cli.quantities import time_span, turned_axes
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.marker_trajectories import MarkerTrajectories
-from geocontact.data.multibody import Multibody
-from geocontact.io.markers import read_markers
-from geocontact.io.osim_multibody import read_marker_set
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
+from geocontact.io.mocap.markers import read_markers
+from geocontact.io.opensim.osim_multibody import read_marker_set
 
 LARGEST, SMALLEST, FEW = 20.0, 0.05, 5
 """Span of the markers in a frame [m] beyond which the unit is another, from so many markers on below."""

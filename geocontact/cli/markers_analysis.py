@@ -9,11 +9,11 @@ from geocontact.cli.markers import MarkersOptions
 from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.marker_trajectories import MarkerTrajectories
-from geocontact.io.coordinates import motion_of
-from geocontact.io.osim_multibody import read_multibody
-from geocontact.io.tables import read_table
-from geocontact.io.trc_writer import write_trc
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.io.mocap.trc_writer import write_trc
+from geocontact.io.opensim.coordinates import motion_of
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.text.tables import read_table
 
 
 def analyse(coordinates: Path, o: MarkersOptions) -> int:

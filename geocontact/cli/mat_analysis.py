@@ -36,8 +36,8 @@ from geocontact.geometry.drape.slip import slip_covariance
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.uncertainty import PoseCovariance
 from geocontact.geometry.surface import Surface
-from geocontact.io.mat_landmarks import MatLandmarks
-from geocontact.io.units import LENGTH
+from geocontact.io.recordings.mat_landmarks import MatLandmarks
+from geocontact.io.text.units import LENGTH
 from geocontact.loads.mat_errors import wrench_covariance
 from geocontact.loads.mat_fill import filling_covariance
 from geocontact.loads.mat_load import mat_load, segment_loads

@@ -11,9 +11,9 @@ from geocontact.cli.mat import MatOptions
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
-from geocontact.io.tables import Table, read_table
-from geocontact.io.units import si_unit
-from geocontact.io.wrench_head import WrenchHead, read_wrench_head
+from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.units import si_unit
+from geocontact.io.text.wrench_head import WrenchHead, read_wrench_head
 
 FORCE, MOMENT = ("fx", "fy", "fz"), ("mx", "my", "mz")
 UNITS: Mapping[str, str] = {

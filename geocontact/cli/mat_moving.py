@@ -18,7 +18,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.register.moving import poses_at
-from geocontact.io.motion import read_motion
+from geocontact.io.motion.motion import read_motion
 from geocontact.loads.mat_load import MatLoad
 from geocontact.loads.mat_moving import covariance_in, load_in
 

@@ -11,7 +11,7 @@ from jaxtyping import Float
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.identify.agreement import FEWEST
-from geocontact.io.side_table import read_side_table
+from geocontact.io.text.side_table import read_side_table
 
 COLUMNS = ("name", "start [s]", "end [s]")
 ROUNDED = 1e-6

@@ -20,8 +20,8 @@ from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.scale_guard import compare_landmarks
 from geocontact.geometry.register.shape_covariance import shape_covariance
 from geocontact.geometry.surface import Surface
-from geocontact.io.mat_landmarks import MatLandmarks
-from geocontact.io.side_table import read_side_table
+from geocontact.io.recordings.mat_landmarks import MatLandmarks
+from geocontact.io.text.side_table import read_side_table
 
 SCAN, BODY = ("x [m]", "y [m]", "z [m]"), ("body_x [m]", "body_y [m]", "body_z [m]")
 EXAMPLE = "id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm]"

@@ -21,8 +21,8 @@ from geocontact.data.errors import InputError
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
-from geocontact.io.mat_landmarks import MatLandmarks
-from geocontact.io.results import write_table
+from geocontact.io.recordings.mat_landmarks import MatLandmarks
+from geocontact.io.text.results import write_table
 from geocontact.loads.mat_errors import MatErrors
 from geocontact.loads.mat_load import MatLoad
 from geocontact.loads.mat_map import MatMap

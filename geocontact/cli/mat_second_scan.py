@@ -21,8 +21,8 @@ from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.scale_guard import compare_boxes
 from geocontact.geometry.register.unguided import same_place, unguided
 from geocontact.geometry.surface import Surface
-from geocontact.io.mat_landmarks import MatLandmarks, read_mat_landmarks
-from geocontact.io.units import LENGTH
+from geocontact.io.recordings.mat_landmarks import MatLandmarks, read_mat_landmarks
+from geocontact.io.text.units import LENGTH
 
 FITS = 0.12  # of a side's length, by which the region may be longer or shorter than the mat
 OVERLAP = 0.5  # of the second scan that lies on the first

@@ -11,7 +11,7 @@ from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.surface import Surface
-from geocontact.io.mat_landmarks import MatLandmarks
+from geocontact.io.recordings.mat_landmarks import MatLandmarks
 
 HOLLOW = -0.1
 """Mean cosine between the cells' normals and their directions from the middle of the mat; -1 inside a ball."""

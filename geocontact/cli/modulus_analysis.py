@@ -26,7 +26,7 @@ from geocontact.data.errors import InputError
 from geocontact.identify.area_force import MODULUS, THRESHOLD, AreaForce
 from geocontact.identify.elastic import STRONGEST, WEAKEST, Identification, agreement, identify
 from geocontact.identify.threshold_calibration import Calibration, calibrated
-from geocontact.io.area_table import read_area_over_force
+from geocontact.io.recordings.area_table import read_area_over_force
 
 FEW_BLOCKS = 5
 STRAYED = 0.3  # rms of the calibration's relative differences beyond which the table is not met

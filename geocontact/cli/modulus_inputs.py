@@ -19,11 +19,11 @@ from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
 from geocontact.identify.area_force import ADDUCTION, LAG, SLOPE, AreaEvolution, AreaForce
 from geocontact.identify.end_to_end import end_to_end
-from geocontact.io.area_table import FEWEST, AreaTable, read_area_table
-from geocontact.io.columns import angles_of, parse_map
-from geocontact.io.force_curves import SIDES, ForceCurves, read_force_curves
-from geocontact.io.radius_profile import RadiusProfile, read_radius_profile
-from geocontact.io.tables import read_table
+from geocontact.io.recordings.area_table import FEWEST, AreaTable, read_area_table
+from geocontact.io.recordings.force_curves import SIDES, ForceCurves, read_force_curves
+from geocontact.io.recordings.radius_profile import RadiusProfile, read_radius_profile
+from geocontact.io.text.columns import angles_of, parse_map
+from geocontact.io.text.tables import read_table
 
 USUAL = 4.0e-3  # m, the threshold of the knee-implant paper
 FLEXION = "flexion"

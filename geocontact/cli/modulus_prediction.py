@@ -14,9 +14,9 @@ from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.identify.area_force import ADDUCTION, LAG, THRESHOLD, AreaEvolution
 from geocontact.identify.elastic import Identification, agreement
-from geocontact.io.area_table import FEWEST, AreaTable, read_area_table
-from geocontact.io.columns import parse_map
-from geocontact.io.force_curves import SIDES, ForceCurves, read_force_curves
+from geocontact.io.recordings.area_table import FEWEST, AreaTable, read_area_table
+from geocontact.io.recordings.force_curves import SIDES, ForceCurves, read_force_curves
+from geocontact.io.text.columns import parse_map
 
 
 @dataclass(frozen=True, eq=False)

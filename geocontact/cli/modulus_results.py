@@ -19,7 +19,7 @@ from geocontact.cli.record import Record
 from geocontact.identify.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD
 from geocontact.identify.elastic import Identification, agreement
 from geocontact.identify.identifiability import Identifiability
-from geocontact.io.results import write_table
+from geocontact.io.text.results import write_table
 from geocontact.view.contact_tables import frame_table, inputs_table
 from geocontact.view.modulus_figure import ForcePair, modulus_figure
 from geocontact.view.modulus_page import write_modulus_report

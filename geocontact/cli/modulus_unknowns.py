@@ -11,7 +11,7 @@ from geocontact.cli.modulus_inputs import Inputs
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
 from geocontact.identify.area_force import ADDUCTION, LAG, SLOPE, THRESHOLD
-from geocontact.io.area_table import AreaTable
+from geocontact.io.recordings.area_table import AreaTable
 
 LAGS = 0.1  # s, how far a lag is searched unless told
 BENDS = 0.5  # share by which R may change at the largest flexion, unless told

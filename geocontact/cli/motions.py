@@ -15,7 +15,7 @@ from geocontact.data.motion import Motion
 from geocontact.geometry.fit.cylinder import fit_cylinder
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.sweep import sweep as swept
-from geocontact.io.motion import read_motion
+from geocontact.io.motion.motion import read_motion
 
 
 def motions_given(record: Record, o: AreaOptions, files: Sequence[str], moving: Surface) -> list[tuple[str, Motion]]:

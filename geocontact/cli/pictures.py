@@ -11,7 +11,7 @@ from jaxtyping import Float
 from geocontact import __version__
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
-from geocontact.geometry.maps import DistanceMaps
+from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
 from geocontact.view.directions import camera_directions
 from geocontact.view.surfaces.camera import View

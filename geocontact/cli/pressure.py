@@ -17,7 +17,7 @@ from geocontact.cli.pressure_layers import PIECE, layer_given, skin_given
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
-from geocontact.geometry.evolution import Settings
+from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.surface import Surface
 from geocontact.loads.foundation import Layer, Skin, pressed
 from geocontact.loads.pressure_load import PressureLoad

@@ -10,10 +10,10 @@ from geocontact.cli.area import AreaOptions
 from geocontact.cli.record import Record
 from geocontact.contact.elasticity import layer_modulus
 from geocontact.data.errors import InputError
-from geocontact.geometry.bulge import bulge, corner_normals
-from geocontact.geometry.evolution import Settings
-from geocontact.geometry.pieces import pieces_of
+from geocontact.geometry.contact_area.evolution import Settings
+from geocontact.geometry.phong_offset import bulge, corner_normals
 from geocontact.geometry.surface import Surface
+from geocontact.geometry.surface_quadrature import pieces_of
 from geocontact.geometry.thickness import thickness_below
 from geocontact.loads.foundation import Layer, Skin
 

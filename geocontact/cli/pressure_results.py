@@ -10,7 +10,7 @@ from geocontact.cli.figures import save_both
 from geocontact.cli.pressure import PressureEvolution, pressure_table
 from geocontact.data.motion import Motion
 from geocontact.geometry.surface import Surface
-from geocontact.io.results import write_table
+from geocontact.io.text.results import write_table
 from geocontact.view.page.content import Picture
 from geocontact.view.pressure_figure import PressureMap, pressure_figure
 from geocontact.view.pressure_page import Pressures

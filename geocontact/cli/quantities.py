@@ -14,7 +14,7 @@ from geocontact.data.errors import InputError
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.sagittal import Vector
 from geocontact.geometry.sweep import Axis
-from geocontact.io.units import ANGLE, DIMENSIONS, LENGTH, si_unit
+from geocontact.io.text.units import ANGLE, DIMENSIONS, LENGTH, si_unit
 
 _NUMBER_AND_UNIT = re.compile(r"(?P<number>[-+0-9.eE]+?)\s*(?P<unit>[a-zA-Z][a-zA-Z/^0-9]*)")
 

@@ -16,14 +16,14 @@ from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.cli.scale import ScaleOptions
 from geocontact.data.errors import InputError
-from geocontact.data.marker_trajectories import MarkerTrajectories
-from geocontact.data.multibody import Multibody
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
 from geocontact.dynamics.scaling import measured_factor, scaled
 from geocontact.dynamics.tree import tree_of
-from geocontact.io.osim_multibody import read_multibody
-from geocontact.io.osim_scaler import write_scaled_model
-from geocontact.io.tables import listed
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.opensim.osim_scaler import write_scaled_model
+from geocontact.io.text.tables import listed
 
 ABSURD = 0.5, 2.0
 """A factor beyond these is a mistake: markers exchanged, or another unit."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from geocontact.data.multibody import GROUND
+from geocontact.data.multibody.model import GROUND
 from geocontact.dynamics.symbols import constant
 from geocontact.dynamics.tree import Tree
 

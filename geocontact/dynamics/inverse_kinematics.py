@@ -17,9 +17,9 @@ from jaxtyping import Bool, Float, Int
 from scipy.interpolate import CubicSpline
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
-from geocontact.data.marker_tasks import MarkerTasks
-from geocontact.data.marker_trajectories import MarkerTrajectories
-from geocontact.data.multibody import Marker
+from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Marker
 from geocontact.dynamics.marker_fit import MarkerFit, Vector
 from geocontact.dynamics.tree import Tree
 

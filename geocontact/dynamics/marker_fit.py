@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.multibody import Marker
+from geocontact.data.multibody.model import Marker
 from geocontact.dynamics.buffered import Buffered
 from geocontact.dynamics.symbols import constant
 from geocontact.dynamics.tree import Tree

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from geocontact.data.joint import JointModel
+from geocontact.data.multibody.joint import JointModel
 from geocontact.dynamics.symbols import constant, turn, value_of
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.data.joint import JointModel, TransformAxis
-from geocontact.data.joint_function import Affine
-from geocontact.data.marker_trajectories import MarkerTrajectories
-from geocontact.data.multibody import GROUND, Body, Multibody
+from geocontact.data.multibody.joint import JointModel, TransformAxis
+from geocontact.data.multibody.joint_function import Affine
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import GROUND, Body, Multibody
 
 Factors = Mapping[str, Float[np.ndarray, " 3"]]
 """Of bodies by name, along the axes of the body's frame; a body without any keeps its size."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.joint_function import Affine, JointFunction
+from geocontact.data.multibody.joint_function import Affine, JointFunction
 
 if TYPE_CHECKING:
     from casadi import SX

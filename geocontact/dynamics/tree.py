@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.data.multibody import GROUND, Multibody
+from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.dynamics.moving_joint import MovingJoint, moving_joint
 from geocontact.dynamics.symbols import apply_numpy, constant
 

@@ -6,9 +6,9 @@ import dataclasses
 
 import numpy as np
 
+from geocontact.geometry.contact_area.sampled import Distances, Sampled, measure
+from geocontact.geometry.contact_area.subdivision import compact, quartered
 from geocontact.geometry.kernels.floor import promising
-from geocontact.geometry.sampled import Distances, Sampled, measure
-from geocontact.geometry.subdivision import compact, quartered
 from geocontact.geometry.surface import Surface
 
 TOLERANCE = 1e-6  # m; depths closer together than this are not told apart

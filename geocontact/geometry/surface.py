@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from geocontact.data.mesh import Mesh
+from geocontact.geometry.inside_outside import doubtful_faces, normals_agree, resolve_sides
 from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
 from geocontact.geometry.kernels.binary import build
 from geocontact.geometry.kernels.tree import Tree
@@ -17,7 +18,6 @@ from geocontact.geometry.kernels.triangle import triangle_frames
 from geocontact.geometry.kernels.wide import widen
 from geocontact.geometry.proximity import Proximity
 from geocontact.geometry.pseudonormals import pseudonormals
-from geocontact.geometry.sides import doubtful_faces, normals_agree, resolve_sides
 from geocontact.geometry.topology import Topology, signed_volume, topology
 
 

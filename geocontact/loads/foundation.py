@@ -15,9 +15,9 @@ from geocontact.contact.elastic_foundation import (
     logarithmic_pair_pressure,
     logarithmic_pressure,
 )
-from geocontact.geometry.bulge import bulge
-from geocontact.geometry.pieces import Pieces
+from geocontact.geometry.phong_offset import bulge
 from geocontact.geometry.surface import Surface
+from geocontact.geometry.surface_quadrature import Pieces
 from geocontact.loads.pressure_load import PressureLoad, compartment_loads, pressure_load
 
 FOUNDATIONS: Mapping[str, Callable[..., Any]] = {"linear": linear_pressure, "logarithmic": logarithmic_pressure}
@@ -47,7 +47,7 @@ class Layer:
     parts
         Pieces of each compartment, by its name.
     height
-        Of the smooth surface above each piece [m], `geometry.bulge`; None where triangles are taken as they are.
+        Of the smooth surface above each piece [m], `geometry.phong_offset`; None where triangles are taken as they are.
     """
 
     pieces: Pieces

@@ -28,9 +28,9 @@ from geocontact.chain.system import System
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.gap_case import CaseMesh
 from geocontact.data.parameter import Parameter
+from geocontact.geometry.contact_area.sided_areas import SidedAreas
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.regions import faces_where
-from geocontact.geometry.sided_areas import SidedAreas
 from geocontact.geometry.surface import Surface
 from geocontact.loads.cell_shares import CELLS as CELL_NAMES
 from geocontact.loads.cell_shares import cell_forces

@@ -28,8 +28,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputWarning
-from geocontact.geometry.area import AS_GIVEN, Refinement
-from geocontact.geometry.sided_areas import SidedAreas
+from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement
+from geocontact.geometry.contact_area.sided_areas import SidedAreas
 
 SHARE, MOST = 0.6, 2.5e-3
 """Reach of lengths over the threshold, and the largest one [m]."""

@@ -1,7 +1,7 @@
 """Geometry link of a knee implant that is driven by its pose: pose → areas of the sides → what Hertz's law multiplies.
 
 The pose is that of the femoral component F in the tibial one T, in knee angles of Grood and Suntay
-(`data.knee_angles`) and the position of F's origin along the axes of T: x anterior, y proximal, z to the right.
+(`data.multibody.knee_angles`) and the position of F's origin along the axes of T: x anterior, y proximal, z to the right.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from jaxtyping import Float
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.slots import Slots, Source
-from geocontact.data.knee_angles import SIGN, tibia_in_femur
-from geocontact.geometry.sided_areas import SidedAreas
+from geocontact.data.multibody.knee_angles import SIGN, tibia_in_femur
+from geocontact.geometry.contact_area.sided_areas import SidedAreas
 from geocontact.systems.knee_contact import AREAS, KneeContact
 from geocontact.systems.pose_areas import Placed, PoseAreas
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.data.multibody import Multibody
+from geocontact.data.multibody.model import Multibody
 from geocontact.view.page.content import Curve, Curves, Section
 
 

@@ -11,9 +11,9 @@ from jaxtyping import Bool, Float, Int
 
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Course, Motion
-from geocontact.geometry.evolution import Settings
-from geocontact.geometry.maps import DistanceMaps
-from geocontact.geometry.rules import CLIP, REFINED
+from geocontact.geometry.contact_area.evolution import Settings
+from geocontact.geometry.contact_area.maps import DistanceMaps
+from geocontact.geometry.contact_area.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.view.contact_tables import meshes_table
 from geocontact.view.contact_words import counted, reviewers_words

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from geocontact.data.evolution import MM, MM2, AreaEvolution
-from geocontact.geometry.evolution import Settings
-from geocontact.geometry.rules import CLIP, REFINED
+from geocontact.geometry.contact_area.evolution import Settings
+from geocontact.geometry.contact_area.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Words
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.data.multibody import GROUND, Multibody
+from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.view.by_joint import panels_by_joint
 from geocontact.view.contact_words import NOT_A_DEVICE
 from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words

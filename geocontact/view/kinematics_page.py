@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.multibody import Multibody
+from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.view.by_joint import panels_by_joint
 from geocontact.view.contact_words import NOT_A_DEVICE

@@ -14,7 +14,7 @@ import pytest
 
 from benchmarks import knee_alike, knee_chain, knee_truth
 from benchmarks.knee_truth import Bodies, Course, Withheld
-from geocontact.io.gap_case import read_gap_case
+from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 from geocontact.systems.posed_knee import PosedKnee
 from tests.systems.posed_knees import chain, poses

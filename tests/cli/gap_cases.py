@@ -16,7 +16,7 @@ from geocontact import __version__
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.admission import admitted
 from geocontact.gap.diagnose import Findings, diagnose
-from geocontact.io.gap_case import read_gap_case
+from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 from tests.systems.examples import (
     ELBOW_CONSTANTS,

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.geometry import evolution
+from geocontact.geometry.contact_area import evolution
 from tests.cli.calls import (
     INSERT,
     PLATE,

@@ -38,7 +38,7 @@ def found(result: Call) -> dict:
 
 def axis_of(mesh: Path) -> int:
     """The coordinate along which the sample rod lies."""
-    from geocontact.io.meshes import read_mesh
+    from geocontact.io.mesh.meshes import read_mesh
 
     return int(np.argmax(np.ptp(read_mesh(mesh, "mm").vertices, axis=0)))
 

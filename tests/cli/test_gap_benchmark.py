@@ -17,7 +17,7 @@ from geocontact.cli.gap_benchmark_case import ANSWERERS, Task, Worked, alike, fa
 from geocontact.cli.gap_benchmark_run import mixed
 from geocontact.cli.json_text import plain
 from geocontact.gap.benchmark.drawing import KINDS, SHARES, Lot, drawn, lots, shares
-from geocontact.io.gap_case import read_gap_case
+from geocontact.io.cases.gap_case import read_gap_case
 from tests.cli.calls import ROOT, Call, call, done, process
 
 FILES = {"benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg", "run.json"}

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.io.gap_case import read_gap_case
+from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.loads.centre_in_foot import centre_in_foot
 from geocontact.systems.catalogue import system_of
 from tests.cli.calls import call, done, written

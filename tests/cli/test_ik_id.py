@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from geocontact.data.knee_angles import tibia_in_femur
+from geocontact.data.multibody.knee_angles import tibia_in_femur
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.scaling import scaled
-from geocontact.io.force_plates import LABORATORY_FRAME, read_force_plates
-from geocontact.io.osim_multibody import read_multibody
-from geocontact.io.storage_writer import write_storage
-from geocontact.io.tables import read_table
-from geocontact.io.trc import read_trc
+from geocontact.io.mocap.force_plates import LABORATORY_FRAME, read_force_plates
+from geocontact.io.mocap.trc import read_trc
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.io.text.tables import read_table
 from tests import legs
 from tests.cli.calls import Call, call, done
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.io.mat_results import read_mat_result
+from geocontact.io.recordings.mat_results import read_mat_result
 from tests.cli.calls import MESHES, Call, call, done, written
 from tests.cli.test_mat import LAYOUT, STILL, frames, mat, scan, table, uniform
 

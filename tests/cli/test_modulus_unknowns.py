@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.io.area_table import OFFSET
+from geocontact.io.recordings.area_table import OFFSET
 from tests.cli.calls import FEMUR, INSERT, agree, area, done, gait, poses, written
 from tests.cli.test_modulus import areas, forces, modulus, told
 from tests.elsewhere import Elsewhere

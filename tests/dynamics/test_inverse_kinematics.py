@@ -8,10 +8,10 @@ import casadi
 import numpy as np
 import pytest
 
-from geocontact.data.joint import Coordinate
-from geocontact.data.marker_tasks import MarkerTasks
-from geocontact.data.marker_trajectories import MarkerTrajectories
-from geocontact.data.multibody import Multibody
+from geocontact.data.multibody.joint import Coordinate
+from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.marker_fit import MarkerFit
 from geocontact.dynamics.tree import Tree, tree_of

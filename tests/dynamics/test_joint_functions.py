@@ -6,9 +6,9 @@ import casadi
 import numpy as np
 import pytest
 
-from geocontact.data.joint_function import Affine, JointFunction
+from geocontact.data.multibody.joint_function import Affine, JointFunction
 from geocontact.dynamics.symbols import value_of
-from geocontact.io.osim_functions import piecewise_linear, polynomial, simm_spline
+from geocontact.io.opensim.osim_functions import piecewise_linear, polynomial, simm_spline
 
 X = np.array([-1.0, -0.4, 0.1, 0.5, 1.2])
 Y = np.array([0.2, -0.1, 0.3, 0.25, -0.4])

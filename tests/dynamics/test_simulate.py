@@ -11,8 +11,8 @@ from casadi import SX
 from scipy.special import ellipj, ellipk
 
 from geocontact.contact.bristle_friction import bristle_force, deflection_rate
-from geocontact.data.joint_kinds import prismatic
-from geocontact.data.multibody import Body, Multibody
+from geocontact.data.multibody.joint_kinds import prismatic
+from geocontact.data.multibody.model import Body, Multibody
 from geocontact.dynamics import compiled as code
 from geocontact.dynamics.equations import Equations, Memory, equations_of_motion
 from geocontact.dynamics.simulate import Stepper

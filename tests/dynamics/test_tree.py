@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.data.multibody import Multibody
+from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.symbols import constant
 from geocontact.dynamics.tree import Tree, tree_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.geometry.evolution import ContactPair, FrameContact, Settings
+from geocontact.geometry.contact_area.evolution import ContactPair, FrameContact, Settings
 from geocontact.geometry.surface import Surface
 from meshes import simple_shapes
 

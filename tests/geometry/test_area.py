@@ -13,7 +13,7 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.geometry.area import AS_GIVEN, Refinement
+from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from meshes import reference

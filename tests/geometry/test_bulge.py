@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.geometry.bulge import bulge, corner_normals
+from geocontact.geometry.phong_offset import bulge, corner_normals
 from geocontact.geometry.surface import Surface
 from meshes.simple_shapes import sphere
 from tests.geometry.bodies import MM, cube, surface, turned

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.geometry.pieces import MOST, pieces_of
 from geocontact.geometry.surface import Surface
+from geocontact.geometry.surface_quadrature import MOST, pieces_of
 from tests.geometry.bodies import MM, cube, joined, surface
 
 BLOCK = cube((1.0, 2.0, 3.0), (4.0, 0.7, 9.0))

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from scipy.spatial.transform import Rotation
 
-from geocontact.geometry.area import Refinement
+from geocontact.geometry.contact_area.area import Refinement
 from meshes.stl import read_stl
 from tests.geometry.bodies import MM, MM2, contact, pose_of, surface
 

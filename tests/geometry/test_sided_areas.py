@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.geometry.area import Refinement
-from geocontact.geometry.evolution import ContactPair, Settings
+from geocontact.geometry.contact_area.area import Refinement
+from geocontact.geometry.contact_area.evolution import ContactPair, Settings
+from geocontact.geometry.contact_area.sided_areas import SidedAreas
 from geocontact.geometry.plane import Plane
-from geocontact.geometry.sided_areas import SidedAreas
 from geocontact.geometry.surface import Surface
-from geocontact.io.meshes import read_mesh
-from geocontact.io.poses import motion_from_csv
+from geocontact.io.mesh.meshes import read_mesh
+from geocontact.io.motion.poses import motion_from_csv
 
 MESHES = Path(__file__).resolve().parents[2] / "meshes"
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError
-from geocontact.io.elbow_recording import read_elbow_recording
+from geocontact.io.recordings.elbow_recording import read_elbow_recording
 
 TIME = np.arange(200) * 0.02
 DEGREES = 50.0 + 40.0 * np.sin(2.0 * TIME)

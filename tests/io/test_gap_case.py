@@ -17,8 +17,8 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.gap_case import GapCase
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.io.gap_case import gap_case_folders, read_gap_case
-from geocontact.io.units import si_unit
+from geocontact.io.cases.gap_case import gap_case_folders, read_gap_case
+from geocontact.io.text.units import si_unit
 from tests.io.gap_case_files import CASE, TRIAL, case_in
 
 EXPECTED = np.array([[0.5, 10.5, 0.01], [0.75, 11.5, np.nan], [1.0, -12.25, 0.03]])

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from geocontact.data.errors import InputError
-from geocontact.io.gap_case import read_gap_case
-from geocontact.io.gap_case_writer import write_gap_case
-from geocontact.io.meshes import read_mesh
+from geocontact.io.cases.gap_case import read_gap_case
+from geocontact.io.cases.gap_case_writer import write_gap_case
+from geocontact.io.mesh.meshes import read_mesh
 from tests.io.gap_case_files import CASE, case_in
 
 SPHERE = Path(__file__).resolve().parents[2] / "meshes" / "sphere_r18.stl"

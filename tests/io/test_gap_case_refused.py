@@ -9,8 +9,9 @@ import pytest
 
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
-from geocontact.io import csv_text, side_table, trial_table
-from geocontact.io.gap_case import read_gap_case
+from geocontact.io.cases import trial_table
+from geocontact.io.cases.gap_case import read_gap_case
+from geocontact.io.text import csv_text, side_table
 from tests.io.gap_case_files import CASE, TRIAL, case_in
 
 SETTINGS = CASE["case.toml"]
@@ -403,7 +404,7 @@ def test_large_files_are_refused_before_they_are_read(
 
 
 def test_many_large_trials_are_refused_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geocontact.io.case_folder.MOST_BYTES", 3 * len(TRIAL) - 1)
+    monkeypatch.setattr("geocontact.io.cases.case_folder.MOST_BYTES", 3 * len(TRIAL) - 1)
     assert refusal(case_in(tmp_path)).startswith("trials: the trials have 0 MB, more than the 0 MB that are read")
 
 

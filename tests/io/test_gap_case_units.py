@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geocontact.io.units import ANGLE, DIMENSIONS, LENGTH, si_unit
+from geocontact.io.text.units import ANGLE, DIMENSIONS, LENGTH, si_unit
 
 UNITS = [(si, unit) for si, units in DIMENSIONS.items() for unit in units]
 

@@ -15,9 +15,9 @@ import pytest
 import trimesh
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io import limits
-from geocontact.io.meshes import read_mesh
-from geocontact.io.ply_preflight import read_header
+from geocontact.io.mesh import limits
+from geocontact.io.mesh.meshes import read_mesh
+from geocontact.io.mesh.ply_preflight import read_header
 
 BALL = trimesh.creation.icosphere(subdivisions=1, radius=31.4159)
 STL = BALL.export(file_type="stl")
@@ -275,7 +275,7 @@ def test_running_out_of_memory_is_said(tmp_path, monkeypatch):
 
     path = tmp_path / "ball.stl"
     path.write_bytes(STL)
-    monkeypatch.setattr("geocontact.io.meshes.merge_coincident", exhausted)
+    monkeypatch.setattr("geocontact.io.mesh.meshes.merge_coincident", exhausted)
     with pytest.raises(InputError, match="does not fit into memory; decimate"):
         read_mesh(path, "mm")
 

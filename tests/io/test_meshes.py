@@ -18,11 +18,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.faces import read_face_indices
-from geocontact.io.merge import merge_coincident
-from geocontact.io.mesh_checks import degenerate, repeated
-from geocontact.io.meshes import READERS, read_mesh
-from geocontact.io.units import ANGLE, LENGTH, split_header
+from geocontact.io.mesh.faces import read_face_indices
+from geocontact.io.mesh.merge import merge_coincident
+from geocontact.io.mesh.mesh_checks import degenerate, repeated
+from geocontact.io.mesh.meshes import READERS, read_mesh
+from geocontact.io.text.units import ANGLE, LENGTH, split_header
 
 BALL = trimesh.creation.icosphere(subdivisions=2, radius=31.4159)
 
@@ -191,7 +191,7 @@ def test_text_is_read_the_same_whatever_the_block_size(tmp_path, monkeypatch):
     path = tmp_path / "ball.stl"
     path.write_bytes(ascii_stl(BALL.triangles, solids=2))
     whole = read_mesh(path, "mm")
-    monkeypatch.setattr("geocontact.io.stl.BLOCK", 700)
+    monkeypatch.setattr("geocontact.io.mesh.stl.BLOCK", 700)
     parts = read_mesh(path, "mm")
     np.testing.assert_array_equal(whole.vertices, parts.vertices)
     np.testing.assert_array_equal(whole.faces, parts.faces)

@@ -11,8 +11,8 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
 from geocontact.data.errors import InputError
-from geocontact.io.osim import JointModel, mesh_placement, mesh_placements, read_joint
-from geocontact.io.osim_functions import piecewise_linear, simm_spline
+from geocontact.io.opensim.osim import JointModel, mesh_placement, mesh_placements, read_joint
+from geocontact.io.opensim.osim_functions import piecewise_linear, simm_spline
 from tests import opensim_oracle
 from tests.elsewhere import Elsewhere
 

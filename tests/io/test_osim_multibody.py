@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.osim_multibody import read_multibody
+from geocontact.io.opensim.osim_multibody import read_multibody
 from tests.io.test_osim import MODELS, written
 
 MARKERS = """<MarkerSet><objects>

@@ -11,17 +11,17 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.joint import JointModel
-from geocontact.data.knee_angles import tibia_in_femur
-from geocontact.io.osim import read_joint
-from geocontact.io.poses import (
+from geocontact.data.multibody.joint import JointModel
+from geocontact.data.multibody.knee_angles import tibia_in_femur
+from geocontact.io.motion.poses import (
     motion_from_csv,
     motion_from_grood_suntay,
     motion_from_joint,
     motion_from_map,
     read_pose,
 )
-from geocontact.io.tables import Table, read_table
+from geocontact.io.opensim.osim import read_joint
+from geocontact.io.text.tables import Table, read_table
 
 QUATERNION = "time [s],tx [mm],ty [cm],tz [m],qw,qx,qy,qz\n0,100,20,0.3,1,0,0,0\n1,0,0,0,0.6,0,0,0.8\n"
 EULER = "time [s],tx [mm],ty [mm],tz [mm],rx [deg],ry [rad],rz [deg]\n0,1,2,3,30,-0.4,50\n1,0,0,0,0,0,90\n"

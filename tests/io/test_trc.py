@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.trc import read_trc
+from geocontact.io.mocap.trc import read_trc
 
 HEAD = (
     "PathFileType\t4\t(X/Y/Z)\twalk.trc\n"

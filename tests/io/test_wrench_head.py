@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputError
-from geocontact.io.wrench_head import read_wrench_head
+from geocontact.io.text.wrench_head import read_wrench_head
 
 TABLE = "time [s],fx [N]\n0,1\n"
 

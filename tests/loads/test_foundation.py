@@ -10,11 +10,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from benchmarks.pairs import PAIRS
-from geocontact.geometry.bulge import bulge, corner_normals
-from geocontact.geometry.pieces import pieces_of
+from geocontact.geometry.phong_offset import bulge, corner_normals
 from geocontact.geometry.surface import Surface
+from geocontact.geometry.surface_quadrature import pieces_of
 from geocontact.geometry.thickness import thickness_below
-from geocontact.io.meshes import read_mesh
+from geocontact.io.mesh.meshes import read_mesh
 from geocontact.loads.foundation import Layer, Pressed, Skin, pressed
 from meshes import simple_shapes
 from tests.cli.calls import MESHES

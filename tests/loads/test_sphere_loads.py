@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.geometry.surface import Surface
-from geocontact.io.meshes import read_mesh
+from geocontact.io.mesh.meshes import read_mesh
 from geocontact.loads.ground import Ground, Sheet, Stairs
 from geocontact.loads.sphere_loads import sphere_loads
 from geocontact.loads.sphere_set import SoleLaw, SphereSet

@@ -12,12 +12,12 @@ import pytest
 from geocontact.data.errors import InputWarning
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
-from geocontact.geometry.evolution import ContactPair, FrameContact, Settings, area_evolution
+from geocontact.geometry.contact_area.evolution import ContactPair, FrameContact, Settings, area_evolution
 from geocontact.geometry.surface import Surface
-from geocontact.io.meshes import read_mesh
-from geocontact.io.osim import read_joint
-from geocontact.io.poses import motion_from_joint, motion_from_map
-from geocontact.io.tables import read_table
+from geocontact.io.mesh.meshes import read_mesh
+from geocontact.io.motion.poses import motion_from_joint, motion_from_map
+from geocontact.io.opensim.osim import read_joint
+from geocontact.io.text.tables import read_table
 from meshes import reference
 
 MM, MM2 = 1e-3, 1e-6

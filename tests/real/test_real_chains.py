@@ -11,7 +11,7 @@ from scipy.optimize import least_squares
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
-from geocontact.io.gap_case import read_gap_case
+from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 
 PRACTICE = Path(__file__).resolve().parents[2].parent / "shared" / "gap" / "practice"

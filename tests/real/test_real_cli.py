@@ -13,9 +13,9 @@ import trimesh
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.cli import patience
-from geocontact.io.osim import read_joint
-from geocontact.io.poses import motion_from_joint
-from geocontact.io.tables import read_table
+from geocontact.io.motion.poses import motion_from_joint
+from geocontact.io.opensim.osim import read_joint
+from geocontact.io.text.tables import read_table
 from tests.cli.calls import Call, area, done, written
 
 WORKSHOP = "gc4_jw_predsim_workshop"

@@ -11,9 +11,9 @@ import pandas as pd
 import pytest
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.force_plates import ForcePlate, read_force_plates
-from geocontact.io.motion import read_motion
-from geocontact.io.tables import read_table
+from geocontact.io.mocap.force_plates import ForcePlate, read_force_plates
+from geocontact.io.motion.motion import read_motion
+from geocontact.io.text.tables import read_table
 from tests.cli.calls import call, done, written
 
 GATE = 20.0

@@ -12,7 +12,7 @@ from geocontact.geometry.drape.mat import Mat
 from geocontact.geometry.drape.spread import Anchor
 from geocontact.geometry.register.icp import icp
 from geocontact.geometry.surface import Surface
-from geocontact.io.meshes import read_mesh
+from geocontact.io.mesh.meshes import read_mesh
 
 SIDE = np.sqrt(2e-4)
 

@@ -14,7 +14,7 @@ import pytest
 
 from benchmarks import real_gaps
 from geocontact.gap.diagnose import diagnose
-from geocontact.io.gap_case import read_gap_case
+from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 
 pytestmark = pytest.mark.filterwarnings("ignore::geocontact.data.errors.InputWarning")

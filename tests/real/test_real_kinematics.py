@@ -11,16 +11,16 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputWarning
-from geocontact.data.marker_tasks import MarkerTasks
+from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.dynamics.inverse_dynamics import generalised_forces
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.scaling import scaled
 from geocontact.dynamics.tree import Tree, tree_of
-from geocontact.io.c3d_markers import read_c3d_markers
-from geocontact.io.osim_multibody import read_multibody
-from geocontact.io.osim_scaler import write_scaled_model
-from geocontact.io.tables import read_table
-from geocontact.io.trc import read_trc
+from geocontact.io.mocap.c3d_markers import read_c3d_markers
+from geocontact.io.mocap.trc import read_trc
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.opensim.osim_scaler import write_scaled_model
+from geocontact.io.text.tables import read_table
 from tests import opensim_oracle
 from tests.cli.calls import call, done
 from tests.elsewhere import Elsewhere

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks import knee_chain, knee_truth
-from geocontact.io.gap_case import read_gap_case
+from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 from geocontact.systems.posed_knee import PosedKnee
 

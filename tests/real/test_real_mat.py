@@ -14,7 +14,7 @@ from geocontact.geometry.drape.lay import lay
 from geocontact.geometry.drape.mat import Mat
 from geocontact.geometry.drape.spread import Anchor
 from geocontact.geometry.surface import Surface
-from geocontact.io.meshes import read_mesh
+from geocontact.io.mesh.meshes import read_mesh
 from tests.cli.calls import call, done, written
 
 SIDE = float(np.sqrt(2e-4))

@@ -9,7 +9,7 @@ import numpy as np
 import trimesh
 
 from geocontact.data.errors import InputWarning
-from geocontact.io.meshes import read_mesh
+from geocontact.io.mesh.meshes import read_mesh
 
 
 def surfaces(folder: Path) -> list[Path]:

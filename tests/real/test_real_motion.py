@@ -11,11 +11,11 @@ from scipy.spatial.transform import Rotation
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.motion import Motion
-from geocontact.io.columns import angles_of
-from geocontact.io.osim import mesh_placements, read_joint
-from geocontact.io.osim_xml import read_model
-from geocontact.io.poses import motion_from_joint, motion_from_map
-from geocontact.io.tables import Table, read_table
+from geocontact.io.motion.poses import motion_from_joint, motion_from_map
+from geocontact.io.opensim.osim import mesh_placements, read_joint
+from geocontact.io.opensim.osim_xml import read_model
+from geocontact.io.text.columns import angles_of
+from geocontact.io.text.tables import Table, read_table
 from tests import opensim_oracle
 from tests.elsewhere import Elsewhere
 

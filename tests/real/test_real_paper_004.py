@@ -14,7 +14,7 @@ import pytest
 
 from benchmarks import paper_004
 from geocontact.data.errors import InputWarning
-from geocontact.io.meshes import read_mesh
+from geocontact.io.mesh.meshes import read_mesh
 
 ROOT = Path(__file__).resolve().parents[2]
 FOUND = json.loads((ROOT / "benchmarks" / "results" / "paper_004.json").read_text(encoding="utf-8"))

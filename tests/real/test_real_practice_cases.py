@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.io.gap_case import gap_case_folders, read_gap_case
+from geocontact.io.cases.gap_case import gap_case_folders, read_gap_case
 
 PRACTICE = Path(__file__).resolve().parents[2].parent / "shared" / "gap" / "practice"
 

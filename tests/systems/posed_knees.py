@@ -12,8 +12,8 @@ from geocontact.data.gap_case import CaseMesh
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.io.meshes import read_mesh
-from geocontact.io.poses import motion_from_csv
+from geocontact.io.mesh.meshes import read_mesh
+from geocontact.io.motion.poses import motion_from_csv
 from geocontact.systems import knee_chain
 from geocontact.systems.posed_knee import POSE
 

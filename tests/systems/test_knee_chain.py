@@ -11,10 +11,10 @@ import pytest
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import CaseMesh, GapCase
 from geocontact.effects.catalogue import candidates
-from geocontact.geometry.evolution import ContactPair, Settings
+from geocontact.geometry.contact_area.evolution import ContactPair, Settings
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
-from geocontact.io.poses import motion_from_csv
+from geocontact.io.motion.poses import motion_from_csv
 from geocontact.loads.loadcells import compartment_forces
 from geocontact.systems import knee_chain
 from geocontact.systems.catalogue import system_of

@@ -19,8 +19,8 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import SimulatorError
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import EFFECTS, candidates
-from geocontact.io.gap_case import read_gap_case
-from geocontact.io.program import program
+from geocontact.io.cases.gap_case import read_gap_case
+from geocontact.io.cases.program import program
 from geocontact.systems.catalogue import SYSTEMS, system_of
 from geocontact.systems.simulated import PythonSimulator, Run
 from tests.systems.examples import elbow, foot, joint

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.errors import InputWarning
-from geocontact.geometry.area import AS_GIVEN
+from geocontact.geometry.contact_area.area import AS_GIVEN
 from geocontact.systems import pose_areas
 from geocontact.systems.posed_knee import PosedKnee
 from tests.systems.posed_knees import chain, poses

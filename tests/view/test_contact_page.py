@@ -7,9 +7,9 @@ import pytest
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.motion import Motion
-from geocontact.geometry.area import AS_GIVEN, Refinement
-from geocontact.geometry.evolution import Settings, area_evolution
-from geocontact.geometry.maps import DistanceMaps
+from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement
+from geocontact.geometry.contact_area.evolution import Settings, area_evolution
+from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from geocontact.view import contact_page

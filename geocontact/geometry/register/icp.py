@@ -8,9 +8,9 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.geometry.boundary import on_rim
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.samples import samples
-from geocontact.geometry.rim import on_rim
 from geocontact.geometry.surface import Surface
 
 NORMAL = 1.4826  # standard deviation of normal residuals over their median size

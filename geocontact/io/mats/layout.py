@@ -11,7 +11,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PlainValidato
 
 from geocontact.data.errors import InputError
 from geocontact.io.mats.units import pressure_unit
-from geocontact.io.toml_text import toml_of
+from geocontact.io.text.toml_text import toml_of
 
 LARGEST_LAYOUT = 1_000_000
 """Bytes of layout.toml."""

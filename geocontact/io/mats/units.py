@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from geocontact.io.units import DIMENSIONS
+from geocontact.io.text.units import DIMENSIONS
 
 _KILOGRAM_PER_CM2 = 9.80665e4
 """Pascals: a kilogram-force per square centimetre, exact by definition."""

@@ -14,12 +14,12 @@ from dataclasses import dataclass, field
 
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
-from geocontact.io.csv_text import LONGEST_NAME
 from geocontact.io.mats.cells import Recording, frames_of
 from geocontact.io.mats.layout import MOST_LINES, MatLayout
 from geocontact.io.mats.text import MatText, Notation, notation_of, shown
 from geocontact.io.mats.units import area_unit, length_unit
 from geocontact.io.mats.xsensor_units import SIZES, Keys, in_one_unit, pascals, require_same_size, size_of
+from geocontact.io.text.csv_text import LONGEST_NAME
 
 KIND = "xsensor"
 

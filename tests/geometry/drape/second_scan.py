@@ -7,7 +7,7 @@ from scipy.interpolate import griddata
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.geometry.surface import Surface
-from geocontact.io.meshes import read_mesh
+from geocontact.io.mesh.meshes import read_mesh
 from meshes.mat_placement import THIGH_MAT, Mat
 from meshes.segment_meshes import segment_mesh
 from tests.cli.calls import MESHES

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.geometry.boundary import on_rim
 from geocontact.geometry.register.icp import Search, icp
 from geocontact.geometry.register.samples import samples
-from geocontact.geometry.rim import on_rim
 from geocontact.geometry.surface import Surface
 from tests.geometry.drape.sheets import lattice_faces, sphere, tube
 

@@ -12,7 +12,7 @@ import pytest
 from defusedxml.ElementTree import parse
 
 from geocontact.data.errors import InputError
-from geocontact.io.meshes import read_mesh
+from geocontact.io.mesh.meshes import read_mesh
 from geocontact.view.surfaces import vtp_series
 from geocontact.view.surfaces.scene import MappedBody
 from geocontact.view.surfaces.vtp_series import truncation, write_vtp_series

@@ -1,0 +1,1 @@
+"""Bodies, joints and markers of a multibody model."""

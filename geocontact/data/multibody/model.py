@@ -1,0 +1,112 @@
+"""Rigid bodies on joints: masses, joints from the ground outwards, markers, gravity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.data.multibody.joint import Coordinate, JointModel
+
+GROUND = "ground"
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body.
+
+    Parameters
+    ----------
+    name
+        As joints and markers call it.
+    mass
+        [kg]; 0 for a body that only carries frames.
+    centre
+        Mass centre in the body's frame [m].
+    inertia
+        About the mass centre, in the body's axes [kg m^2], symmetric.
+    """
+
+    name: str
+    mass: float
+    centre: Float[np.ndarray, " 3"]
+    inertia: Float[np.ndarray, "3 3"]
+
+
+@dataclass(frozen=True)
+class Marker:
+    """A point fixed to a body.
+
+    Parameters
+    ----------
+    location
+        In the body's frame [m].
+    fixed
+        Whether it is to stay there when markers are moved to where a subject had them.
+    """
+
+    name: str
+    body: str
+    location: Float[np.ndarray, " 3"]
+    fixed: bool = False
+
+
+@dataclass(frozen=True)
+class Multibody:
+    """A tree of bodies.
+
+    Parameters
+    ----------
+    name
+        For the record.
+    bodies
+        All but the ground.
+    joints
+        One for each body, parents before children.
+    markers
+        Points fixed to bodies.
+    gravity
+        Its acceleration in the ground's frame [m/s^2].
+    """
+
+    name: str
+    bodies: tuple[Body, ...]
+    joints: tuple[JointModel, ...]
+    markers: tuple[Marker, ...]
+    gravity: Float[np.ndarray, " 3"]
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Generalised coordinates of all joints, in the joints' order."""
+        return tuple(c for joint in self.joints for c in joint.coordinates)
+
+    def poses(self, values: Float[np.ndarray, "t n"]) -> dict[str, RigidTransform]:
+        """Poses of the bodies in the ground, one for each row of coordinates [rad, m]; the ground's own among them."""
+        frames = len(values)
+        q = {c.name: column for c, column in zip(self.coordinates, values.T, strict=True)}
+        still = RigidTransform.from_translation(np.zeros((frames, 3)))
+        found = {GROUND: still}
+        for joint in self.joints:
+            found[joint.child] = found[joint.parent] * joint.pose(q, frames)
+        return found
+
+    def marker_places(self, values: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t m 3"]:
+        """Where the markers are in the ground's frame [m], one row for each row of coordinates [rad, m]."""
+        poses = self.poses(values)
+        places = [poses[m.body].apply(m.location) for m in self.markers]
+        return np.stack(places, axis=1) if places else np.zeros((len(values), 0, 3))
+
+
+def outwards(joints: tuple[JointModel, ...]) -> tuple[tuple[JointModel, ...], tuple[JointModel, ...]]:
+    """Joints in the order in which they lead away from the ground, and those that never do (a loop, a lost parent)."""
+    reached, order, waiting = {GROUND}, [], list(joints)
+    while waiting:
+        found = [joint for joint in waiting if joint.parent in reached and joint.child not in reached]
+        if not found:
+            break
+        order.append(found[0])
+        reached.add(found[0].child)
+        waiting.remove(found[0])
+    return tuple(order), tuple(waiting)

@@ -1,0 +1,254 @@
+"""Contact area of two rigid surfaces over a motion: the main job."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.data.evolution import AreaEvolution, SideAreas
+from geocontact.data.motion import Motion
+from geocontact.geometry.contact_area.area import AS_GIVEN, AreaWithin, Refinement, area_within
+from geocontact.geometry.contact_area.rules import CLIP, REFINED, RULES, counted_area
+from geocontact.geometry.contact_area.sampled import Distances, Sampled
+from geocontact.geometry.depth import lowest_signed_distance
+from geocontact.geometry.plane import Plane
+from geocontact.geometry.separation import Collider
+from geocontact.geometry.surface import Surface
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What counts as contact and how it is counted.
+
+    thresholds
+        Largest signed distances that count as contact [m].
+    rule
+        One of `rules.RULES`.
+    refinement
+        When the refined rule stops dividing triangles.
+    fixed_faces, moving_faces
+        Marks the faces that count; None for all.
+    split
+        Plane in FIXED's frame between medial and lateral.
+    medial_side
+        +1 or -1, the side of the plane that is medial.
+    sensitivity
+        Further thresholds [m] at which FIXED's area is wanted to see how much the choice matters: triangles cut once as
+        given, no bounds. Distances reach as far as the largest of all thresholds.
+    """
+
+    thresholds: tuple[float, ...] = (4e-3,)
+    rule: str = REFINED
+    refinement: Refinement = Refinement()
+    fixed_faces: Bool[np.ndarray, " f"] | None = None
+    moving_faces: Bool[np.ndarray, " g"] | None = None
+    split: Plane | None = None
+    medial_side: int = -1
+    sensitivity: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        every = (*self.thresholds, *self.sensitivity)
+        if not self.thresholds or min(every) < 0.0 or not np.isfinite(every).all():
+            raise ValueError("thresholds must be finite and not negative")
+        if self.rule not in RULES:
+            raise ValueError(f"rule must be one of {', '.join(RULES)}, not {self.rule!r}")
+
+
+@dataclass(frozen=True)
+class FrameContact:
+    """One frame: areas per threshold, separation, and the distances they come from.
+
+    sensitivity (s,) is FIXED's area [m^2] at the thresholds of `Settings.sensitivity`.
+    """
+
+    fixed: list[AreaWithin]
+    moving: list[AreaWithin]
+    sensitivity: Float[np.ndarray, " s"]
+    min_distance: float
+    max_penetration_fixed: float
+    fixed_distances: Distances
+    moving_distances: Distances
+
+
+class ContactPair:
+    """Two surfaces prepared once and evaluated at as many poses as wanted.
+
+    Parameters
+    ----------
+    moving, fixed
+        The two bodies, each in its own frame.
+    settings
+        What counts as contact.
+    """
+
+    def __init__(self, moving: Surface, fixed: Surface, settings: Settings = Settings()) -> None:
+        self.moving = moving
+        self.fixed = fixed
+        self.settings = settings
+        largest = max((*settings.thresholds, *settings.sensitivity))
+        self._fixed = Sampled.of(fixed, largest, settings.fixed_faces, settings.split)
+        self._moving = Sampled.of(moving, largest, settings.moving_faces)
+        self._whole_fixed = self._fixed if settings.fixed_faces is None else Sampled.of(fixed, largest)
+        self._whole_moving = self._moving if settings.moving_faces is None else Sampled.of(moving, largest)
+        self._collider = Collider(moving, fixed)
+        # built here, before threads share them
+        _ = (moving.tree, fixed.tree, moving.closed and moving.normals_trusted, fixed.closed and fixed.normals_trusted)
+
+    @property
+    def signed(self) -> str:
+        """Which areas are signed; area_fixed is when MOVING is closed."""
+        return {(1, 1): "both", (1, 0): "fixed", (0, 1): "moving", (0, 0): "none"}[
+            int(self.moving.closed), int(self.fixed.closed)
+        ]
+
+    def at(self, rotation: Float[np.ndarray, "3 3"], translation: Float[np.ndarray, " 3"]) -> FrameContact:
+        """Contact with MOVING at x_fixed = rotation x_moving + translation [m]."""
+        if not (np.isfinite(rotation).all() and np.isfinite(translation).all()):
+            raise ValueError("the pose is not finite")
+        back, origin = np.ascontiguousarray(rotation.T), -rotation.T @ translation
+        on_fixed = self._fixed.distances(self.moving, back, origin)
+        on_moving = self._moving.distances(self.fixed, np.ascontiguousarray(rotation), translation)
+        lowest, penetration = self._overlap(on_fixed, on_moving, rotation, translation)
+        moving = [
+            _in_frame(self._area(self._moving, self.fixed, on_moving, t, rotation, translation), rotation, translation)
+            for t in self.settings.thresholds
+        ]
+        clipped = [
+            area_within(self._fixed, self.moving, on_fixed, t, back, origin, AS_GIVEN).area
+            for t in self.settings.sensitivity
+        ]
+        return FrameContact(
+            fixed=[self._area(self._fixed, self.moving, on_fixed, t, back, origin) for t in self.settings.thresholds],
+            moving=moving,
+            sensitivity=np.array(clipped),
+            min_distance=lowest,
+            max_penetration_fixed=penetration,
+            fixed_distances=on_fixed,
+            moving_distances=on_moving,
+        )
+
+    def _area(
+        self,
+        sampled: Sampled,
+        other: Surface,
+        distances: Distances,
+        threshold: float,
+        rotation: Float[np.ndarray, "3 3"],
+        translation: Float[np.ndarray, " 3"],
+    ) -> AreaWithin:
+        rule = self.settings.rule
+        refinement = self.settings.refinement if rule == REFINED else AS_GIVEN
+        found = area_within(sampled, other, distances, threshold, rotation, translation, refinement)
+        if rule in (REFINED, CLIP):
+            return found
+        area, moment, negative = counted_area(sampled, other, distances, threshold, rule)
+        moment = moment + area * sampled.surface.centre
+        return AreaWithin(area, found.lower, found.upper, found.upper - found.lower, moment, negative, found.undecided)
+
+    def _overlap(
+        self,
+        on_fixed: Distances,
+        on_moving: Distances,
+        rotation: Float[np.ndarray, "3 3"],
+        translation: Float[np.ndarray, " 3"],
+    ) -> tuple[float, float]:
+        """Smallest distance between the surfaces and depth of FIXED's counted faces in MOVING [m]."""
+        inside = bool((on_fixed.side < 0).any() or (on_moving.side < 0).any())
+        depth = 0.0 if self.moving.closed else np.nan
+        if not inside:
+            gap = self._collider.distance(rotation, translation)
+            if gap > 0.0:
+                return gap, depth
+        lowest = 0.0
+        if self.moving.closed:
+            lowest = min(lowest, lowest_signed_distance(self._whole_fixed, self.moving, on_fixed))
+            counted = lowest
+            if self._fixed is not self._whole_fixed:
+                counted = lowest_signed_distance(self._fixed, self.moving, on_fixed)
+            depth = max(0.0, -counted)
+        if self.fixed.closed:
+            lowest = min(lowest, lowest_signed_distance(self._whole_moving, self.fixed, on_moving))
+        return lowest, depth
+
+
+def _in_frame(
+    found: AreaWithin, rotation: Float[np.ndarray, "3 3"], translation: Float[np.ndarray, " 3"]
+) -> AreaWithin:
+    """The same with the first moment taken in FIXED's frame."""
+    moment = rotation @ found.moment + found.area * translation
+    return AreaWithin(found.area, found.lower, found.upper, found.error, moment, found.negative, found.undecided)
+
+
+def area_evolution(
+    moving: Surface,
+    fixed: Surface,
+    motion: Motion,
+    settings: Settings = Settings(),
+    workers: int | None = None,
+    each: Callable[[int, FrameContact], None] | None = None,
+) -> AreaEvolution:
+    """Contact area of both surfaces for every frame of a motion.
+
+    Parameters
+    ----------
+    moving, fixed
+        The two bodies, each in its own frame [m].
+    motion
+        Poses of MOVING in FIXED's frame.
+    settings
+        Thresholds and what counts; 4 mm as in the knee-implant paper by default.
+    workers
+        Threads over frames; all cores by default. Results do not depend on it.
+    each
+        Called with every finished frame, in order: for progress and for keeping distance maps.
+    """
+    pair = ContactPair(moving, fixed, settings)
+    rotation = np.ascontiguousarray(motion.poses.rotation.as_matrix().reshape(-1, 3, 3))
+    translation = np.asarray(motion.poses.translation).reshape(-1, 3)
+    on_fixed: list[list[AreaWithin]] = []
+    on_moving: list[list[AreaWithin]] = []
+    sensitivity: list[np.ndarray] = []
+    lowest: list[float] = []
+    deepest: list[float] = []
+    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+        for k, frame in enumerate(pool.map(pair.at, rotation, translation)):
+            if each is not None:
+                each(k, frame)
+            on_fixed.append(frame.fixed)
+            on_moving.append(frame.moving)
+            sensitivity.append(frame.sensitivity)
+            lowest.append(frame.min_distance)
+            deepest.append(frame.max_penetration_fixed)
+    return AreaEvolution(
+        time=motion.time,
+        thresholds=settings.thresholds,
+        fixed=_gathered(on_fixed),
+        moving=_gathered(on_moving),
+        min_distance=np.array(lowest),
+        max_penetration_fixed=np.array(deepest),
+        signed=pair.signed,
+        medial_side=settings.medial_side if settings.split is not None else 0,
+        split_normal=settings.split.normal if settings.split is not None else (0.0, 0.0, 0.0),
+        sensitivity_thresholds=settings.sensitivity,
+        sensitivity=np.array(sensitivity),
+        undecided=np.array([a[0].undecided + b[0].undecided for a, b in zip(on_fixed, on_moving, strict=True)]),
+    )
+
+
+def _gathered(rows: Sequence[Sequence[AreaWithin]]) -> SideAreas:
+    def collect(name: str) -> np.ndarray:
+        return np.array([[getattr(cell, name) for cell in row] for row in rows])
+
+    return SideAreas(
+        area=collect("area"),
+        lower=collect("lower"),
+        upper=collect("upper"),
+        error=collect("error"),
+        centroid=collect("centroid"),
+        negative=collect("negative"),
+    )

@@ -1,0 +1,18 @@
+"""Compile or load every kernel on a problem of two tetrahedra."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.geometry.contact_area.evolution import ContactPair, Settings
+from geocontact.geometry.plane import Plane
+from geocontact.geometry.surface import Surface
+
+
+def warm_up() -> None:
+    """Run one small overlap, so that kernels are compiled (once on a machine) or loaded before the clock matters."""
+    vertices = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) * 1e-2
+    faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    tetrahedron = Surface(vertices, faces, "tetrahedron")
+    pair = ContactPair(tetrahedron, tetrahedron, Settings(thresholds=(1e-3,), split=Plane.across("x", 1e-3)))
+    pair.at(np.eye(3), np.full(3, 1e-3))

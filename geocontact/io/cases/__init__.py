@@ -1,0 +1,1 @@
+"""Folders of gap cases, read and written."""

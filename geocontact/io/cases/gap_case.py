@@ -1,0 +1,138 @@
+"""A gap case: the folder with case.toml, trials and tables, to SI units."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Mapping
+from dataclasses import replace
+from os import PathLike
+from pathlib import Path
+
+import pandas as pd
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.gap_case import CaseMesh, GapCase
+from geocontact.data.parameter import Parameter
+from geocontact.data.trial import Trial
+from geocontact.io.cases.case_cells import read_cells
+from geocontact.io.cases.case_consistency import KNOWN_SYSTEMS, check_settings, parameters_of
+from geocontact.io.cases.case_folder import SETTINGS, case_folder, check_trial_files, inside, trial_file
+from geocontact.io.cases.case_settings import CaseSettings, read_settings
+from geocontact.io.cases.program import Program, program
+from geocontact.io.cases.trial_set import alike, noise_in_si
+from geocontact.io.cases.trial_table import TrialTable, read_trial
+from geocontact.io.mesh.meshes import READERS, read_mesh
+from geocontact.io.text.side_table import read_side_table
+from geocontact.io.text.units import LENGTH
+
+
+def gap_case_folders(folder: str | PathLike[str]) -> list[Path]:
+    """Every sub-folder that holds a case.toml, by name; InputError when there is none."""
+    home = case_folder(folder)
+    try:
+        found = sorted(entry for entry in home.iterdir() if (entry / SETTINGS).is_file())
+    except OSError as error:
+        raise InputError(folder, "", f"cannot be read: {error.strerror or error}", "check its permissions") from error
+    if not found:
+        remedy = "it is a case itself" if (home / SETTINGS).is_file() else "name the folder that holds the cases"
+        raise InputError(folder, "", f"no sub-folder has a {SETTINGS}", remedy)
+    return found
+
+
+def read_gap_case(
+    folder: str | PathLike[str], known_systems: tuple[str, ...] = KNOWN_SYSTEMS, run_programs: bool = False
+) -> GapCase:
+    """Case in a folder, in SI units.
+
+    Channels of all trials come in the order of the first calibration trial. Noise is converted like its channel, tables
+    like their headers say; parameters, constants and covariates are in SI units already. Trial files that case.toml
+    does not list are warned of, and trials without the cells of a site.
+
+    Parameters
+    ----------
+    folder
+        Holds case.toml, trials/<id>.csv and the tables that case.toml names.
+    known_systems
+        Names that `system` may have besides "package.module:OBJECT".
+    run_programs
+        Whether a program that the case names as its simulator may be run: a case may come from somebody else.
+    """
+    home = case_folder(folder)
+    file = home / SETTINGS
+    settings = read_settings(file)
+    check_settings(settings, file, known_systems)
+    parameters = parameters_of(settings, file)
+    check_trial_files(home, settings)
+    tables = {key: read_side_table(inside(home, name, key)) for key, name in settings.tables.items()}
+    trials = alike({name: read_trial(trial_file(home, name)) for name in settings.trials})
+    cells = read_cells(home, settings, next(iter(trials.values())).signals.channels)
+    name = Path(os.path.abspath(home)).name
+    simulator = _simulator(settings, file, next(iter(trials.values())), run_programs)
+    case = case_of(settings, parameters, file, name, trials, tables)
+    return replace(case, meshes=_meshes(home, settings), cells=cells, simulator=simulator)
+
+
+def case_of(
+    settings: CaseSettings,
+    parameters: tuple[Parameter, ...],
+    file: Path,
+    name: str,
+    trials: Mapping[str, TrialTable],
+    tables: Mapping[str, pd.DataFrame],
+) -> GapCase:
+    """Case of that name without meshes and cells: settings that `file` holds, trials that are alike, and tables."""
+    return GapCase(
+        name=name,
+        system=settings.system,
+        calibration=tuple(_trial(each, trials[each], settings) for each in settings.calibration),
+        evaluation=tuple(_trial(each, trials[each], settings) for each in settings.evaluation),
+        parameters=parameters,
+        constants=dict(settings.constants),
+        noise=noise_in_si(_told(settings.noise, file), trials, file),
+        tables=tables,
+    )
+
+
+def _trial(name: str, table: TrialTable, settings: CaseSettings) -> Trial:
+    known = settings.trial.get(name, {})
+    covariates = {key: value for key, value in known.items() if isinstance(value, float)}
+    labels = {key: value for key, value in known.items() if isinstance(value, str)}
+    return Trial(name, table.signals, covariates, labels)
+
+
+def _told(noise: dict[str, float], file: Path) -> dict[str, float]:
+    """Noise that says something: a standard deviation of 0 is left out with a warning, a negative one refused."""
+    for channel, sd in noise.items():
+        if sd < 0.0:
+            raise InputError(file, f"[noise] {channel}", f"is {sd:g}", "a standard deviation is positive")
+        if sd == 0.0:
+            message = f"{file} [noise] {channel}: is 0; taken as not known"
+            warnings.warn(InputWarning(message), stacklevel=3)
+    return {channel: sd for channel, sd in noise.items() if sd > 0.0}
+
+
+def _simulator(settings: CaseSettings, file: Path, trial: TrialTable, allowed: bool) -> Program | None:
+    """The program that simulates the case, None where one of our models does."""
+    if not settings.simulate:
+        return None
+    if not allowed:
+        what = f"would run {settings.simulate[:80]!r}, which a case does not do unasked"
+        raise InputError(file, "simulate", what, "pass --run-simulator if you trust it")
+    units = dict(zip(trial.signals.channels, trial.signals.units, strict=True))
+    channels = (*settings.inputs, *settings.outputs)
+    if missing := [name for name in channels if name not in units]:
+        remedy = f"channels are {', '.join(trial.signals.channels)}"
+        raise InputError(trial.file, "line 1", f"no column '{missing[0]}', which case.toml names", remedy)
+    try:
+        return program(settings.simulate, settings.inputs, settings.outputs, {name: units[name] for name in channels})
+    except ValueError as error:
+        raise InputError(file, "simulate", str(error), "the program gets the paths of three files") from error
+
+
+def _meshes(home: Path, settings: CaseSettings) -> dict[str, CaseMesh]:
+    found = {}
+    for name, given in settings.mesh.items():
+        path = inside(home, given.file, f"[mesh.{name}] file", tuple(READERS))
+        found[name] = CaseMesh(read_mesh(path, given.unit), given.region, LENGTH[given.unit])
+    return found

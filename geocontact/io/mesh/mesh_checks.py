@@ -1,0 +1,97 @@
+"""What is asked of a mesh once it is parsed: finite, used, of a plausible size; and what is worth a warning."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.io.text.units import LENGTH, MESH_UNITS
+
+FLAT = 1e-12
+"""A face is degenerate when its height is below this fraction of its longest edge: rounding, not shape."""
+
+_IN_WORDS = {"m": "metres", "cm": "centimetres", "mm": "millimetres", "in": "inches"}
+_LIKELY = (10e-3, 2.5)
+_COMMON_FIRST = ("mm", "m", "cm", "in")
+_BLOCK = 1 << 18
+
+
+def require_finite(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"], file: str) -> None:
+    """Refuse nan and infinite coordinates, naming the first such vertex and the first face that uses it."""
+    bad = ~np.isfinite(vertices).all(axis=1)
+    if not bad.any():
+        return
+    vertex = int(np.argmax(bad))
+    users = (faces == vertex).any(axis=1)
+    place = f"face {int(np.argmax(users))} (vertex {vertex})" if users.any() else f"vertex {vertex}"
+    x, y, z = vertices[vertex]
+    what = f"coordinates {x:g} {y:g} {z:g} are not finite"
+    raise InputError(file, place, what, "repair the mesh or export it again")
+
+
+def require_plausible(vertices: Float[np.ndarray, "n 3"], unit: str, plausible: tuple[float, float], file: str) -> None:
+    """Refuse a bounding box whose diagonal is outside `plausible` [m], and name the unit that would fit.
+
+    `vertices` are in the `unit` given. A unit fits when it makes the diagonal 10 mm to 2.5 m long; of several that fit
+    the commonest is named (mm, m, cm, in).
+    """
+    with np.errstate(over="ignore"):
+        box = vertices.max(axis=0).astype(float) - vertices.min(axis=0)
+        diagonal = float(np.hypot(np.hypot(box[0], box[1]), box[2]))
+    metres = diagonal * LENGTH[unit]
+    if plausible[0] <= metres <= plausible[1]:
+        return
+    size = "too small for an implant" if metres < plausible[0] else "too large for an implant or a body"
+    fitting = [u for u in _COMMON_FIRST if u != unit and _LIKELY[0] <= diagonal * LENGTH[u] <= _LIKELY[1]]
+    remedy = f"the file looks like {_IN_WORDS[fitting[0]]}, pass --unit {fitting[0]}" if fitting else "check the unit"
+    shown = " x ".join(f"{side:.0f}" if 100 <= side < 1e7 else f"{side:.3g}" for side in box)
+    raise InputError(file, "", f"bounding box {shown} {unit} is {size}", remedy)
+
+
+def metres_per(unit: str, file: str) -> float:
+    """Metres per `unit` of a mesh file; InputError that lists the units when it is none of them."""
+    if unit not in MESH_UNITS:
+        what = f"unknown unit '{unit}'"
+        raise InputError(file, "", what, f"pass --unit {', '.join(MESH_UNITS[:-1])} or {MESH_UNITS[-1]}")
+    return LENGTH[unit]
+
+
+def warn_about_faces(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"], file: str) -> None:
+    """Warn about faces without area and faces with the same three vertices as an earlier one."""
+    _warn(degenerate(vertices, faces), "degenerate faces (zero area), ignored in areas", file)
+    _warn(repeated(faces), "duplicate faces (same three vertices as an earlier face)", file)
+
+
+def degenerate(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"]) -> Bool[np.ndarray, " m"]:
+    """Which faces have coincident or collinear corners (height below `FLAT` of the longest edge)."""
+    flat = np.empty(len(faces), dtype=bool)
+    for start in range(0, len(faces), _BLOCK):
+        a, b, c = vertices[faces[start : start + _BLOCK]].swapaxes(0, 1)
+        longest = np.max([np.sum(edge * edge, axis=1) for edge in (b - a, c - b, a - c)], axis=0)
+        normal = np.cross(b - a, c - a)
+        flat[start : start + _BLOCK] = np.sum(normal * normal, axis=1) <= (FLAT * longest) ** 2
+    return flat
+
+
+def repeated(faces: Int[np.ndarray, "m 3"]) -> Bool[np.ndarray, " m"]:
+    """Which faces have the same three vertices, in any order, as a face before them."""
+    corners = faces.astype(np.int32)
+    corners.sort(axis=1)
+    order = np.lexsort(corners.T)
+    same = np.ones(max(len(faces) - 1, 0), dtype=bool)
+    for column in corners.T:
+        ranked = column[order]
+        same &= ranked[1:] == ranked[:-1]
+    again = np.zeros(len(faces), dtype=bool)
+    again[order[1:]] = same
+    return again
+
+
+def _warn(which: Bool[np.ndarray, " m"], what: str, file: str) -> None:
+    count = int(np.count_nonzero(which))
+    if count:
+        what = what if count > 1 else what.replace("faces", "face", 1)
+        warnings.warn(InputWarning(f"{file}: {count} {what}; first is face {int(np.argmax(which))}"), stacklevel=4)

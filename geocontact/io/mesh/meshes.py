@@ -1,0 +1,67 @@
+"""Surface meshes: STL, PLY, OBJ and VTP to vertices in metres and faces."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from os import PathLike, fspath
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.data.errors import InputError
+from geocontact.data.mesh import Mesh
+from geocontact.io.mesh.file_preflight import read_bytes
+from geocontact.io.mesh.merge import merge_coincident
+from geocontact.io.mesh.mesh_checks import metres_per, require_finite, require_plausible, warn_about_faces
+from geocontact.io.mesh.obj import read_obj
+from geocontact.io.mesh.ply import read_ply
+from geocontact.io.mesh.stl import read_stl
+from geocontact.io.mesh.vtp import read_vtp
+
+_Reader = Callable[[bytes, str], tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]]
+READERS: dict[str, _Reader] = {".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".vtp": read_vtp}
+"""Reader of each file name extension; no other file is opened."""
+
+
+def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, float] = (5e-3, 3.0)) -> Mesh:
+    """Read a triangle surface; vertices come back in metres.
+
+    Face i of the mesh is face i of the file (polygons become consecutive triangles, with a warning). Coincident
+    vertices are merged when all bits of the file's own values agree. Degenerate and duplicate faces stay and are
+    warned about (InputWarning).
+
+    Parameters
+    ----------
+    path
+        `.stl` (ASCII, binary), `.ply` (ASCII, binary), `.obj` or `.vtp`; the content must be what the name says.
+    unit
+        Unit of the file's numbers: m, cm, mm or in. Never guessed.
+    plausible
+        Smallest and largest diagonal of the bounding box [m]; outside, the unit is taken to be wrong.
+
+    Raises
+    ------
+    InputError
+        The file cannot be used: not there, damaged, not finite, without faces, too large (`limits`), absurd unit.
+    """
+    name = Path(fspath(path)).name
+    scale = metres_per(unit, name)
+    reader = READERS.get(Path(name).suffix.lower())
+    if reader is None:
+        what = f"is not one of the formats that are read ({', '.join(READERS)})"
+        raise InputError(fspath(path), "", what, "convert it, or correct the file name's ending")
+    try:
+        data = read_bytes(path)
+        sha256 = hashlib.sha256(data).hexdigest()
+        vertices, faces = reader(data, name)
+        del data
+        require_finite(vertices, faces, name)
+        vertices, faces = merge_coincident(vertices, faces, name)
+    except MemoryError as error:
+        raise InputError(name, "", "does not fit into memory", "decimate the mesh first") from error
+    require_plausible(vertices, unit, plausible, name)
+    metres = vertices.astype(np.float64) * scale
+    warn_about_faces(metres, faces, name)
+    return Mesh(metres, faces, name, unit, sha256)

@@ -1,0 +1,90 @@
+"""Markers of a .c3d file, read by ezc3d in a process of its own as force plates are.
+
+`python -m geocontact.io.mocap.c3d_markers FILE` writes an .npz of plain arrays to standard output.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from os import PathLike, fspath
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.io.mocap.c3d_plates import Arrays, read_apart
+from geocontact.io.text.units import LENGTH
+
+
+def read_c3d_markers(path: str | PathLike[str]) -> MarkerTrajectories:
+    """Markers in metres in the laboratory's axes.
+
+    What stands before a colon in a label is the subject; it is left out where that leaves no two names alike. Of
+    markers with one label the one that is seen in most frames is taken, with a warning.
+    """
+    file = fspath(path)
+    arrays = read_apart(path, __name__)
+    unit, rate = str(arrays["unit"]), float(arrays["rate"])
+    positions = np.asarray(arrays["positions"], float)
+    if positions.shape[1] != len(arrays["names"]):
+        what = f"{len(arrays['names'])} labels for {positions.shape[1]} points"
+        raise InputError(file, "POINT:LABELS", what, "is the file complete?")
+    positions = np.where(np.all(positions == 0.0, axis=2, keepdims=True), np.nan, positions)
+    names, kept = _named(file, [str(name) for name in arrays["names"]], positions)
+    positions = positions[:, kept]
+    if not names or not len(positions):
+        raise InputError(file, "", "holds no markers", "give a file with recorded points")
+    if unit not in LENGTH:
+        raise InputError(file, "POINT:UNITS", f"is '{unit[:20]}'", f"expected one of {', '.join(LENGTH)}")
+    if not (np.isfinite(rate) and rate > 0.0):
+        raise InputError(file, "POINT:RATE", f"is {rate:g} Hz", "is the file complete?")
+    lost = np.any(~np.isfinite(positions), axis=2)
+    time = float(arrays["start"]) + np.arange(len(positions)) / rate
+    return MarkerTrajectories(time, np.where(lost[..., None], np.nan, LENGTH[unit] * positions), names, file)
+
+
+def _named(file: str, labels: list[str], positions: Float[np.ndarray, "t m 3"]) -> tuple[tuple[str, ...], list[int]]:
+    """Names without the subject where they stay different, and which points have them."""
+    whole = dict.fromkeys(labels)
+    short = {label.rpartition(":")[2] for label in whole}
+    names = [label.rpartition(":")[2] for label in labels] if len(short) == len(whole) else labels
+    counts = np.isfinite(positions).all(axis=2).sum(axis=0)
+    kept: dict[str, int] = {}
+    for k, name in enumerate(names):
+        before = kept.setdefault(name, k)
+        if before == k:
+            continue
+        frames = f"seen in {counts[before]} and {counts[k]} frames"
+        warnings.warn(
+            InputWarning(f"{file}: marker '{name}' is there twice, {frames}; the fuller is taken"), stacklevel=4
+        )
+        kept[name] = k if counts[k] > counts[before] else before
+    return tuple(kept), list(kept.values())
+
+
+def markers_of(path: str) -> Arrays:
+    """The same, in this process; points whose residual is negative were not seen."""
+    import ezc3d  # type: ignore[import-untyped]
+
+    content = ezc3d.c3d(path)
+    head, told, data = content["header"]["points"], content["parameters"]["POINT"], content["data"]
+    positions = np.moveaxis(data["points"][:3], (0, 1, 2), (2, 1, 0))
+    residuals = data["meta_points"]["residuals"][0].T
+    rate = float(head["frame_rate"])
+    lists = [told[key]["value"] for key in ("LABELS", *(f"LABELS{k}" for k in range(2, 99))) if key in told]
+    labels = [str(name).strip() for each in lists for name in each][: positions.shape[1]]
+    units = told.get("UNITS", {"value": ["mm"]})["value"]
+    return {
+        "frames": np.array(len(positions)),
+        "rate": np.array(rate),
+        "start": np.array(float(head["first_frame"]) / max(rate, 1e-9)),
+        "positions": np.where((residuals < 0.0)[..., None], np.nan, positions),
+        "names": np.array(labels),
+        "unit": np.array(str(units[0]).strip() if len(units) else "mm"),
+    }
+
+
+if __name__ == "__main__":
+    np.savez(sys.stdout.buffer, **markers_of(sys.argv[1]))  # type: ignore[arg-type]

@@ -1,0 +1,174 @@
+"""Ground reactions measured by force plates: OpenSim's .mot and .sto, and .c3d."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from dataclasses import dataclass
+from os import PathLike, fspath
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.wrench import Wrench
+from geocontact.io.mocap.c3d_plates import Arrays, read_c3d_plates
+from geocontact.io.text.tables import Table, listed, read_table
+from geocontact.io.text.units import LENGTH
+
+OPENSIM_FRAME = "ground of the .mot (OpenSim, y up)"
+LABORATORY_FRAME = "laboratory of the .c3d"
+LOADED = 20.0
+"""Load [N] from which a sample tells in which direction a plate is loaded."""
+
+_NEWTON = {"N": 1.0, "kN": 1e3, "lbf": 4.4482216152605}
+_FORCE = re.compile(r"(?P<head>.*)force(?P<tail>.*)vx")
+
+
+@dataclass(frozen=True)
+class ForcePlate:
+    """Reaction of one plate on the foot.
+
+    Parameters
+    ----------
+    name
+        Name to choose it by.
+    time
+        [s].
+    wrench
+        Force on the foot [N] with its moment [N m], in the file's frame; NaN where the file has nothing.
+    point, normal
+        A point of the plate's surface [m] and its unit normal, out of the floor.
+    """
+
+    name: str
+    time: Float[np.ndarray, " t"]
+    wrench: Wrench
+    point: Float[np.ndarray, " 3"]
+    normal: Float[np.ndarray, " 3"]
+
+    def centre_of_pressure(self, gate: float = LOADED) -> Float[np.ndarray, "t 3"]:
+        """Centre of pressure on the plate's surface [m]; NaN where the normal force is below `gate` [N]."""
+        return self.wrench.centre_of_pressure(self.point, self.normal, gate)
+
+    def at(self, time: Float[np.ndarray, " f"]) -> Wrench:
+        """Reaction at other times [s], linear between samples, moment about the frame's origin; NaN outside its own."""
+        about = self.wrench.moved_to(np.zeros(3))
+        force, moment = (
+            np.column_stack([np.interp(time, self.time, column, np.nan, np.nan) for column in values.T])
+            for values in (about.force, about.moment)
+        )
+        return Wrench(force, moment, np.zeros_like(force), about.frame)
+
+    def free_moment(self, gate: float = LOADED) -> Float[np.ndarray, " t"]:
+        """Moment about the plate's normal through the centre of pressure [N m]; NaN below the gate."""
+        return self.wrench.free_moment(self.centre_of_pressure(gate), self.normal)
+
+
+def read_force_plates(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
+    """All force plates of a .mot, .sto or .c3d file, in its order; forces are those on the foot."""
+    suffix = Path(fspath(path)).suffix.lower()
+    if suffix == ".c3d":
+        return _from_c3d(path)
+    if suffix in (".mot", ".sto"):
+        return _from_table(read_table(path))
+    raise InputError(path, "", f"'{suffix}' is not a file of ground reactions", "give a .mot, .sto or .c3d file")
+
+
+def plate_named(plates: tuple[ForcePlate, ...], name: str | None, path: Path, option: str) -> ForcePlate:
+    """The plate of this name or number, counted from 1; the only one where none is named.
+
+    `option` is how the user names one, for messages.
+    """
+    names = [plate.name for plate in plates]
+    if name is None:
+        if len(plates) == 1:
+            return plates[0]
+        remedy = f"pass {option} NAME or its number"
+        raise InputError(path, "", f"holds {len(plates)} plates: {', '.join(names)}", remedy)
+    if name in names:
+        return plates[names.index(name)]
+    if name.isdecimal() and 1 <= int(name) <= len(plates):
+        return plates[int(name) - 1]
+    remedy = f"plates are: {', '.join(names)} (or 1 to {len(plates)})"
+    raise InputError(path, option, f"no plate {name!r}", remedy)
+
+
+def _from_table(table: Table) -> tuple[ForcePlate, ...]:
+    """Every `…force…vx, vy, vz` with its points `…force…px` and torques `…torque…x` or `…moment…x`."""
+    found = [(name, match) for name in table.channels if (match := _FORCE.fullmatch(name))]
+    if not found:
+        what = "no column of the form ground_force_vx"
+        raise InputError(table.file, "", what, f"columns are: {listed(table.channels)}")
+    return tuple(_plate(table, match["head"], match["tail"]) for _, match in found)
+
+
+def _plate(table: Table, head: str, tail: str) -> ForcePlate:
+    name = f"{head}force{tail}".strip("_")
+    force = _three(table, f"{head}force{tail}v")
+    point = _three(table, f"{head}force{tail}p")
+    kinds = [f"{head}{word}{tail}{letter}" for word in ("torque", "moment") for letter in ("", "m")]
+    torque = next((kind for kind in kinds if f"{kind}x" in table.channels), None)
+    if torque is None:
+        warnings.warn(InputWarning(f"{table.file}: no torque for {name}; its free moment is not known"), stacklevel=4)
+    moment = np.full_like(force, np.nan) if torque is None else _three(table, torque)
+    on = np.abs(force[:, 1]) >= LOADED
+    if not on.any():
+        warnings.warn(InputWarning(f"{table.file}: {name} never carries {LOADED:g} N"), stacklevel=4)
+    surface = np.array([0.0, float(np.median(point[on, 1])) if on.any() else 0.0, 0.0])
+    if torque is None:  # the point is then the centre of pressure by the file's own word
+        moment[:, [0, 2]] = 0.0
+    wrench = Wrench(force, moment, point, OPENSIM_FRAME)
+    return ForcePlate(name, table.time, wrench, surface, np.array([0.0, 1.0, 0.0]))
+
+
+def _three(table: Table, stem: str) -> Float[np.ndarray, "t 3"]:
+    names = tuple(f"{stem}{axis}" for axis in "xyz")
+    for name in names:
+        if table.channels.count(name) != 1:
+            count = table.channels.count(name)
+            what = f"column '{name}' occurs {count} times" if count else f"no column '{name}'"
+            raise InputError(table.file, "", what, f"columns are: {listed(table.channels)}")
+    return np.column_stack([table.column(name) for name in names])
+
+
+def _from_c3d(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
+    """Plates as ezc3d calibrates and turns them into the laboratory: moment about the middle of the surface."""
+    file = fspath(path)
+    arrays = read_c3d_plates(path)
+    rate, count = float(arrays["rate"]), sum(name.startswith("force_") for name in arrays)
+    if not count:
+        raise InputError(file, "", "holds no force plate", "give a file recorded with force plates")
+    if not rate > 0.0 or not np.isfinite(rate):
+        raise InputError(file, "", f"analogue rate is {rate:g} Hz", "is the file complete?")
+    return tuple(_c3d_plate(file, arrays, k) for k in range(count))
+
+
+def _c3d_plate(file: str, arrays: Arrays, k: int) -> ForcePlate:
+    name = f"plate {k + 1}"
+    units = [str(unit) for unit in arrays[f"units_{k}"]]
+    newton, metre = _NEWTON.get(units[0]), LENGTH.get(units[1])
+    moments = {f"{f}{length}": n * m for f, n in _NEWTON.items() for length, m in LENGTH.items()}
+    newton_metre = moments.get(re.sub(r"[. *]", "", units[2]))
+    if newton is None or metre is None or newton_metre is None:
+        raise InputError(file, name, f"is in {', '.join(map(repr, units))}", "expected N, mm or m, Nmm or Nm")
+    force, moment = arrays[f"force_{k}"] * newton, arrays[f"moment_{k}"] * newton_metre
+    corners = arrays[f"corners_{k}"] * metre
+    with np.errstate(over="ignore", invalid="ignore"):
+        down = np.cross(corners[0] - corners[1], corners[0] - corners[3])
+        area = float(np.linalg.norm(down))
+    if not (1e-4 < area < 100.0) or not (np.isfinite(force).all() and np.isfinite(moment).all()):
+        what = f"its corners span {area:.3g} m^2" if np.isfinite(force).all() else "its forces are not finite"
+        raise InputError(file, name, what, "is the file damaged?")
+    normal = -down / area
+    pushing = force @ normal
+    loaded = pushing[np.abs(pushing) >= LOADED]
+    if len(loaded) and np.median(loaded) < 0.0:  # a plate can only push; the file holds the force on the plate
+        force, moment = -force, -moment
+    elif not len(loaded):
+        warnings.warn(InputWarning(f"{file}: {name} never carries {LOADED:g} N"), stacklevel=5)
+    time = float(arrays["start"]) + np.arange(len(force)) / float(arrays["rate"])
+    middle = corners.mean(axis=0)
+    origin = np.broadcast_to(middle, force.shape).copy()
+    return ForcePlate(name, time, Wrench(force, moment, origin, LABORATORY_FRAME), middle, normal)

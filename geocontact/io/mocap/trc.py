@@ -1,0 +1,90 @@
+"""Marker trajectories of .trc files, as Motion Analysis' software and OpenSim write them.
+
+Line 3 tells rate, counts and unit, line 4 the markers' names, line 5 the columns; then frame, time and x y z of each
+marker between tabs. An empty cell is a marker that was not seen; so is one at exactly 0 0 0, which some exports write.
+Times are often rounded to milliseconds, which would ruin accelerations; where frames and rate bear the times out to the
+rounding, they count.
+"""
+
+from __future__ import annotations
+
+import warnings
+from os import PathLike, fspath
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.io.mesh.file_preflight import read_bytes
+from geocontact.io.text.table_rows import read_rows
+from geocontact.io.text.units import LENGTH
+
+_HEAD = 5
+_ROUNDED = 0.51e-3
+"""s that a time may be off the even one by rounding."""
+
+
+def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
+    """Markers of a .trc file, in metres; InputError where counts, units or times contradict the rows."""
+    file = fspath(path)
+    lines = read_bytes(path).decode("utf-8-sig", errors="replace").splitlines()
+    if len(lines) <= _HEAD or not lines[0].startswith("PathFileType"):
+        raise InputError(file, "line 1", "does not begin with 'PathFileType'", "is it a complete .trc file?")
+    declared = dict(zip(lines[1].split(), lines[2].split(), strict=False))
+    names = tuple(word.strip() for word in lines[3].split("\t")[2:] if word.strip())
+    _check(file, "line 3", declared, "NumMarkers", len(names), "markers are named in line 4")
+    twice = [name for name in names if names.count(name) > 1]
+    if twice:
+        raise InputError(file, "line 4", f"marker '{twice[0]}' is there {names.count(twice[0])} times", "rename one")
+    unit = declared.get("Units", "")
+    if unit not in LENGTH:
+        raise InputError(file, "line 3", f"unit is '{unit[:20]}'", f"expected one of {', '.join(LENGTH)}")
+    columns = ("frame", "time", *(f"{name} {axis}" for name in names for axis in "xyz"))
+    values, places = read_rows(iter(lines[_HEAD:]), _HEAD + 1, columns, file, _split)
+    _check(file, "line 3", declared, "NumFrames", len(values), "frames follow")
+    time = values[:, 1]
+    late = np.flatnonzero(~(np.diff(time) > 0.0))
+    if len(late) or not np.isfinite(time[0]):
+        line = places[late[0] + 1] if len(late) else places[0]
+        raise InputError(file, f"line {line}", "time does not increase", "every frame needs its own time")
+    positions = LENGTH[unit] * values[:, 2:].reshape(len(values), len(names), 3)
+    return MarkerTrajectories(_unrounded(time, values[:, 0], declared), _seen(file, positions), names, file)
+
+
+def _unrounded(
+    time: Float[np.ndarray, " t"], frames: Float[np.ndarray, " t"], declared: dict[str, str]
+) -> Float[np.ndarray, " t"]:
+    """Times by frame and rate where they are those of the file but for rounding, else the file's."""
+    try:
+        step = 1.0 / float(declared.get("DataRate", "nan"))
+    except (ValueError, ZeroDivisionError):
+        return time
+    even = (frames - frames[0]) * step
+    even = even + np.median(time - even)
+    return even if np.all(np.abs(even - time) < min(_ROUNDED, 0.5 * step)) else time
+
+
+def _split(line: str, _separator: None, most: int) -> list[str]:
+    """Cells of a line; those that are missing at its end are empty, tabs beyond the last are no cells."""
+    if not line.strip():
+        return []
+    cells = line.rstrip("\r\n").split("\t")
+    while len(cells) > most and not cells[-1].strip():
+        cells.pop()
+    return cells + [""] * (most - len(cells))
+
+
+def _check(file: str, place: str, declared: dict[str, str], key: str, count: int, what: str) -> None:
+    said = declared.get(key, "")
+    if said and (not said.isdigit() or int(said) != count):
+        raise InputError(file, place, f"{key} is '{said[:20]}' but {count} {what}", "is the file complete?")
+
+
+def _seen(file: str, positions: Float[np.ndarray, "t m 3"]) -> Float[np.ndarray, "t m 3"]:
+    zero = np.all(positions == 0.0, axis=2)
+    if zero.any():
+        message = f"{file}: {int(zero.sum())} markers at exactly 0 0 0 are taken as not seen"
+        warnings.warn(InputWarning(message), stacklevel=3)
+    lost = zero | np.any(np.isnan(positions), axis=2)
+    return np.where(lost[..., None], np.nan, positions)

@@ -1,0 +1,1 @@
+"""Motion files turned into poses of one body in the frame of another."""

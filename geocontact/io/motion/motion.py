@@ -1,0 +1,62 @@
+"""One way in for every kind of motion file."""
+
+from __future__ import annotations
+
+from os import PathLike, fspath
+from pathlib import Path
+
+from geocontact.data.errors import InputError
+from geocontact.data.motion import Motion
+from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
+from geocontact.io.motion.poses import motion_from_csv, motion_from_joint, motion_from_map
+from geocontact.io.opensim.osim import read_joint
+from geocontact.io.text.tables import read_table
+
+SUFFIXES = (".csv", ".mot", ".sto")
+
+
+def read_motion(
+    path: str | PathLike[str],
+    *,
+    osim: str | PathLike[str] | None = None,
+    joint: str | None = None,
+    moving: str = "child",
+    mapping: str | None = None,
+    order: str | None = None,
+    angles: str | None = None,
+    grood_suntay_side: str | None = None,
+) -> Motion:
+    """Poses of MOVING in FIXED from a motion file.
+
+    Parameters
+    ----------
+    path
+        `.csv` poses (`time [s], tx [mm], …, qw, qx, qy, qz` or `rx [deg], …` with `order`), `.mot` or `.sto`.
+    osim, joint
+        Model and joint whose functions turn coordinates into poses: FIXED is the joint's parent body, MOVING its child.
+    moving
+        "parent" swaps the two; with `grood_suntay_side`, "child" means that the tibia moves.
+    mapping
+        Columns by name instead of a model: "rz=knee_flexion,ry=-knee_rotation,tx=knee_tx".
+    order
+        Order of intrinsic rotations, "XYZ" for R = Rx Ry Rz.
+    angles
+        "deg" or "rad", where the file does not say or contradicts itself.
+    grood_suntay_side
+        "right" or "left": columns are knee angles after Grood and Suntay.
+    """
+    if Path(fspath(path)).suffix.lower() not in SUFFIXES:
+        raise InputError(path, "", "is not a motion file that is read", f"give one of {', '.join(SUFFIXES)}")
+    if (osim is None) != (joint is None):
+        missing, given = ("--joint", "--osim") if joint is None else ("--osim", "--joint")
+        raise InputError("", missing, f"is missing beside {given}", "give the model and the joint in it")
+    if osim is not None and joint is not None:
+        return motion_from_joint(read_table(path), read_joint(osim, joint), moving, angles)
+    if grood_suntay_side is not None:
+        body = "tibia" if moving == "child" else "femur"
+        return motion_from_grood_suntay(read_table(path), mapping, grood_suntay_side, body, angles)
+    if mapping is not None:
+        return motion_from_map(read_table(path), mapping, order, angles)
+    if Path(fspath(path)).suffix.lower() == ".csv":
+        return motion_from_csv(path, order, angles)
+    raise InputError(path, "", "coordinates need a model to become poses", "give --osim and --joint, or --map")

@@ -1,0 +1,165 @@
+"""Poses of MOVING in FIXED over time, from tables, joints of models and single 4×4 matrices."""
+
+from __future__ import annotations
+
+import warnings
+from os import PathLike, fspath
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform, Rotation
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.motion import Motion
+from geocontact.data.multibody.joint import JointModel
+from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
+from geocontact.io.opensim.coordinates import columns_of, coordinates_of, warn_of_defaults
+from geocontact.io.text.columns import angles_of, lengths, mapped, parse_map
+from geocontact.io.text.tables import Table, listed, read_table
+from geocontact.io.text.units import LENGTH
+
+__all__ = ["motion_from_csv", "motion_from_grood_suntay", "motion_from_joint", "motion_from_map", "read_pose"]
+
+_SHIFTS = ("tx", "ty", "tz")
+_TURNS = ("rx", "ry", "rz")
+_QUATERNION = ("qw", "qx", "qy", "qz")
+_LARGEST_POSE = 65536
+
+
+def motion_from_csv(path: str | PathLike[str], order: str | None = None, angles: str | None = None) -> Motion:
+    """Motion in a .csv of poses: `time [s], tx [mm], ty [mm], tz [mm]` and a quaternion or Euler angles.
+
+    Parameters
+    ----------
+    order
+        Order of the Euler columns `rx [deg], ry [deg], rz [deg]`, intrinsic: "XYZ" is R = Rx Ry Rz. Without it Euler
+        columns are refused.
+    angles
+        Unit of Euler columns whose header has none.
+
+    Quaternions `qw, qx, qy, qz` off unit length by up to 1e-3 are normalised with a warning, others refused.
+    """
+    table = read_table(path)
+    euler, quaternion = ([c for c in names if c in table.channels] for names in (_TURNS, _QUATERNION))
+    if euler and quaternion:
+        what = f"rotation is given both ways ({', '.join(euler)} and {', '.join(quaternion)})"
+        raise InputError(table.file, "", what, "keep the quaternion or the Euler columns")
+    if euler:
+        if order is None:
+            raise InputError(table.file, "", "Euler columns without an order", "pass --order, e.g. --order XYZ")
+        turned = Rotation.from_euler(_sequence(order, "XYZ"), _in_order(angles_of(table, _TURNS, angles), order))
+    else:
+        turned = _quaternions(table)
+    poses = RigidTransform.from_components(lengths(table, _SHIFTS), turned)
+    heeded = frozenset({"order", "angles"} if euler else ())
+    return Motion(table.time, poses, table.file, table.time_unit, heeded=heeded)
+
+
+def motion_from_joint(table: Table, joint: JointModel, moving: str = "child", angles: str | None = None) -> Motion:
+    """Motion of a joint's child body in its parent body; `moving="parent"` gives the parent in the child.
+
+    Columns are coordinates by name or by path (`/jointset/joint/name/value`). A coordinate without a column keeps its
+    default value, with a warning; a table with none of them is refused.
+    """
+    if moving not in ("child", "parent"):
+        raise InputError("", "--moving", f"'{moving}' is not a body of the joint", "give child or parent")
+    columns = columns_of(table, (joint,))
+    pose = joint.pose(coordinates_of(table, joint.coordinates, columns, angles), len(table.time))
+    if not np.all(np.isfinite(pose.as_matrix())):
+        raise InputError(table.file, "", f"pose of joint {joint.name} is not finite", "coordinates or model are absurd")
+    warn_of_defaults(table, joint.coordinates, columns, f"joint {joint.name}")
+    poses = pose.inv() if moving == "parent" else pose
+    source = f"{table.file} with joint {joint.name} of {joint.file}"
+    heeded = {"angles" for c in joint.coordinates if c.name in columns and c.kind == "rotational"}
+    return Motion(table.time, poses, source, table.time_unit, heeded=frozenset(heeded))
+
+
+def motion_from_map(table: Table, mapping: str, order: str | None = None, angles: str | None = None) -> Motion:
+    """Motion from named columns: `"rz=knee_flexion,rx=knee_adduction,ry=-knee_rotation,tx=knee_tx"`.
+
+    Rotations are intrinsic in the order in which the r* entries are written (`rz,rx,ry` is R = Rz Rx Ry) unless
+    `order` says otherwise; the pose is T(tx, ty, tz) R. `-name` negates; what is not mapped is 0, with a warning.
+    """
+    parsed = parse_map(mapping, _TURNS + _SHIFTS)
+    written = "".join(target[1] for target in parsed if target in _TURNS).upper()
+    sequence = _sequence(order, written) if order else written
+    turned, moved = mapped(table, parsed, _TURNS, _SHIFTS, angles)
+    rotation = Rotation.identity(len(table.time))
+    for axis in sequence:
+        place = "XYZ".index(axis)
+        rotation = rotation * Rotation.from_rotvec(turned[:, place, None] * np.eye(3)[place])
+    poses = RigidTransform.from_components(moved, rotation)
+    heeded = frozenset(("angles", "order")[: len(written)])  # one rotation has no order
+    return Motion(table.time, poses, f"{table.file} with map {mapping}", table.time_unit, heeded=heeded)
+
+
+def read_pose(path: str | PathLike[str], unit: str = "m") -> RigidTransform:
+    """Rigid 4×4 matrix in a text file, rows separated by line breaks and cells by blanks or commas.
+
+    Parameters
+    ----------
+    unit
+        Unit of the translation, the mesh's own; the result is in m.
+
+    Refused unless the rotation part is orthonormal with determinant +1 and the last row 0 0 0 1, within 1e-6.
+    """
+    file = fspath(path)
+    if unit not in LENGTH:
+        raise InputError(file, "", f"'{unit}' is not a unit of length here", f"give one of {', '.join(LENGTH)}")
+    try:
+        if Path(file).stat().st_size > _LARGEST_POSE:
+            raise InputError(file, "", "too long for a 4x4 matrix", "give 4 rows of 4 numbers")
+        text = Path(file).read_text(encoding="utf-8-sig", errors="replace")
+    except OSError as error:
+        raise InputError(file, "", f"cannot be read ({error.strerror})", "check the path") from error
+    rows = [line.replace(",", " ").split() for line in text.splitlines() if line.strip() and line.strip()[0] != "#"]
+    try:
+        matrix = np.array([[float(cell) for cell in row] for row in rows], dtype=float)
+    except ValueError:
+        matrix = np.zeros(0)
+    if matrix.shape != (4, 4) or not np.all(np.isfinite(matrix)):
+        raise InputError(file, "", "not a 4x4 matrix of finite numbers", "give 4 rows of 4 numbers")
+    _check_rigid(matrix, file)
+    return RigidTransform.from_components(matrix[:3, 3] * LENGTH[unit], Rotation.from_matrix(matrix[:3, :3]))
+
+
+def _check_rigid(matrix: Float[np.ndarray, "4 4"], file: str) -> None:
+    turn = matrix[:3, :3]
+    skew = float(np.max(np.abs(turn.T @ turn - np.eye(3))))
+    if skew > 1e-6:
+        raise InputError(file, "", f"rotation part is off orthonormal by {skew:.2g}", "scale or shear is not a pose")
+    if np.linalg.det(turn) < 0.0:
+        raise InputError(file, "", "rotation part mirrors (determinant -1)", "mirror the mesh instead")
+    if np.max(np.abs(matrix[3] - [0.0, 0.0, 0.0, 1.0])) > 1e-6:
+        raise InputError(file, "row 4", "is not 0 0 0 1", "write the translation in the last column")
+
+
+def _sequence(order: str, axes: str) -> str:
+    """Order of intrinsic rotations in capitals: each axis at most once, and `axes` all among them."""
+    sequence = order.upper()
+    if set(sequence) - set("XYZ") or len(set(sequence)) != len(sequence) or not set(axes) <= set(sequence):
+        what = f"'{order[:20]}' does not order the axes {', '.join(axes)}"
+        raise InputError("", "--order", what, "name each axis once, e.g. XYZ")
+    return sequence
+
+
+def _in_order(turned: Float[np.ndarray, "t 3"], order: str) -> Float[np.ndarray, "t 3"]:
+    return turned[:, ["XYZ".index(axis) for axis in order.upper()]]
+
+
+def _quaternions(table: Table) -> Rotation:
+    missing = [name for name in _QUATERNION if name not in table.channels]
+    if missing:
+        what = f"no column {', '.join(missing)}"
+        raise InputError(table.file, "", what, f"columns are: {listed(table.channels)}")
+    values = np.column_stack([table.needed(name) for name in _QUATERNION])
+    size = np.linalg.norm(values, axis=1)
+    worst = int(np.argmax(np.abs(size - 1.0)))
+    if abs(size[worst] - 1.0) > 1e-3:
+        what = f"quaternion has length {size[worst]:.4g}, not 1"
+        raise InputError(table.file, f"line {table.lines[worst]}", what, "normalise the columns qw, qx, qy, qz")
+    if abs(size[worst] - 1.0) > 1e-6:
+        what = f"quaternion length up to {size[worst]:.6f} (line {table.lines[worst]}); normalised"
+        warnings.warn(InputWarning(f"{table.file}: {what}"), stacklevel=3)
+    return Rotation.from_quat(values, scalar_first=True)

@@ -1,0 +1,1 @@
+"""Files of OpenSim: models, storage, external loads, tasks."""

@@ -1,0 +1,66 @@
+"""Values of a model's coordinates in a table of motion, by name or by path (`/jointset/joint/name/value`)."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.multibody.joint import Coordinate, JointModel
+from geocontact.data.multibody.model import Multibody
+from geocontact.io.text.columns import angles_of, lengths, resolve
+from geocontact.io.text.tables import Table, listed
+
+
+def motion_of(table: Table, model: Multibody, angles: str | None = None) -> Float[np.ndarray, "t n"]:
+    """All coordinates of a model in its order [rad, m]; those without a column at their default, with a warning."""
+    columns = columns_of(table, model.joints)
+    found = coordinates_of(table, model.coordinates, columns, angles)
+    warn_of_defaults(table, model.coordinates, columns, model.name or "the model")
+    frames = len(table.time)
+    return np.column_stack([found.get(c.name, np.full(frames, c.default)) for c in model.coordinates])
+
+
+def columns_of(table: Table, joints: Sequence[JointModel]) -> dict[str, str]:
+    """Columns by the coordinates that they hold; a table with none of those that there are is refused."""
+    named = [(joint, c) for joint in joints for c in joint.coordinates]
+    columns = {c.name: column for joint, c in named if (column := resolve(table, c.name, joint.name))}
+    if named and not columns:
+        of = f"joint {joints[0].name}" if len(joints) == 1 else "the model"
+        what = f"no column for any coordinate of {of} ({listed(tuple(c.name for _, c in named))})"
+        raise InputError(table.file, "", what, f"columns are: {listed(table.channels)}")
+    return columns
+
+
+def warn_of_defaults(table: Table, coordinates: Sequence[Coordinate], columns: Mapping[str, str], of: str) -> None:
+    """Say which coordinates have no column and what they are taken to be."""
+    absent = [c for c in coordinates if c.name not in columns]
+    if absent:
+        values = ", ".join(f"{c.name} = {c.default:g}" for c in absent)
+        what = f"no column for {len(absent)} coordinate(s) of {of}; default taken: {values}"
+        warnings.warn(InputWarning(f"{table.file}: {what}"), stacklevel=4)
+
+
+def coordinates_of(
+    table: Table, coordinates: Sequence[Coordinate], columns: Mapping[str, str], angles: str | None
+) -> dict[str, Float[np.ndarray, " t"]]:
+    """Values of the coordinates that have a column [rad, m].
+
+    A coupled one stands in the file as in the model, in rad or m, also where OpenSim writes the others in degrees.
+    """
+    found = [c for c in coordinates if c.name in columns]
+    q: dict[str, Float[np.ndarray, " t"]] = {}
+    for kind, read in (("rotational", partial(angles_of, angles=angles)), ("translational", lengths)):
+        names = [c.name for c in found if c.kind == kind]
+        if names:
+            q.update(zip(names, read(table, [columns[name] for name in names]).T, strict=True))
+    for name in (c.name for c in found if c.kind == "coupled"):
+        q[name] = table.needed(columns[name])
+        if "deg" in (angles, table.angles.unit):
+            what = f"column '{columns[name]}' is not a plain rotation; read in rad or m as OpenSim writes it"
+            warnings.warn(InputWarning(f"{table.file}: {what}"), stacklevel=3)
+    return q

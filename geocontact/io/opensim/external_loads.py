@@ -1,0 +1,76 @@
+"""Which plate acts on which body: OpenSim's external loads (`ExternalLoads`, both dialects)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from os import PathLike, fspath
+from pathlib import Path
+from posixpath import basename
+from xml.etree.ElementTree import Element
+
+from geocontact.data.errors import InputError
+from geocontact.io.opensim.osim_xml import is_true, label, read_document, text_of
+
+GROUND = ("ground", "/ground", "")
+
+
+@dataclass(frozen=True)
+class ExternalLoad:
+    """A plate of a file and the body that it acts on.
+
+    Parameters
+    ----------
+    plate
+        By the beginning of its columns of force.
+    body
+        By its name.
+    torque
+        Whether the plate's free torque acts too.
+    """
+
+    plate: str
+    body: str
+    torque: bool = True
+
+
+def read_external_loads(path: str | PathLike[str]) -> tuple[Path, tuple[ExternalLoad, ...]]:
+    """The file of the plates, beside this one unless it says otherwise, and who acts on whom.
+
+    Forces and points in another frame than the ground's are refused, and points or torques of another plate than the
+    force's. Without a torque the plate's own does not act.
+    """
+    file = fspath(path)
+    root = read_document(path)
+    loads = [e for e in root.iter("ExternalForce") if not _is_off(file, e)]
+    if not loads:
+        raise InputError(file, "", "holds no ExternalForce that applies", "give OpenSim's external loads (.xml)")
+    owner = next(root.iter("ExternalLoads"), root)
+    data = text_of(owner, "datafile")
+    if not data:
+        raise InputError(file, "", "names no <datafile>", "name the .mot file of the plates")
+    return Path(file).parent / data, tuple(_load(file, e) for e in loads)
+
+
+def _load(file: str, element: Element) -> ExternalLoad:
+    for part in ("force_expressed_in_body", "point_expressed_in_body"):
+        if text_of(element, part) not in GROUND:
+            raise InputError(file, f"{label(element)} <{part}>", "is another body than the ground", "not supported")
+    body, force = basename(text_of(element, "applied_to_body")), text_of(element, "force_identifier")
+    if not body or not force:
+        raise InputError(file, label(element), "names no body or no force", "give applied_to_body and force_identifier")
+    stem = force.removesuffix("v")
+    if text_of(element, "point_identifier") != f"{stem}p":
+        what = f"'{text_of(element, 'point_identifier')[:40]}' does not belong to the force '{force[:40]}'"
+        raise InputError(file, f"{label(element)} <point_identifier>", what, f"expected {stem}p")
+    torque = text_of(element, "torque_identifier")
+    known = {stem.replace("force", word) + letter for word in ("torque", "moment") for letter in ("", "m")}
+    if torque and torque not in known:
+        what = f"'{torque[:40]}' does not belong to the force '{force[:40]}'"
+        raise InputError(file, f"{label(element)} <torque_identifier>", what, f"expected {min(known)}")
+    return ExternalLoad(stem.rstrip("_"), body, bool(torque))
+
+
+def _is_off(file: str, element: Element) -> bool:
+    if element.find("appliesForce") is not None:
+        return not is_true(file, element, "appliesForce")
+    return is_true(file, element, "isDisabled")

@@ -1,0 +1,44 @@
+"""Weights of inverse kinematics from OpenSim's setup files: `IKTaskSet` in a tool's setup or by itself."""
+
+from __future__ import annotations
+
+from os import PathLike, fspath
+from xml.etree.ElementTree import Element
+
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.io.opensim.osim_xml import is_true, label, numbers_of, read_document, text_of
+
+
+def read_marker_weights(path: str | PathLike[str]) -> MarkerTasks:
+    """Markers and coordinates with their weights; a task without a weight, or that does not apply, counts nothing.
+
+    A coordinate is wanted at the model's default or at the task's own value; values from a file are refused.
+    """
+    file = fspath(path)
+    root = read_document(path)
+    markers = {e.get("name", ""): _weight(file, e) for e in root.iter("IKMarkerTask")}
+    weighed = [(e, _weight(file, e)) for e in root.iter("IKCoordinateTask")]
+    coordinates = {e.get("name", ""): (weight, _wanted(file, e)) for e, weight in weighed if weight > 0.0}
+    if not markers and not weighed:
+        raise InputError(file, "", "holds no IKMarkerTask", "give OpenSim's setup of inverse kinematics")
+    return MarkerTasks(markers, coordinates)
+
+
+def _weight(file: str, task: Element) -> float:
+    if task.find("apply") is not None and not is_true(file, task, "apply"):
+        return 0.0
+    weight = float(numbers_of(file, task, "weight", 1, (0.0,))[0])
+    if weight < 0.0:
+        raise InputError(file, f"{label(task)} <weight>", f"{weight:g} is negative", "weights are 0 or more")
+    return weight
+
+
+def _wanted(file: str, task: Element) -> float | None:
+    kind = text_of(task, "value_type", "default_value")
+    if kind == "default_value":
+        return None
+    if kind == "manual_value":
+        return float(numbers_of(file, task, "value", 1)[0])
+    what = f"'{kind[:40]}' is not supported"
+    raise InputError(file, f"{label(task)} <value_type>", what, "default_value or manual_value")

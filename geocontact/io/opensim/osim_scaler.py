@@ -1,0 +1,193 @@
+"""An OpenSim model file made to measure: what hangs on bodies is moved with them, all else stays as it is written."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from os import PathLike, fspath
+from pathlib import Path
+from posixpath import basename
+from xml.etree.ElementTree import Element, ElementTree, SubElement
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.multibody.model import GROUND, Multibody
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.opensim.osim_xml import numbers_of, read_document, socket_of, text_of
+
+Vector = Float[np.ndarray, " 3"]
+FactorOf = Callable[[str], Vector]
+
+_SHIFTS = ("translation1", "translation2", "translation3")
+_SAME = 1e-9
+"""m that the file that was written may differ from what it was to be."""
+
+
+def write_scaled_model(
+    source: str | PathLike[str],
+    target: Path,
+    scaled: Multibody,
+    factors: Mapping[str, Vector],
+    pose: Mapping[str, float] | None = None,
+) -> None:
+    """Write the source again with bodies, joints, markers and paths of muscles scaled; it is read back and compared.
+
+    Parameters
+    ----------
+    scaled
+        The model as it is to be: masses, mass centres, inertias and markers are its own.
+    factors
+        Of bodies by name, along the axes of the body's frame.
+    pose
+        Defaults of coordinates by name [rad, m] in place of those in the file.
+
+    Lengths of fibres and tendons, wrapping surfaces and contact geometry stay, with a warning where there are any.
+    InputError where frames hang on frames in a way that is not followed.
+    """
+    file = fspath(source)
+    root = read_document(source, "OpenSim model")
+    model = root if root.tag == "Model" else root.find("Model")
+    if model is None:
+        raise InputError(file, "", f"root element is <{root.tag[:40]}>, not an OpenSim model", "give an .osim file")
+
+    def of(body: str) -> Vector:
+        return np.asarray(factors.get(basename(body), np.ones(3)), float)
+
+    _bodies(file, model, scaled, of)
+    _frames(file, model, scaled, of)
+    _shifts(file, model, scaled, of)
+    _markers(model, scaled)
+    for point in model.iter():
+        if point.tag.endswith("PathPoint"):
+            _times(file, point, "location", of(text_of(point, "body") or socket_of(point, "parent_frame")))
+        elif point.tag == "Coordinate" and point.get("name", "") in (pose or {}):
+            _set(point, "default_value", [(pose or {})[point.get("name", "")]])
+    if any(True for _ in model.iter("optimal_fiber_length")):
+        message = f"{file}: lengths of fibres and tendons, wrapping surfaces and contact geometry are not scaled"
+        warnings.warn(InputWarning(message), stacklevel=2)
+    ElementTree(root).write(target, encoding="UTF-8", xml_declaration=True)
+    _compare(file, target, scaled)
+
+
+def _bodies(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
+    wanted = {body.name: body for body in scaled.bodies}
+    for element in model.findall("BodySet/objects/Body"):
+        body = wanted.get(element.get("name", ""))
+        if body is None:
+            continue
+        _set(element, "mass", [body.mass])
+        _set(element, "mass_center", body.centre)
+        i = body.inertia
+        six = {"xx": i[0, 0], "yy": i[1, 1], "zz": i[2, 2], "xy": i[0, 1], "xz": i[0, 2], "yz": i[1, 2]}
+        if element.find("inertia") is not None:
+            _set(element, "inertia", list(six.values()))
+        else:
+            for ij, value in six.items():
+                _set(element, f"inertia_{ij}", [value])
+        for mesh in element.findall("attached_geometry/*"):
+            _times(file, mesh, "scale_factors", of(body.name))
+
+
+def _frames(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
+    """Offset frames that hang on bodies (OpenSim 4), and where joints are in both bodies (OpenSim 3)."""
+    names = {GROUND, *(body.name for body in scaled.bodies)}
+    inside = {id(f): body.get("name", "") for body in model.iter("Body") for f in body.findall("components/*")}
+    for frame in model.iter("PhysicalOffsetFrame"):
+        socket = socket_of(frame, "parent")
+        body = inside.get(id(frame), "") if socket in ("", "..") else basename(socket)
+        if body in names:
+            _times(file, frame, "translation", of(body))
+    for element in model.findall("BodySet/objects/Body"):
+        for joint in element.findall("Joint/*"):
+            _times(file, joint, "location_in_parent", of(text_of(joint, "parent_body")))
+            _times(file, joint, "location", of(element.get("name", "")))
+
+
+def _shifts(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
+    """Functions of a shift that are no coordinate by themselves, times the factor along their axis."""
+    joints = {joint.name: joint for joint in scaled.joints}
+    for element in model.iter("CustomJoint"):
+        joint = joints.get(element.get("name", ""))
+        for axis in element.findall("SpatialTransform/TransformAxis"):
+            if joint is None or joint.parent == GROUND or axis.get("name") not in _SHIFTS:
+                continue
+            slot = _SHIFTS.index(axis.get("name", ""))
+            direction = numbers_of(file, axis, "axis", 3, tuple(np.eye(3)[slot]))
+            turned = joint.parent_offset.rotation.apply(direction / np.linalg.norm(direction))
+            _multiply(file, axis, float(np.linalg.norm(turned * of(joint.parent))))
+
+
+def _multiply(file: str, axis: Element, factor: float) -> None:
+    nested = axis.find("function")
+    holder = axis if nested is None else nested
+    plain = [child for child in holder if child.tag not in ("coordinates", "coordinate", "axis")]
+    if not plain or factor == 1.0:
+        return
+    function = plain[0]
+    if function.tag == "LinearFunction" and numbers_of(file, function, "coefficients", None).tolist() == [1.0, 0.0]:
+        return  # the coordinate itself
+    place = list(holder).index(function)
+    holder.remove(function)
+    around = Element("MultiplierFunction", {"name": function.get("name", "function")} if nested is None else {})
+    SubElement(around, "function").append(function)
+    SubElement(around, "scale").text = f"{factor:.17g}"
+    holder.insert(place, around)
+
+
+def _markers(model: Element, scaled: Multibody) -> None:
+    """The model's markers written anew, in the dialect of the file."""
+    old = bool(model.findall("BodySet/objects/Body/Joint"))
+    holder = model.find("MarkerSet")
+    if holder is None:
+        holder = SubElement(model, "MarkerSet", {"name": "markerset"})
+    for child in list(holder):
+        holder.remove(child)
+    objects = SubElement(holder, "objects")
+    for marker in scaled.markers:
+        element = SubElement(objects, "Marker", {"name": marker.name})
+        if old:
+            SubElement(element, "body").text = marker.body
+        else:
+            path = "/ground" if marker.body == GROUND else f"/bodyset/{marker.body}"
+            SubElement(element, "socket_parent_frame").text = path
+        _set(element, "location", marker.location)
+        SubElement(element, "fixed").text = "true" if marker.fixed else "false"
+
+
+def _compare(file: str, target: Path, scaled: Multibody) -> None:
+    """What was written must be the model that was meant, joint by joint and marker by marker."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        found = read_multibody(target)
+    ends = [
+        (f"joint {one.name}", [*one.parent_offset.translation, *one.child_offset.translation],
+         [*other.parent_offset.translation, *other.child_offset.translation])
+        for one, other in zip(found.joints, scaled.joints, strict=True)
+    ]  # fmt: skip
+    places = np.tile([c.default for c in scaled.coordinates], (3, 1)) + np.array([[0.0], [0.1], [-0.2]])
+    ends += [
+        (f"marker {m.name}", one.ravel().tolist(), other.ravel().tolist())
+        for m, one, other in zip(
+            scaled.markers,
+            found.marker_places(places).swapaxes(0, 1),
+            scaled.marker_places(places).swapaxes(0, 1),
+            strict=True,
+        )
+    ]
+    for what, one, other in ends:
+        if np.abs(np.subtract(one, other)).max() > _SAME:
+            raise InputError(file, what, "hangs on frames in a way that is not scaled", "hang it on a body")
+
+
+def _times(file: str, element: Element, child: str, by: Vector) -> None:
+    if element.find(child) is not None:
+        _set(element, child, numbers_of(file, element, child, 3) * by)
+
+
+def _set(element: Element, child: str, values: Float[np.ndarray, " k"] | list[float]) -> None:
+    found = element.find(child)
+    if found is None:
+        found = SubElement(element, child)
+    found.text = " ".join(f"{float(value):.17g}" for value in values)

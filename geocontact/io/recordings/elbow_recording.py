@@ -1,0 +1,135 @@
+"""Recordings of an exoskeleton at an elbow: tables over time or analog channels of a .c3d file, to SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.data.errors import InputError
+from geocontact.io.mocap.c3d_analogs import read_c3d_analogs
+from geocontact.io.recordings.load_cells import column_in_newtons
+from geocontact.io.text.columns import angles_of, lengths, resolve
+from geocontact.io.text.tables import Table, listed, read_table
+from geocontact.io.text.units import DIMENSIONS, si_unit
+
+BETA, FORCE, DISPLACEMENT, PRESSURE = "beta", "force", "displacement", "pressure"
+CHANNELS = (BETA, FORCE, DISPLACEMENT, PRESSURE)
+"""What is looked for, by these names unless mapped; the last two may be missing."""
+
+Mapped = Mapping[str, tuple[float, str]]
+
+STRAIGHTEST, MOST_BENT = np.radians(-30.0), np.radians(180.0)
+"""Angles [rad] beyond which nothing is an elbow's."""
+LEAST_TURN = np.radians(10.0)
+"""A smaller range [rad] tells nothing of offsets."""
+TURN_OF_ANY_ELBOW = np.radians(3.3)
+"""A range [rad] below which a column of degrees may well hold radians."""
+STRONGEST, FARTHEST = 2000.0, 0.5
+"""No cuff bears more [N], and no compensation joint slides farther [m]."""
+TIGHTEST = 1000.0 * DIMENSIONS["Pa"]["mmHg"]
+"""No cuff is pumped to more [Pa]."""
+
+
+def read_elbow_recording(
+    path: Path, mapping: Mapped, angles: str | None = None, unit: str | None = None, needed: tuple[str, ...] = (FORCE,)
+) -> ElbowRecording:
+    """One trial from a .csv, .mot, .sto or .c3d file, named after the file.
+
+    Parameters
+    ----------
+    mapping
+        Sign and name of the column that holds a channel, by channel.
+    angles, unit
+        Unit of the angle and of the force where the file does not say; see `angles_of` and `column_in_newtons`.
+    needed
+        Channels that must be there besides the angle; a force that is not needed and not there is 0 throughout.
+
+    Refused: angles that no elbow has, that hardly change or are turned over, degrees and radians taken for each other,
+    forces and displacements of an absurd size, and values that are missing.
+    """
+    table = read_c3d_analogs(path) if path.suffix.lower() == ".c3d" else read_table(path)
+    if table.time_unit != "s":
+        raise InputError(table.file, "", "time is in per cent of a cycle", "give a recording in seconds")
+    if len(table.time) < 2:
+        raise InputError(table.file, "", "holds one sample", "give a recording over time")
+    source = {channel: _source(table, channel, mapping, channel in (BETA, *needed)) for channel in CHANNELS}
+    sign, name = source[BETA] or (1.0, BETA)
+    beta = sign * angles_of(table, [name], angles)[:, 0]
+    require_elbow(beta, table.file, name)
+    force = _force(table, source[FORCE], unit)
+    return ElbowRecording(
+        path.stem, table.time, beta, force, _length(table, source[DISPLACEMENT]), _pressure(table, source[PRESSURE])
+    )
+
+
+def require_elbow(beta: Float[np.ndarray, " t"], file: str, name: str) -> None:
+    """Refuse angles [rad] that are not those of an elbow that moves, flexion positive."""
+    low, high = (float(np.degrees(end)) for end in (beta.min(), beta.max()))
+    span = f"angle '{name}' runs from {low:.3g} to {high:.3g} degrees"
+    if beta.max() - beta.min() < TURN_OF_ANY_ELBOW and high - low > 0.5:
+        what = f"{span}, too little for an elbow in degrees: are these radians?"
+        raise InputError(file, "", what, "name the right unit in the header, or pass --angles rad")
+    if beta.max() - beta.min() < LEAST_TURN:
+        raise InputError(file, "", f"{span}: it hardly changes", "give a recording that moves by 10 degrees or more")
+    if beta.max() <= 0.0 or (beta.max() <= LEAST_TURN and beta.min() < STRAIGHTEST):
+        raise InputError(file, "", f"{span}: flexion is positive here", f"turn its sign: --map {BETA}=-{name}")
+    if beta.min() < STRAIGHTEST or beta.max() > MOST_BENT:
+        what = f"{span}, beyond any elbow: are degrees taken for radians, or is its zero elsewhere?"
+        raise InputError(file, "", what, "pass --angles deg or rad, or take the zero off")
+
+
+def _source(table: Table, channel: str, mapping: Mapped, must: bool) -> tuple[float, str] | None:
+    sign, name = mapping.get(channel, (1.0, channel))
+    found = resolve(table, name)
+    if found is None and (must or channel in mapping):
+        what = f"no column '{name}' for {channel}; columns are: {listed(table.channels)}"
+        raise InputError(table.file, "", what, f"name it: --map {channel}=NAME")
+    return None if found is None else (sign, found)
+
+
+def _force(table: Table, source: tuple[float, str] | None, unit: str | None) -> Float[np.ndarray, " t"]:
+    if source is None:
+        return np.zeros(len(table.time))
+    sign, name = source
+    newtons, said = column_in_newtons(table, name, unit)
+    largest = float(np.abs(newtons).max())
+    if largest > STRONGEST:
+        what = f"'{name}' reaches {largest:.4g} N, more than any cuff bears"
+        raise InputError(table.file, "", what, f"is it in {said} at all?")
+    if float(np.ptp(newtons)) == 0.0:
+        raise InputError(table.file, "", f"'{name}' is {newtons[0]:g} N throughout", "is the right column named?")
+    return np.asarray(sign * newtons)
+
+
+def _length(table: Table, source: tuple[float, str] | None) -> Float[np.ndarray, " t"] | None:
+    if source is None:
+        return None
+    sign, name = source
+    metres = lengths(table, [name])[:, 0]
+    largest = float(np.abs(metres).max())
+    if largest > FARTHEST:
+        what = f"'{name}' reaches {largest * 1e3:.4g} mm, more than any compensation joint slides"
+        raise InputError(table.file, "", what, "name its unit in the header, for example displacement [mm]")
+    return np.asarray(sign * metres)
+
+
+def _pressure(table: Table, source: tuple[float, str] | None) -> Float[np.ndarray, " t"] | None:
+    if source is None:
+        return None
+    sign, name = source
+    values = table.needed(name)
+    said = table.units[table.channels.index(name)]
+    known = si_unit(said) if said else None
+    if known is None or known[0] != "Pa":
+        what = f"'{name}' is in '{said}'" if said else f"'{name}' has no unit"
+        raise InputError(table.file, "", what, f"write {name} [mmHg] (one of {', '.join(DIMENSIONS['Pa'])})")
+    pressure = np.asarray(sign * values * known[1])
+    largest = float(np.abs(pressure).max())
+    if largest > TIGHTEST:
+        what = f"'{name}' reaches {largest / known[1]:.4g} {said}, more than any cuff is pumped to"
+        raise InputError(table.file, "", what, "is it in that unit at all?")
+    return pressure

@@ -1,0 +1,141 @@
+"""Recordings of an instrumented implant's load cells, and the files that say how cells make up compartments."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import fspath
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from geocontact.data.cell_regression import CellRegression
+from geocontact.data.errors import InputError
+from geocontact.io.text.csv_text import text_of
+from geocontact.io.text.side_table import LARGEST_TABLE, read_side_table
+from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.units import DIMENSIONS, si_unit
+
+FORCES = DIMENSIONS["N"]
+STRONGEST = 20e3  # N; no knee bears this much
+_MATRIX = "write medial = [...] and cells = [...], or a .csv with the columns cell, medial [-], lateral [-]"
+
+
+@dataclass(frozen=True)
+class CellRecording:
+    """Forces of the cells over time, compression positive.
+
+    Parameters
+    ----------
+    file
+        Path as given, for messages.
+    time
+        [s], strictly increasing.
+    forces
+        [N], columns in the order asked for.
+    unit
+        Unit in the file.
+    """
+
+    file: str
+    time: Float[np.ndarray, " t"]
+    forces: Float[np.ndarray, "t c"]
+    unit: str
+
+
+class RegressionFile(BaseModel):
+    """Weights of cells in a .toml; lateral is what medial leaves where it is not given."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+    name: str | None = None
+    source: str = ""
+    cells: list[str]
+    medial: list[float]
+    lateral: list[float] | None = None
+
+
+def read_load_cells(
+    path: Path, cells: tuple[str, ...], unit: str | None, mapping: Mapping[str, tuple[float, str]]
+) -> CellRecording:
+    """Columns of a .csv, .mot or .sto table, in N.
+
+    Parameters
+    ----------
+    cells
+        Names of the cells; the same names are looked for among the columns, unless mapped.
+    unit
+        Unit of all of them; None where their headers say it (`PM [lbf]`). A header that says another is refused.
+    mapping
+        Sign and name of the column that holds a cell, by cell.
+    """
+    table = read_table(path)
+    if table.time_unit != "s":
+        raise InputError(table.file, "", "time is in per cent of a cycle", "give a recording in seconds")
+    sources = [mapping.get(cell, (1.0, cell)) for cell in cells]
+    columns = [(sign, *column_in_newtons(table, name, unit)) for sign, name in sources]
+    units = {said for _, _, said in columns}
+    forces = np.column_stack([sign * values for sign, values, _ in columns])
+    largest = float(np.abs(forces.sum(axis=1)).max())
+    if largest > STRONGEST:
+        what = f"all cells together reach {largest:.0f} N"
+        raise InputError(table.file, "", what, f"is the file in {', '.join(sorted(units))} at all? see --unit")
+    return CellRecording(table.file, table.time, forces, ", ".join(sorted(units)))
+
+
+def column_in_newtons(table: Table, name: str, given: str | None) -> tuple[Float[np.ndarray, " t"], str]:
+    """A column of forces [N] and its unit in the file, which its header says or `given` does."""
+    unit = _unit(table, name, given)
+    return np.asarray(table.needed(name) * FORCES[unit]), unit
+
+
+def _unit(table: Table, name: str, given: str | None) -> str:
+    """Unit of a column of forces, by its header or as given."""
+    table.needed(name)
+    said = table.units[table.channels.index(name)]
+    if said and (si_unit(said) or ("", 0.0))[0] != "N":
+        raise InputError(table.file, "", f"column '{name}' is in '{said}'", f"forces are in {', '.join(FORCES)}")
+    if said and given and si_unit(said) != si_unit(given):
+        raise InputError(table.file, "", f"column '{name}' is in {said}, not in {given}", "leave --unit out")
+    if not said and not given:
+        raise InputError(table.file, "--unit", "is missing: the file names no unit", "pass --unit lbf, N or kN")
+    return next(u for u in FORCES if si_unit(u) == si_unit(said or given or ""))
+
+
+def read_regression(path: Path) -> CellRegression:
+    """Weights from a .toml (cells, medial, lateral) or a .csv (cell, medial [-], lateral [-])."""
+    suffix = path.suffix.lower()
+    if suffix not in (".toml", ".csv"):
+        raise InputError(path, "", f"'{suffix}' is not a file of weights", "give a .toml or a .csv")
+    file = _from_toml(path) if suffix == ".toml" else _from_csv(path)
+    lateral = [1.0 - weight for weight in file.medial] if file.lateral is None else file.lateral
+    try:
+        return CellRegression(
+            file.name or path.stem, file.source or path.name, tuple(file.cells), tuple(file.medial), tuple(lateral)
+        )
+    except ValueError as error:
+        raise InputError(path, "", str(error), _MATRIX) from error
+
+
+def _from_toml(path: Path) -> RegressionFile:
+    text = text_of(path, LARGEST_TABLE, "a TOML file").decode("utf-8")
+    try:
+        return RegressionFile.model_validate(tomllib.loads(text))
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(path, "", f"is not TOML ({error})", "write lines such as medial = [0.97, 0.99]") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        what = "is not known here" if first["type"] == "extra_forbidden" else first["msg"].lower()
+        raise InputError(path, ".".join(map(str, first["loc"])), what, _MATRIX) from error
+
+
+def _from_csv(path: Path) -> RegressionFile:
+    table = read_side_table(path)
+    wanted = ("cell", "medial [-]")
+    if missing := [name for name in wanted if name not in table]:
+        found = ", ".join(map(str, table.columns))
+        raise InputError(fspath(path), "line 1", f"no column {', '.join(missing)}; columns are: {found}", _MATRIX)
+    lateral = table["lateral [-]"].tolist() if "lateral [-]" in table else None
+    return RegressionFile(cells=table["cell"].tolist(), medial=table["medial [-]"].tolist(), lateral=lateral)

@@ -1,0 +1,219 @@
+"""Tables of foot spheres, and the small file with the numbers of their force law."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+import warnings
+from dataclasses import dataclass
+from os import PathLike, fspath
+
+import numpy as np
+from jaxtyping import Bool, Float
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.io.mesh.file_preflight import read_bytes
+from geocontact.io.text.units import LENGTH, split_header
+
+LARGEST_TABLE = 16_000_000
+"""Bytes; some hundred thousand spheres."""
+
+_COLUMNS = ("px", "py", "pz", "radius", "zone", "k", "b")
+_STIFFNESS = re.compile(r"N/m(?:\^(?P<exponent>n|\d+(\.\d+)?))?")
+_ZONE = re.compile(r"[\w][\w .+-]{0,39}")
+
+
+@dataclass(frozen=True)
+class SphereTable:
+    """A sphere table in SI units.
+
+    Parameters
+    ----------
+    centre, radius, zone
+        In the foot's frame [m].
+    stiffness, damping
+        Columns k [N/m^n] and b [N s/m], None where the table has none.
+    exponent
+        The n that the unit of k names, None when it names none.
+    """
+
+    centre: Float[np.ndarray, "n 3"]
+    radius: Float[np.ndarray, " n"]
+    zone: tuple[str, ...]
+    stiffness: Float[np.ndarray, " n"] | None
+    damping: Float[np.ndarray, " n"] | None
+    exponent: float | None
+
+
+class ZoneLaw(BaseModel):
+    """Stiffness [N/m^n] and damping [N s/m] of a zone."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+    k: float | None = None
+    b: float | None = None
+
+
+class LawFile(BaseModel):
+    """Numbers of a force law, each optional: for all spheres at the top, for one zone in `[zone.NAME]`."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+    k: float | None = None
+    b: float | None = None
+    n: float | None = None
+    delta_full: float | None = None
+    mu_s: float | None = None
+    mu_k: float | None = None
+    v_th: float | None = None
+    zone: dict[str, ZoneLaw] = {}
+
+
+def read_spheres(path: str | PathLike[str]) -> SphereTable:
+    """Spheres of a CSV: `px [m], py [m], pz [m], radius [m], zone`, and `k [N/m^n]`, `b [N s/m]` where there are any.
+
+    Lengths may be in any unit of length. Without `pz` the spheres lie in z = 0, without `zone` in one zone "foot",
+    both with a warning. Refused with its line: what is no finite number, a radius or k that is not positive, b < 0.
+    """
+    cells = _cells(_text(path), fspath(path))
+    _say_what_is_made_up(cells)
+    radius = cells.lengths("radius")
+    cells.refuse("radius", radius, radius <= 0.0, "must be positive")
+    depth = cells.lengths("pz") if "pz" in cells.names else np.zeros(len(cells.rows))
+    centre = np.column_stack([cells.lengths("px"), cells.lengths("py"), depth])
+    zone = cells.zones() if "zone" in cells.names else ("foot",) * len(cells.rows)
+    stiffness = cells.numbers("k") if "k" in cells.names else None
+    damping = cells.numbers("b") if "b" in cells.names else None
+    exponent = None if stiffness is None else _exponent(cells)
+    if stiffness is not None:
+        cells.refuse("k", stiffness, stiffness <= 0.0, "must be positive")
+    if damping is not None:
+        if cells.unit("b") != "N s/m":
+            raise InputError(cells.file, "", f"column 'b' is in '{cells.unit('b')}'", "write `b [N s/m]`")
+        cells.refuse("b", damping, damping < 0.0, "must not be negative")
+    return SphereTable(centre, radius, zone, stiffness, damping, exponent)
+
+
+def read_law(path: str | PathLike[str]) -> LawFile:
+    """Numbers of a force law in a .toml: k, b, n, delta_full, mu_s, mu_k, v_th (SI), and k, b of zones."""
+    file = fspath(path)
+    try:
+        return LawFile.model_validate(tomllib.loads(_text(path)))
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(file, "", f"is not TOML ({error})", "write lines such as n = 1.2") from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"]))
+        what = "is not known here" if first["type"] == "extra_forbidden" else first["msg"].lower()
+        remedy = "known are k, b, n, delta_full, mu_s, mu_k, v_th, and k, b in [zone.NAME]"
+        raise InputError(file, place, what, remedy) from error
+
+
+def _text(path: str | PathLike[str]) -> str:
+    data = read_bytes(path)
+    if len(data) > LARGEST_TABLE:
+        raise InputError(path, "", f"{len(data) / 1e6:.0f} MB is more than the {LARGEST_TABLE / 1e6:.0f} MB limit")
+    if b"\0" in data or data.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
+        raise InputError(path, "", "is not a text table", "give a file of comma-separated columns (UTF-8)")
+    return data.decode("utf-8-sig", errors="replace")
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """Cells of a table as text, with the line of each row."""
+
+    file: str
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    rows: tuple[tuple[int, list[str]], ...]
+
+    def unit(self, name: str) -> str:
+        return self.units[self.names.index(name)]
+
+    def column(self, name: str) -> list[tuple[int, str]]:
+        place = self.names.index(name)
+        return [(line, cells[place]) for line, cells in self.rows]
+
+    def numbers(self, name: str) -> Float[np.ndarray, " n"]:
+        """Finite numbers of a column; InputError names the line of the first cell that holds none."""
+        values = np.array([self._number(name, line, text) for line, text in self.column(name)])
+        self.refuse(name, values, ~np.isfinite(values), "must be finite")
+        return values
+
+    def lengths(self, name: str) -> Float[np.ndarray, " n"]:
+        """Numbers of a column in m."""
+        unit = self.unit(name)
+        if unit not in LENGTH:
+            what = f"column '{name}' is in '{unit}'" if unit else f"column '{name}' has no unit"
+            raise InputError(self.file, "", what, f"write e.g. `{name} [m]` (one of {', '.join(LENGTH)})")
+        return self.numbers(name) * LENGTH[unit]
+
+    def zones(self) -> tuple[str, ...]:
+        """Names of the column `zone`, which later name columns of results."""
+        for line, text in self.column("zone"):
+            if not _ZONE.fullmatch(text):
+                remedy = "name zones with up to 40 letters, digits, blanks or . _ + -"
+                raise InputError(self.file, f"line {line}", f"zone {text[:40]!r} is not a name", remedy)
+        return tuple(text for _, text in self.column("zone"))
+
+    def refuse(self, name: str, values: Float[np.ndarray, " n"], bad: Bool[np.ndarray, " n"], rule: str) -> None:
+        """InputError with the line of the first bad value, as it is written there."""
+        if bad.any():
+            line, text = self.column(name)[int(np.argmax(bad))]
+            raise InputError(self.file, f"line {line}", f"{name} is {text[:40]}", f"it {rule}")
+
+    def _number(self, name: str, line: int, text: str) -> float:
+        try:
+            if "_" in text or not text.isascii():
+                raise ValueError(text)
+            return float(text)
+        except ValueError as error:
+            what = f"'{text[:40]}' in column '{name}' is not a number"
+            raise InputError(self.file, f"line {line}", what, "use decimal points and fill every cell") from error
+
+
+def _cells(text: str, file: str) -> _Cells:
+    """Header and rows; comments and blank lines are passed over."""
+    rows: list[tuple[int, list[str]]] = []
+    for number, line in enumerate(text.splitlines(), 1):
+        if not line.strip() or line.lstrip().startswith("#"):
+            continue
+        cells = [cell.strip() for cell in line.split(",")]
+        if rows and len(cells) != len(rows[0][1]):
+            what = f"{len(cells)} cells where {len(rows[0][1])} columns are named"
+            raise InputError(file, f"line {number}", what, "rows must be as long as the header")
+        rows.append((number, cells))
+    if len(rows) < 2:
+        raise InputError(file, "", "holds no spheres", "write px [m], py [m], pz [m], radius [m], zone and a row each")
+    place, header = rows[0]
+    names, units = zip(*map(split_header, header), strict=True)
+    missing = [name for name in ("px", "py", "radius") if name not in names]
+    if missing:
+        what = f"no column {', '.join(missing)}; columns are: {', '.join(name[:40] for name in names[:30] if name)}"
+        raise InputError(file, f"line {place}", what, "write px [m], py [m], pz [m], radius [m], zone")
+    for name in _COLUMNS:
+        if names.count(name) > 1:
+            raise InputError(file, f"line {place}", f"column '{name}' occurs {names.count(name)} times", "keep one")
+    return _Cells(file, names, units, tuple(rows[1:]))
+
+
+def _say_what_is_made_up(cells: _Cells) -> None:
+    said = []
+    if "pz" not in cells.names:
+        said.append("no column 'pz'; the spheres are taken to lie in z = 0")
+    if "zone" not in cells.names:
+        said.append("no column 'zone'; all spheres are one zone, 'foot'")
+    if unknown := [name for name in cells.names if name not in _COLUMNS]:
+        said.append(f"column {', '.join(repr(name[:40]) for name in unknown[:30])} is not used")
+    for what in said:
+        warnings.warn(InputWarning(f"{cells.file}: {what}"), stacklevel=3)
+
+
+def _exponent(cells: _Cells) -> float | None:
+    """The exponent that the unit of k names, 1 for N/m, None for N/m^n."""
+    match = _STIFFNESS.fullmatch(cells.unit("k"))
+    if match is None:
+        raise InputError(
+            cells.file, "", f"column 'k' is in '{cells.unit('k')}'", "write `k [N/m^n]` or, say, [N/m^1.5]"
+        )
+    written = match["exponent"] or "1"
+    return None if written == "n" else float(written)

@@ -1,0 +1,159 @@
+"""Comma-separated text before its cells are read: what may not be in it, and the columns that its header names."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from os import fspath
+from pathlib import Path
+from typing import TextIO
+
+from geocontact.data.errors import InputError
+from geocontact.io.mesh.file_preflight import UNKNOWN, looks_like, read_bytes
+from geocontact.io.mesh.text_lines import BYTE_ORDER_MARK
+from geocontact.io.opensim.storage_header import LONGEST_LINE
+from geocontact.io.text.units import DIMENSIONS, si_unit, split_header
+
+MOST_COLUMNS = 1000
+
+LONGEST_NAME = 100
+"""Characters of a column's name."""
+
+_QUOTED_COMMA = re.compile(rb'"\s*[-+]?\d+,\d+(?:[eE][-+]?\d+)?\s*"')
+
+_FIRST_ROW = re.compile(rb"[^\r\n]*[\r\n]\s*(?P<row>[^\r\n]+)")
+
+
+@dataclass(frozen=True)
+class Column:
+    """Name and unit in the file, SI unit and how many of it one unit is; units are "" where the header has none."""
+
+    name: str
+    unit: str
+    si: str
+    factor: float
+
+    @property
+    def label(self) -> str:
+        """With the SI unit: "px [m]"; the name alone where there is no unit."""
+        return f"{self.name} [{self.si}]" if self.si else self.name
+
+
+def text_of(path: Path, most_bytes: int, kind: str = "a CSV table") -> bytes:
+    """Content of a file of at most `most_bytes` that is UTF-8 text; the byte order mark is taken off."""
+    file = fspath(path)
+    _refuse_large(path, most_bytes)
+    data = read_bytes(path).removeprefix(BYTE_ORDER_MARK)
+    if not data.strip():
+        raise InputError(file, "", "the file is empty", "export or copy it again")
+    what, _ = looks_like(data)
+    if b"\0" in data and what in ("plain text", UNKNOWN[0]):
+        what = "binary data"
+    if what not in ("plain text", UNKNOWN[0]):
+        remedy = "fetch the file itself, or save it as UTF-8 text"
+        raise InputError(file, "", f"is not {kind}: it looks like {what}", remedy)
+    try:
+        data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise InputError(
+            file, f"line {line}", f"byte 0x{data[error.start]:02x} is not UTF-8", "save it as UTF-8"
+        ) from None
+    return data
+
+
+def _refuse_large(path: Path, most_bytes: int) -> None:
+    try:
+        size = path.stat().st_size if path.is_file() else 0
+    except (OSError, ValueError):  # `read_bytes` says why
+        return
+    if size > most_bytes:
+        what = f"{size / 1e6:.1f} MB is more than the {most_bytes / 1e6:.0f} MB that are read"
+        raise InputError(path, "", what, "cut or resample it")
+
+
+@contextmanager
+def open_csv(path: Path, most_bytes: int) -> Iterator[tuple[TextIO, tuple[Column, ...]]]:
+    """Text of a CSV file from the line below the header on, and its columns.
+
+    One header row, a name once; a unit that is there is known. Decimal commas, other separators and a missing header
+    are refused with the line that says so.
+    """
+    data, file = text_of(path, most_bytes), fspath(path)
+    with path.open(encoding="utf-8-sig") as stream:
+        header = stream.readline(LONGEST_LINE)
+        if len(header) >= LONGEST_LINE:
+            raise InputError(file, "line 1", "the header does not end", "one row of `name [unit]` is needed")
+        columns = _columns(header, file)
+        _refuse_decimal_commas(data, len(columns), file)
+        yield stream, columns
+
+
+def _refuse_decimal_commas(data: bytes, count: int, file: str) -> None:
+    """Quoted ones anywhere, and what is likeliest when the first row is longer than the header's `count` cells."""
+    if found := _QUOTED_COMMA.search(data):
+        line = data.count(b"\n", 0, found.start()) + 1
+        raise InputError(file, f"line {line}", f"decimal comma in {found[0].decode()}", "write decimal points")
+    first = _FIRST_ROW.match(data)
+    cells = first["row"].count(b",") + 1 if first and b'"' not in first["row"] else 0
+    if first and cells > count > 1:
+        line = data.count(b"\n", 0, first.start("row")) + 1
+        what = f"{cells} cells where {count} columns are named (decimal commas?)"
+        raise InputError(file, f"line {line}", what, "write decimal points, and rows as long as the header")
+
+
+def split_commas(line: str, _separator: None, most: int) -> list[str]:
+    """At most `most` + 1 cells of a line; none of a blank one. For `read_rows`."""
+    return line.split(",", most) if line.strip() else []
+
+
+def _columns(header: str, file: str) -> tuple[Column, ...]:
+    cells = _cells(header, file)
+    columns = tuple(_column(*split_header(cell), number, file) for number, cell in enumerate(cells, 1))
+    names = [column.name for column in columns]
+    for name in names:
+        if names.count(name) > 1:
+            what = f"column '{name}' occurs {names.count(name)} times"
+            raise InputError(file, "line 1", what, "give each column a name of its own")
+    return columns
+
+
+def _cells(header: str, file: str) -> list[str]:
+    """Cells of the header row."""
+    if not header.strip():
+        raise InputError(file, "line 1", "no column names", "one row of `name [unit]` is needed above the numbers")
+    for separator, word in ((";", "';'"), ("\t", "tabs")):
+        if separator in header and "," not in header:
+            remedy = "save it with commas between columns and decimal points"
+            raise InputError(file, "line 1", f"columns are separated by {word}", remedy)
+    if header.count('"') % 2:
+        raise InputError(file, "line 1", "a quote is left open", "check the quotes of the column names")
+    try:
+        cells = next(csv.reader([header], skipinitialspace=True))
+    except csv.Error as error:
+        raise InputError(file, "line 1", f"the header cannot be split ({error})", "check its quotes") from error
+    if len(cells) > MOST_COLUMNS:
+        what = f"{len(cells)} columns are more than the {MOST_COLUMNS} that are read"
+        raise InputError(file, "line 1", what, "keep the columns that are needed")
+    if all(re.fullmatch(r"\s*[-+]?[\d.]+(e[-+]?\d+)?\s*", cell, re.IGNORECASE) for cell in cells):
+        raise InputError(file, "line 1", "numbers where the header should be", "one row of `name [unit]` is needed")
+    return cells
+
+
+def _column(name: str, unit: str, number: int, file: str) -> Column:
+    place = f"line 1, column {number}"
+    if not name:
+        raise InputError(file, place, "has no name", "write `name [unit]`")
+    if not name.isprintable() or len(name) > LONGEST_NAME:
+        what = f"{name[:40]!r} is not a name of printable characters, at most {LONGEST_NAME}"
+        raise InputError(file, place, what, "rename it")
+    if not unit:
+        return Column(name, "", "", 1.0)
+    known = si_unit(unit)
+    if known is None:
+        remedy = f"known are {', '.join(unit for units in DIMENSIONS.values() for unit in units)}"
+        raise InputError(file, place, f"'{name}' is in {unit[:40]!r}, which is not a unit known here", remedy)
+    return Column(name, unit, *known)

@@ -1,0 +1,73 @@
+"""A small table of a case besides its trials: contact spheres, a support curve, the layout of a mat."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterator
+from os import fspath
+from pathlib import Path
+from typing import TextIO
+
+import pandas as pd
+
+from geocontact.data.errors import InputError
+from geocontact.io.text.csv_text import Column, open_csv
+
+LARGEST_TABLE = 8_000_000
+"""Bytes; a layout of 100 000 cells."""
+
+
+def read_side_table(path: Path) -> pd.DataFrame:
+    """Table with SI units in the names of its columns: `px [m]`, `torque [N m]`, `zone`.
+
+    Columns with a unit hold numbers ([-] for pure ones), columns without hold words, and digits there are words too.
+    No cell may be empty.
+    """
+    file = fspath(path)
+    with open_csv(path, LARGEST_TABLE) as (stream, columns):
+        cells: list[list[str | float]] = [[] for _ in columns]
+        for row, place in _rows(stream, file):
+            _append(row, cells, columns, file, place)
+    if not cells[0]:
+        raise InputError(file, "line 2", "no rows below the column names", "is the file complete?")
+    return pd.DataFrame({column.label: values for column, values in zip(columns, cells, strict=True)})
+
+
+def _rows(stream: TextIO, file: str) -> Iterator[tuple[list[str], str]]:
+    """Cells of each row that has any, and the line it ends in."""
+    reader = csv.reader(stream, skipinitialspace=True)
+    try:
+        for row in reader:
+            if any(cell.strip() for cell in row):
+                yield row, f"line {reader.line_num + 1}"
+    except csv.Error as error:
+        place = f"line {reader.line_num + 1}"
+        raise InputError(file, place, f"cannot be split ({error})", "check its quotes") from error
+
+
+def _append(row: list[str], cells: list[list[str | float]], columns: tuple[Column, ...], file: str, place: str) -> None:
+    if len(row) != len(columns):
+        what = f"{len(row)} cells where {len(columns)} columns are named"
+        raise InputError(file, place, what, "write decimal points, not commas, and rows as long as the header")
+    for text, column, values in zip(row, columns, cells, strict=True):
+        values.append(_number(text, column, file, place) if column.unit else _word(text, column, file, place))
+
+
+def _number(text: str, column: Column, file: str, place: str) -> float:
+    try:
+        value = float(text) if text.isascii() and "_" not in text else math.nan
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value * column.factor):
+        what = f"{text.strip()[:40]!r} in column '{column.name}' is not a finite number"
+        raise InputError(file, place, what, "write decimal points and leave no cell empty")
+    return value * column.factor
+
+
+def _word(text: str, column: Column, file: str, place: str) -> str:
+    word = text.strip(" \t")
+    if not word or not word.isprintable():
+        what = f"{word[:40]!r} in column '{column.name}' is not a word of printable characters"
+        raise InputError(file, place, what, "leave no cell empty and no quote open")
+    return word

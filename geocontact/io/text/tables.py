@@ -1,0 +1,202 @@
+"""Tables over time: OpenSim's .mot and .sto, and .csv with `name [unit]` headers."""
+
+from __future__ import annotations
+
+import csv
+import re
+import warnings
+from dataclasses import dataclass
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TextIO
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.motion import Signals
+from geocontact.io.opensim.storage_header import LONGEST_LINE, AngleEvidence, StorageHeader, read_storage_header
+from geocontact.io.text.table_rows import read_rows
+from geocontact.io.text.units import split_header
+
+LARGEST_FILE = 256_000_000
+"""Bytes; a table of 60 columns at 1 kHz for two hours."""
+
+_TIME = re.compile(r"time\s*(?:\((?P<unit>[^()]*)\))?", re.IGNORECASE)
+"""Name of the time column; recorders also write its unit in round brackets: Time(sec)."""
+
+
+@dataclass(frozen=True)
+class Table(Signals):
+    """A table as its file has it; conversion to SI happens where a column is used (`columns.py`).
+
+    Parameters
+    ----------
+    file
+        Path as given, for messages.
+    lines
+        Line of the file that each row stands in.
+    angles
+        What the header says of angles (OpenSim files; a .csv says it per column in `units`).
+    opensim
+        True for .mot and .sto: lengths are in m.
+    time_unit
+        Unit of `time`: "s", or "%" of a cycle. OpenSim's headers cannot tell the two apart and count as "s".
+    """
+
+    file: str
+    lines: Int[np.ndarray, " t"]
+    angles: AngleEvidence
+    opensim: bool
+    time_unit: str = "s"
+
+    def needed(self, name: str) -> Float[np.ndarray, " t"]:
+        """Values of a column that must be there once and finite; InputError otherwise."""
+        count = self.channels.count(name)
+        if count != 1:
+            what = f"no column '{name}'" if count == 0 else f"column '{name}' occurs {count} times"
+            raise InputError(self.file, "", what, f"columns are: {listed(self.channels)}")
+        values = self.column(name)
+        bad = np.flatnonzero(~np.isfinite(values))
+        if len(bad):
+            what = f"column '{name}' is {values[bad[0]]} in {len(bad)} of {len(values)} rows"
+            raise InputError(self.file, f"line {self.lines[bad[0]]}", what, "fill the gap or cut the frames")
+        return values
+
+
+def listed(names: tuple[str, ...], most: int = 30) -> str:
+    """Names for a message, the tail cut."""
+    shown = ", ".join(name[:80] for name in names[:most])
+    return f"{shown} … ({len(names)} in all)" if len(names) > most else shown or "none"
+
+
+def read_table(path: str | PathLike[str]) -> Table:
+    """Table in a .mot, .sto (versions 1 to 3, SIMM's form too) or .csv file.
+
+    Refused with InputError: other content, counts that the header declares and the rows do not bear out, ragged rows,
+    cells that are not numbers, and time that is missing, NaN or not strictly increasing. NaN elsewhere is kept until
+    the column is used: force plates are full of it.
+    """
+    file, suffix = fspath(path), Path(path).suffix.lower()
+    if suffix not in (".mot", ".sto", ".csv"):
+        raise InputError(file, "", f"'{suffix}' is not a table of motion", "give a .mot, .sto or .csv file")
+    _preflight(file)
+    with open(file, encoding="utf-8-sig", errors="replace") as stream:
+        return _read_csv(stream, file) if suffix == ".csv" else _read_storage(stream, file)
+
+
+def _preflight(file: str) -> None:
+    try:
+        size = Path(file).stat().st_size
+        with open(file, "rb") as raw:
+            head = raw.read(4096)
+    except OSError as error:
+        raise InputError(file, "", f"cannot be read ({error.strerror})", "check the path") from error
+    if size > LARGEST_FILE:
+        raise InputError(file, "", f"{size / 1e6:.0f} MB is more than the {LARGEST_FILE / 1e6:.0f} MB limit", "cut it")
+    if not head.strip():
+        raise InputError(file, "", "the file is empty")
+    if b"\0" in head:
+        raise InputError(file, "", "binary content, not a text table", "export it as text (UTF-8)")
+    if head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
+        raise InputError(file, "line 1", "HTML or XML, not a table", "was a web page saved in place of the file?")
+
+
+def _read_storage(stream: TextIO, file: str) -> Table:
+    header = read_storage_header(stream, file)
+    names = tuple(_label_line(stream, file, header.lines + 1).split())
+    values, lines = read_rows(stream, header.lines + 2, names, file, str.split)
+    _check_rows(header, len(values), file)
+    _check_columns(header, len(names), file)
+    return _table(file, names, ("",) * len(names), values, lines, header.angles)
+
+
+def _check_columns(header: StorageHeader, count: int, file: str) -> None:
+    """Version 3 keeps nColumns of the table that columns were taken from, and OpenSim does not look at it."""
+    for declared, text, line in header.columns:
+        if declared != count:
+            what = f"header says '{text}' but there are {count} column labels"
+            if header.version != "3":
+                raise InputError(file, f"line {line}", what, "correct the header")
+            warnings.warn(InputWarning(f"{file} line {line}: {what}"), stacklevel=4)
+
+
+def _check_rows(header: StorageHeader, count: int, file: str) -> None:
+    for declared, text, line in header.rows:
+        if declared != count:
+            what = f"header says '{text}' but {count} rows follow"
+            raise InputError(file, f"line {line}", what, "is the file truncated?")
+
+
+def _read_csv(stream: TextIO, file: str) -> Table:
+    number, line = 1, _label_line(stream, file, 1)
+    while line.lstrip().startswith("#"):
+        number, line = number + 1, _label_line(stream, file, number + 1)
+    if ";" in line and "," not in line:
+        raise InputError(
+            file, f"line {number}", "columns are separated by ';'", "save it with commas and decimal points"
+        )
+    headers = [split_header(cell) for cell in next(csv.reader([line], skipinitialspace=True), [])]
+    names, units = tuple(name for name, _ in headers), tuple(unit for _, unit in headers)
+    values, lines = read_rows(stream, number + 1, names, file, _split_commas)
+    return _table(file, names, units, values, lines, None)
+
+
+def _split_commas(line: str, _separator: None, most: int) -> list[str]:
+    """At most `most` + 1 cells of a line; a comma at its end, as some recorders write it, is not one more cell."""
+    cells = line.split(",", most) if line.strip() else []
+    return cells[:most] if len(cells) > most and not cells[most].strip() else cells
+
+
+def _label_line(stream: TextIO, file: str, number: int) -> str:
+    line = stream.readline(LONGEST_LINE)
+    if not line.strip() or len(line) >= LONGEST_LINE:
+        raise InputError(file, f"line {number}", "no column labels found", "is the file complete?")
+    return line
+
+
+def _table(
+    file: str,
+    names: tuple[str, ...],
+    units: tuple[str, ...],
+    values: Float[np.ndarray, "t c"],
+    lines: Int[np.ndarray, " t"],
+    angles: AngleEvidence | None,
+) -> Table:
+    """Take the time column out and check it; `angles` is None for .csv."""
+    places = [i for i, name in enumerate(names) if _TIME.fullmatch(name)]
+    if len(places) != 1:
+        what = f"{len(places) or 'no'} columns named 'time'"
+        raise InputError(file, f"line {lines[0] - 1}", what, f"one is needed; columns are: {listed(names)}")
+    rest = [i for i in range(len(names)) if i != places[0]]
+    found = _TIME.fullmatch(names[places[0]])
+    unit = units[places[0]] or (found["unit"] or "" if found else "")
+    time, time_unit = _time(values[:, places[0]], unit, lines, file)
+    return Table(
+        time=time,
+        values=values[:, rest],
+        channels=tuple(names[i] for i in rest),
+        units=tuple(units[i] for i in rest),
+        file=file,
+        lines=lines,
+        angles=angles or AngleEvidence(),
+        opensim=angles is not None,
+        time_unit=time_unit,
+    )
+
+
+def _time(
+    values: Float[np.ndarray, " t"], unit: str, lines: Int[np.ndarray, " t"], file: str
+) -> tuple[Float[np.ndarray, " t"], str]:
+    seconds = {"": 1.0, "s": 1.0, "sec": 1.0, "ms": 1e-3, "%": 1.0}
+    if unit not in seconds:
+        raise InputError(file, "", f"time is in '{unit}'", "write `time [s]`, [ms] or [%]")
+    bad = np.flatnonzero(~np.isfinite(values))
+    if len(bad):
+        raise InputError(file, f"line {lines[bad[0]]}", f"time is {values[bad[0]]}", "every row needs its time")
+    late = np.flatnonzero(np.diff(values) <= 0.0)
+    if len(late):
+        i = late[0]
+        what = f"time {values[i + 1]:.9g} does not follow {values[i]:.9g}"
+        raise InputError(file, f"line {lines[i + 1]}", what, "time must increase from row to row")
+    return values * seconds[unit], "%" if unit == "%" else "s"

@@ -1,0 +1,58 @@
+"""The lines above a table of forces that say what its moments refer to: `# point_mm = x, y, z`, `# frame = name`."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from itertools import takewhile
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.errors import InputError
+from geocontact.io.opensim.storage_header import LONGEST_LINE
+
+MOST_LINES = 100
+
+_LINE = re.compile(r"#\s*(?P<key>point_mm|frame)\s*=\s*(?P<value>.*?)\s*", re.DOTALL)
+
+
+@dataclass(frozen=True, eq=False)
+class WrenchHead:
+    """None for what a table does not say.
+
+    Parameters
+    ----------
+    point
+        That moments refer to [m].
+    frame
+        Name of the frame; what follows a semicolon in its line are words for the reader.
+    """
+
+    point: Float[np.ndarray, " 3"] | None = None
+    frame: str | None = None
+
+
+def read_wrench_head(path: Path) -> WrenchHead:
+    """Of a table that can be read, whatever its format."""
+    with path.open(encoding="utf-8-sig", errors="replace") as stream:
+        lines = [stream.readline(LONGEST_LINE) for _ in range(MOST_LINES)]
+    point, frame = None, None
+    for number, line in enumerate(takewhile(lambda each: each.startswith("#"), lines), 1):
+        found = _LINE.fullmatch(line)
+        if found and found["key"] == "point_mm":
+            point = _point(found["value"], path, number)
+        elif found:
+            frame = found["value"].partition(";")[0].strip() or None
+    return WrenchHead(point, frame)
+
+
+def _point(text: str, path: Path, line: int) -> Float[np.ndarray, " 3"]:
+    try:
+        point = np.array([float(part) for part in text.split(",")])
+    except ValueError:
+        point = np.zeros(0)
+    if point.shape != (3,) or not np.isfinite(point).all():
+        raise InputError(path, f"line {line}", f"point_mm is {text[:40]!r}", "write for example # point_mm = 0, 0, 0")
+    return point * 1e-3
