@@ -38,10 +38,10 @@ from geocontact.geometry.register.uncertainty import PoseCovariance
 from geocontact.geometry.surface import Surface
 from geocontact.io.recordings.mat_landmarks import MatLandmarks
 from geocontact.io.text.units import LENGTH
-from geocontact.loads.mat_errors import wrench_covariance
-from geocontact.loads.mat_fill import filling_covariance
-from geocontact.loads.mat_load import mat_load, segment_loads
-from geocontact.loads.mat_map import MatMap, mat_map
+from geocontact.loads.mat.errors import wrench_covariance
+from geocontact.loads.mat.fill import filling_covariance
+from geocontact.loads.mat.load import mat_load, segment_loads
+from geocontact.loads.mat.map import MatMap, mat_map
 
 LOST = 3.0  # times the pitch; a mat that misses a landmark by more does not lie there
 FAR = 0.25  # of the mat's pitch; landmarks that miss their points by more deserve a word

@@ -11,8 +11,8 @@ from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.drape.closest_point import project
 from geocontact.geometry.drape.geodesics import Geodesics
 from geocontact.geometry.drape.mat import Marks, Mat
-from geocontact.loads.mat_load import MatLoad, mat_load
-from geocontact.loads.mat_map import MatMap, mat_map
+from geocontact.loads.mat.load import MatLoad, mat_load
+from geocontact.loads.mat.map import MatMap, mat_map
 from geocontact.view.page.content import Table
 
 MM = 1e3

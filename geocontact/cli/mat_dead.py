@@ -10,8 +10,8 @@ from jaxtyping import Bool, Float
 
 from geocontact.cli.record import Record
 from geocontact.data.pressure_frames import PressureFrames
-from geocontact.loads.mat_dead import dead_cells
-from geocontact.loads.mat_fill import Hole, filled, holes
+from geocontact.loads.mat.dead_cells import dead_cells
+from geocontact.loads.mat.fill import Hole, filled, holes
 
 NAMED = 8  # cells in a warning; run.json has them all
 MM2 = 1e6

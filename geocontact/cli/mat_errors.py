@@ -10,8 +10,8 @@ from geocontact.cli.mat import MatOptions
 from geocontact.cli.record import Record
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.uncertainty import PoseCovariance
-from geocontact.loads.mat_errors import MatErrors
-from geocontact.loads.mat_map import MatMap
+from geocontact.loads.mat.errors import MatErrors
+from geocontact.loads.mat.map import MatMap
 
 
 def stated_errors(

@@ -19,8 +19,8 @@ from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.register.moving import poses_at
 from geocontact.io.motion.motion import read_motion
-from geocontact.loads.mat_load import MatLoad
-from geocontact.loads.mat_moving import covariance_in, load_in
+from geocontact.loads.mat.load import MatLoad
+from geocontact.loads.mat.moving import covariance_in, load_in
 
 TOUCH = 1e-6  # s; a frame so far beyond the motion is at its end, as times are rounded
 

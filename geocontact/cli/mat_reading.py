@@ -18,8 +18,8 @@ from geocontact.data.pressure_frames import PressureFrames
 from geocontact.identify.zero_lag import zero_lag
 from geocontact.io.mats.catalogue import read_mat
 from geocontact.io.mats.layout import read_layout
-from geocontact.loads.mat_fill import Hole
-from geocontact.loads.mat_offset import Unloaded, unloaded
+from geocontact.loads.mat.fill import Hole
+from geocontact.loads.mat.offset import Unloaded, unloaded
 
 UNEVEN = 0.6  # of a step that a frame may come early or late, as clocks are rounded; a lost frame is off by one
 RESTING = 0.05  # of the largest force; a mat that never reads less has an offset, or was never unloaded

@@ -23,9 +23,9 @@ from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
 from geocontact.io.recordings.mat_landmarks import MatLandmarks
 from geocontact.io.text.results import write_table
-from geocontact.loads.mat_errors import MatErrors
-from geocontact.loads.mat_load import MatLoad
-from geocontact.loads.mat_map import MatMap
+from geocontact.loads.mat.errors import MatErrors
+from geocontact.loads.mat.load import MatLoad
+from geocontact.loads.mat.map import MatMap
 from geocontact.view.mat_figure import mat_figure
 from geocontact.view.mat_page import MatStory, write_mat_report
 from geocontact.view.page.content import Table

@@ -8,8 +8,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.geometry.drape.cells import Drape
-from geocontact.loads.mat_load import MatLoad
-from geocontact.loads.mat_map import MatMap
+from geocontact.loads.mat.load import MatLoad
+from geocontact.loads.mat.map import MatMap
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -12,8 +12,8 @@ from jaxtyping import Float, Int
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.surface import Surface
-from geocontact.loads.mat_load import MatLoad
-from geocontact.loads.mat_map import MatMap
+from geocontact.loads.mat.load import MatLoad
+from geocontact.loads.mat.map import MatMap
 from geocontact.view.contact_words import NOT_A_DEVICE
 from geocontact.view.page.content import (
     Body,

@@ -9,7 +9,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.wrench import Wrench
-from geocontact.loads.mat_load import MatLoad
+from geocontact.loads.mat.load import MatLoad
 
 
 def load_in(load: MatLoad, X_GB: RigidTransform, point: Float[np.ndarray, " 3"], frame: str) -> MatLoad:

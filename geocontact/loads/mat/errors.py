@@ -18,7 +18,7 @@ from jaxtyping import Float
 
 from geocontact.data.wrench import Wrench
 from geocontact.geometry.register.uncertainty import PoseCovariance
-from geocontact.loads.mat_map import MatMap
+from geocontact.loads.mat.map import MatMap
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.data.wrench import Wrench
-from geocontact.loads.mat_map import MatMap
+from geocontact.loads.mat.map import MatMap
 from geocontact.loads.weighted_centre import weighted_centre
 
 AROUND = 0.2  # of the area; cells whose normals add up to less have no side that they look to

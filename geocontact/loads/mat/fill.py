@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from geocontact.data.wrench import Wrench
-from geocontact.loads.mat_map import MatMap
+from geocontact.loads.mat.map import MatMap
 
 SIDES = ((-1, 0), (1, 0), (0, -1), (0, 1))
 UNKNOWN = 1.0  # the share that a filling is off by where the recording cannot tell

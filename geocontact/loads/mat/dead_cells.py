@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from geocontact.data.pressure_frames import PressureFrames
-from geocontact.loads.mat_load import TOUCHED
+from geocontact.loads.mat.load import TOUCHED
 
 FEWEST_FRAMES = 10  # of a recording
 MOST = 3  # cells side by side; more may be a gap in the contact
