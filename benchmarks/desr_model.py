@@ -18,8 +18,8 @@ from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
-from geocontact.systems import elastic_joint
 from geocontact.systems.base import Base
+from geocontact.systems.elastic_joint.model import model as elastic_joint
 
 RANK = 5.0
 SWITCHED = (-0.15, 0.17)

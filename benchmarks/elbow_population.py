@@ -47,7 +47,7 @@ def sampling():
     """The synthetic population of docs/how-to/elbow_design.md."""
     import numpy as np
 
-    from geocontact.identify.sampling import Normal, Sampling, Uniform
+    from geocontact.identify.intervals.sampling import Normal, Sampling, Uniform
 
     factors = (
         Normal("k", 222.0, 40.0, 50.0), Uniform("l", 0.16, 0.21), Uniform("z", 0.06, 0.13), Normal("x", 0.0, 0.015),
@@ -58,7 +58,7 @@ def sampling():
 
 def drawn(count: int, seed: int):
     """People of that population."""
-    from geocontact.systems.misalignment_population import QUANTITIES
+    from geocontact.misalignment.population import QUANTITIES
 
     one = sampling()
     return one.quantities(one.shares(count, seed), QUANTITIES)
@@ -68,7 +68,7 @@ def exposure():
     """Locked, over the range."""
     import numpy as np
 
-    from geocontact.systems.misalignment_population import Exposure
+    from geocontact.misalignment.population import Exposure
 
     return Exposure(*np.radians(RANGE))
 
@@ -77,7 +77,7 @@ def by_numpy(people, step: float):
     """Largest |F| on the grid of angles only, arrays of people times angles."""
     import numpy as np
 
-    from geocontact.systems.planar_joint import grid
+    from geocontact.misalignment.planar_joint import grid
 
     beta = grid(*np.radians(RANGE), np.radians(step))
     s, c = np.sin(beta), np.cos(beta)
@@ -94,7 +94,7 @@ def speed(rounds: int, seed: int) -> dict[str, object]:
     """Processor seconds of a million people, largest forces only; drawing them apart."""
     import numpy as np
 
-    from geocontact.systems.misalignment_population import peak_forces
+    from geocontact.misalignment.population import peak_forces
 
     begun = time.process_time()
     people = drawn(MILLION, seed)
@@ -129,7 +129,7 @@ def convergence(seed: int) -> list[dict[str, float]]:
     """Largest and root mean square error of the peak force [N] by step, refined and on the grid only."""
     import numpy as np
 
-    from geocontact.systems.misalignment_population import peak_forces
+    from geocontact.misalignment.population import peak_forces
 
     people = drawn(CHECKED, seed)
     true = peak_forces(people, exposure(), np.radians(FINEST))[0]
@@ -151,8 +151,8 @@ def drawing(seed: int) -> list[dict[str, float]]:
     """The 95 % quantile and its interval by number of people."""
     import numpy as np
 
-    from geocontact.identify.order_statistics import quantile
-    from geocontact.systems.misalignment_population import peak_forces
+    from geocontact.identify.intervals.quantile_intervals import quantile
+    from geocontact.misalignment.population import peak_forces
 
     rows = []
     for count in (1000, 10_000, 100_000, MILLION):

@@ -210,7 +210,7 @@ def weighings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain:
     """Whitening of every trial; those from `plain` on are staged."""
     from geocontact.gap.refit import Measured, derivatives
     from geocontact.gap.weighing import Weighing, heard
-    from geocontact.identify.covariance import Layout
+    from geocontact.identify.noise.covariance import Layout
 
     base = {name: lead.model.values[name] for name in problem.plain.values}
     made = []

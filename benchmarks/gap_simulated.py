@@ -18,7 +18,7 @@ from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.problem import Noise, Problem
 from geocontact.gap.refit import free
-from geocontact.identify.low_pass import BELOW_NYQUIST, LowPass
+from geocontact.identify.signals.low_pass import BELOW_NYQUIST, LowPass
 
 
 def same(system: System) -> System:

@@ -63,8 +63,8 @@ def main() -> None:
 
 def noise_free() -> dict[str, float]:
     """Largest relative error of E* by reading, over eight decades of it, from starts over ten."""
-    from geocontact.identify.area_force import MODULUS
-    from geocontact.identify.elastic import fitted, modulus_parameter
+    from geocontact.elastic_modulus.area_force import MODULUS
+    from geocontact.elastic_modulus.identify import fitted, modulus_parameter
     from tests.identify.synthetic_contact import READING, synthetic_model
 
     worst = {}
@@ -81,10 +81,10 @@ def coverage_with(name: str, frames: int, tau: float, runs: int, seed: int) -> d
     import numpy as np
 
     from geocontact.data.parameter import Parameter
-    from geocontact.identify.area_force import MODULUS
-    from geocontact.identify.elastic import fitted, modulus_parameter
-    from geocontact.identify.memory import memory_of
-    from geocontact.identify.profile_likelihood import profile
+    from geocontact.elastic_modulus.area_force import MODULUS
+    from geocontact.elastic_modulus.identify import fitted, modulus_parameter
+    from geocontact.identify.intervals.profile_likelihood import profile
+    from geocontact.identify.noise.autocorrelation import memory_of
     from tests.identify.synthetic_contact import TRUE, coloured, synthetic_model
 
     free, true = {

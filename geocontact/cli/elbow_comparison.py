@@ -22,12 +22,12 @@ from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.identify.agreement import Agreement, agreement
-from geocontact.identify.even_times import at_times, even_times
-from geocontact.identify.visits import edges_over, visits
+from geocontact.identify.signals.agreement import Agreement, agreement
+from geocontact.identify.signals.angle_bins import edges_over, visits
+from geocontact.identify.signals.even_times import at_times, even_times
 from geocontact.io.text.results import write_table
-from geocontact.systems.elbow_law import NAMES
-from geocontact.systems.elbow_synthetic import ideal
+from geocontact.misalignment.law import NAMES
+from geocontact.misalignment.synthetic import ideal
 from geocontact.view.contact_tables import frame_table, inputs_table
 from geocontact.view.contact_words import counted
 from geocontact.view.curves.quantity import Quantity

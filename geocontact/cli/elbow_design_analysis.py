@@ -15,8 +15,8 @@ from geocontact.cli.elbow_device import above_zero, drift, link, stroke
 from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.systems.compensation import Compensation
-from geocontact.systems.misalignment_design import (
+from geocontact.misalignment.compensation import Compensation
+from geocontact.misalignment.design import (
     Boundary,
     OffsetMap,
     Sensitivity,
@@ -28,7 +28,7 @@ from geocontact.systems.misalignment_design import (
     offset_map,
     sensitivities,
 )
-from geocontact.systems.planar_joint import FATES, grid
+from geocontact.misalignment.planar_joint import FATES, grid
 
 MM = 1e3
 MOST_POINTS = 1_000_000

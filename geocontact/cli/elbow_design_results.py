@@ -15,9 +15,9 @@ from geocontact.cli.figures import save_both
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.io.text.results import write_table
-from geocontact.systems.compensation import Compensation, needed_ends
-from geocontact.systems.misalignment_design import Stroke
-from geocontact.systems.planar_joint import FOLD, LOST, POLE, SOUND
+from geocontact.misalignment.compensation import Compensation, needed_ends
+from geocontact.misalignment.design import Stroke
+from geocontact.misalignment.planar_joint import FOLD, LOST, POLE, SOUND
 from geocontact.view.contact_tables import inputs_table
 from geocontact.view.elbow_design_figure import design_figure
 from geocontact.view.elbow_design_page import write_design_report

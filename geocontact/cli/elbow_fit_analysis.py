@@ -18,14 +18,15 @@ from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.identify.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours
-from geocontact.identify.profile_likelihood import Profile
+from geocontact.identify.intervals.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours
+from geocontact.identify.intervals.profile_likelihood import Profile
 from geocontact.io.recordings.elbow_recording import DISPLACEMENT
 from geocontact.io.recordings.elbow_recording import FORCE as FORCE_CHANNEL
-from geocontact.systems.elbow_bins import FORCE, Binned, binned
-from geocontact.systems.elbow_end_stop import Stiffness, Stroke, curve_of, stiffness_by_displacement, stroke_of
-from geocontact.systems.elbow_explicit import require_no_pole, require_reach
-from geocontact.systems.elbow_fit import (
+from geocontact.misalignment.bins import FORCE, Binned, binned
+from geocontact.misalignment.end_stop import Stiffness, Stroke, curve_of, stiffness_by_displacement, stroke_of
+from geocontact.misalignment.explicit import require_no_pole, require_reach
+from geocontact.misalignment.law import LENGTHS, SCALED, offsets_of
+from geocontact.misalignment.least_squares import (
     Estimate,
     Problem,
     estimated,
@@ -33,10 +34,9 @@ from geocontact.systems.elbow_fit import (
     problem_of,
     r_squared,
 )
-from geocontact.systems.elbow_law import LENGTHS, SCALED, offsets_of
-from geocontact.systems.elbow_residuals import Excess, excess, normality
-from geocontact.systems.elbow_scale import Scale, scale_of
-from geocontact.systems.elbow_uncertainty import (
+from geocontact.misalignment.residuals import Excess, excess, normality
+from geocontact.misalignment.scale import Scale, scale_of
+from geocontact.misalignment.uncertainty import (
     Direction,
     along_the_scale,
     covariance,

@@ -20,14 +20,14 @@ from geocontact.cli.json_text import finite
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.elbow_recording import ElbowRecording
-from geocontact.identify.bin_tests import LEVEL, BinTest, Pair
-from geocontact.identify.visits import places
+from geocontact.identify.intervals.bin_tests import LEVEL, BinTest, Pair
+from geocontact.identify.signals.angle_bins import places
 from geocontact.io.text.results import write_table
-from geocontact.systems.elbow_bins import Binned
-from geocontact.systems.elbow_end_stop import curve_of
-from geocontact.systems.elbow_fit import r_squared
-from geocontact.systems.elbow_law import LENGTHS, NAMES
-from geocontact.systems.elbow_residuals import residual_by_bin, standard_residuals
+from geocontact.misalignment.bins import Binned
+from geocontact.misalignment.end_stop import curve_of
+from geocontact.misalignment.law import LENGTHS, NAMES
+from geocontact.misalignment.least_squares import r_squared
+from geocontact.misalignment.residuals import residual_by_bin, standard_residuals
 from geocontact.view.contact_tables import frame_table, inputs_table
 from geocontact.view.contact_words import counted
 from geocontact.view.elbow_figures import (

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from geocontact.cli.elbow_numbers import PER_SI, TYPED
-from geocontact.identify.profile_likelihood import Profile
-from geocontact.systems.elbow_law import LENGTHS, SCALED
+from geocontact.identify.intervals.profile_likelihood import Profile
+from geocontact.misalignment.law import LENGTHS, SCALED
 
 if TYPE_CHECKING:
     from geocontact.cli.elbow_fit_analysis import Fitted

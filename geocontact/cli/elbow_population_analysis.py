@@ -18,12 +18,12 @@ from geocontact.cli.elbow_population_results import describe, write_results
 from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.identify.influence import Indices, RankRegression, rank_regression, variance_shares
-from geocontact.identify.order_statistics import Estimate, probability, quantile
-from geocontact.identify.sampling import Factor, Normal, People, Sampling, Uniform, root
+from geocontact.identify.intervals.quantile_intervals import Estimate, probability, quantile
+from geocontact.identify.intervals.sampling import Factor, Normal, People, Sampling, Uniform, root
+from geocontact.identify.intervals.sobol_indices import Indices, RankRegression, rank_regression, variance_shares
 from geocontact.io.recordings.population import PopulationFile, read_population
-from geocontact.systems.misalignment_population import QUANTITIES, Exposure, peak_forces
-from geocontact.systems.planar_joint import FATES, SOUND, STEP
+from geocontact.misalignment.planar_joint import FATES, SOUND, STEP
+from geocontact.misalignment.population import QUANTITIES, Exposure, peak_forces
 
 UNITS = {name: "N/m" if name == "k" else "m" for name in QUANTITIES}
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)

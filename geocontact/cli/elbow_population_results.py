@@ -15,10 +15,10 @@ from geocontact.cli.elbow_population import PopulationOptions
 from geocontact.cli.figures import save_both
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
-from geocontact.identify.order_statistics import Estimate
+from geocontact.identify.intervals.quantile_intervals import Estimate
 from geocontact.io.text.results import write_table
-from geocontact.systems.misalignment_population import QUANTITIES
-from geocontact.systems.planar_joint import FOLD, LOST, POLE
+from geocontact.misalignment.planar_joint import FOLD, LOST, POLE
+from geocontact.misalignment.population import QUANTITIES
 from geocontact.view.contact_tables import inputs_table
 from geocontact.view.elbow_population_figure import population_figure
 from geocontact.view.elbow_population_page import write_population_report

@@ -23,8 +23,8 @@ from geocontact.data.errors import InputError
 from geocontact.io.recordings.elbow_recording import BETA, MOST_BENT, STRAIGHTEST, read_elbow_recording
 from geocontact.io.text.columns import parse_map
 from geocontact.io.text.results import write_table
-from geocontact.systems.elbow_explicit import Offsets, require_no_pole, require_reach
-from geocontact.systems.elbow_synthetic import PAPER, Design, ideal, synthetic
+from geocontact.misalignment.explicit import Offsets, require_no_pole, require_reach
+from geocontact.misalignment.synthetic import PAPER, Design, ideal, synthetic
 from geocontact.view.contact_tables import inputs_table
 from geocontact.view.elbow_figures import surface_figure
 from geocontact.view.elbow_page import write_simulation_report

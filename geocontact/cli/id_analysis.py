@@ -20,8 +20,8 @@ from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.forces_along import SMOOTH, forces_along
 from geocontact.dynamics.tree import tree_of
-from geocontact.identify.even_times import UNEVEN
-from geocontact.identify.zero_lag import as_opensim
+from geocontact.identify.signals.even_times import UNEVEN
+from geocontact.identify.signals.zero_lag import as_opensim
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.opensim.storage_writer import write_storage

@@ -13,8 +13,8 @@ from geocontact.cli import quantities
 from geocontact.cli.loadcells import LoadcellOptions
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.identify.cycles import STEPS, Span, loaded_spans, normalised, strides
-from geocontact.identify.ensemble import mean_and_sd, rms_difference
+from geocontact.identify.signals.cycles import STEPS, Span, loaded_spans, normalised, strides
+from geocontact.identify.signals.ensemble import mean_and_sd, rms_difference
 from geocontact.io.recordings.cycle_table import read_cycle_table
 from geocontact.loads.loadcells import CompartmentForces
 

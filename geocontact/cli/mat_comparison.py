@@ -15,8 +15,8 @@ from geocontact.cli.mat_phases import read_phases
 from geocontact.cli.mat_results import Result, load_table
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.identify.agreement import Agreement, agreement, over_stretches, per_phase
-from geocontact.identify.even_times import at_times, even_times
+from geocontact.identify.signals.agreement import Agreement, agreement, over_stretches, per_phase
+from geocontact.identify.signals.even_times import at_times, even_times
 
 PARTS = 10
 

@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.identify.agreement import FEWEST
+from geocontact.identify.signals.agreement import FEWEST
 from geocontact.io.text.side_table import read_side_table
 
 COLUMNS = ("name", "start [s]", "end [s]")

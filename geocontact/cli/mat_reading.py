@@ -15,7 +15,7 @@ from geocontact.cli.mat_dead import treated
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
-from geocontact.identify.zero_lag import zero_lag
+from geocontact.identify.signals.zero_lag import zero_lag
 from geocontact.io.mats.catalogue import read_mat
 from geocontact.io.mats.layout import read_layout
 from geocontact.loads.mat.fill import Hole

@@ -23,9 +23,9 @@ from geocontact.cli.output import written_whole
 from geocontact.cli.record import Record
 from geocontact.contact.area_hertz import READINGS
 from geocontact.data.errors import InputError
-from geocontact.identify.area_force import MODULUS, THRESHOLD, AreaForce
-from geocontact.identify.elastic import STRONGEST, WEAKEST, Identification, agreement, identify
-from geocontact.identify.threshold_calibration import Calibration, calibrated
+from geocontact.elastic_modulus.area_force import MODULUS, THRESHOLD, AreaForce
+from geocontact.elastic_modulus.identify import STRONGEST, WEAKEST, Identification, agreement, identify
+from geocontact.elastic_modulus.threshold_calibration import Calibration, calibrated
 from geocontact.io.recordings.area_table import read_area_over_force
 
 FEW_BLOCKS = 5

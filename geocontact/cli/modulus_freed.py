@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geocontact.cli.modulus import ModulusOptions
 from geocontact.data.errors import InputError
-from geocontact.identify.area_force import ADDUCTION, LAG, SLOPE, THRESHOLD
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, SLOPE, THRESHOLD
 
 NAMES = (THRESHOLD, LAG, ADDUCTION, SLOPE)
 

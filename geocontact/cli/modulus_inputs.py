@@ -17,8 +17,8 @@ from geocontact.cli.record import Record
 from geocontact.contact.area_hertz import READINGS, Reading
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
-from geocontact.identify.area_force import ADDUCTION, LAG, SLOPE, AreaEvolution, AreaForce
-from geocontact.identify.end_to_end import end_to_end
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, SLOPE, AreaEvolution, AreaForce
+from geocontact.elastic_modulus.both_sides import end_to_end
 from geocontact.io.recordings.area_table import FEWEST, AreaTable, read_area_table
 from geocontact.io.recordings.force_curves import SIDES, ForceCurves, read_force_curves
 from geocontact.io.recordings.radius_profile import RadiusProfile, read_radius_profile

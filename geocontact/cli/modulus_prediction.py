@@ -12,8 +12,8 @@ from geocontact.cli.modulus import ModulusOptions
 from geocontact.cli.modulus_inputs import BOTH, FLEXION, HALVES, Inputs
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
-from geocontact.identify.area_force import ADDUCTION, LAG, THRESHOLD, AreaEvolution
-from geocontact.identify.elastic import Identification, agreement
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, THRESHOLD, AreaEvolution
+from geocontact.elastic_modulus.identify import Identification, agreement
 from geocontact.io.recordings.area_table import FEWEST, AreaTable, read_area_table
 from geocontact.io.recordings.force_curves import SIDES, ForceCurves, read_force_curves
 from geocontact.io.text.columns import parse_map

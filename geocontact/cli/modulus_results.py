@@ -16,8 +16,8 @@ from geocontact.cli.modulus import ModulusOptions
 from geocontact.cli.modulus_inputs import BOTH, HALVES
 from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
-from geocontact.identify.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD
-from geocontact.identify.elastic import Identification, agreement
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD
+from geocontact.elastic_modulus.identify import Identification, agreement
 from geocontact.identify.identifiability import Identifiability
 from geocontact.io.text.results import write_table
 from geocontact.view.contact_tables import frame_table, inputs_table

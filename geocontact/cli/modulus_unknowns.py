@@ -10,7 +10,7 @@ from geocontact.cli.modulus_freed import freed
 from geocontact.cli.modulus_inputs import Inputs
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
-from geocontact.identify.area_force import ADDUCTION, LAG, SLOPE, THRESHOLD
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, SLOPE, THRESHOLD
 from geocontact.io.recordings.area_table import AreaTable
 
 LAGS = 0.1  # s, how far a lag is searched unless told

@@ -16,7 +16,7 @@ from jaxtyping import Float
 from geocontact.data.trial import Trial
 from geocontact.gap.input_spectrum import spectrum
 from geocontact.gap.spectrum_split import split
-from geocontact.identify.low_pass import BELOW_NYQUIST, LowPass
+from geocontact.identify.signals.low_pass import BELOW_NYQUIST, LowPass
 
 USUAL, USUALLY = 6.0, 0.5  # Hz, and the standard deviation of its logarithm (Winter 2009, ch. 3: 4 to 8 Hz in gait)
 LOWEST, HIGHEST, CORNERS = 2.5, 40.0, 17  # Hz, that are compared, and how many

@@ -2,7 +2,7 @@
 
 A low-pass filter, an inertia or a damper that a model does not have can look useful merely because it smooths the noise
 of the inputs that the model is driven by. The noise of each input is read off its spectrum, or estimated from what the
-base model misses (`identify.covariance`); its spectrum is that of the low-pass filter that motion usually has been
+base model misses (`identify.noise.covariance`); its spectrum is that of the low-pass filter that motion usually has been
 through, and the Wiener filter 1 - N/P takes it off: P is the spectrum of the recording, N that of the noise. Both hold
 for a stretch of it: a movement that sets out sharply after a rest keeps its high frequencies, and the rest loses its
 noise. Where the signal stands far above the noise nothing changes.
@@ -20,7 +20,7 @@ from jaxtyping import Complex, Float, Int
 from geocontact.data.trial import Trial
 from geocontact.gap.corner import HIGHEST, USUAL
 from geocontact.gap.grids import even_grid
-from geocontact.identify.low_pass import LowPass
+from geocontact.identify.signals.low_pass import LowPass
 
 PLATEAU = (0.25, 0.42, 0.58, 0.75, 0.92)  # of the corner
 FLAT = 2.5  # largest over smallest power of a plateau

@@ -127,7 +127,7 @@ def _least(cells: tuple[Cell, ...], channel: str) -> float:
 
 def _deviations_off(problem: Problem, base: Judged) -> list[Float[np.ndarray, "_ c"]]:
     """Residuals without what trials deviate by."""
-    from geocontact.identify.trial_variation import Products, deviations
+    from geocontact.identify.noise.trial_variation import Products, deviations
 
     left = []
     for whitener, residual, jacobian in zip(

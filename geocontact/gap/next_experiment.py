@@ -24,7 +24,7 @@ from geocontact.gap.problem import Problem
 from geocontact.gap.refit import Measured, derivatives
 from geocontact.gap.rivals import Hypothesis, Pair, Recording, Rows, kept
 from geocontact.gap.weighing import Weighing, heard
-from geocontact.identify.covariance import Layout
+from geocontact.identify.noise.covariance import Layout
 
 TRIALS = 3  # of the new kind
 TELLS = 3.0  # times the smallest separation that a change must promise

@@ -15,10 +15,10 @@ from geocontact.gap.input_spectrum import switches
 from geocontact.gap.inputs import Filters, Left, denoised, left, loudest, seen_noise, shaken
 from geocontact.gap.refit import NO_VALUE, Measured, Refit, at, free, refit
 from geocontact.gap.weighing import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
-from geocontact.identify.covariance import Layout, Whitener
-from geocontact.identify.noise_levels import Beliefs, Levels
-from geocontact.identify.noise_search import most_likely
-from geocontact.identify.trial_variation import Products, variation
+from geocontact.identify.noise.covariance import Layout, Whitener
+from geocontact.identify.noise.noise_levels import Beliefs, Levels
+from geocontact.identify.noise.noise_search import most_likely
+from geocontact.identify.noise.trial_variation import Products, variation
 
 REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own

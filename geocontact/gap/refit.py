@@ -13,7 +13,7 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.identify.within_bounds import Found, least
+from geocontact.identify.optimise.bounded_gauss_newton import Found, least
 
 STEP = 1e-5  # of a parameter's magnitude, for differences
 ENOUGH = 0.01  # nats that a search does not go on for

@@ -11,8 +11,8 @@ from jaxtyping import Bool, Float
 from geocontact.chain.movement import NEIGHBOURS
 from geocontact.chain.system import FAR, System
 from geocontact.data.trial import Trial
-from geocontact.identify.input_noise import Lasting
-from geocontact.identify.noise_spectrum import NoiseSpectrum
+from geocontact.identify.noise.input_noise import Lasting
+from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 
 BUMP = 1e-3  # of an input's half-range
 PLACES = (0.2, 0.35, 0.5, 0.65)  # of a trial, where it is seen how long a response lasts

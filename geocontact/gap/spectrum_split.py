@@ -4,7 +4,7 @@ S = A exp(-(f/b)^q) + B/(1 + (f/f_t)^4)² + N H²(f) + R, by Whittle's likelihoo
 B 15:125). The first term is a movement that falls off with frequency. The second, for which TAILED nats must speak, is
 the tail of one that is put together of pieces: where its third derivative jumps, the power falls off with the eighth
 power of the frequency (Bracewell, The Fourier Transform and Its Applications, 2000, ch. 8). H² is the filter
-(`identify.low_pass`), R rounding. Noise much louder or quieter than usual is believed less, and so is a rest that is
+(`identify.signals.low_pass`), R rounding. Noise much louder or quieter than usual is believed less, and so is a rest that is
 louder than rounding, so that noise which nobody filtered is not taken for it.
 """
 
@@ -18,8 +18,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap.input_spectrum import Spectrum
-from geocontact.identify.fisher_scoring import Batch, Scored, least
-from geocontact.identify.low_pass import LowPass
+from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
+from geocontact.identify.signals.low_pass import LowPass
 
 LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
 OVER = 1.0  # standard deviation of the logarithm of a rest's power beyond rounding

@@ -15,11 +15,11 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.gap.responses import responses
-from geocontact.identify.covariance import Layout, Whitener
-from geocontact.identify.input_noise import InputNoise, Instant
-from geocontact.identify.low_pass import LowPass
-from geocontact.identify.noise_levels import Beliefs, Levels
-from geocontact.identify.noise_spectrum import NoiseSpectrum
+from geocontact.identify.noise.covariance import Layout, Whitener
+from geocontact.identify.noise.input_noise import InputNoise, Instant
+from geocontact.identify.noise.noise_levels import Beliefs, Levels
+from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
+from geocontact.identify.signals.low_pass import LowPass
 
 POSITION_VARIES = 1e-3  # m
 ANGLE_VARIES = 0.01  # rad

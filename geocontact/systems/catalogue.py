@@ -5,14 +5,14 @@ from __future__ import annotations
 from geocontact.chain.system import System
 from geocontact.data.gap_case import COMMAND, GapCase
 from geocontact.systems.base import Base
-from geocontact.systems.command import command_system
-from geocontact.systems.elbow_exoskeleton import ELBOW
-from geocontact.systems.knee_implant import KNEE
-from geocontact.systems.own import own_system
-from geocontact.systems.prosthetic_foot import FOOT
-from geocontact.systems.shoulder_exoskeleton import SHOULDER
-from geocontact.systems.sit_to_stand import SIT_TO_STAND
-from geocontact.systems.tried import refusal, tried
+from geocontact.systems.elbow.model import ELBOW
+from geocontact.systems.external.program import command_system
+from geocontact.systems.external.python_model import own_system
+from geocontact.systems.foot.model import FOOT
+from geocontact.systems.knee.model import KNEE
+from geocontact.systems.shoulder.model import SHOULDER
+from geocontact.systems.sit_to_stand.model import SIT_TO_STAND
+from geocontact.systems.validate import refusal, tried
 
 SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT, SHOULDER, KNEE, SIT_TO_STAND)
 

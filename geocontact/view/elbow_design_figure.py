@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.systems.misalignment_design import Boundary
+from geocontact.misalignment.design import Boundary
 from geocontact.view.curves.style import BLACK, DOUBLE, GREY, PALETTE, in_style, legend, panels
 
 if TYPE_CHECKING:

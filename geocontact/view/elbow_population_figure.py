@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.order_statistics import Estimate
+from geocontact.identify.intervals.quantile_intervals import Estimate
 from geocontact.view.curves.style import BLACK, DOUBLE, PALETTE, in_style, legend, panels
 
 if TYPE_CHECKING:

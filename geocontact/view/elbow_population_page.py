@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.order_statistics import Estimate
+from geocontact.identify.intervals.quantile_intervals import Estimate
 from geocontact.view.contact_words import NOT_A_DEVICE
 from geocontact.view.elbow_design_page import MODEL
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.cycles import STEPS, Span
+from geocontact.identify.signals.cycles import STEPS, Span
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.quantity import CYCLE, FORCE, TIME
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, legend, panels

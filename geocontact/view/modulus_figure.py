@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.profile_likelihood import Profile
+from geocontact.identify.intervals.profile_likelihood import Profile
 from geocontact.view.curves.quantity import FORCE, TIME
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, legend, panels
 

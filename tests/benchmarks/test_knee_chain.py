@@ -16,7 +16,7 @@ from benchmarks import knee_alike, knee_chain, knee_truth
 from benchmarks.knee_truth import Bodies, Course, Withheld
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
-from geocontact.systems.posed_knee import PosedKnee
+from geocontact.systems.knee.posed import PosedKnee
 from tests.systems.posed_knees import chain, poses
 
 KNEE = knee_chain.sample_knee()

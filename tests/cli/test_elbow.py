@@ -16,8 +16,8 @@ import pytest
 from geocontact.cli.elbow_numbers import PER_SI
 from geocontact.cli.elbow_simulation import SEED, TRIALS, USUAL
 from geocontact.cli.left_over import NAMES, PICTURES
-from geocontact.systems.elbow_explicit import Offsets, displacement
-from geocontact.systems.elbow_synthetic import PAPER
+from geocontact.misalignment.explicit import Offsets, displacement
+from geocontact.misalignment.synthetic import PAPER
 from tests.cli.calls import Call, call, done, inventory, written
 
 QUICK = ("--seconds", 20, "--rate", 50, "--noise", 0.2, "--memory", 0.1, "--trials", 3)

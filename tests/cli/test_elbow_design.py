@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from geocontact.cli.left_over import NAMES
-from geocontact.systems.elbow_misalignment import deflect
+from geocontact.systems.elbow.misalignment import deflect
 from tests.cli.calls import Call, call, done, inventory, written
 
 FILES = {

@@ -15,7 +15,7 @@ from scipy import stats
 
 from benchmarks.elbow_population import drawn
 from geocontact.cli.left_over import NAMES
-from geocontact.systems.misalignment_population import Exposure, peak_forces
+from geocontact.misalignment.population import Exposure, peak_forces
 from tests.cli.calls import ROOT, Call, call, done, inventory, written
 
 FILES = {

@@ -13,7 +13,7 @@ import pandas as pd
 import pytest
 
 from geocontact.cli.left_over import NAMES
-from geocontact.identify.area_force import MODULUS
+from geocontact.elastic_modulus.area_force import MODULUS
 from tests.cli.calls import Call, call, done, inventory, written
 from tests.identify.synthetic_contact import DURATION, THRESHOLDS, TRUE, synthetic_areas, synthetic_model
 

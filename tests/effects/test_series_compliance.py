@@ -13,7 +13,7 @@ from geocontact.chain.movement import recorded
 from geocontact.chain.system import FAR
 from geocontact.effects.damping import DAMPING
 from geocontact.effects.series_compliance import SERIES_COMPLIANCE
-from geocontact.systems.foot_spheres import INPUTS
+from geocontact.systems.foot.spheres import INPUTS
 from tests.systems.examples import elbow, elbow_trial, example, foot, foot_trial, recording, spheres
 from tests.systems.test_elbow import restated
 from tests.systems.test_foot import restated as restated_foot

@@ -9,7 +9,7 @@ from scipy.signal import butter, filtfilt
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.corner import USUAL, filters_of, likely_noise
-from geocontact.identify.low_pass import LowPass
+from geocontact.identify.signals.low_pass import LowPass
 
 STEP = 0.005
 NYQUIST = 0.5 / STEP

@@ -12,7 +12,7 @@ from geocontact.data.diagnosis import Diagnosis
 from geocontact.gap.diagnose import diagnose, estimates
 from geocontact.gap.evidence import Judged
 from geocontact.gap.problem import Noise, problem_of
-from geocontact.identify.noise_levels import Levels
+from geocontact.identify.noise.noise_levels import Levels
 from geocontact.systems.catalogue import system_of
 from geocontact.view.gap_words import proposal_words, verdict_sentences
 from tests.elsewhere import Elsewhere

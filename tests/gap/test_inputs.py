@@ -10,7 +10,7 @@ from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.input_spectrum import switches
 from geocontact.gap.inputs import denoised, left, loudest, seen_noise, shaken
-from geocontact.identify.low_pass import LowPass
+from geocontact.identify.signals.low_pass import LowPass
 
 STEP = 0.02
 

@@ -12,8 +12,8 @@ from geocontact.data.trial import Trial
 from geocontact.gap.benchmark.drawing import Lot, drawn
 from geocontact.gap.inputs import drawn as noise
 from geocontact.gap.weighing import heard
-from geocontact.identify.input_noise import Lasting
-from geocontact.identify.low_pass import LowPass
+from geocontact.identify.noise.input_noise import Lasting
+from geocontact.identify.signals.low_pass import LowPass
 from geocontact.systems.catalogue import system_of
 
 SD = 1e-3

@@ -11,7 +11,7 @@ from scipy.optimize import minimize
 
 from geocontact.gap.input_spectrum import Spectrum
 from geocontact.gap.spectrum_split import TAIL, TAILED, Parts, split
-from geocontact.identify.low_pass import LowPass
+from geocontact.identify.signals.low_pass import LowPass
 
 STEP = 0.01
 FREQUENCY = np.tile(np.linspace(0.4, 49.0, 120), 3)

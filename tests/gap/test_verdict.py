@@ -12,7 +12,7 @@ from geocontact.gap.evidence import Judged
 from geocontact.gap.problem import Noise
 from geocontact.gap.refit import Refit
 from geocontact.gap.verdict import ALLOWED, BEYOND, FORM, LEAST, SURE, answer, borne_out, standing, with_mistake
-from geocontact.identify.noise_levels import Levels
+from geocontact.identify.noise.noise_levels import Levels
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
 

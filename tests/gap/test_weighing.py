@@ -7,11 +7,11 @@ import pytest
 
 from geocontact.gap.evidence import log_evidence
 from geocontact.gap.weighing import LOUDER, SENSOR_LOUDER, Weighing, usual_levels
-from geocontact.identify.covariance import Layout
-from geocontact.identify.input_noise import Instant
-from geocontact.identify.low_pass import LowPass
-from geocontact.identify.noise_levels import Levels
-from geocontact.identify.noise_spectrum import NoiseSpectrum
+from geocontact.identify.noise.covariance import Layout
+from geocontact.identify.noise.input_noise import Instant
+from geocontact.identify.noise.noise_levels import Levels
+from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
+from geocontact.identify.signals.low_pass import LowPass
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
 

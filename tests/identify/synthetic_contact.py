@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.contact.area_hertz import READINGS, Reading
-from geocontact.identify.area_force import MODULUS, AreaEvolution, AreaForce
+from geocontact.elastic_modulus.area_force import MODULUS, AreaEvolution, AreaForce
 
 TRUE = 6.8e6  # Pa
 RADIUS, LENGTH, DURATION = 0.037, 0.06, 1.1
@@ -43,7 +43,7 @@ def coverage(runs: int, frames: int, sd: float, tau: float, replicates: int, see
     Beside it the median half-width of the former over the standard deviation of E* between runs; 1.96 if the noise were
     known.
     """
-    from geocontact.identify.elastic import identify
+    from geocontact.elastic_modulus.identify import identify
 
     rng = np.random.default_rng(seed)
     model = synthetic_model(frames=frames)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.identify.covariance import Layout
-from geocontact.identify.input_noise import Instant
-from geocontact.identify.low_pass import LowPass
-from geocontact.identify.noise_levels import Levels
-from geocontact.identify.noise_spectrum import NoiseSpectrum
+from geocontact.identify.noise.covariance import Layout
+from geocontact.identify.noise.input_noise import Instant
+from geocontact.identify.noise.noise_levels import Levels
+from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
+from geocontact.identify.signals.low_pass import LowPass
 
 COUNT, STEP = 150, 0.02
 LEVELS = Levels(np.array([0.3, 0.2]), np.array([[0.5, 0.1]]), np.array([[0.1, 0.05]]), np.array([0.04]))

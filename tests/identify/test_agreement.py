@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.identify.agreement import agreement, over_stretches, per_phase
-from geocontact.identify.zero_lag import zero_lag
+from geocontact.identify.signals.agreement import agreement, over_stretches, per_phase
+from geocontact.identify.signals.zero_lag import zero_lag
 
 STEP = 0.02
 TIME = STEP * np.arange(400)

@@ -7,10 +7,10 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.signal import butter, filtfilt
 
-from geocontact.identify.covariance import Block
-from geocontact.identify.low_pass import LowPass
-from geocontact.identify.noise_levels import Levels
-from geocontact.identify.noise_spectrum import NoiseSpectrum
+from geocontact.identify.noise.covariance import Block
+from geocontact.identify.noise.noise_levels import Levels
+from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
+from geocontact.identify.signals.low_pass import LowPass
 from tests.identify.synthetic_noise import COUNT, LEVELS, PASSED, STEP, layout
 
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from geocontact.data.parameter import Parameter
-from geocontact.identify.area_force import LAG, MODULUS, THRESHOLD
-from geocontact.identify.elastic import agreement, fitted, identify, modulus_parameter
-from geocontact.identify.threshold_calibration import calibrated
+from geocontact.elastic_modulus.area_force import LAG, MODULUS, THRESHOLD
+from geocontact.elastic_modulus.identify import agreement, fitted, identify, modulus_parameter
+from geocontact.elastic_modulus.threshold_calibration import calibrated
 from tests.elsewhere import Elsewhere
 from tests.identify.synthetic_contact import (
     DURATION,
@@ -76,7 +76,7 @@ def test_intervals_cover_in_short_steps(elsewhere: Elsewhere) -> None:
 
 
 def test_replicates_are_few_where_each_is_a_search(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geocontact.identify.elastic.REFITS", 3)
+    monkeypatch.setattr("geocontact.elastic_modulus.identify.REFITS", 3)
     model = synthetic_model("disc", inner=INNER)
     force = model.force({MODULUS: TRUE}) + np.random.default_rng(1).normal(0.0, 50.0, len(model.frames))
     for others, count in ((BOTH[1:], 3), ((), 40)):

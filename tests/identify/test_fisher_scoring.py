@@ -7,7 +7,7 @@ import pytest
 from jaxtyping import Float, Int
 from scipy.optimize import minimize
 
-from geocontact.identify.fisher_scoring import Batch, Found, Scored, least
+from geocontact.identify.optimise.fisher_scoring import Batch, Found, Scored, least
 
 AT = np.linspace(-1.0, 1.0, 60)
 TRUE = np.array([[0.3, -1.0], [-2.0, 0.5], [5.0, 2.0]])

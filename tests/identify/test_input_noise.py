@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from geocontact.identify.input_noise import Instant, Lasting
-from geocontact.identify.low_pass import LowPass
-from geocontact.identify.noise_spectrum import NoiseSpectrum
+from geocontact.identify.noise.input_noise import Instant, Lasting
+from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
+from geocontact.identify.signals.low_pass import LowPass
 
 COUNT, STEP, AHEAD = 80, 0.02, 3
 

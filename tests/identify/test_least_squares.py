@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.parameter import Parameter
-from geocontact.identify.least_squares import NO_VALUE, fit
+from geocontact.identify.optimise.least_squares import NO_VALUE, fit
 
 TIMES = [np.linspace(0, 1, 30), np.linspace(0, 2, 50)]
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
-from geocontact.identify.levenberg_marquardt import levenberg_marquardt
+from geocontact.identify.optimise.levenberg_marquardt import levenberg_marquardt
 
 FAR = np.full(2, np.inf)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import kstest
 
-from geocontact.identify.noise import Noise, noise_of
+from geocontact.identify.noise.autoregressive import Noise, noise_of
 
 
 def covariance(time, sd, tau):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from geocontact.identify.noise_levels import BEYOND, Beliefs, Levels
+from geocontact.identify.noise.noise_levels import BEYOND, Beliefs, Levels
 
 MIDDLE = Levels(np.array([0.3, 0.2]), np.array([[0.5, 0.1], [0.1, 0.2]]), np.full((2, 2), 0.1), np.array([0.04, 0.1]))
 SIZE = len(MIDDLE.logarithms())

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from geocontact.identify.covariance import Layout
-from geocontact.identify.input_noise import Instant
-from geocontact.identify.noise_levels import BEYOND, Beliefs, Levels
-from geocontact.identify.noise_search import Place, Surface, most_likely, secant
+from geocontact.identify.noise.covariance import Layout
+from geocontact.identify.noise.input_noise import Instant
+from geocontact.identify.noise.noise_levels import BEYOND, Beliefs, Levels
+from geocontact.identify.noise.noise_search import Place, Surface, most_likely, secant
 from tests.identify.synthetic_noise import COUNT, LEVELS, PASSED, STEP, layout, noise_of
 
 

@@ -9,9 +9,9 @@ import pytest
 
 from geocontact.data.parameter import Parameter
 from geocontact.data.tilted_areas import TiltedAreas
-from geocontact.identify.area_force import ADDUCTION, LAG, MODULUS, SLOPE, AreaForce
-from geocontact.identify.elastic import Identification, fitted, identify, modulus_parameter
-from geocontact.identify.end_to_end import end_to_end
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE, AreaForce
+from geocontact.elastic_modulus.both_sides import end_to_end
+from geocontact.elastic_modulus.identify import Identification, fitted, identify, modulus_parameter
 from tests.elsewhere import Elsewhere
 from tests.identify.synthetic_contact import DURATION, RADIUS, TRUE, coloured, synthetic_model
 

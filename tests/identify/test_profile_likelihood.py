@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.parameter import Parameter
-from geocontact.identify.profile_likelihood import Profile, profile_of
+from geocontact.identify.intervals.profile_likelihood import Profile, profile_of
 
 NUMBER = Parameter("x", "m", 1.0, -3.0, 2.5)
 

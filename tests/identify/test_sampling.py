@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from geocontact.identify.influence import rank_regression, variance_shares
-from geocontact.identify.order_statistics import probability, quantile
-from geocontact.identify.sampling import Normal, People, Sampling, Uniform, root
+from geocontact.identify.intervals.quantile_intervals import probability, quantile
+from geocontact.identify.intervals.sampling import Normal, People, Sampling, Uniform, root
+from geocontact.identify.intervals.sobol_indices import rank_regression, variance_shares
 
 SHARES = np.linspace(0.001, 0.999, 999)
 

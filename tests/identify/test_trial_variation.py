@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
-from geocontact.identify.trial_variation import Products, misfit, variation
+from geocontact.identify.noise.trial_variation import Products, misfit, variation
 
 
 def trials(sd, count, rng, samples=40):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.stats import goodness_of_fit, norm
 
-from geocontact.identify.bin_noise import mean_covariance
-from geocontact.identify.bin_tests import DRAWS, between_bins, between_neighbours, lilliefors
-from geocontact.identify.visits import Visits, edges_over, visits
+from geocontact.identify.intervals.bin_tests import DRAWS, between_bins, between_neighbours, lilliefors
+from geocontact.identify.noise.bin_noise import mean_covariance
+from geocontact.identify.signals.angle_bins import Visits, edges_over, visits
 
 
 def recording(seed: int = 0, seconds: float = 60.0) -> tuple[np.ndarray, np.ndarray]:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
-from geocontact.identify.within_bounds import least
+from geocontact.identify.optimise.bounded_gauss_newton import least
 
 WIDE = np.full(2, 1e3)
 

@@ -18,7 +18,7 @@ from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.identify.least_squares import fit
+from geocontact.identify.optimise.least_squares import fit
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 

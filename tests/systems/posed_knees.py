@@ -14,8 +14,8 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.motion.poses import motion_from_csv
-from geocontact.systems import knee_chain
-from geocontact.systems.posed_knee import POSE
+from geocontact.systems.knee import full_chain as knee_chain
+from geocontact.systems.knee.posed import POSE
 
 MESHES = Path(__file__).resolve().parents[2] / "meshes"
 CONSTANTS = {"R": 0.037, "threshold": 4e-3, "side": 1.0, "cell_posterior": -0.015, "cell_anterior": 0.015}

@@ -8,7 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from geocontact.chain.movement import recorded
-from geocontact.systems.elbow_misalignment import misalignment
+from geocontact.systems.elbow.misalignment import misalignment
 from tests.systems.examples import ELBOW_CONSTANTS, elbow, elbow_trial, recording
 
 

@@ -9,21 +9,21 @@ from functools import cache
 import numpy as np
 import pytest
 
-from geocontact.identify.bin_tests import DRAWS, lilliefors
-from geocontact.systems.elbow_bins import FORCE, Binned, binned
-from geocontact.systems.elbow_end_stop import Stroke, curve_of, stiffness_by_displacement, stroke_of
-from geocontact.systems.elbow_fit import (
+from geocontact.identify.intervals.bin_tests import DRAWS, lilliefors
+from geocontact.misalignment.bins import FORCE, Binned, binned
+from geocontact.misalignment.end_stop import Stroke, curve_of, stiffness_by_displacement, stroke_of
+from geocontact.misalignment.law import NAMES, ElbowLaw
+from geocontact.misalignment.least_squares import (
     Estimate,
     Prior,
     estimated,
     problem_of,
     r_squared,
 )
-from geocontact.systems.elbow_law import NAMES, ElbowLaw
-from geocontact.systems.elbow_residuals import normal_residuals, normality, standard_residuals
-from geocontact.systems.elbow_scale import Scale, scale_of
-from geocontact.systems.elbow_synthetic import PAPER, Design, ideal, multisine
-from geocontact.systems.elbow_uncertainty import (
+from geocontact.misalignment.residuals import normal_residuals, normality, standard_residuals
+from geocontact.misalignment.scale import Scale, scale_of
+from geocontact.misalignment.synthetic import PAPER, Design, ideal, multisine
+from geocontact.misalignment.uncertainty import (
     along_the_scale,
     covariance,
     direction,

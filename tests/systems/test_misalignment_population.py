@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from geocontact.systems.axis_drift import polynomial
-from geocontact.systems.compensation import Compensation
-from geocontact.systems.misalignment_population import Exposure, peak_forces
-from geocontact.systems.planar_joint import FOLD, POLE, SOUND, STEP, PlanarJoint
+from geocontact.misalignment.axis_drift import polynomial
+from geocontact.misalignment.compensation import Compensation
+from geocontact.misalignment.planar_joint import FOLD, POLE, SOUND, STEP, PlanarJoint
+from geocontact.misalignment.population import Exposure, peak_forces
 
 STOP = np.radians(120.0)
 

@@ -22,7 +22,7 @@ from geocontact.effects.catalogue import EFFECTS, candidates
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.program import program
 from geocontact.systems.catalogue import SYSTEMS, system_of
-from geocontact.systems.simulated import PythonSimulator, Run
+from geocontact.systems.external.simulator import PythonSimulator, Run
 from tests.systems.examples import elbow, foot, joint
 from tests.systems.test_command import Spring
 
@@ -108,7 +108,7 @@ def test_own_model_runs_and_has_its_own_effect_beside_the_others(here: Path, nam
 
 
 def test_a_model_of_the_package_is_one_like_any_other() -> None:
-    assert system_of(case("geocontact.systems.elastic_joint:JOINT")).name == "elastic_joint"
+    assert system_of(case("geocontact.systems.elastic_joint.model:JOINT")).name == "elastic_joint"
 
 
 @pytest.mark.parametrize(

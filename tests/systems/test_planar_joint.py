@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geocontact.systems.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
-from geocontact.systems.elbow_explicit import Offsets, require_no_pole
-from geocontact.systems.elbow_misalignment import POLE_SHARE, deflect
-from geocontact.systems.planar_joint import FOLD, LOST, POLE, SOUND, PlanarJoint, extremes_of, grid
+from geocontact.misalignment.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
+from geocontact.misalignment.explicit import Offsets, require_no_pole
+from geocontact.misalignment.planar_joint import FOLD, LOST, POLE, SOUND, PlanarJoint, extremes_of, grid
+from geocontact.systems.elbow.misalignment import POLE_SHARE, deflect
 
 TURN = np.radians(120.0)
 WANDERS = polynomial((0.002, -0.008, 0.003), (-0.001, 0.005, 0.0, -0.001))

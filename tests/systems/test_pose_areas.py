@@ -9,8 +9,8 @@ import pytest
 
 from geocontact.data.errors import InputWarning
 from geocontact.geometry.contact_area.area import AS_GIVEN
-from geocontact.systems import pose_areas
-from geocontact.systems.posed_knee import PosedKnee
+from geocontact.systems.knee import pose_areas
+from geocontact.systems.knee.posed import PosedKnee
 from tests.systems.posed_knees import chain, poses
 
 TIME, POSES = poses(24)

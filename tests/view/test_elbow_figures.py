@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.identify.profile_likelihood import Profile
-from geocontact.systems.elbow_end_stop import Curve, Stroke
-from geocontact.systems.elbow_uncertainty import Direction
+from geocontact.identify.intervals.profile_likelihood import Profile
+from geocontact.misalignment.end_stop import Curve, Stroke
+from geocontact.misalignment.uncertainty import Direction
 from geocontact.view.elbow_figures import Boxes, conditions_figure, surface_figure, told_figure
 from geocontact.view.elbow_surfaces import surfaces
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.cycles import normalised
+from geocontact.identify.signals.cycles import normalised
 from geocontact.view.curves.given import array, positions
 from geocontact.view.curves.quantity import TIME
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.ensemble import mean_and_sd
+from geocontact.identify.signals.ensemble import mean_and_sd
 from geocontact.view.curves.given import named, positions
 from geocontact.view.curves.quantity import CYCLE, Quantity
 from geocontact.view.curves.style import LINES, PALETTE, in_style, legend, on

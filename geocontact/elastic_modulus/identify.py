@@ -1,0 +1,176 @@
+"""E* of a contact from its area and its force, with intervals and what the data cannot tell."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.contact.elasticity import plane_modulus
+from geocontact.data.parameter import Parameter
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD, AreaForce, derivative
+from geocontact.identify.identifiability import Identifiability, identifiability
+from geocontact.identify.intervals.block_bootstrap import Replicates, block_bootstrap
+from geocontact.identify.intervals.profile_likelihood import Profile, profile
+from geocontact.identify.noise.autocorrelation import Memory, memory_of
+from geocontact.identify.optimise.least_squares import Fit
+from geocontact.identify.optimise.least_squares import fit as least_squares
+from geocontact.identify.optimise.quasi_newton import search, spread_starts
+
+WEAKEST, STRONGEST = 1e3, 1e13  # bounds of E* [Pa]: softer than any gel, stiffer than diamond
+STARTS = 8
+REPLICATES = 1000
+REFITS = 200  # replicates at most where more than E* is free and each is a search
+SMALL = 1e-6  # of a threshold, a lag or an offset, for differences [m, s, rad, 1/rad]
+POISSON = 0.25  # where the sensitivity to it is taken; which value does not matter
+YOUNG, RATIO, RADIUS = "E", "nu", "R"
+
+
+@dataclass(frozen=True, eq=False)
+class Identification:
+    """What one force curve tells of one area curve's law.
+
+    Parameters
+    ----------
+    model, measured
+        The law, and the force at its frames [N].
+    fit, memory
+        Least-squares estimates; how the residual remembers.
+    profiles, replicates
+        Intervals by profile likelihood, one per free parameter, and by block bootstrap (None where not asked for).
+    told_apart
+        Free parameters among themselves; (E, nu); (E*, R); and, where they could be free, E* with the others.
+    """
+
+    model: AreaForce
+    measured: Float[np.ndarray, " n"]
+    fit: Fit
+    memory: Memory
+    profiles: Mapping[str, Profile]
+    replicates: Replicates | None
+    told_apart: Mapping[str, Identifiability]
+
+    @property
+    def modulus(self) -> float:
+        """E* [Pa]."""
+        return self.fit.values[MODULUS]
+
+    @property
+    def predicted(self) -> Float[np.ndarray, " n"]:
+        """Force by the law [N]."""
+        return self.model.force(self.fit.values)
+
+    @property
+    def on_bound(self) -> tuple[str, ...]:
+        """Free parameters whose interval reaches a bound."""
+        return tuple(name for name, p in self.profiles.items() if p.lower_open or p.upper_open)
+
+
+def agreement(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"]) -> tuple[float, float]:
+    """Root mean square error, and R^2 about the mean of what was measured; below 0 a constant would do better."""
+    off, varied = measured - predicted, measured - measured.mean()
+    total = float(varied @ varied)
+    return float(np.sqrt(np.mean(off**2))), 1.0 - float(off @ off) / total if total > 0.0 else float("nan")
+
+
+def modulus_parameter() -> Parameter:
+    """E* with its bounds."""
+    return Parameter(MODULUS, "Pa", 1e7, WEAKEST, STRONGEST)
+
+
+def fitted(
+    model: AreaForce, measured: Float[np.ndarray, " n"], parameters: Sequence[Parameter], starts: int = STARTS
+) -> Fit:
+    """Least squares by bounded quasi-Newton from the parameters' own start and `starts` more."""
+    floor = np.array([max(float(np.sqrt(np.mean(measured**2))), np.finfo(float).tiny)])
+    return search(model.predict, [measured[:, None]], parameters, floor, spread_starts(parameters, starts))
+
+
+def identify(
+    model: AreaForce,
+    measured: Float[np.ndarray, " n"],
+    others: Sequence[Parameter] = (),
+    replicates: int = REPLICATES,
+    level: float = 0.95,
+    starts: int = STARTS,
+) -> Identification:
+    """E* and the other free parameters of a model from the force at its frames.
+
+    Parameters
+    ----------
+    others
+        Free parameters besides E*: "threshold" [m], "lag" [s], "adduction" [rad], "slope" [1/rad].
+    replicates
+        Of the bootstrap; 0 for none.
+    starts
+        Of the search, besides the parameters' own.
+    """
+    parameters = (modulus_parameter(), *others)
+    fit = fitted(model, measured, parameters, starts)
+    jacobian = fit.jacobian[0][:, 0, :]
+    memory = memory_of(model.frames, fit.residuals[0][:, 0], jacobian)
+    profiles = {
+        name: profile(model.predict, measured, model.frames, parameters, fit, memory, name, level) for name in fit.names
+    }
+    drawn = _bootstrap(model, fit, memory, parameters, replicates, level) if replicates else None
+    return Identification(model, measured, fit, memory, profiles, drawn, _told_apart(model, fit, jacobian))
+
+
+def _bootstrap(
+    model: AreaForce, fit: Fit, memory: Memory, parameters: Sequence[Parameter], count: int, level: float
+) -> Replicates:
+    best = np.array([fit.values[name] for name in fit.names])
+    alone = fit.names == (MODULUS,)
+
+    def refit(rows: Float[np.ndarray, "b n"]) -> Float[np.ndarray, "b p"]:
+        if alone:
+            return model.refit(rows, fit.values, (WEAKEST, STRONGEST))
+        found = np.empty((len(rows), len(best)))
+        for k, row in enumerate(rows):
+            floor = np.array([float(np.sqrt(np.mean(row**2)))])
+            values = least_squares(model.predict, [row[:, None]], parameters, floor, [fit.values]).values
+            found[k] = [values[name] for name in fit.names]
+        return found
+
+    count = count if alone else min(count, REFITS)
+    return block_bootstrap(model.frames, model.force(fit.values), fit.residuals[0][:, 0], memory, refit, count, level)
+
+
+def _told_apart(model: AreaForce, fit: Fit, jacobian: Float[np.ndarray, "n p"]) -> dict[str, Identifiability]:
+    """The groups of numbers that somebody may want to identify together."""
+    star, values = fit.values[MODULUS], fit.values
+    young = star * (1.0 - POISSON**2)
+    sides = {YOUNG: young, RATIO: POISSON}
+
+    def by_material(v: Mapping[str, float]) -> Float[np.ndarray, " n"]:
+        return model.force({**values, MODULUS: plane_modulus(v[YOUNG], v[RATIO])})
+
+    def by_radius(v: Mapping[str, float]) -> Float[np.ndarray, " n"]:
+        evolution = replace(model.evolution, radius=model.evolution.radius * v[RADIUS])
+        return replace(model, evolution=evolution).force({**values, MODULUS: v[MODULUS]})
+
+    pair = np.column_stack([derivative(by_material, sides, name, 1e-5 * sides[name]) for name in sides])
+    scaled = {MODULUS: star, RADIUS: 1.0}
+    radius = np.column_stack([derivative(by_radius, scaled, name, 1e-5 * scaled[name]) for name in scaled])
+    groups = {"E, nu": identifiability(("E", "nu"), pair), "E*, R": identifiability(("E*", "R"), radius)}
+    full = {THRESHOLD: model.threshold, LAG: model.taken, **_offsets(model), **values}
+    for name in [name for name in (THRESHOLD, LAG, ADDUCTION, SLOPE) if name in full]:
+        if name == THRESHOLD and len(model.evolution.thresholds) == 1:
+            continue
+        columns = np.column_stack(
+            [derivative(model.force, full, each, h) for each, h in ((MODULUS, 1e-5 * star), (name, SMALL))]
+        )
+        if float(np.linalg.norm(columns[:, 1])) > 0.0:
+            groups[f"E*, {name}"] = identifiability(("E*", name), columns)
+    if len(fit.names) > 1:
+        groups["free"] = identifiability(["E*" if name == MODULUS else name for name in fit.names], jacobian)
+    return groups
+
+
+def _offsets(model: AreaForce) -> dict[str, float]:
+    """What else could be free, at nothing."""
+    evolution = model.evolution
+    known = ((ADDUCTION, evolution.tilts is not None), (SLOPE, evolution.flexion is not None))
+    return {name: 0.0 for name, there in known if there}

@@ -1,0 +1,101 @@
+"""Intervals by block bootstrap of a residual that remembers.
+
+Blocks of a short recording's residual, put together at random, vary too little: what reaches across their edges is
+lost. So each replicate is post-blackened (Davison and Hinkley 1997, Bootstrap Methods and their Application, sec.
+8.2.3): a correlation time is drawn from its weights (`memory`), the residual is whitened with it, blocks of what is
+left are drawn with random places and signs, and the memory is put back. The blocks are longer than the residual's
+correlation, so that whatever memory the whitening misses stays inside them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.identify.noise.autocorrelation import Memory
+from geocontact.identify.noise.autoregressive import Noise
+
+CORRELATIONS = 3.0  # correlation times in a block: exp(-3) is left of the correlation
+FEWEST = 4  # blocks
+
+
+@dataclass(frozen=True, eq=False)
+class Replicates:
+    """Estimates from resampled residuals.
+
+    Parameters
+    ----------
+    estimates
+        A row per replicate, a column per parameter.
+    lower, upper
+        Of each parameter.
+    block
+        Length of a block [s].
+    blocks
+        In the recording; few of them mean a rough interval.
+    """
+
+    estimates: Float[np.ndarray, "b p"]
+    lower: Float[np.ndarray, " p"]
+    upper: Float[np.ndarray, " p"]
+    block: float
+    blocks: int
+
+
+def block_bootstrap(
+    time: Float[np.ndarray, " n"],
+    predicted: Float[np.ndarray, " n"],
+    residual: Float[np.ndarray, " n"],
+    memory: Memory,
+    refit: Callable[[Float[np.ndarray, "b n"]], Float[np.ndarray, "b p"]],
+    count: int,
+    level: float = 0.95,
+    seed: int = 0,
+) -> Replicates:
+    """Percentile intervals from `count` replicates of predicted + resampled residual.
+
+    Parameters
+    ----------
+    refit
+        Estimates from each row of synthetic measurements.
+    """
+    rng = np.random.default_rng(seed)
+    step = float(np.median(np.diff(time)))
+    n = len(time)
+    length = int(np.clip(np.ceil(CORRELATIONS * memory.typical / step), 1, max(n // FEWEST, 1)))
+    drawn = rng.choice(len(memory.tau), count, p=memory.weight)
+    noise = np.empty((count, n))
+    for k in np.unique(drawn):
+        own = np.flatnonzero(drawn == k)
+        noise[own] = _blackened(time, residual, float(memory.tau[k]), length, len(own), rng)
+    blocks = -(-n // length)
+    wider = np.sqrt(n / memory.freedom * blocks / max(blocks - 1, 1))
+    values = refit(predicted + wider * noise)
+    tails = [50.0 * (1.0 - level), 50.0 * (1.0 + level)]
+    lower, upper = np.percentile(values, tails, axis=0)
+    return Replicates(values, lower, upper, length * step, blocks)
+
+
+def _blackened(
+    time: Float[np.ndarray, " n"],
+    residual: Float[np.ndarray, " n"],
+    tau: float,
+    length: int,
+    count: int,
+    rng: np.random.Generator,
+) -> Float[np.ndarray, "b n"]:
+    """Resampled residuals: blocks of the innovations with random places and signs, given the memory back."""
+    n = len(time)
+    innovations = Noise(np.ones(1), np.array([tau])).whitened(time, residual[:, None, None])[:, 0]
+    blocks = -(-n // length)
+    first = rng.integers(0, n, (count, blocks))
+    places = ((first[:, :, None] + np.arange(length)) % n).reshape(count, -1)[:, :n]
+    signs = rng.choice([-1.0, 1.0], (count, blocks)).repeat(length, axis=1)[:, :n]
+    noise = innovations[places] * signs
+    keep = np.exp(-np.diff(time) / tau)
+    for k in range(1, n):
+        noise[:, k] = keep[k - 1] * noise[:, k - 1] + np.sqrt(1.0 - keep[k - 1] ** 2) * noise[:, k]
+    return np.asarray(noise)

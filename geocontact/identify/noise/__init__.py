@@ -1,0 +1,1 @@
+"""Models of noise: spectra, covariances, and the search for their levels."""

@@ -1,0 +1,172 @@
+"""Covariance of what a trial's residual is made of: sensor noise, noise with a memory, noise of the inputs.
+
+Over a trial the residual r = measured - predicted is, to first order,
+
+    r = w + c + sum_j R_j n_j + B d
+
+with w white sensor noise, c one or more Ornstein-Uhlenbeck processes per channel (a filter in the measuring chain is
+quick, muscle tone and sway are slow), n_j the noise of input j, whose spectrum is known, R_j what the model makes of
+it (`input_noise`), and d the trial's own deviation of some parameters (donning,
+placement; `trial_variation`). The time axis is cut into blocks that are taken as independent of each other, apart from
+d; that keeps matrices small, and is right for what is forgotten within a block.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.linalg import lapack
+
+from geocontact.identify.noise.block_sums import carried, pulled, summed
+from geocontact.identify.noise.input_noise import InputNoise
+from geocontact.identify.noise.noise_levels import Levels
+
+BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
+RAISED = 1e-7  # of the diagonal, first try where a covariance has no factor
+JITTER = 1e-9  # of the diagonal, so that a factor always exists
+
+
+@dataclass(frozen=True)
+class Block:
+    """Rows of one stretch of a trial and the parts that its covariance is summed from.
+
+    Parameters
+    ----------
+    rows
+        Flat indices (t, c), channel after channel, each in the order of time.
+    time, channel
+        Of each row [s].
+    inputs
+        Covariance that noise of unit variance of each input makes.
+    """
+
+    rows: Int[np.ndarray, " n"]
+    time: Float[np.ndarray, " n"]
+    channel: Int[np.ndarray, " n"]
+    inputs: Float[np.ndarray, "j n n"]
+
+    def covariance(self, levels: Levels) -> Float[np.ndarray, "n n"]:
+        """At these levels."""
+        powers = (levels.white**2, levels.coloured**2, levels.memory, levels.inputs**2)
+        return summed(self.time, self.channel, self.inputs, *powers, 1.0 + JITTER)
+
+    def pulls(self, levels: Levels, pull: Float[np.ndarray, "n n"]) -> Float[np.ndarray, " h"]:
+        """Sum of `pull` times the derivative of the covariance with respect to each logarithm of a level.
+
+        `pull` is symmetric; its upper half is read.
+        """
+        white, (coloured, lagged), inputs = pulled(self.time, self.channel, self.inputs, levels.memory, pull)
+        sums = np.concatenate([white, coloured.ravel(), lagged.ravel(), inputs])
+        return np.asarray(_per_logarithm(levels) * sums)
+
+    def derivatives_times(self, levels: Levels, values: Float[np.ndarray, " n"]) -> Float[np.ndarray, "h n"]:
+        """Derivative of the covariance with respect to each logarithm of a level, times `values`."""
+        moved = carried(self.time, self.channel, self.inputs, levels.memory, values)
+        return np.asarray(_per_logarithm(levels)[:, None] * moved)
+
+
+def _per_logarithm(levels: Levels) -> Float[np.ndarray, " h"]:
+    """What the parts of a covariance, or its coloured ones' slopes by 1/τ, are multiplied by for its derivatives."""
+    coloured = levels.coloured**2
+    parts = (
+        2.0 * levels.white**2,
+        (2.0 * coloured).ravel(),
+        (coloured / levels.memory).ravel(),
+        2.0 * levels.inputs**2,
+    )
+    return np.concatenate(parts)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """One trial cut into blocks; rows are its measured samples, channel after channel within a block."""
+
+    shape: tuple[int, int]
+    blocks: tuple[Block, ...]
+
+    @classmethod
+    def of(
+        cls,
+        time: Float[np.ndarray, " t"],
+        present: np.ndarray,
+        heard: InputNoise,
+    ) -> Layout:
+        """Blocks of a trial; `present` (t, c): which samples were measured; `heard`: what noise of inputs makes."""
+        count = max(1, round(present.sum() / BLOCK_ROWS))
+        edges = [round(each) for each in np.linspace(0, len(time), count + 1)]
+        blocks = [_block(time, present, heard, a, b) for a, b in pairwise(edges)]
+        return cls(present.shape, tuple(block for block in blocks if len(block.rows)))
+
+    def whitener(self, levels: Levels) -> Whitener:
+        """What turns noise of these levels into independent numbers of unit variance."""
+        factors = [factor_of(block.covariance(levels)) for block in self.blocks]
+        inverses = tuple(lapack.dtrtri(factor, lower=1)[0] for factor, _ in factors)
+        return Whitener(tuple(block.rows for block in self.blocks), inverses, sum(scale for _, scale in factors))
+
+    @cached_property
+    def rows(self) -> Int[np.ndarray, " n"]:
+        """Flat indices (t, c) of all rows."""
+        return np.concatenate([block.rows for block in self.blocks])
+
+
+@dataclass(frozen=True)
+class Whitener:
+    """Lower triangular factors, one per block, and the sum of logarithms that belongs to the likelihood."""
+
+    rows: tuple[Int[np.ndarray, " _"], ...]
+    factors: tuple[Float[np.ndarray, "_ _"], ...]
+    log_scale: float
+
+    def __call__(self, values: Float[np.ndarray, "t c p"]) -> Float[np.ndarray, "n p"]:
+        """Whitened rows of what is given for all samples."""
+        flat = values.reshape(values.shape[0] * values.shape[1], values.shape[-1])
+        return np.concatenate([f @ flat[rows] for rows, f in zip(self.rows, self.factors, strict=True)])
+
+    def coloured(self, independent: Float[np.ndarray, " n"]) -> Float[np.ndarray, " m"]:
+        """The way back: noise of these levels from independent numbers, in the order of the rows."""
+        from scipy.linalg import solve_triangular
+
+        parts, at = [], 0
+        for factor in self.factors:
+            parts.append(solve_triangular(factor, independent[at : at + len(factor)], lower=True))
+            at += len(factor)
+        return np.concatenate(parts)
+
+
+def _block(
+    time: np.ndarray,
+    present: np.ndarray,
+    heard: InputNoise,
+    first: int,
+    last: int,
+) -> Block:
+    sample, channel = [], []
+    for c in range(present.shape[1]):
+        own = first + np.flatnonzero(present[first:last, c])
+        sample.append(own)
+        channel.append(np.full(len(own), c))
+    at, which = np.concatenate(sample), np.concatenate(channel)
+    return Block(at * present.shape[1] + which, time[at], which, heard.covariance(at, which))
+
+
+def factor_of(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:
+    """Lower Cholesky factor, and half the logarithm of the determinant.
+
+    Tables of the low-pass kernel are exact to a few digits; where input noise dwarfs the rest, the diagonal is raised
+    until there is a factor.
+    """
+    raised, more = covariance, RAISED
+    while True:
+        factor, failed = lapack.dpotrf(
+            raised.T, lower=1, clean=1
+        )  # symmetric: turned round it need not be copied twice
+        if not failed:
+            return factor, float(np.log(factor.diagonal()).sum())
+        if more > 1.0:
+            raise ValueError("a noise covariance has no finite factor")
+        raised = covariance + more * np.diag(np.diag(covariance))
+        more *= 10.0

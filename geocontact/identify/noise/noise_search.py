@@ -1,0 +1,175 @@
+"""Levels of noise that make residuals most likely, searched with average information.
+
+Far from the end, curvature is the average of observed and expected information (Gilmour, Thompson & Cullis 1995,
+Biometrics 51:1440), which needs no product of matrices and takes no step too far where noise is much too quiet. From
+where a step gains less than `NEAR`, secants amend it (BFGS, damped as by Powell 1978, Lecture Notes in Mathematics
+630:144), since it leaves out how variances bend with their logarithms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.linalg import lapack
+
+from geocontact.identify.noise.covariance import Block, Layout, factor_of
+from geocontact.identify.noise.noise_levels import Beliefs, Levels
+from geocontact.identify.optimise.bounded_gauss_newton import BROKEN, DAMPED, KEPT, LEAST, LOWER, MOST, RAISE, Bend
+
+FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
+ENOUGH = 1e-6  # nats that a step of the search must gain for another
+NEAR = 1.0  # nats gained by a step, below which secants amend the curvature
+CURVED = 0.2  # of what was expected, curvature along a step that a secant is believed
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One block of a trial: its residual, and the covariance that variation from trial to trial makes."""
+
+    block: Block
+    residual: Float[np.ndarray, " n"]
+    moved: Float[np.ndarray, "n n"]
+
+
+@dataclass(frozen=True)
+class Place:
+    """Minus the logarithm of what is maximised at a point of the search, and its slope.
+
+    `factors`, `solved` are of each piece: the covariance's lower factor, and its inverse times the residual.
+    """
+
+    x: Float[np.ndarray, " h"]
+    levels: Levels
+    cost: float
+    gradient: Float[np.ndarray, " h"]
+    factors: tuple[Float[np.ndarray, "_ _"], ...]
+    solved: tuple[Float[np.ndarray, " _"], ...]
+
+
+@dataclass(frozen=True)
+class Surface:
+    """What is searched: the pieces of all trials, and what was believed of the levels."""
+
+    pieces: tuple[Piece, ...]
+    beliefs: Beliefs
+
+    @classmethod
+    def of(
+        cls,
+        layouts: Sequence[Layout],
+        residuals: Sequence[Float[np.ndarray, "_ c"]],
+        jitter: Sequence[Float[np.ndarray, "_ c q"]],
+        beliefs: Beliefs,
+    ) -> Surface:
+        """From what `most_likely` is given."""
+        pieces = []
+        for layout, residual, moved in zip(layouts, residuals, jitter, strict=True):
+            flat = moved.reshape(residual.size, moved.shape[-1])
+            for block in layout.blocks:
+                own = flat[block.rows]
+                pieces.append(Piece(block, residual.ravel()[block.rows], own @ own.T))
+        return cls(tuple(pieces), beliefs)
+
+    def at(self, x: Float[np.ndarray, " h"]) -> Place:
+        """Cost and slope at a point."""
+        levels = self.beliefs.levels(x)
+        total, pull, factors, solved = 0.5 * float(x @ x), np.zeros(len(x)), [], []
+        for piece in self.pieces:
+            root, log_scale = factor_of(piece.block.covariance(levels) + piece.moved)
+            eased, _ = lapack.dpotrs(root, piece.residual, lower=1)
+            inverse, _ = lapack.dpotri(root, lower=1)  # its lower half, by columns: the upper by rows
+            total += 0.5 * float(piece.residual @ eased) + log_scale
+            pull += piece.block.pulls(levels, inverse.T - np.outer(eased, eased))
+            factors.append(root)
+            solved.append(eased)
+        return Place(x, levels, total, x + 0.5 * self.beliefs.slope(x, pull), tuple(factors), tuple(solved))
+
+    def information(self, place: Place) -> Float[np.ndarray, "h h"]:
+        """Average information of the residuals at a place, and that of the beliefs.
+
+        With the covariance V, its derivatives V_k and the residual r it is ½ rᵀ V⁻¹ V_k V⁻¹ V_l V⁻¹ r.
+        """
+        size = len(place.x)
+        known = np.zeros((size, size))
+        for piece, factor, solved in zip(self.pieces, place.factors, place.solved, strict=True):
+            part, _ = lapack.dtrtrs(factor, piece.block.derivatives_times(place.levels, solved).T, lower=1)
+            known += part.T @ part
+        rows = self.beliefs.slope(place.x, known)  # of a symmetric matrix: its columns likewise
+        return np.eye(size) + 0.5 * self.beliefs.slope(place.x, rows.T)
+
+
+def most_likely(
+    layouts: Sequence[Layout],
+    residuals: Sequence[Float[np.ndarray, "_ c"]],
+    jitter: Sequence[Float[np.ndarray, "_ c q"]],
+    beliefs: Beliefs,
+    start: Levels,
+    rounds: int = 80,
+) -> tuple[Levels, float, float]:
+    """Levels that make the residuals most likely, given what was believed of them.
+
+    With them half their squared surprise, and the logarithm of what was maximised. What is found is a local best.
+
+    Parameters
+    ----------
+    layouts, residuals
+        One per trial.
+    jitter
+        Derivatives with respect to what varies from trial to trial, times its standard deviation.
+    beliefs
+        What was believed of the levels, and their limits.
+    start
+        Where the search sets out.
+    rounds
+        Evaluations of the likelihood at the most.
+    """
+    surface = Surface.of(layouts, residuals, jitter, beliefs)
+    here = surface.at(np.clip(beliefs.point(start), -FARTHEST, FARTHEST))
+    curvature, damping, near = surface.information(here), DAMPED, False
+    for _ in range(rounds - 1):
+        low, high = -FARTHEST - here.x, FARTHEST - here.x
+        bend = Bend.within(here.gradient, curvature, low, high)
+        if bend.promise(bend.step(0.0, low, high)) < ENOUGH:
+            break
+        step = bend.step(damping, low, high)
+        x = np.clip(here.x + step, -FARTHEST, FARTHEST)
+        if np.array_equal(x, here.x):
+            break
+        there = surface.at(x)
+        fall = here.cost - there.cost
+        kept = fall / bend.promise(step)
+        damping = damped(damping, kept)
+        if near:
+            curvature = secant(curvature, there.x - here.x, there.gradient - here.gradient)
+        if fall > 0.0:
+            here = there
+            if fall < ENOUGH and kept > BROKEN:
+                break
+            if not near or fall >= NEAR:
+                curvature, near = surface.information(here), fall < NEAR
+        elif damping > MOST:
+            break
+    return here.levels, 0.5 * float(here.x @ here.x), -here.cost
+
+
+def damped(damping: float, kept: float) -> float:
+    """Damping of the next step, by the share of its promise that the last one kept."""
+    if kept > KEPT:
+        return max(LOWER * damping, LEAST)
+    return damping if kept > BROKEN else max(RAISE * damping, DAMPED)
+
+
+def secant(
+    curvature: Float[np.ndarray, "h h"], step: Float[np.ndarray, " h"], change: Float[np.ndarray, " h"]
+) -> Float[np.ndarray, "h h"]:
+    """Curvature amended by how the slope changed along a step; it stays positive definite."""
+    bent = curvature @ step
+    expected, seen = float(step @ bent), float(step @ change)
+    share = 1.0 if seen >= CURVED * expected else (1.0 - CURVED) * expected / (expected - seen)
+    believed = share * change + (1.0 - share) * bent
+    return np.asarray(
+        curvature - np.outer(bent, bent) / expected + np.outer(believed, believed) / float(step @ believed)
+    )

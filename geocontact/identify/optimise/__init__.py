@@ -1,0 +1,1 @@
+"""Searches for parameters, one method a file."""

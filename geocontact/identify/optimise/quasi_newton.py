@@ -1,0 +1,110 @@
+"""Parameters within bounds by a quasi-Newton search from several starts (L-BFGS-B), the best one polished."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from jaxtyping import Bool, Float
+from scipy.optimize import minimize
+from scipy.stats import qmc
+
+from geocontact.data.parameter import Parameter
+from geocontact.identify.optimise.least_squares import Fit, Predict, divided, fit
+
+DECADES = 100.0  # bounds farther apart than this factor: the search is in the logarithm
+STEP = 1e-6  # of a search coordinate, for differences
+SMALLEST = 1e-8  # mean square residual, in floors, added before the logarithm is taken
+OPTIONS: Any = {"maxiter": 200, "ftol": 1e-10, "gtol": 1e-7}
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinates:
+    """Search coordinates of the free parameters: 0 … 1 between their bounds, in the logarithm where these are wide."""
+
+    lower: Float[np.ndarray, " p"]
+    upper: Float[np.ndarray, " p"]
+    logarithmic: Bool[np.ndarray, " p"]
+
+    @classmethod
+    def of(cls, free: Sequence[Parameter]) -> Coordinates:
+        """Coordinates of these parameters; all bounds must be finite."""
+        lower, upper = np.array([p.lower for p in free], float), np.array([p.upper for p in free], float)
+        if not np.isfinite(lower).all() or not np.isfinite(upper).all():
+            raise ValueError("every free parameter needs a finite lower and upper bound")
+        wide = (lower > 0.0) & (upper > DECADES * np.maximum(lower, np.finfo(float).tiny))
+        return cls(np.where(wide, np.log(np.where(wide, lower, 1.0)), lower), _upper(upper, wide), wide)
+
+    def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
+        """Parameters at these coordinates."""
+        linear = self.lower + z * (self.upper - self.lower)
+        return np.asarray(np.where(self.logarithmic, np.exp(np.where(self.logarithmic, linear, 0.0)), linear))
+
+    def at(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
+        """Coordinates of these parameters, those outside the bounds moved to them."""
+        logarithm = np.log(np.where(self.logarithmic, np.maximum(values, np.finfo(float).tiny), 1.0))
+        linear = np.where(self.logarithmic, logarithm, values)
+        return np.asarray(np.clip((linear - self.lower) / (self.upper - self.lower), 0.0, 1.0))
+
+
+def _upper(upper: Float[np.ndarray, " p"], wide: Bool[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
+    return np.where(wide, np.log(np.where(wide, upper, 1.0)), upper)
+
+
+def spread_starts(parameters: Sequence[Parameter], count: int, seed: int = 0) -> list[dict[str, float]]:
+    """The parameters' own starts, and `count` more spread over the bounds (Latin hypercube)."""
+    free = [p for p in parameters if not p.fixed]
+    if not free:
+        return [{}]
+    coordinates = Coordinates.of(free)
+    drawn = qmc.LatinHypercube(len(free), rng=seed).random(count)
+    return [{}, *(dict(zip([p.name for p in free], map(float, coordinates.values(z)), strict=True)) for z in drawn)]
+
+
+def search(
+    predict: Predict,
+    measured: Sequence[Float[np.ndarray, "_ c"]],
+    parameters: Sequence[Parameter],
+    floor: Float[np.ndarray, " c"],
+    starts: Sequence[Mapping[str, float]] = ({},),
+) -> Fit:
+    """Least squares within bounds by L-BFGS-B, the best of several starts; as `least_squares.fit` otherwise.
+
+    Byrd, Lu, Nocedal and Zhu (1995), SIAM J. Sci. Comput. 16, 1190; gradients by central differences. What
+    is minimised is the logarithm of the mean square, so that starts decades away do no harm. The best search
+    is finished by `least_squares.fit`, which a narrow valley does not slow down; `costs` are those before it.
+    """
+    free = [p for p in parameters if not p.fixed]
+    names = tuple(p.name for p in free)
+
+    def residual(values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
+        predicted = predict(dict(zip(names, map(float, values), strict=True)))
+        return np.concatenate([divided(p, m, floor) for p, m in zip(predicted, measured, strict=True)])
+
+    if not free:
+        return fit(predict, measured, parameters, floor)
+    coordinates = Coordinates.of(free)
+
+    def cost(z: Float[np.ndarray, " p"]) -> tuple[float, Float[np.ndarray, " p"]]:
+        off, slope = residual(coordinates.values(z)), np.empty(len(z))
+        for k in range(len(z)):
+            step = np.zeros(len(z))
+            step[k] = STEP
+            ahead, behind = (residual(coordinates.values(z + way * step)) for way in (1.0, -1.0))
+            slope[k] = off @ (ahead - behind) / (2.0 * STEP)
+        square = float(off @ off) / len(off) + SMALLEST
+        return float(np.log(square)), 2.0 * slope / (len(off) * square)
+
+    searches = []
+    for start in starts:
+        begin = coordinates.at(np.array([start.get(p.name, p.start) for p in free], float))
+        found: Any = minimize(
+            cost, begin, jac=True, method="L-BFGS-B", bounds=[(0.0, 1.0)] * len(free), options=OPTIONS
+        )
+        searches.append((float(found.fun), coordinates.values(np.asarray(found.x, float))))
+    count = int(sum(np.isfinite(m).sum() for m in measured))
+    _, values = min(searches, key=lambda found: found[0])
+    polished = fit(predict, measured, parameters, floor, [dict(zip(names, map(float, values), strict=True))])
+    return replace(polished, costs=tuple(0.5 * count * max(float(np.exp(low)) - SMALLEST, 0.0) for low, _ in searches))

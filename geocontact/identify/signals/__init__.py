@@ -1,0 +1,1 @@
+"""Recordings made ready: cycles, even times, filters, bins of angle."""

@@ -1,0 +1,1 @@
+"""Misalignment of an exoskeleton and a joint: law, identification, design, population (elbow paper)."""

@@ -1,0 +1,142 @@
+"""Synthetic recordings of an exoskeleton at an elbow, after the design of the explicit model's experiment.
+
+60 s of tracking a multisine of random frequencies from 0.05 to 0.35 Hz, 1 kHz, 12 bits, cuff pressures of 10 to 60 mmHg
+at random, the compensation joint locked or free. What a person adds is an Ornstein-Uhlenbeck force; the true numbers
+are those given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.signal import lfilter
+
+from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.misalignment.compensation import taken_up
+from geocontact.misalignment.explicit import Offsets, constraint_force, displacement
+
+PAPER = {"k": 222.43, "x": 0.048, "y": 0.059, "l": 0.169, "z": 0.127, "b": 0.0, "s": 0.0}
+"""What the explicit model's paper identified: one point of the line on which forces do not change."""
+SINES = 6
+FULL_SCALE = {"beta": np.pi, "force": 100.0, "displacement": 0.2}  # that the bits divide: rad, N, m
+
+
+@dataclass(frozen=True)
+class Design:
+    """How recordings are made.
+
+    Parameters
+    ----------
+    seconds, rate
+        Length [s] and sampling rate [Hz].
+    band
+        Frequencies of the multisine [Hz].
+    reach
+        Least and largest angle of each trial [rad].
+    noise, memory
+        Standard deviation [N] and correlation time [s] of what the person adds to the force.
+    donning
+        Standard deviation of the offsets x and y from trial to trial [m].
+    bits
+        Of the converter; 0 for none.
+    pressures
+        Range from which each trial's cuff pressure is drawn [Pa]; None where none is recorded.
+    """
+
+    seconds: float = 60.0
+    rate: float = 1000.0
+    band: tuple[float, float] = (0.05, 0.35)
+    reach: tuple[float, float] = (np.radians(8.0), np.radians(92.0))
+    noise: float = 0.8
+    memory: float = 0.3
+    donning: float = 0.0
+    bits: int = 12
+    pressures: tuple[float, float] | None = None
+
+
+def multisine(time: Float[np.ndarray, " t"], design: Design, rng: np.random.Generator) -> Float[np.ndarray, " t"]:
+    """Angle of one trial [rad]: sines of random frequencies, amplitudes and phases, from end to end of the reach."""
+    frequency = rng.uniform(*design.band, SINES)
+    size, phase = rng.uniform(0.3, 1.0, SINES), rng.uniform(0.0, 2.0 * np.pi, SINES)
+    sum_of = size @ np.sin(2.0 * np.pi * frequency[:, None] * time + phase[:, None])
+    low, high = float(sum_of.min()), float(sum_of.max())
+    first, last = design.reach
+    return np.asarray(first + (last - first) * (sum_of - low) / (high - low))
+
+
+def synthetic(
+    name: str,
+    numbers: Mapping[str, float],
+    design: Design,
+    rng: np.random.Generator,
+    stroke: tuple[float, float] | None = None,
+    mean_pressure: float = 0.0,
+) -> ElbowRecording:
+    """One synthetic recording; with a stroke of the compensation joint [m] it is free and its displacement recorded.
+
+    Parameters
+    ----------
+    numbers
+        k, x, y, l, z, b, s in SI units, as `elbow_law`.
+    mean_pressure
+        Pressure at which the stiffness is k [Pa].
+    """
+    time = np.arange(round(design.seconds * design.rate) + 1) / design.rate
+    beta = multisine(time, design, rng)
+    pressure = None if design.pressures is None else float(rng.uniform(*design.pressures))
+    shift = design.donning * rng.standard_normal(2)
+    moved = {**numbers, "x": numbers["x"] + shift[0], "y": numbers["y"] + shift[1]}
+    force, joint = ideal(time, beta, moved, stroke, 0.0 if pressure is None else pressure - mean_pressure)
+    noisy = force + _remembered(len(time), design, rng)
+    return ElbowRecording(
+        name,
+        time,
+        _converted(beta, "beta", design.bits),
+        _converted(noisy, "force", design.bits),
+        None if stroke is None else _converted(joint, "displacement", design.bits),
+        None if pressure is None else np.full(len(time), pressure),
+    )
+
+
+def ideal(
+    time: Float[np.ndarray, " t"],
+    beta: Float[np.ndarray, " t"],
+    numbers: Mapping[str, float],
+    stroke: tuple[float, float] | None = None,
+    pressure: float | Float[np.ndarray, " t"] = 0.0,
+) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
+    """Force [N] by the explicit model and displacement of the compensation joint [m] along recorded angles.
+
+    ValueError where the model has a pole or folds. Damping acts on what is left for the cuff.
+    """
+    offsets = Offsets(l=numbers["l"], z=numbers["z"], x=numbers["x"], y=numbers["y"])
+    stiffness = numbers["k"] * (1.0 + numbers["s"] * np.asarray(pressure))
+    if stroke is None:
+        rate = np.gradient(beta, time)
+        unit = constraint_force(beta, rate, offsets, 1.0)
+        speed = constraint_force(beta, rate, offsets, 0.0, 1.0)
+        return np.asarray(stiffness * unit + numbers["b"] * speed), np.zeros_like(beta)
+    joint, left = taken_up(displacement(beta, offsets).total, stroke)
+    return np.asarray(stiffness * left + numbers["b"] * np.gradient(left, time)), joint
+
+
+def _remembered(count: int, design: Design, rng: np.random.Generator) -> Float[np.ndarray, " t"]:
+    """An Ornstein-Uhlenbeck force [N]."""
+    white = rng.standard_normal(count)
+    if design.memory <= 0.0:
+        return design.noise * white
+    keep = float(np.exp(-1.0 / (design.rate * design.memory)))
+    new = np.sqrt(1.0 - keep**2) * white
+    new[0] = white[0]
+    return np.asarray(design.noise * lfilter([1.0], [1.0, -keep], new))
+
+
+def _converted(values: Float[np.ndarray, " t"], channel: str, bits: int) -> Float[np.ndarray, " t"]:
+    """What a converter of so many bits makes of it."""
+    if bits == 0:
+        return values
+    step = FULL_SCALE[channel] / 2.0**bits
+    return np.asarray(np.round(values / step) * step)

@@ -1,0 +1,1 @@
+"""Base model of an elastic joint."""

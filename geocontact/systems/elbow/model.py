@@ -1,0 +1,52 @@
+"""Elbow exoskeleton: force at the attachment from a misaligned axis, F = k d_tot (explicit pHRI model).
+
+Input `beta [rad]`, output `force [N]`; parameters k, x, y; l_ex and z_ex are constants or fixed parameters.
+(k, x, y, l, z) together cannot be told from any data: F(k/s, s × lengths) = F.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.chain.interface_law import INTERFACE_LAW
+from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor
+from geocontact.chain.scale import Scale
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+from geocontact.systems.base import Base, require_numbers
+from geocontact.systems.elbow.misalignment import ElbowMisalignment
+
+INPUTS, OUTPUTS = ("beta",), ("force",)
+UNITS = {"beta": "rad", "force": "N"}
+LENGTHS = ("l_ex", "z_ex", "x", "y")
+
+
+def measured_force(loads: Loads) -> Float[np.ndarray, "t c"]:
+    """The one load is the output."""
+    return loads.normal.copy()
+
+
+def build(
+    parameters: tuple[Parameter, ...], constants: Mapping[str, float], tables: Mapping[str, pd.DataFrame]
+) -> System:
+    """The base model; ValueError when a number that it needs is neither parameter nor constant."""
+    require_numbers("elbow", (*LENGTHS, "k"), parameters, constants)
+    return System(
+        name="elbow",
+        motion=Motion(INPUTS),
+        geometry=ElbowMisalignment().having({name: name for name in LENGTHS}),
+        law=Law(INTERFACE_LAW).having({"k": "k"}),
+        balance=Balance(OUTPUTS, measured_force),
+        sensor=Sensor(OUTPUTS),
+        parameters=parameters,
+        constants=dict(constants),
+        scale=Scale(),
+        units=UNITS,
+    )
+
+
+ELBOW = Base("elbow", INPUTS, OUTPUTS, build)

@@ -1,0 +1,1 @@
+"""Base model of a prosthetic foot on spheres."""

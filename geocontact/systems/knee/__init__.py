@@ -1,0 +1,1 @@
+"""Base models of a knee implant: lumped, posed, and from pose over meshes to load cells."""

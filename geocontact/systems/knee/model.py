@@ -1,0 +1,58 @@
+"""Knee implant: medial and lateral force from the sides' contact areas, F = (4/3) E* a³/R, a = sqrt(area/π).
+
+Inputs `flexion [rad]`, `adduction [rad]`, `area_medial [m^2]`, `area_lateral [m^2]`; the base uses the areas only.
+Outputs `force_medial [N]`, `force_lateral [N]`. Parameter E_star [Pa], constant or fixed parameter R [m]. Only E*/R can
+be told from areas and forces.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.chain.interface_law import INTERFACE_LAW
+from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor, Values
+from geocontact.chain.scale import Scale
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+from geocontact.systems.base import Base, require_numbers
+from geocontact.systems.knee.contact import AREAS, KneeContact
+
+INPUTS, OUTPUTS = ("flexion", "adduction", *AREAS), ("force_medial", "force_lateral")
+UNITS = {"flexion": "rad", "adduction": "rad", **dict.fromkeys(AREAS, "m^2"), **dict.fromkeys(OUTPUTS, "N")}
+
+
+def stiffness(values: Values) -> float:
+    """(4/3) E* [Pa]: force over a³/R."""
+    return 4.0 / 3.0 * values["E_star"]
+
+
+def measured_forces(loads: Loads) -> Float[np.ndarray, "t c"]:
+    """Each side's load is an output."""
+    return loads.normal.copy()
+
+
+def build(
+    parameters: tuple[Parameter, ...], constants: Mapping[str, float], tables: Mapping[str, pd.DataFrame]
+) -> System:
+    """The base model; ValueError when a number that it needs is neither parameter nor constant."""
+    require_numbers("knee", ("R", "E_star"), parameters, constants)
+    return System(
+        name="knee",
+        motion=Motion(INPUTS),
+        geometry=KneeContact().having({"R": "R"}),
+        law=Law(INTERFACE_LAW, deflection="m^2").having({"k": stiffness}),
+        balance=Balance(OUTPUTS, measured_forces),
+        sensor=Sensor(OUTPUTS),
+        parameters=parameters,
+        constants=dict(constants),
+        scale=Scale(),
+        units=UNITS,
+        spare=("flexion", "adduction"),
+    )
+
+
+KNEE = Base("knee", INPUTS, OUTPUTS, build)

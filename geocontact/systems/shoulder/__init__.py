@@ -1,0 +1,1 @@
+"""Base model of a shoulder exoskeleton that a recorded arm moves."""

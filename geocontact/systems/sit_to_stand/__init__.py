@@ -1,0 +1,1 @@
+"""Base model of an exoskeleton strapped to pelvis, thigh and shank."""
