@@ -4,32 +4,32 @@ from __future__ import annotations
 
 from geocontact.chain.candidate import Candidate, Effect
 from geocontact.chain.system import System
-from geocontact.effects.asymmetry import ASYMMETRY
-from geocontact.effects.axis_migration import AXIS_MIGRATION
-from geocontact.effects.contact_loss import CONTACT_LOSS
-from geocontact.effects.crosstalk import CROSSTALK
-from geocontact.effects.damping import DAMPING
-from geocontact.effects.dead_zone import DEAD_ZONE
-from geocontact.effects.dry_friction import DRY_FRICTION
-from geocontact.effects.end_stop import END_STOP
-from geocontact.effects.event_load import EVENT_LOAD
-from geocontact.effects.filter_lag import FILTER_LAG
-from geocontact.effects.gravity_load import GRAVITY_LOAD
-from geocontact.effects.inertia_load import INERTIA_LOAD
-from geocontact.effects.motion_offset import MOTION_OFFSET
-from geocontact.effects.preload import PRELOAD
-from geocontact.effects.relaxation import RELAXATION
-from geocontact.effects.saturation import SATURATION
-from geocontact.effects.sensor_drift import SENSOR_DRIFT
-from geocontact.effects.sensor_gain import SENSOR_GAIN
-from geocontact.effects.sensor_offset import SENSOR_OFFSET
-from geocontact.effects.series_compliance import SERIES_COMPLIANCE
-from geocontact.effects.side_swap import SIDE_SWAP
-from geocontact.effects.sign_flip import SIGN_FLIP
-from geocontact.effects.slip import SLIP
-from geocontact.effects.stiffening import STIFFENING
-from geocontact.effects.time_shift import TIME_SHIFT
-from geocontact.effects.unit_error import UNIT_ERROR
+from geocontact.effects.data_errors.side_swap import SIDE_SWAP
+from geocontact.effects.data_errors.sign_flip import SIGN_FLIP
+from geocontact.effects.data_errors.unit_error import UNIT_ERROR
+from geocontact.effects.measurement.crosstalk import CROSSTALK
+from geocontact.effects.measurement.filter_lag import FILTER_LAG
+from geocontact.effects.measurement.saturation import SATURATION
+from geocontact.effects.measurement.sensor_drift import SENSOR_DRIFT
+from geocontact.effects.measurement.sensor_gain import SENSOR_GAIN
+from geocontact.effects.measurement.sensor_offset import SENSOR_OFFSET
+from geocontact.effects.measurement.time_shift import TIME_SHIFT
+from geocontact.effects.mechanical.asymmetry import ASYMMETRY
+from geocontact.effects.mechanical.axis_migration import AXIS_MIGRATION
+from geocontact.effects.mechanical.contact_loss import CONTACT_LOSS
+from geocontact.effects.mechanical.damping import DAMPING
+from geocontact.effects.mechanical.dead_zone import DEAD_ZONE
+from geocontact.effects.mechanical.dry_friction import DRY_FRICTION
+from geocontact.effects.mechanical.end_stop import END_STOP
+from geocontact.effects.mechanical.event_load import EVENT_LOAD
+from geocontact.effects.mechanical.gravity_load import GRAVITY_LOAD
+from geocontact.effects.mechanical.inertia_load import INERTIA_LOAD
+from geocontact.effects.mechanical.motion_offset import MOTION_OFFSET
+from geocontact.effects.mechanical.preload import PRELOAD
+from geocontact.effects.mechanical.relaxation import RELAXATION
+from geocontact.effects.mechanical.series_compliance import SERIES_COMPLIANCE
+from geocontact.effects.mechanical.slip import SLIP
+from geocontact.effects.mechanical.stiffening import STIFFENING
 
 EFFECTS: tuple[Effect, ...] = (
     TIME_SHIFT,

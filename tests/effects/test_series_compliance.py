@@ -11,8 +11,8 @@ from scipy.optimize import brentq
 from geocontact.chain.implicit import NotConverged
 from geocontact.chain.movement import recorded
 from geocontact.chain.system import FAR
-from geocontact.effects.damping import DAMPING
-from geocontact.effects.series_compliance import SERIES_COMPLIANCE
+from geocontact.effects.mechanical.damping import DAMPING
+from geocontact.effects.mechanical.series_compliance import SERIES_COMPLIANCE
 from geocontact.systems.foot.spheres import INPUTS
 from tests.systems.examples import elbow, elbow_trial, example, foot, foot_trial, recording, spheres
 from tests.systems.test_elbow import restated

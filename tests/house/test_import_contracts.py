@@ -58,7 +58,7 @@ def test_contracts_hold() -> None:
         ("io/mesh/meshes.py", "import geocontact.geometry.plane", ROOMS),
         ("geometry/plane.py", "def late():\n    import geocontact.view.area_figure", ROOMS),
         ("geometry/plane.py", "import geocontact.contact.law", ROOMS),
-        ("effects/slip.py", "import geocontact.systems.knee", ROOMS),
+        ("effects/mechanical/slip.py", "import geocontact.systems.knee", ROOMS),
         ("identify/optimise/least_squares.py", "import geocontact.chain.links", ROOMS),
         ("view/area_figure.py", "import geocontact.cli.main", ROOMS),
         ("geometry/plane.py", "import geocontact.io.mesh.meshes", IO),

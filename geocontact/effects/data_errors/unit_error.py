@@ -16,7 +16,7 @@ from geocontact.chain.candidate import Candidate, Effect
 from geocontact.chain.links import Channels, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
-from geocontact.effects.faults import MIX_UP, input_fault, output_fault
+from geocontact.effects.data_errors.data_error import MIX_UP, input_fault, output_fault
 
 FACTORS = {
     "N": (1000.0, 9.80665, 4.4482216152605),

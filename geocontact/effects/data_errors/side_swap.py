@@ -11,7 +11,7 @@ from geocontact.chain.candidate import Candidate, Effect
 from geocontact.chain.links import Channels, Values
 from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
-from geocontact.effects.faults import SWAP, output_fault
+from geocontact.effects.data_errors.data_error import SWAP, output_fault
 from geocontact.effects.parts import load_channels
 
 

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from geocontact.chain.candidate import Candidate, Effect
 from geocontact.chain.system import System
-from geocontact.effects.faults import REVERSAL, input_fault, output_fault
-from geocontact.effects.unit_error import input_over, output_times
+from geocontact.effects.data_errors.data_error import REVERSAL, input_fault, output_fault
+from geocontact.effects.data_errors.unit_error import input_over, output_times
 
 
 def offer(system: System) -> tuple[Candidate, ...]:

@@ -1,0 +1,1 @@
+"""Discrete mistakes in the data: exchanged channels, turned signs, wrong units."""

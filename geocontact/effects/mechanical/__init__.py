@@ -1,0 +1,1 @@
+"""Effects of the mechanics: of the interface, the contact, the body, the movement."""
