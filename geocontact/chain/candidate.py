@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from geocontact.chain.places import placed
+from geocontact.chain.contact_sites import placed
 from geocontact.chain.system import System
 from geocontact.data.gap_case import LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter

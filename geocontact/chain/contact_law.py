@@ -12,7 +12,7 @@ import math
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.chain.slots import Slots
+from geocontact.chain.law_parameters import Slots
 from geocontact.chain.terms.asymmetry import direction_factor
 from geocontact.chain.terms.relaxation import branch_force
 from geocontact.chain.terms.stiffening import stiffening_factor

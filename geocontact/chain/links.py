@@ -9,8 +9,8 @@ from typing import Generic, Protocol, TypeVar, runtime_checkable
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.movement import REACH, Movement, recorded
-from geocontact.chain.slots import Slots, Source
+from geocontact.chain.differentiated_inputs import REACH, Movement, recorded
+from geocontact.chain.law_parameters import Slots, Source
 from geocontact.data.trial import Trial
 
 RECORDING = 100.0

@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
 from geocontact.chain.interface_law import MEMORY, interface_force
+from geocontact.chain.law_parameters import Slots, Source
 from geocontact.chain.links import Law, Loads, Values
-from geocontact.chain.movement import Movement
-from geocontact.chain.slots import Slots, Source
 from geocontact.geometry.kernels.compile import kernel
 
 SERIES = Slots(

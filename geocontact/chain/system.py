@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from geocontact.chain.implicit import NotConverged
 from geocontact.chain.links import Balance, Geometry, Law, Modifier, Motion, Places, Sensor
-from geocontact.chain.scale import Scale, scale_of
+from geocontact.chain.magnitudes import Scale, scale_of
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
+from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.law_parameters import Source
 from geocontact.chain.links import Channels, Modifier
-from geocontact.chain.movement import Movement
-from geocontact.chain.slots import Source
 from geocontact.chain.system import System
 
 LOADS = ("N", "N m")

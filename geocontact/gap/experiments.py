@@ -14,8 +14,8 @@ from itertools import combinations
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.chain.differentiated_inputs import Movement, recorded
 from geocontact.chain.links import Modifier
-from geocontact.chain.movement import Movement, recorded
 from geocontact.chain.system import System
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial

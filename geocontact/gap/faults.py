@@ -14,7 +14,7 @@ from itertools import combinations
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
-from geocontact.chain.movement import REACH
+from geocontact.chain.differentiated_inputs import REACH
 from geocontact.chain.system import System
 from geocontact.gap.problem import Plain, Problem, base_starts
 from geocontact.gap.refit import Measured, Refit, refit

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
-from geocontact.chain.movement import recorded
+from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
 from geocontact.gap.problem import Problem
 from geocontact.gap.refit import Refit

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.movement import recorded
+from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
 from geocontact.gap.evidence import Judged
 from geocontact.gap.faults import Fault

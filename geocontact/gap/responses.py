@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.chain.movement import NEIGHBOURS
+from geocontact.chain.differentiated_inputs import NEIGHBOURS
 from geocontact.chain.system import FAR, System
 from geocontact.data.trial import Trial
 from geocontact.identify.noise.input_noise import Lasting

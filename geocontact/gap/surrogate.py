@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.movement import recorded
+from geocontact.chain.differentiated_inputs import recorded
 from geocontact.gap.evidence import Judged, log_evidence, prior_spread
 from geocontact.gap.evidence import judged as judged_as
 from geocontact.gap.problem import Problem

@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.chain.differentiated_inputs import Movement, rate_of_waves
 from geocontact.chain.links import Modifier
-from geocontact.chain.movement import Movement, rate_of_waves
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial

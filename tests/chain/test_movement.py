@@ -7,8 +7,8 @@ import gc
 import numpy as np
 import pytest
 
-from geocontact.chain import movement as module
-from geocontact.chain.movement import movement, rate_of_waves, recorded
+from geocontact.chain import differentiated_inputs as module
+from geocontact.chain.differentiated_inputs import movement, rate_of_waves, recorded
 from geocontact.data.motion import Signals
 
 

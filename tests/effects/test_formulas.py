@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.chain.candidate import Candidate
-from geocontact.chain.movement import recorded
+from geocontact.chain.differentiated_inputs import recorded
 from tests.effects.runs import EXAMPLES, FITTED, OFFERED, label
 from tests.systems.examples import ELBOW_CONSTANTS, recording
 from tests.systems.test_elbow import restated

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.implicit import NotConverged
-from geocontact.chain.movement import recorded
 from geocontact.chain.system import FAR
 from geocontact.effects.mechanical.damping import DAMPING
 from geocontact.effects.mechanical.series_compliance import SERIES_COMPLIANCE

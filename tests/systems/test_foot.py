@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.chain.movement import recorded
+from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.parameter import Parameter
 from geocontact.systems.foot import model as prosthetic_foot
 from geocontact.systems.foot.spheres import INPUTS

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.chain.candidate import Candidate
-from geocontact.chain.movement import recorded
+from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.data.parameter import Parameter

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.links import RECORDING, Channels, Modifier, Values
-from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.effects.parts import with_motion, with_sensor
 

@@ -8,8 +8,8 @@ No parameter: discrete.
 from __future__ import annotations
 
 from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.links import Channels, Values
-from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.effects.data_errors.data_error import SWAP, output_fault
 from geocontact.effects.parts import load_channels

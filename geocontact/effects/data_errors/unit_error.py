@@ -13,8 +13,8 @@ from math import degrees
 import numpy as np
 
 from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.links import Channels, Values
-from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.effects.data_errors.data_error import MIX_UP, input_fault, output_fault
 

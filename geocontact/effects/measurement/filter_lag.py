@@ -8,9 +8,9 @@ signals is the amplitude, the order in 1..2 the shape; order 2 is critically dam
 from __future__ import annotations
 
 from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.history import lagged
 from geocontact.chain.links import Channels, Modifier, Values
-from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_sensor

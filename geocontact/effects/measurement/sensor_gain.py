@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.links import Channels, Modifier, Values
-from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import load_channels, with_sensor

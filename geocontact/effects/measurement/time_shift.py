@@ -7,9 +7,9 @@ first sample the output is taken to have run straight, within its range in the t
 from __future__ import annotations
 
 from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.history import delayed
 from geocontact.chain.links import Channels, Modifier, Values
-from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_sensor

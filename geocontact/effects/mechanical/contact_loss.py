@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.slots import Source
+from geocontact.chain.law_parameters import Source
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import largest_load, with_law

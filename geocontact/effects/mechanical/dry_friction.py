@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.slots import Source
+from geocontact.chain.law_parameters import Source
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import largest_load, with_geometry, with_law

@@ -9,7 +9,7 @@ starting values and half of it further (base parameters move that range).
 from __future__ import annotations
 
 from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.slots import Source
+from geocontact.chain.law_parameters import Source
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import largest_load, with_law

@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.history import lagged
 from geocontact.chain.links import Channels, Modifier, Values
-from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import largest_load, load_channels, with_balance

@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 
 from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.links import Modifier, Values
-from geocontact.chain.movement import Movement
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_motion

@@ -23,10 +23,10 @@ from jaxtyping import Float
 from scipy.interpolate import PchipInterpolator
 
 from geocontact.chain.interface_law import INTERFACE_LAW
+from geocontact.chain.law_parameters import Source
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor, Values
-from geocontact.chain.scale import Scale
+from geocontact.chain.magnitudes import Scale
 from geocontact.chain.single_deflection import Deflect, SingleDeflection
-from geocontact.chain.slots import Source
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, require_numbers

@@ -14,7 +14,7 @@ from jaxtyping import Float
 
 from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor
-from geocontact.chain.scale import Scale
+from geocontact.chain.magnitudes import Scale
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, require_numbers

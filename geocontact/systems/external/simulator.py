@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.implicit import NotConverged
+from geocontact.chain.law_parameters import Slots, Source
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor, Values
-from geocontact.chain.movement import Movement
-from geocontact.chain.scale import Scale
-from geocontact.chain.slots import Slots, Source
+from geocontact.chain.magnitudes import Scale
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import Simulator, SimulatorError

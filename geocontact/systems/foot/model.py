@@ -13,9 +13,9 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.chain.contact_law import CONTACT_LAW
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.links import RECORDING, Balance, Channels, Law, Loads, Modifier, Motion, Sensor, Values
-from geocontact.chain.movement import Movement
-from geocontact.chain.scale import Scale
+from geocontact.chain.magnitudes import Scale
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, require_numbers

@@ -10,10 +10,10 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.contact_law import contact_force, friction_coefficient
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
+from geocontact.chain.law_parameters import Slots, Source
 from geocontact.chain.links import Law, Loads, Values
-from geocontact.chain.movement import Movement
-from geocontact.chain.slots import Slots, Source
 from geocontact.geometry.kernels.compile import kernel
 
 FOOT_GEOMETRY = Slots(

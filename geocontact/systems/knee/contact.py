@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.law_parameters import Slots, Source
 from geocontact.chain.links import Law, Loads, Values
-from geocontact.chain.movement import Movement
 from geocontact.chain.single_deflection import along
-from geocontact.chain.slots import Slots, Source
 from geocontact.contact.area_hertz import disc_force
 
 AREAS = ("area_medial", "area_lateral")

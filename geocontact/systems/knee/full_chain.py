@@ -23,7 +23,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor
-from geocontact.chain.scale import Scale
+from geocontact.chain.magnitudes import Scale
 from geocontact.chain.system import System
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.gap_case import CaseMesh

@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.law_parameters import Slots, Source
 from geocontact.chain.links import Law, Loads, Values
-from geocontact.chain.movement import Movement
-from geocontact.chain.slots import Slots, Source
 from geocontact.data.multibody.knee_angles import SIGN, tibia_in_femur
 from geocontact.geometry.contact_area.sided_areas import SidedAreas
 from geocontact.systems.knee.contact import AREAS, KneeContact

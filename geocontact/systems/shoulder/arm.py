@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.implicit import require_convergence
+from geocontact.chain.law_parameters import Slots, Source
 from geocontact.chain.links import Law, Loads, Values
-from geocontact.chain.movement import Movement
-from geocontact.chain.slots import Slots, Source
 from geocontact.systems.shoulder.equation_of_motion import HINGED_ARM, LONGEST, swing
 
 REMEMBERED = 256

@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.implicit import require_convergence
+from geocontact.chain.law_parameters import Slots, Source
 from geocontact.chain.links import Law, Loads, Values
-from geocontact.chain.movement import Movement
 from geocontact.chain.single_deflection import along, in_series
-from geocontact.chain.slots import Slots, Source
 from geocontact.geometry.kernels.compile import kernel
 
 SITE_GEOMETRY = Slots(

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from geocontact.chain.differentiated_inputs import Movement
 from geocontact.chain.links import Geometry
-from geocontact.chain.movement import Movement
 from geocontact.data.trial import Trial
 
 

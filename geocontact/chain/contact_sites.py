@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from geocontact.chain.slots import Slots, Source
+from geocontact.chain.law_parameters import Slots, Source
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 
