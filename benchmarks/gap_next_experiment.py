@@ -257,7 +257,7 @@ def main() -> None:
 
 def rate_of(rows: Sequence[dict[str, Any]]) -> Any:
     """Share of proposals that raised the separation."""
-    from geocontact.gap.benchmark.rates import Rate
+    from geocontact.gap_benchmark.rates import Rate
 
     return Rate.of(row["raised"] for row in rows if "raised" in row)
 

@@ -30,7 +30,7 @@ def name_of(source: str) -> str:
 
 def bare_case(source: str, seed: int, place: int) -> GapCase:
     """A case without an effect; of a folder always the same."""
-    from geocontact.gap.benchmark.planted.cases import plant
+    from geocontact.gap_benchmark.synthetic.cases import plant
     from geocontact.io.cases.gap_case import read_gap_case
 
     if is_folder(source):
@@ -40,8 +40,8 @@ def bare_case(source: str, seed: int, place: int) -> GapCase:
 
 def known_to(source: str) -> tuple[str, ...]:
     """Effects of the vocabulary that the system of a source may have."""
-    from geocontact.gap.benchmark.planted.catalogue import plans
     from geocontact.gap.confuse import offered
+    from geocontact.gap_benchmark.synthetic.catalogue import plans
     from geocontact.systems.catalogue import system_of
 
     if is_folder(source):
@@ -51,7 +51,7 @@ def known_to(source: str) -> tuple[str, ...]:
 
 def effects_of(source: str) -> tuple[str, ...]:
     """Those of them that a case of this source can have, none that base parameters always swallow."""
-    from geocontact.gap.benchmark.planted.catalogue import NO_GAP, SWALLOWED
+    from geocontact.gap_benchmark.synthetic.catalogue import NO_GAP, SWALLOWED
 
     hidden = () if is_folder(source) else (*NO_GAP.get(source, ()), *SWALLOWED[source])
     return tuple(name for name in known_to(source) if name not in hidden)
@@ -67,7 +67,7 @@ def case_with(source: str, effect: str, nats: float, seed: int, place: int) -> G
 
     None where the effect cannot be so visible, or where a folder has no such case.
     """
-    from geocontact.gap.benchmark.planted.cases import NotFoundError, plant
+    from geocontact.gap_benchmark.synthetic.cases import NotFoundError, plant
 
     if is_folder(source):
         return None if effect == SWALLOWED else _simulated(source, effect, nats, seed, place)

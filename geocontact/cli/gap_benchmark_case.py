@@ -17,11 +17,11 @@ from geocontact.cli.json_text import plain
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.benchmark.drawing import Lot, Planted, drawn
-from geocontact.gap.benchmark.imitation import LEFT, imitation
-from geocontact.gap.benchmark.residual_regression import residual_regression
 from geocontact.gap.diagnose import Findings, diagnose
 from geocontact.gap.problem import Problem
+from geocontact.gap_benchmark.confounding import LEFT, imitation
+from geocontact.gap_benchmark.drawing import Lot, Planted, drawn
+from geocontact.gap_benchmark.residual_regression import residual_regression
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import write_gap_case
 from geocontact.systems.catalogue import system_of

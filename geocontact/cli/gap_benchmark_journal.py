@@ -9,7 +9,7 @@ from pathlib import Path
 from geocontact.cli.gap_benchmark_case import Worked
 from geocontact.cli.sources import digest
 from geocontact.data.errors import InputError
-from geocontact.gap.benchmark.drawing import Lot
+from geocontact.gap_benchmark.drawing import Lot
 
 
 class Journal:

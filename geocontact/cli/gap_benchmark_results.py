@@ -21,12 +21,13 @@ from geocontact.cli.gap_benchmark_case import Worked
 from geocontact.cli.json_text import plain
 from geocontact.cli.record import Record
 from geocontact.gap import attribute, verdict
-from geocontact.gap.benchmark import imitation, residual_regression, score
-from geocontact.gap.benchmark.answers import Plain
-from geocontact.gap.benchmark.drawing import KINDS
-from geocontact.gap.benchmark.rates import Rate
-from geocontact.gap.benchmark.score import GAPS, answers, brier, confidently_wrong, figures, reduction_errors, visible
-from geocontact.gap.benchmark.table import OPPONENTS, ROWS, error_interval, lead, markdown, scores
+from geocontact.gap_benchmark import confounding as imitation
+from geocontact.gap_benchmark import residual_regression, score
+from geocontact.gap_benchmark.answers import Plain
+from geocontact.gap_benchmark.drawing import KINDS
+from geocontact.gap_benchmark.rates import Rate
+from geocontact.gap_benchmark.score import GAPS, answers, brier, confidently_wrong, figures, reduction_errors, visible
+from geocontact.gap_benchmark.table import OPPONENTS, ROWS, error_interval, lead, markdown, scores
 from geocontact.io.text.results import write_table
 from geocontact.view.curves.reliability import Stated, reliability_figure
 from geocontact.view.curves.save import save

@@ -18,7 +18,7 @@ from geocontact.cli.patience import progress
 from geocontact.cli.record import Record
 from geocontact.cli.workers import each
 from geocontact.data.errors import InputError
-from geocontact.gap.benchmark.drawing import KINDS, SYSTEMS, Lot, lots
+from geocontact.gap_benchmark.drawing import KINDS, SYSTEMS, Lot, lots
 
 COMMAND = "gap benchmark"
 SEEDS = 2**32

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.gap_attainable import ASKED, asked, beside, margin, said, summary
-from geocontact.gap.benchmark.drawing import Lot
+from geocontact.gap_benchmark.drawing import Lot
 from tests.elsewhere import Elsewhere
 
 CASES = """case,kind,truth,nats,effects,ambiguity

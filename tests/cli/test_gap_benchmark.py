@@ -16,7 +16,7 @@ from geocontact.cli import gap_benchmark_run
 from geocontact.cli.gap_benchmark_case import ANSWERERS, Task, Worked, alike, failed, renamed, worked
 from geocontact.cli.gap_benchmark_run import mixed
 from geocontact.cli.json_text import plain
-from geocontact.gap.benchmark.drawing import KINDS, SHARES, Lot, drawn, lots, shares
+from geocontact.gap_benchmark.drawing import KINDS, SHARES, Lot, drawn, lots, shares
 from geocontact.io.cases.gap_case import read_gap_case
 from tests.cli.calls import ROOT, Call, call, done, process
 

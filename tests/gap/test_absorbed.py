@@ -6,9 +6,9 @@ import pytest
 
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.absorbed import UNSEEN, VISIBLE, Visibility, absorbed, mistakes, shown
-from geocontact.gap.benchmark.drawing import Lot, drawn
 from geocontact.gap.next_experiment import first_of
 from geocontact.gap.problem import Problem, problem_of
+from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import elbow_case

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.benchmark.drawing import Lot, drawn
 from geocontact.gap.contest import base_contender, finished
 from geocontact.gap.evidence import by_smoothing
 from geocontact.gap.faults import fault_of
 from geocontact.gap.hidden_faults import hidden_mistakes, undone
 from geocontact.gap.problem import problem_of
 from geocontact.gap.refit import refit
+from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import elbow_case

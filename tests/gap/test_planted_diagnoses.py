@@ -6,9 +6,9 @@ from __future__ import annotations
 import pytest
 
 from geocontact.data.diagnosis import Diagnosis
-from geocontact.gap.benchmark.drawing import Lot, drawn
-from geocontact.gap.benchmark.planted.label import Label
 from geocontact.gap.diagnose import diagnose
+from geocontact.gap_benchmark.drawing import Lot, drawn
+from geocontact.gap_benchmark.synthetic.label import Label
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 

@@ -9,9 +9,9 @@ from numpy.testing import assert_allclose
 
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
-from geocontact.gap.benchmark.drawing import Lot, drawn
 from geocontact.gap.inputs import drawn as noise
 from geocontact.gap.weighing import heard
+from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.identify.noise.input_noise import Lasting
 from geocontact.identify.signals.low_pass import LowPass
 from geocontact.systems.catalogue import system_of

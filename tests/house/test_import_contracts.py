@@ -67,11 +67,11 @@ def test_contracts_hold() -> None:
         ("geometry/plane.py", "import matplotlib.pyplot", PLOTS),
         ("gap/locate.py", "def late():\n    import pyvista", PLOTS),
         ("geometry/plane.py", "from geocontact import read_mesh", DOOR),
-        ("gap/benchmark/planted/elbow.py", "import geocontact.chain.links", PLANTED),
-        ("gap/benchmark/planted/noise.py", "def late():\n    import geocontact.gap.refit", PLANTED),
-        ("gap/benchmark/planted/cases.py", "import geocontact.gap.benchmark.score", PLANTED),
-        ("gap/diagnose.py", "import geocontact.gap.benchmark.planted.label", WITHHELD),
-        ("cli/gap_many.py", "from geocontact.gap.benchmark.planted import plant", WITHHELD),
+        ("gap_benchmark/synthetic/systems/elbow/model.py", "import geocontact.chain.links", PLANTED),
+        ("gap_benchmark/synthetic/noise.py", "def late():\n    import geocontact.gap.refit", PLANTED),
+        ("gap_benchmark/synthetic/cases.py", "import geocontact.gap_benchmark.score", PLANTED),
+        ("gap/diagnose.py", "import geocontact.gap_benchmark.synthetic.label", WITHHELD),
+        ("cli/gap_many.py", "from geocontact.gap_benchmark.synthetic import plant", WITHHELD),
     ],
 )
 def test_contract_fails_when_broken(copy: Path, module: str, line: str, contract: str) -> None:
@@ -91,5 +91,5 @@ def test_planted_cases_are_walled_off_from_every_module_of_the_diagnosis() -> No
     wall = next(set(one["forbidden_modules"]) for one in contracts if one["name"] == PLANTED)
     gap = ROOT / "geocontact" / "gap"
     modules = {f"geocontact.gap.{file.stem}" for file in gap.glob("*.py") if file.stem != "__init__"}
-    modules |= {f"geocontact.gap.benchmark.{f.stem}" for f in (gap / "benchmark").glob("*.py") if f.stem != "__init__"}
+    modules |= {f"geocontact.gap_benchmark.{f.stem}" for f in (gap / "benchmark").glob("*.py") if f.stem != "__init__"}
     assert modules <= wall, sorted(modules - wall)

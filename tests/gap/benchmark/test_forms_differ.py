@@ -15,10 +15,10 @@ from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.benchmark.planted.cases import amplitude, prepared
-from geocontact.gap.benchmark.planted.catalogue import NO_GAP, plans
-from geocontact.gap.benchmark.planted.scenes import SCENES
-from geocontact.gap.benchmark.planted.trials import fine_enough, truth
+from geocontact.gap_benchmark.synthetic.cases import amplitude, prepared
+from geocontact.gap_benchmark.synthetic.catalogue import NO_GAP, plans
+from geocontact.gap_benchmark.synthetic.scenes import SCENES
+from geocontact.gap_benchmark.synthetic.trials import fine_enough, truth
 from geocontact.systems.catalogue import system_of
 
 LEAST = 0.01

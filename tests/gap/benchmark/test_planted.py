@@ -9,27 +9,27 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.linalg import solve_triangular
 
-import geocontact.gap.benchmark.planted as planted
-from geocontact.gap.benchmark.planted import KINDS, cases, plant
-from geocontact.gap.benchmark.planted.base_fit import jacobian
-from geocontact.gap.benchmark.planted.cases import prepared
-from geocontact.gap.benchmark.planted.catalogue import TABLE, plans
-from geocontact.gap.benchmark.planted.course import through
-from geocontact.gap.benchmark.planted.effects.contact_loss import seated
-from geocontact.gap.benchmark.planted.effects.slip import crept
-from geocontact.gap.benchmark.planted.foot import Sole, foot
-from geocontact.gap.benchmark.planted.hooks import BASE, Hooks
-from geocontact.gap.benchmark.planted.interface import NotConvergedError, pull
-from geocontact.gap.benchmark.planted.knee import area_under, deflection
-from geocontact.gap.benchmark.planted.noise import Coloured, smooth_covariance, smooth_noise
-from geocontact.gap.benchmark.planted.outside.catalogue import outsiders
-from geocontact.gap.benchmark.planted.reach import shortest
-from geocontact.gap.benchmark.planted.scenes import SCENES
-from geocontact.gap.benchmark.planted.shoulder import shoulder
-from geocontact.gap.benchmark.planted.sit_to_stand import inputs as inputs_of
-from geocontact.gap.benchmark.planted.sit_to_stand import sit_to_stand
-from geocontact.gap.benchmark.planted.swing import at_rest
-from geocontact.gap.benchmark.planted.trials import Fault, as_measured, fine_enough, record, samples, truth
+import geocontact.gap_benchmark.synthetic as planted
+from geocontact.gap_benchmark.synthetic import KINDS, cases, plant
+from geocontact.gap_benchmark.synthetic.base_fit import jacobian
+from geocontact.gap_benchmark.synthetic.cases import prepared
+from geocontact.gap_benchmark.synthetic.catalogue import TABLE, plans
+from geocontact.gap_benchmark.synthetic.course import through
+from geocontact.gap_benchmark.synthetic.effects.mechanical.contact_loss import seated
+from geocontact.gap_benchmark.synthetic.effects.mechanical.slip import crept
+from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks
+from geocontact.gap_benchmark.synthetic.noise import Coloured, smooth_covariance, smooth_noise
+from geocontact.gap_benchmark.synthetic.outside.catalogue import outsiders
+from geocontact.gap_benchmark.synthetic.reach import shortest
+from geocontact.gap_benchmark.synthetic.scenes import SCENES
+from geocontact.gap_benchmark.synthetic.systems.foot.model import Sole, foot
+from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError, pull
+from geocontact.gap_benchmark.synthetic.systems.knee.model import area_under, deflection
+from geocontact.gap_benchmark.synthetic.systems.shoulder.model import shoulder
+from geocontact.gap_benchmark.synthetic.systems.sit_to_stand.model import inputs as inputs_of
+from geocontact.gap_benchmark.synthetic.systems.sit_to_stand.model import sit_to_stand
+from geocontact.gap_benchmark.synthetic.systems.swing import at_rest
+from geocontact.gap_benchmark.synthetic.trials import Fault, as_measured, fine_enough, record, samples, truth
 from geocontact.systems.catalogue import system_of
 
 ALLOWED = {"numpy", "scipy", "pandas", "numba", "jaxtyping"}
@@ -47,7 +47,7 @@ def test_it_shares_nothing_with_the_candidates():
             names = [a.name for a in node.names] if isinstance(node, ast.Import) else []
             names += [node.module] if isinstance(node, ast.ImportFrom) else []
             for name in names:
-                own = name.startswith(("geocontact.data.", "geocontact.gap.benchmark.planted"))
+                own = name.startswith(("geocontact.data.", "geocontact.gap_benchmark.synthetic"))
                 assert own or name.split(".")[0] in ALLOWED | STANDARD, f"{file.name} imports {name}"
 
 

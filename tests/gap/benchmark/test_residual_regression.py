@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from geocontact.gap.benchmark.table import lead, markdown
+from geocontact.gap_benchmark.table import lead, markdown
 from tests.gap.benchmark.test_score import LABELS, ORACLE
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -18,9 +18,9 @@ PROGRAM = """
 import json, sys
 import numpy as np
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.benchmark.imitation import imitation
-from geocontact.gap.benchmark.planted import plant
-from geocontact.gap.benchmark.residual_regression import residual_regression
+from geocontact.gap_benchmark.confounding import imitation
+from geocontact.gap_benchmark.synthetic import plant
+from geocontact.gap_benchmark.residual_regression import residual_regression
 from geocontact.gap.problem import problem_of
 from geocontact.systems.catalogue import system_of
 

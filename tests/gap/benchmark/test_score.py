@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from geocontact.gap.benchmark.answers import constant_answer, oracle_answer, true_distribution
-from geocontact.gap.benchmark.rates import Rate
-from geocontact.gap.benchmark.score import confidently_wrong, figures, score
+from geocontact.gap_benchmark.answers import constant_answer, oracle_answer, true_distribution
+from geocontact.gap_benchmark.rates import Rate
+from geocontact.gap_benchmark.score import confidently_wrong, figures, score
 
 
 def a_label(kind, effects=(), nats=100.0, reduction=0.5, **more):

@@ -1,0 +1,49 @@
+"""Which cases a benchmark is made of: how many of each kind, a seed for each, and the case that comes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from geocontact.gap_benchmark.synthetic import KINDS, Planted, plant
+
+__all__ = ["KINDS", "SHARES", "SYSTEMS", "Lot", "Planted", "drawn", "lots", "shares"]
+
+SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
+SHARES = {"none": 100, "single": 70, "pair": 10, "outside": 10, "absorbed": 3, "fault": 4, "shift": 3}
+"""Cases of each kind among 200: half without any effect, most others with one, so that about 60 can be seen."""
+
+
+@dataclass(frozen=True)
+class Lot:
+    """A case to be drawn: of which system and kind, and its own seed, made of the benchmark's and its place."""
+
+    system: str
+    kind: str
+    seed: int
+    place: int
+
+
+def shares(cases: int, kinds: Sequence[str] = KINDS) -> dict[str, int]:
+    """How many cases of each kind, in proportion to `SHARES`, the largest remainders rounded up."""
+    total = sum(SHARES[kind] for kind in kinds)
+    exact = {kind: cases * SHARES[kind] / total for kind in kinds}
+    found = {kind: int(value) for kind, value in exact.items()}
+    for kind in sorted(kinds, key=lambda one: found[one] - exact[one])[: cases - sum(found.values())]:
+        found[kind] += 1
+    return found
+
+
+def lots(systems: Sequence[str], cases: int, kinds: Sequence[str], seed: int) -> Iterator[Lot]:
+    """Every case of a benchmark; which ones a kind gets does not depend on what else is asked for."""
+    for system in systems:
+        for kind, count in shares(cases, kinds).items():
+            yield from (Lot(system, kind, seed, place) for place in range(count))
+
+
+def drawn(lot: Lot) -> Planted:
+    """The labelled case; the same lot gives the same case."""
+    key = (SYSTEMS.index(lot.system), KINDS.index(lot.kind), lot.place)
+    return plant(lot.system, lot.kind, np.random.SeedSequence(lot.seed, spawn_key=key))

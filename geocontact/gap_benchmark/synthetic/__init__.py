@@ -1,0 +1,11 @@
+"""Gap cases whose effect is known and withheld: synthetic, made by code that shares nothing with the candidates.
+
+It knows numpy, scipy, numba, pandas and `geocontact.data`, nothing else of the package: an import contract says so.
+Base models are written a second time from their definition, trajectories are continuous functions of time, and every
+effect follows another equation than the candidate that is to find it (`catalogue.TABLE` puts them side by side).
+"""
+
+from geocontact.gap_benchmark.synthetic.cases import plant
+from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, Planted
+
+__all__ = ["KINDS", "Kind", "Label", "Planted", "plant"]

@@ -1,0 +1,378 @@
+"""Makes one labelled synthetic case from a seed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.data.gap_case import GapCase
+from geocontact.data.motion import Signals
+from geocontact.data.trial import Trial as CaseTrial
+from geocontact.gap_benchmark.synthetic.base_fit import refit, starts
+from geocontact.gap_benchmark.synthetic.catalogue import NO_GAP, SWALLOWED, plans
+from geocontact.gap_benchmark.synthetic.course import Path
+from geocontact.gap_benchmark.synthetic.data_errors import draw_fault
+from geocontact.gap_benchmark.synthetic.data_errors import words as fault_words
+from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs
+from geocontact.gap_benchmark.synthetic.ideal import ideal
+from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, Planted
+from geocontact.gap_benchmark.synthetic.magnitudes import scale_of
+from geocontact.gap_benchmark.synthetic.outside.catalogue import outsiders
+from geocontact.gap_benchmark.synthetic.plan import Draw, NotFoundError, Plan, Scale
+from geocontact.gap_benchmark.synthetic.reach import Reach, reach
+from geocontact.gap_benchmark.synthetic.scene import Rng, Scene
+from geocontact.gap_benchmark.synthetic.scenes import SCENES
+from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError
+from geocontact.gap_benchmark.synthetic.trials import (
+    NO_FAULT,
+    Fault,
+    Recording,
+    as_measured,
+    fine_enough,
+    record,
+    truth,
+)
+from geocontact.gap_benchmark.synthetic.visibility import Sight, Trial, floor, sight, whitener
+
+FRESH = 40
+"""Fresh trials on which the true reduction is measured."""
+FAINTEST, BRIGHTEST = 3.0, 8000.0
+"""Range of visibility of single effects [nats]."""
+HIDDEN, SHARE_HIDDEN, WHOLE = 1.5, 0.97, 40.0
+"""An absorbed effect shows less than this [nats], base parameters swallow at least this share of it, and before they do
+it is at least this large [nats]."""
+ALIKE, APART = 0.9, 10.0
+"""Of a pair: largest cosine between the visible signatures; what each shows at least beside the other [nats]."""
+ATTEMPTS = 60
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A scene with its calibration movements, ready to tell how visible something is."""
+
+    scene: Scene
+    trials: tuple[Trial, ...]
+    floor: Float[np.ndarray, " c"]
+    scale: Scale
+
+    def sight(self, hooks: Hooks, faults: Sequence[Fault] = ()) -> Sight:
+        """Visibility of what is hooked in and of mistakes in the data, by calibration trial."""
+        planted: list[Outputs] = []
+        trials = list(self.trials)
+        for i, one in enumerate(self.trials):
+            fault = faults[i] if faults else NO_FAULT
+            if fault.channel in self.scene.inputs:
+                course = one.path(np.arange(one.count) * self.scene.step)
+                wrong = replace(
+                    course,
+                    position=fault.inputs(self.scene, course.position),
+                    rate=fault.inputs(self.scene, course.rate),
+                )
+                trials[i] = replace(one, model=self.scene.base_model(wrong))
+            clean = truth(self.scene, one.path, one.count, self.scene.theta, hooks, self.scene.body.fine)
+            planted.append(fault.outputs(self.scene, clean))
+        return sight(self.scene, trials, planted, self.floor)
+
+
+@dataclass(frozen=True)
+class Found:
+    """What is to be planted: hooks or a mistake, and how visible each effect is alone."""
+
+    effects: tuple[str, ...] = ()
+    words: str = "nothing is left out"
+    hooks: Hooks = BASE
+    sights: Mapping[str, Sight] | None = None
+    fault: Fault = NO_FAULT
+    faulty: frozenset[int] = frozenset()
+    details: Mapping[str, str | float] | None = None
+
+
+def plant(
+    system: str, kind: str, seed: int | np.random.SeedSequence, effect: str | None = None, nats: float | None = None
+) -> Planted:
+    """A labelled case; synthetic.
+
+    Parameters
+    ----------
+    system
+        One of `scenes.SCENES`.
+    kind
+        See `label.KINDS`.
+    seed
+        The same seed gives the same case.
+    effect, nats
+        For one that must be of this name, about this visible; drawn where they are None.
+    """
+    if system not in SCENES:
+        raise ValueError(f"no synthetic cases for system {system!r}; there are {', '.join(SCENES)}")
+    if kind not in KINDS:
+        raise ValueError(f"unknown kind {kind!r}; kinds are {', '.join(KINDS)}")
+    sequence = np.random.SeedSequence(seed) if isinstance(seed, int) else seed
+    last: Exception | None = None
+    for attempt in range(ATTEMPTS):
+        key = (*sequence.spawn_key, attempt)
+        rng = np.random.default_rng(np.random.SeedSequence(sequence.entropy, spawn_key=key))
+        try:
+            return attempt_at(rng, system, next(k for k in KINDS if k == kind), effect, nats, name_of(system, sequence))
+        except (NotFoundError, NotConvergedError) as why:
+            last = why
+    raise NotFoundError(f"{system} {kind} {effect or ''}: nothing suitable in {ATTEMPTS} draws; last: {last}")
+
+
+def name_of(system: str, sequence: np.random.SeedSequence) -> str:
+    """A name that tells nothing of the answer."""
+    return f"{system}_{int(sequence.generate_state(1)[0]):08x}"
+
+
+def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: float | None, name: str) -> Planted:
+    """One draw; raises where it does not give what the kind asks for."""
+    scene = SCENES[system](rng, shifted=kind == "shift")
+    learn, hold = [(3, 2), (3, 2), (3, 2), (4, 2), (3, 3)][rng.integers(5)]
+    stage = prepared(scene, [scene.path(rng, i) for i in range(learn)], kind)
+    found = FINDERS[kind](rng, stage, effect, nats)
+    if not all(math.isfinite(seen.nats) for seen in (found.sights or {}).values()):
+        raise NotFoundError(f"{found.words}: how visible it is cannot be told")
+    fine = fine_enough(scene, stage.trials[0].path, found.hooks)
+    gaps = lost_rows if rng.random() < 0.2 else None
+    faults = [found.fault if i in found.faulty else NO_FAULT for i in range(learn + hold)]
+    paths = [one.path for one in stage.trials] + [scene.later(rng, i) for i in range(hold)]
+    recordings = [record(scene, p, rng, found.hooks, f, fine, gaps) for p, f in zip(paths, faults, strict=True)]
+    share = sum(f is not NO_FAULT for f in faults[learn:]) / hold
+    fresh = [
+        record(
+            scene, scene.later(rng, i), rng, found.hooks, found.fault if (i + 0.5) / FRESH < share else NO_FAULT, fine
+        )
+        for i in range(FRESH)
+    ]
+    theta = fitted(scene, recordings[:learn], stage.floor, rng)
+    how_far = reach(scene, fresh, theta, found.hooks, fine, stage.floor)
+    case, names = case_of(rng, scene, recordings, learn, name)
+    label = label_of(kind, found, how_far, scene, stage, names)
+    if not all(true is None or math.isfinite(true) for true in label.reduction.values()):
+        raise NotFoundError(f"{found.words}: how far the gap shrinks cannot be told")
+    return Planted(case, label, ideal(scene, stage.trials, found.hooks, fine))
+
+
+def prepared(scene: Scene, paths: Sequence[Path], kind: Kind) -> Stage:
+    """Whitened calibration trials and the magnitudes in them."""
+    trials = tuple(whitener(scene, path) for path in paths)
+    return Stage(scene, trials, floor(scene, trials), scale_of(scene, trials, 0.1 if kind == "absorbed" else 1.0))
+
+
+def fitted(
+    scene: Scene, recordings: Sequence[Recording], floors: Float[np.ndarray, " c"], rng: Rng
+) -> Float[np.ndarray, " p"]:
+    """The base refitted to recorded trials."""
+    models = [scene.base_model(as_measured(one)) for one in recordings]
+    return refit(scene, models, [one.outputs for one in recordings], floors, starts(scene, rng))
+
+
+def nothing(_: Rng, __: Stage, ___: str | None, ____: float | None) -> Found:
+    """No effect."""
+    return Found()
+
+
+def single(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> Found:
+    """One effect of the vocabulary, its visibility spread evenly over the decades."""
+    known = [one for one in plans(stage.scene.system) if one.name == effect or effect is None]
+    if not known:
+        raise ValueError(f"no planted effect {effect!r} for the {stage.scene.system}")
+    if effect is None:
+        hard = NO_GAP.get(stage.scene.system, ())
+        known = [one for one in known if one.name not in hard]
+    plan = known[rng.integers(len(known))]
+    target = nats or float(np.exp(rng.uniform(np.log(FAINTEST), np.log(BRIGHTEST))))
+    return chosen(stage, plan, plan.drawn(rng, stage.scale), target, least=FAINTEST if nats is None else 0.7 * nats)
+
+
+def chosen(stage: Stage, plan: Plan, draw: Draw, target: float, least: float) -> Found:
+    """The amplitude that is as visible as `target`."""
+    size, seen = amplitude(stage, draw, target)
+    if seen.nats < least:
+        raise NotFoundError(f"{plan.name} shows {seen.nats:.2g} nats at most")
+    details: dict[str, str | float] = {"variant": draw.variant, "amplitude": size}
+    return Found((plan.name,), draw.words(size), draw.hooks(size), {plan.name: seen}, details=details)
+
+
+def amplitude(stage: Stage, draw: Draw, target: float) -> tuple[float, Sight]:
+    """Amplitude whose visibility is within a tenth of `target` nats, or the largest; secant in logarithms."""
+    size = math.sqrt(draw.low * draw.high)
+    points: list[tuple[float, float, Sight]] = []
+    for _ in range(14):
+        seen = stage.sight(draw.hooks(size))
+        level = math.log(max(seen.nats, 1e-12))
+        points.append((math.log(size), level, seen))
+        off = math.log(target) - level
+        if abs(off) < 0.1:
+            break
+        slope = 2.0
+        if len(points) > 1 and abs(points[-1][0] - points[-2][0]) > 1e-9:
+            slope = (points[-1][1] - points[-2][1]) / (points[-1][0] - points[-2][0])
+            slope = min(max(slope, 0.7), 6.0)
+        new = min(max(math.log(size) + off / slope, math.log(draw.low)), math.log(draw.high))
+        if abs(new - math.log(size)) < 1e-9:
+            break
+        size = math.exp(new)
+    best = min(points, key=lambda point: abs(point[1] - math.log(target)))
+    return math.exp(best[0]), best[2]
+
+
+def pair(rng: Rng, stage: Stage, _: str | None, __: float | None) -> Found:
+    """Two effects that are visible about alike, none of which the base parameters swallow."""
+    hard = NO_GAP.get(stage.scene.system, ())
+    known = [one for one in plans(stage.scene.system) if one.name not in hard]
+    first, second = (known[i] for i in rng.choice(len(known), 2, replace=False))
+    level = float(np.exp(rng.uniform(np.log(20.0), np.log(BRIGHTEST))))
+    found = []
+    for plan in (first, second):
+        target = level * float(np.exp(rng.uniform(-0.5, 0.5)))
+        found.append(chosen(stage, plan, plan.drawn(rng, stage.scale), target, least=0.8 * target))
+    hooks = found[0].hooks + found[1].hooks
+    if hooks.cannot_be_solved:
+        raise NotFoundError("a spring in series is not combined with a law that remembers")
+    alone = [one.sights or {} for one in found]
+    both = stage.sight(hooks)
+    n, m = (one[plan.name].nats for one, plan in zip(alone, (first, second), strict=True))
+    cosine = (both.nats - n - m) / (2.0 * math.sqrt(n * m))  # of the angle between the visible signatures
+    if abs(cosine) > ALIKE or min(n, m) * (1.0 - cosine**2) < APART:
+        raise NotFoundError("one of the two can stand for both")
+    details: dict[str, str | float] = {"both_nats": both.nats, "cosine": cosine}
+    for one in found:
+        details |= {f"{one.effects[0]}.{key}": value for key, value in (one.details or {}).items()}
+    words = " and ".join(one.words for one in found)
+    return Found((first.name, second.name), words, hooks, {**alone[0], **alone[1]}, details=details)
+
+
+def outside(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> Found:
+    """Something that the vocabulary has no word for."""
+    known = [one for one in outsiders(stage.scene.system) if one.name == effect or effect is None]
+    plan = known[rng.integers(len(known))]
+    target = nats or float(np.exp(rng.uniform(np.log(10.0), np.log(BRIGHTEST))))
+    found = chosen(stage, plan, plan.drawn(rng, stage.scale), target, least=min(10.0, 0.7 * target))
+    seen = (found.sights or {})[plan.name]
+    words = f"{found.words} (not in the table)"
+    return replace(
+        found, effects=(), words=words, sights={"outside": seen}, details={**(found.details or {}), "sort": plan.name}
+    )
+
+
+def absorbed(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> Found:
+    """An effect of some size that refitted base parameters swallow on these trials."""
+    known = [one for one in plans(stage.scene.system) if one.name in SWALLOWED[stage.scene.system]]
+    known = [one for one in known if one.name == effect or effect is None]
+    plan = known[rng.integers(len(known))]
+    draw = plan.drawn(rng, stage.scale)
+    largest, seen = amplitude(stage, draw, rng.uniform(0.3, 1.0) * HIDDEN)
+    smallest = math.sqrt(WHOLE / max(seen.whole, WHOLE))
+    size = largest * float(np.exp(rng.uniform(0.5 * math.log(smallest), 0.0)))
+    seen = stage.sight(draw.hooks(size))
+    if seen.nats > HIDDEN or seen.swallowed < SHARE_HIDDEN or seen.whole < WHOLE:
+        raise NotFoundError(f"{plan.name}: {seen.nats:.2g} of {seen.whole:.2g} nats, {seen.swallowed:.1%} swallowed")
+    details: dict[str, str | float] = {"variant": draw.variant, "amplitude": size}
+    return Found((plan.name,), draw.words(size), draw.hooks(size), {plan.name: seen}, details=details)
+
+
+def mistake(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> Found:
+    """A mistake in the data of all trials or of some; visible, or it would be an absorbed one."""
+    fault = draw_fault(rng, stage.scene)
+    if effect is not None and fault.effect != effect:
+        raise NotFoundError("another mistake is asked for")
+    count = len(stage.trials)
+    everywhere = frozenset(range(count + 3))
+    faulty = everywhere
+    if rng.random() < 0.4:
+        some = rng.choice(count + 2, int(rng.integers(1, 3)), replace=False)
+        faulty = frozenset(int(i) for i in some)
+    if not faulty & set(range(count)):
+        raise NotFoundError("no calibration trial is concerned")
+    seen = stage.sight(BASE, [fault if i in faulty else NO_FAULT for i in range(count)])
+    if seen.nats < 10.0:
+        raise NotFoundError("the mistake does not show")
+    where = "" if faulty is everywhere else ", in some trials only"
+    details: dict[str, str | float] = {"channel": fault.channel, "factor": fault.factor}
+    return Found(
+        (fault.effect,), fault_words(fault, stage.scene) + where, BASE, {fault.effect: seen}, fault, faulty, details
+    )
+
+
+FINDERS: Mapping[Kind, Callable[[Rng, Stage, str | None, float | None], Found]] = {
+    "none": nothing,
+    "single": single,
+    "pair": pair,
+    "outside": outside,
+    "absorbed": absorbed,
+    "fault": mistake,
+    "shift": single,
+}
+
+
+def lost_rows(rng: Rng, count: int) -> Int[np.ndarray, " s"]:
+    """Rows that are left when some were lost, single ones and a few stretches; the first and last stay."""
+    keep = rng.random(count) > 0.01
+    for _ in range(int(rng.integers(0, 3))):
+        begin = int(rng.integers(1, count - 6))
+        keep[begin : begin + int(rng.integers(2, 6))] = False
+    keep[0] = keep[-1] = True
+    return np.flatnonzero(keep)
+
+
+def case_of(
+    rng: Rng, scene: Scene, recordings: Sequence[Recording], learn: int, name: str
+) -> tuple[GapCase, tuple[str, ...]]:
+    """The recordings as a case that does not tell what was planted."""
+    trials = []
+    for i, one in enumerate(recordings):
+        outputs = one.outputs.copy()
+        for row in scene.body.patchy:
+            if rng.random() < 0.1:
+                outputs[row, rng.random(outputs.shape[1]) < 0.02] = np.nan
+        values = np.column_stack([*one.inputs, *outputs])
+        signals = Signals(one.time, values, (*scene.inputs, *scene.outputs), scene.units)
+        trials.append(CaseTrial(f"t{i + 1:02d}", signals, one.setting))
+    known = {c: noise.sd for c, noise in zip(scene.outputs, scene.noise, strict=True)}
+    lot = rng.random()
+    if lot < 0.25:
+        known = {}
+    elif lot < 0.4:
+        known = {c: sd for c, sd in known.items() if rng.random() < 0.5}
+    case = GapCase(
+        name,
+        scene.system,
+        tuple(trials[:learn]),
+        tuple(trials[learn:]),
+        scene.parameters,
+        scene.constants,
+        known,
+        scene.tables,
+    )
+    return case, tuple(one.name for one in trials)
+
+
+def label_of(kind: Kind, found: Found, how_far: Reach, scene: Scene, stage: Stage, names: tuple[str, ...]) -> Label:
+    """What is true of the case."""
+    sights = found.sights or {}
+    before, after = how_far.before, how_far.after
+    reduction: dict[str, float | None] = {c: 1.0 - after[c] / before[c] for c in scene.outputs}
+    if kind in ("none", "absorbed"):  # nothing is named, so nothing shrinks
+        reduction = dict.fromkeys(scene.outputs, 0.0)
+    if kind == "outside":
+        reduction = dict.fromkeys(scene.outputs, None)
+    return Label(
+        kind=kind,
+        effects=found.effects,
+        words=found.words,
+        nats={name: seen.nats for name, seen in sights.items()},
+        swallowed={name: seen.swallowed for name, seen in sights.items()},
+        rmse_before=dict(before),
+        rmse_after=dict(after),
+        reduction=reduction,
+        window=how_far.window,
+        shares=how_far.shares,
+        floor=dict(zip(scene.outputs, stage.floor.tolist(), strict=True)),
+        faulty=tuple(name for i, name in enumerate(names) if i in found.faulty),
+        details=dict(found.details or {}),
+    )

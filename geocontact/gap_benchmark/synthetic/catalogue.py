@@ -1,0 +1,82 @@
+"""Every planted effect of the vocabulary; mistakes in the data are exact and stand in `faults`."""
+
+from __future__ import annotations
+
+from geocontact.gap_benchmark.synthetic.effects.measurement.crosstalk import CROSSTALK
+from geocontact.gap_benchmark.synthetic.effects.measurement.filter_lag import FILTER_LAG
+from geocontact.gap_benchmark.synthetic.effects.measurement.saturation import SATURATION
+from geocontact.gap_benchmark.synthetic.effects.measurement.sensor_drift import SENSOR_DRIFT
+from geocontact.gap_benchmark.synthetic.effects.measurement.sensor_gain import SENSOR_GAIN
+from geocontact.gap_benchmark.synthetic.effects.measurement.sensor_offset import SENSOR_OFFSET
+from geocontact.gap_benchmark.synthetic.effects.measurement.time_shift import TIME_SHIFT
+from geocontact.gap_benchmark.synthetic.effects.mechanical.asymmetry import ASYMMETRY
+from geocontact.gap_benchmark.synthetic.effects.mechanical.axis_migration import AXIS_MIGRATION
+from geocontact.gap_benchmark.synthetic.effects.mechanical.contact_loss import CONTACT_LOSS
+from geocontact.gap_benchmark.synthetic.effects.mechanical.damping import DAMPING
+from geocontact.gap_benchmark.synthetic.effects.mechanical.dead_zone import DEAD_ZONE
+from geocontact.gap_benchmark.synthetic.effects.mechanical.dry_friction import DRY_FRICTION
+from geocontact.gap_benchmark.synthetic.effects.mechanical.end_stop import END_STOP
+from geocontact.gap_benchmark.synthetic.effects.mechanical.event_load import EVENT_LOAD
+from geocontact.gap_benchmark.synthetic.effects.mechanical.gravity_load import GRAVITY_LOAD
+from geocontact.gap_benchmark.synthetic.effects.mechanical.inertia_load import INERTIA_LOAD
+from geocontact.gap_benchmark.synthetic.effects.mechanical.motion_offset import MOTION_OFFSET
+from geocontact.gap_benchmark.synthetic.effects.mechanical.preload import PRELOAD
+from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import RELAXATION
+from geocontact.gap_benchmark.synthetic.effects.mechanical.series_compliance import SERIES_COMPLIANCE
+from geocontact.gap_benchmark.synthetic.effects.mechanical.slip import SLIP
+from geocontact.gap_benchmark.synthetic.effects.mechanical.stiffening import STIFFENING
+from geocontact.gap_benchmark.synthetic.plan import Plan
+
+PLANS: tuple[Plan, ...] = (
+    TIME_SHIFT,
+    FILTER_LAG,
+    MOTION_OFFSET,
+    AXIS_MIGRATION,
+    SERIES_COMPLIANCE,
+    STIFFENING,
+    DAMPING,
+    RELAXATION,
+    DRY_FRICTION,
+    DEAD_ZONE,
+    END_STOP,
+    PRELOAD,
+    SLIP,
+    CONTACT_LOSS,
+    ASYMMETRY,
+    EVENT_LOAD,
+    GRAVITY_LOAD,
+    INERTIA_LOAD,
+    SENSOR_GAIN,
+    SENSOR_OFFSET,
+    SENSOR_DRIFT,
+    SATURATION,
+    CROSSTALK,
+)
+
+TABLE: tuple[tuple[str, str, str], ...] = tuple((one.name, one.planted, one.candidate) for one in PLANS)
+"""Name, equation planted, equation of the candidate: no two are alike."""
+
+SWALLOWED = {
+    "elbow": (
+        "series_compliance",
+        "preload",
+        "gravity_load",
+        "axis_migration",
+        "motion_offset",
+        "sensor_gain",
+        "sensor_offset",
+    ),
+    "foot": ("sensor_gain",),
+    "shoulder": ("damping", "gravity_load", "series_compliance"),
+    "knee": ("sensor_gain",),
+    "sit_to_stand": ("sensor_gain", "series_compliance"),
+}
+"""Effects that base parameters imitate nearly, if they are of a plain form."""
+
+NO_GAP = {"elbow": SWALLOWED["elbow"], "sit_to_stand": ("sensor_gain",)}
+"""Those that leave no visible gap of their own kind at all: never planted as a single one or in a pair."""
+
+
+def plans(system: str) -> tuple[Plan, ...]:
+    """Those that apply to a system."""
+    return tuple(one for one in PLANS if system in one.systems)

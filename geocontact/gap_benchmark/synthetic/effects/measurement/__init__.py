@@ -1,0 +1,1 @@
+"""Effects of sensors, filters and clocks in synthetic cases."""

@@ -1,0 +1,1 @@
+"""Systems whose trials are synthesised."""

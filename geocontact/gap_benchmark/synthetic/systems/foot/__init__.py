@@ -1,0 +1,1 @@
+"""The prosthetic foot of synthetic cases."""

@@ -1,0 +1,1 @@
+"""The knee implant of synthetic cases."""

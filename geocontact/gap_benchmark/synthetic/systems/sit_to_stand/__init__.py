@@ -1,0 +1,1 @@
+"""The sit-to-stand exoskeleton of synthetic cases."""

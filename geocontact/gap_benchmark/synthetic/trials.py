@@ -1,0 +1,159 @@
+"""Trials as they are recorded: sampled, noisy, with rows missing, and with what the data may have wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.gap_benchmark.synthetic.course import Course, Path, through
+from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs, written_down
+from geocontact.gap_benchmark.synthetic.noise import smooth_noise
+from geocontact.gap_benchmark.synthetic.scene import Rng, Scene
+from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError
+
+FINEST = 80
+AGREE, AT_MOST = 0.03, 0.25
+"""Root mean square and largest change on halving the step, in standard deviations of the sensor noise."""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A mistake in the data: factor on a column of inputs or outputs, or two outputs exchanged."""
+
+    effect: str
+    channel: str
+    factor: float = 1.0
+    swap: tuple[int, int] | None = None
+
+    def inputs(self, scene: Scene, rows: Outputs) -> Outputs:
+        """What is recorded of the inputs."""
+        return self.times(scene.inputs, rows, self.factor)
+
+    def mended(self, scene: Scene, rows: Outputs) -> Outputs:
+        """The inputs that were recorded, put right."""
+        return self.times(scene.inputs, rows, 1.0 / self.factor)
+
+    def outputs(self, scene: Scene, rows: Outputs) -> Outputs:
+        """What is recorded of the outputs."""
+        if self.swap is None:
+            return self.times(scene.outputs, rows, self.factor)
+        out = rows.copy()
+        out[list(self.swap)] = rows[list(self.swap[::-1])]
+        return out
+
+    def times(self, names: tuple[str, ...], rows: Outputs, factor: float) -> Outputs:
+        """Multiply this mistake's channel, if it is among `names`."""
+        out = rows.copy()
+        if self.channel in names:
+            out[names.index(self.channel)] *= factor
+        return out
+
+
+NO_FAULT = Fault("", "")
+
+
+@dataclass(frozen=True)
+class Recording:
+    """One trial as recorded and what it really was.
+
+    `rows` are the samples that were kept; `clean` is the truth at the nominal parameters without noise.
+    """
+
+    path: Path
+    rows: Int[np.ndarray, " s"]
+    time: Float[np.ndarray, " s"]
+    inputs: Float[np.ndarray, "i s"]
+    outputs: Float[np.ndarray, "c s"]
+    duration: float
+    phase: float
+    fault: Fault = field(default=NO_FAULT)
+    setting: Mapping[str, float] = field(default_factory=dict)
+
+
+def truth(scene: Scene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int) -> Outputs:
+    """What would be written down at `count` samples without noise; no centre of pressure off the ground."""
+    outputs = scene.body.recorded(sensed(scene, path, count, theta, hooks, fine))
+    return scene.body.recorded(written_down(hooks, path(np.arange(count) * scene.step), outputs))
+
+
+def sensed(scene: Scene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int) -> Outputs:
+    """What the sensors give at `count` samples without noise, from steps `fine` times as short."""
+    grid = np.arange((count - 1) * fine + 1) * (scene.step / fine)
+    return scene.respond(path(grid), theta, hooks)[:, ::fine]
+
+
+def samples(scene: Scene, path: Path) -> int:
+    """How many samples a trial has at full rate."""
+    return int(path(np.zeros(1)).duration / scene.step + 1e-9) + 1
+
+
+def fine_enough(scene: Scene, path: Path, hooks: Hooks) -> int:
+    """Steps per sample at which the truth no longer depends on them; raises when even the finest do not do."""
+    count = samples(scene, path)
+    fine = scene.body.fine
+    coarse = scene.body.recorded(sensed(scene, path, count, scene.theta, hooks, fine))
+    while fine < FINEST:
+        finer = scene.body.recorded(sensed(scene, path, count, scene.theta, hooks, 2 * fine))
+        off = np.abs(coarse - finer) / np.array([one.sd for one in scene.noise])[:, None]
+        off = off[np.isfinite(off)]
+        if np.sqrt(np.mean(off**2)) <= AGREE and off.max() <= AT_MOST:
+            return fine
+        fine, coarse = 2 * fine, finer
+    raise NotConvergedError(f"the truth changes by {off.max():.2g} noise levels at {fine} steps per sample")
+
+
+def record(
+    scene: Scene,
+    path: Path,
+    rng: Rng,
+    hooks: Hooks = BASE,
+    fault: Fault = NO_FAULT,
+    fine: int | None = None,
+    gaps: Callable[[Rng, int], Int[np.ndarray, " s"]] | None = None,
+) -> Recording:
+    """One trial: its own base parameters, noise on outputs and inputs, rows that got lost."""
+    count = samples(scene, path)
+    theta = vary(scene, rng)
+    course = path(np.arange(count) * scene.step)
+    outputs = scene.body.recorded(sensed(scene, path, count, theta, hooks, fine or scene.body.fine))
+    outputs = outputs + np.array([one.draw(rng, count, scene.step) for one in scene.noise])
+    outputs = scene.body.recorded(written_down(hooks, course, outputs))
+    noise = [smooth_noise(rng, sd, count, scene.step, scene.corner) for sd in scene.input_noise]
+    inputs = course.position + np.array(noise)
+    rows = np.arange(count) if gaps is None else gaps(rng, count)
+    return Recording(
+        path,
+        rows,
+        rows * scene.step,
+        fault.inputs(scene, inputs)[:, rows],
+        fault.outputs(scene, outputs)[:, rows],
+        course.duration,
+        course.phase,
+        fault,
+        course.setting,
+    )
+
+
+def vary(scene: Scene, rng: Rng) -> Float[np.ndarray, " p"]:
+    """Base parameters of one trial, within what can be: at least a tenth of the nominal ones, of their sign."""
+    theta = rng.multivariate_normal(scene.theta, scene.spread, method="cholesky")
+    least = 0.1 * scene.theta
+    return np.where(least > 0.0, np.maximum(theta, least), np.minimum(theta, least))
+
+
+def as_measured(recording: Recording) -> Course:
+    """The recorded inputs at the recorded samples."""
+    path = through(recording.time, recording.inputs, recording.duration, recording.phase, recording.setting)
+    return path(recording.time)
+
+
+def predicted(scene: Scene, recording: Recording, hooks: Hooks, fine: int) -> Outputs:
+    """What the true simulator at its nominal parameters makes of the recorded inputs."""
+    mended = recording.fault.mended(scene, recording.inputs)
+    path = through(recording.time, mended, recording.duration, recording.phase, recording.setting)
+    count = int(recording.rows[-1]) + 1
+    outputs = truth(scene, path, count, scene.theta, hooks, fine)[:, recording.rows]
+    return recording.fault.outputs(scene, outputs)

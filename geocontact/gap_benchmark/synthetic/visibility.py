@@ -1,0 +1,172 @@
+"""How visible an effect is once base parameters were refitted, under the true covariance of everything else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float
+from scipy.linalg import cho_factor, cho_solve, solve_triangular
+
+from geocontact.gap_benchmark.synthetic.base_fit import Model, jacobian, refit
+from geocontact.gap_benchmark.synthetic.course import Course, Path
+from geocontact.gap_benchmark.synthetic.hooks import Outputs, Values
+from geocontact.gap_benchmark.synthetic.noise import smooth_covariance
+from geocontact.gap_benchmark.synthetic.scene import Scene
+from geocontact.gap_benchmark.synthetic.systems.body import Numbers
+from geocontact.gap_benchmark.synthetic.trials import samples
+
+FAINT = 1e-7
+"""White part of the variance of input noise, for the sake of arithmetic."""
+HIDDEN = 1e6
+"""Standard deviations added where nothing is measured."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A calibration trial as it is whitened: base model, its outputs, Cholesky factor of noise and input noise."""
+
+    path: Path
+    count: int
+    model: Model
+    outputs: Outputs
+    factor: Float[np.ndarray, "n n"]
+    diagonal: Float[np.ndarray, "c s"]
+
+
+@dataclass(frozen=True)
+class Sight:
+    """Visible nats of a signature, the share of its energy that base parameters took, and nats before they did.
+
+    `whole` and `swallowed` know noise and input noise only, `nats` trial-to-trial variation too.
+    """
+
+    nats: float
+    swallowed: float
+    whole: float
+    theta: Float[np.ndarray, " p"]
+
+
+def whitener(scene: Scene, path: Path) -> Trial:
+    """Covariance of what is measured in one trial at given base parameters: sensor noise and propagated input noise."""
+    count = samples(scene, path)
+    course = path(np.arange(count) * scene.step)
+    model = scene.base_model(course)
+    outputs = scene.body.recorded(model(scene.theta))
+    size = count * len(scene.outputs)
+    total = np.zeros((size, size))
+    for c, noise in enumerate(scene.noise):
+        part = slice(c * count, (c + 1) * count)
+        total[part, part] = noise.covariance(count, scene.step)
+    for i, sd in enumerate(scene.input_noise):
+        if scene.body.passed_on is not None:
+            passed = passed_on(scene, course, i, scene.body.passed_on)
+            total += passed @ passed.T
+            continue
+        place, cross, rate = smooth_covariance(float(sd), count, scene.step, scene.corner)
+        a, b = slopes(scene, path, count, i)
+        if not a.any() and not b.any():
+            continue
+        # output error = a q + b q' at every sample; channels share the same q
+        for c in range(len(scene.outputs)):
+            for d in range(len(scene.outputs)):
+                block = (
+                    a[c][:, None] * place * a[d]
+                    + b[c][:, None] * rate * b[d]
+                    + a[c][:, None] * cross * b[d]
+                    + b[c][:, None] * cross.T * a[d]
+                )
+                total[c * count : (c + 1) * count, d * count : (d + 1) * count] += block
+    gone = ~np.isfinite(outputs)
+    diagonal = np.diag(total).reshape(outputs.shape).copy()
+    sd_all = np.repeat([one.sd for one in scene.noise], count)
+    total[np.diag_indices(size)] += np.where(gone.ravel(), (HIDDEN * sd_all) ** 2, (1e-3 * sd_all) ** 2)
+    return Trial(path, count, model, outputs, np.linalg.cholesky(total), diagonal)
+
+
+def passed_on(
+    scene: Scene, course: Course, i: int, respond: Callable[[Course, Numbers, int, Values], Values]
+) -> Float[np.ndarray, "n q"]:
+    """What the base model makes of the noise of input i where it remembers: each column times a number from N(0, 1)."""
+    count = len(course.time)
+    place, _, _ = smooth_covariance(1.0, count, scene.step, scene.corner)
+    root = np.linalg.cholesky(place + FAINT * np.eye(count))
+    passed = respond(course, scene.numbers(scene.theta), i, float(scene.input_noise[i]) * root)
+    return np.asarray(passed.reshape(-1, count))
+
+
+def slopes(scene: Scene, path: Path, count: int, i: int) -> tuple[Outputs, Outputs]:
+    """Derivatives of the base outputs by input i and by its rate, at every sample."""
+    grid = np.arange(count) * scene.step
+    course = path(grid)
+    found = []
+    for name in ("position", "rate"):
+        value = getattr(course, name)
+        h = 1e-6 if name == "position" else 1e-5
+        sides = []
+        for sign in (1.0, -1.0):
+            moved = value.copy()
+            moved[i] += sign * h
+            sides.append(scene.base_model(type(course)(**{**vars(course), name: moved}))(scene.theta))
+        found.append(np.nan_to_num((sides[0] - sides[1]) / (2.0 * h)))
+    return found[0], found[1]
+
+
+def floor(scene: Scene, trials: Sequence[Trial]) -> Float[np.ndarray, " c"]:
+    """Noise, input noise and trial-to-trial variation of each channel together, root mean square over the trials."""
+    squares = []
+    for one in trials:
+        by = jacobian(one.model, scene.theta)
+        variance = one.diagonal + np.einsum("csp,pq,csq->cs", by, scene.spread, by)
+        squares.append(np.where(np.isfinite(one.outputs), variance, np.nan))
+    return np.asarray(np.sqrt(np.nanmean(np.concatenate(squares, axis=1), axis=1)))
+
+
+def sight(
+    scene: Scene,
+    trials: Sequence[Trial],
+    planted: Sequence[Values],
+    floors: Float[np.ndarray, " c"],
+    start: Float[np.ndarray, " p"] | None = None,
+) -> Sight:
+    """Visibility of what makes the outputs of `trials` those that are `planted`."""
+    measured = [np.where(np.isfinite(one.outputs), y, np.nan) for one, y in zip(trials, planted, strict=True)]
+    begin = [scene.theta] if start is None else [start, scene.theta]
+    theta = refit(scene, [one.model for one in trials], measured, floors, begin)
+    root = np.linalg.cholesky(scene.spread)
+    raw = left = within = 0.0
+    p = len(theta)
+    normal, normal_plain = np.zeros((p, p)), np.zeros((p, p))
+    right, right_plain = np.zeros(p), np.zeros(p)
+    # a parameter at its bound takes nothing more away
+    scale = np.where(movable(scene, theta), np.maximum(np.abs(theta), 1e-3), 0.0)
+    for one, y in zip(trials, measured, strict=True):
+        gap, first = (np.nan_to_num(y - part) for part in (one.model(theta), one.outputs))
+        by = np.where(np.isfinite(y)[:, :, None], jacobian(one.model, theta), 0.0).reshape(-1, p)
+        stacked = solve_triangular(one.factor, np.column_stack([gap.ravel(), first.ravel(), by]), lower=True)
+        r, s, j = stacked[:, 0], stacked[:, 1], stacked[:, 2:] * scale
+        raw += float(s @ s)
+        within += float(r @ r)
+        normal_plain += j.T @ j
+        right_plain += j.T @ r
+        jitter = stacked[:, 2:] @ root
+        inner = cho_factor(np.eye(p) + jitter.T @ jitter)
+
+        def free(v: Values, jitter: Values = jitter, inner: tuple[Values, bool] = inner) -> Values:
+            return np.asarray(v - jitter @ cho_solve(inner, jitter.T @ v))
+
+        left += float(r @ free(r))
+        right += j.T @ free(r)
+        normal += j.T @ free(j)
+    visible = left - float(right @ np.linalg.lstsq(normal, right, rcond=1e-12)[0])
+    plain = within - float(right_plain @ np.linalg.lstsq(normal_plain, right_plain, rcond=1e-12)[0])
+    share = 1.0 - plain / raw if raw > 0.0 else 0.0
+    return Sight(0.5 * max(visible, 0.0), float(np.clip(share, 0.0, 1.0)), 0.5 * raw, theta)
+
+
+def movable(scene: Scene, theta: Float[np.ndarray, " p"]) -> Bool[np.ndarray, " p"]:
+    """Which parameters are not at a bound."""
+    low = np.array([p.lower for p in scene.parameters])
+    high = np.array([p.upper for p in scene.parameters])
+    return np.asarray((theta - low > 1e-4 * (high - low)) & (high - theta > 1e-4 * (high - low)))
