@@ -48,7 +48,7 @@ def margin(lot: Any) -> dict[str, Any] | None:
     from threadpoolctl import threadpool_limits
 
     from geocontact.effects.catalogue import candidates
-    from geocontact.gap.admission import admitted
+    from geocontact.gap.case.admission import admitted
     from geocontact.gap_benchmark.confounding import what_each_leaves
     from geocontact.gap_benchmark.drawing import drawn
     from geocontact.gap_benchmark.score import visible

@@ -1,6 +1,6 @@
 """Do detectability statements hold? `python -m benchmarks.gap_detectability [--cases N] [--repeats N]`.
 
-Cases without an effect (planted ones, or a folder: `benchmarks.gap_sources`) are fitted; `gap.detectability` says from
+Cases without an effect (planted ones, or a folder: `benchmarks.gap_sources`) are fitted; `gap.identifiability.detectability` says from
 which amplitude on the diagnosis would see an effect. Then trials are simulated at that amplitude, at half and at one
 and a half times of it, with noise, deviations of the trials and noise of the inputs as fitted, and attributed. Seen is
 an effect where the verdict is not `no_gap`. A statement is what is more probable by the predicted power, at half and at
@@ -62,11 +62,11 @@ def statements(source: str, place: int, options: argparse.Namespace) -> Iterator
     """What is said of every effect of a case at every amplitude: rows without the outcome."""
     from benchmarks.gap_sources import bare_case, name_of
     from geocontact.effects.catalogue import candidates
-    from geocontact.gap.admission import admitted
-    from geocontact.gap.contest import base_contender
-    from geocontact.gap.detectability import detectabilities, power, rivals_of
-    from geocontact.gap.problem import problem_of
-    from geocontact.gap.signatures import ground_of, reach_of, rest_of, sized
+    from geocontact.gap.case.admission import admitted
+    from geocontact.gap.case.problem import problem_of
+    from geocontact.gap.identifiability.detectability import detectabilities, power, rivals_of
+    from geocontact.gap.identifiability.signatures import ground_of, reach_of, rest_of, sized
+    from geocontact.gap.selection.model_comparison import base_contender
     from geocontact.systems.catalogue import system_of
 
     case = bare_case(source, options.seed, place)

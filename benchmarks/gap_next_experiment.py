@@ -83,11 +83,11 @@ def checked(
     """One case; None where it cannot be made, no "change" where nothing is proposed."""
     from benchmarks.gap_sources import case_with, name_of
     from geocontact.effects.catalogue import candidates
-    from geocontact.gap.absorbed import absorbed
-    from geocontact.gap.admission import admitted
     from geocontact.gap.attribute import attribute
+    from geocontact.gap.case.admission import admitted
     from geocontact.gap.diagnose import first_of
-    from geocontact.gap.next_experiment import proposed
+    from geocontact.gap.experiment.proposal import proposed
+    from geocontact.gap.identifiability.non_identifiable import absorbed
     from geocontact.systems.catalogue import system_of
 
     nats = float(np.exp(np.random.default_rng([options.seed, place]).uniform(*np.log(FAINT))))
@@ -116,9 +116,9 @@ def in_question(case: Any, system: Any, pair: tuple[str, ...]) -> Any:
     """The two as they are fitted, both in question where their evidence differs by less than one that is out needs."""
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.attribute import Attribution
-    from geocontact.gap.contest import base_contender, singles
-    from geocontact.gap.problem import problem_of
-    from geocontact.gap.verdict import ALIVE, Answer
+    from geocontact.gap.case.problem import problem_of
+    from geocontact.gap.selection.model_comparison import base_contender, singles
+    from geocontact.gap.selection.verdict import ALIVE, Answer
 
     problem = problem_of(case, system)
     base = base_contender(problem)
@@ -136,7 +136,7 @@ def in_question(case: Any, system: Any, pair: tuple[str, ...]) -> Any:
 def separated(found: Any, chosen: Any, rng: np.random.Generator, repeats: int) -> tuple[float, float]:
     """Smallest mean separation over all pairs, on the old trials and on old and new ones."""
     from benchmarks.gap_simulated import trial_of
-    from geocontact.gap.next_experiment import TRIALS
+    from geocontact.gap.experiment.proposal import TRIALS
 
     problem, noise = found.clean, chosen.lead.noise
     old = [*problem.calibration.trials, *problem.evaluation.trials]
@@ -168,7 +168,7 @@ class Seen:
     @classmethod
     def of(cls, problem: Any, lead: Any, recorded: Sequence[Any], fresh: Sequence[Any], stage: Any) -> Seen:
         """Trials denoised; weighed at the base parameters and by the noise of the model that leads."""
-        from geocontact.gap.inputs import denoised
+        from geocontact.gap.inputs.denoise import denoised
 
         sd = dict(zip(problem.system.inputs, lead.noise.levels.inputs.tolist(), strict=True))
         seen = [denoised(t, sd, problem.passed) for t in (*recorded, *fresh)]
@@ -184,7 +184,7 @@ class Seen:
         """Bounded least squares over the first trials."""
         from scipy.optimize import least_squares
 
-        from geocontact.gap.refit import free, magnitude
+        from geocontact.gap.case.refit import free, magnitude
 
         staged = self.stage(one.system)
         parameters = free(one.system)
@@ -208,8 +208,8 @@ class Seen:
 
 def weighings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain: int) -> list[Any]:
     """Whitening of every trial; those from `plain` on are staged."""
-    from geocontact.gap.refit import Measured, derivatives
-    from geocontact.gap.weighing import Weighing, heard
+    from geocontact.gap.case.refit import Measured, derivatives
+    from geocontact.gap.case.whitening import Weighing, heard
     from geocontact.identify.noise.covariance import Layout
 
     base = {name: lead.model.values[name] for name in problem.plain.values}

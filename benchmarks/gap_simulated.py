@@ -16,8 +16,8 @@ from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.problem import Noise, Problem
-from geocontact.gap.refit import free
+from geocontact.gap.case.problem import Noise, Problem
+from geocontact.gap.case.refit import free
 from geocontact.identify.signals.low_pass import BELOW_NYQUIST, LowPass
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.signatures import at_nats
+from geocontact.gap.identifiability.signatures import at_nats
 
 NOTHING, SWALLOWED = "none", "absorbed"
 BESIDES = 0.5  # of the nats asked for that an effect must at least show
@@ -40,7 +40,7 @@ def bare_case(source: str, seed: int, place: int) -> GapCase:
 
 def known_to(source: str) -> tuple[str, ...]:
     """Effects of the vocabulary that the system of a source may have."""
-    from geocontact.gap.confuse import offered
+    from geocontact.gap.identifiability.discriminability import offered
     from geocontact.gap_benchmark.synthetic.catalogue import plans
     from geocontact.systems.catalogue import system_of
 
@@ -83,10 +83,10 @@ def _simulated(folder: str, effect: str, nats: float, seed: int, place: int) -> 
     """The case of a folder recorded anew, with an effect of a candidate's form."""
     from benchmarks.gap_simulated import case_of
     from geocontact.effects.catalogue import candidates
-    from geocontact.gap.admission import admitted
-    from geocontact.gap.contest import base_contender
-    from geocontact.gap.problem import problem_of
-    from geocontact.gap.signatures import ground_of
+    from geocontact.gap.case.admission import admitted
+    from geocontact.gap.case.problem import problem_of
+    from geocontact.gap.identifiability.signatures import ground_of
+    from geocontact.gap.selection.model_comparison import base_contender
     from geocontact.systems.catalogue import system_of
 
     case = bare_case(folder, seed, place)

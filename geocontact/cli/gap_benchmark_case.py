@@ -17,8 +17,8 @@ from geocontact.cli.json_text import plain
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.diagnose import Findings, diagnose
-from geocontact.gap.problem import Problem
 from geocontact.gap_benchmark.confounding import LEFT, imitation
 from geocontact.gap_benchmark.drawing import Lot, Planted, drawn
 from geocontact.gap_benchmark.residual_regression import residual_regression

@@ -20,7 +20,8 @@ import pandas as pd
 from geocontact.cli.gap_benchmark_case import Worked
 from geocontact.cli.json_text import plain
 from geocontact.cli.record import Record
-from geocontact.gap import attribute, verdict
+from geocontact.gap import attribute
+from geocontact.gap.selection import verdict
 from geocontact.gap_benchmark import confounding as imitation
 from geocontact.gap_benchmark import residual_regression, score
 from geocontact.gap_benchmark.answers import Plain

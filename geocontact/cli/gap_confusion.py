@@ -21,10 +21,10 @@ from geocontact.cli.provenance import options_table
 from geocontact.cli.record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.confuse import Confusion, confuse, known, offered
-from geocontact.gap.detectability import POWER, Detectability
-from geocontact.gap.separability import APART, table
-from geocontact.gap.signatures import rest_of
+from geocontact.gap.identifiability.detectability import POWER, Detectability
+from geocontact.gap.identifiability.discriminability import Confusion, confuse, known, offered
+from geocontact.gap.identifiability.separability import APART, table
+from geocontact.gap.identifiability.signatures import rest_of
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.text.results import write_table
 from geocontact.systems.catalogue import system_of

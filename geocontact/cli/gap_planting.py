@@ -23,9 +23,9 @@ from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.admission import admitted
-from geocontact.gap.plant import Planted, chosen, plant
-from geocontact.gap.problem import problem_of
+from geocontact.gap.case.admission import admitted
+from geocontact.gap.case.problem import problem_of
+from geocontact.gap.inject import Planted, chosen, plant
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import write_trials
 from geocontact.systems.catalogue import system_of

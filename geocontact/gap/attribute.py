@@ -9,17 +9,17 @@ from dataclasses import dataclass, replace
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.contest import Contender, base_contender, pairs, settled_in, singles
-from geocontact.gap.evidence import settled
-from geocontact.gap.faults import Fault, fault_of, recognised
-from geocontact.gap.flat_tops import FlatTop, flat_tops
-from geocontact.gap.foretold import calibration_share, changes
-from geocontact.gap.hidden_faults import hidden_mistakes, undone
-from geocontact.gap.mending import mended
-from geocontact.gap.oddities import Oddity, oddities
-from geocontact.gap.problem import Problem, problem_of
-from geocontact.gap.surrogate import Surrogate, surrogate
-from geocontact.gap.verdict import Answer, answer, borne_out, standing, with_mistake
+from geocontact.gap.case.problem import Problem, problem_of
+from geocontact.gap.data_errors.correction import mended
+from geocontact.gap.data_errors.gross import Fault, fault_of, recognised
+from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
+from geocontact.gap.selection.calibration_share import calibration_share, changes
+from geocontact.gap.selection.clipping import FlatTop, flat_tops
+from geocontact.gap.selection.evidence import settled
+from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, settled_in, singles
+from geocontact.gap.selection.residual_anomalies import Oddity, oddities
+from geocontact.gap.selection.surrogate import Surrogate, surrogate
+from geocontact.gap.selection.verdict import Answer, answer, borne_out, standing, with_mistake
 
 FIRSTS = 3  # singles that a second effect is tried on
 LEADING = 3  # contenders under whose noise everyone is compared

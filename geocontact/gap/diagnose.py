@@ -12,19 +12,19 @@ from geocontact.chain.system import System
 from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Estimate, FaultFound, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.absorbed import absorbed
-from geocontact.gap.admission import admitted
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
-from geocontact.gap.contest import base_contender
-from geocontact.gap.evidence import Judged, prior_spread
-from geocontact.gap.leave_one_out import TrialGain, leave_one_out
-from geocontact.gap.locate import gap_map, windows
-from geocontact.gap.map_cell import Cell
-from geocontact.gap.next_experiment import first_of, next_experiment
-from geocontact.gap.on_surface import SurfaceGap, on_surface
-from geocontact.gap.refit import free
-from geocontact.gap.shrink import shrinkage
-from geocontact.gap.verdict import SURE
+from geocontact.gap.case.admission import admitted
+from geocontact.gap.case.refit import free
+from geocontact.gap.experiment.proposal import first_of, next_experiment
+from geocontact.gap.identifiability.non_identifiable import absorbed
+from geocontact.gap.localise.cell import Cell
+from geocontact.gap.localise.gap_map import gap_map, windows
+from geocontact.gap.localise.on_surface import SurfaceGap, on_surface
+from geocontact.gap.reduction.error_reduction import shrinkage
+from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
+from geocontact.gap.selection.evidence import Judged, prior_spread
+from geocontact.gap.selection.model_comparison import base_contender
+from geocontact.gap.selection.verdict import SURE
 
 Z95 = 1.959964
 TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that the trials tell

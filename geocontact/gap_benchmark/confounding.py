@@ -15,7 +15,7 @@ from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
-from geocontact.gap.refit import Measured, refit
+from geocontact.gap.case.refit import Measured, refit
 from geocontact.gap_benchmark.synthetic.ideal import IdealTrial
 
 LEFT = 0.1

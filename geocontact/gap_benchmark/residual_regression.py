@@ -25,8 +25,8 @@ from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import recorded
-from geocontact.gap.problem import Problem
-from geocontact.gap.refit import Measured, Weigh, at
+from geocontact.gap.case.problem import Problem
+from geocontact.gap.case.refit import Measured, Weigh, at
 
 VERY_STRONG = 10.0
 """Advantage of BIC that an answer needs over nothing, and a second effect over the first alone."""

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geocontact.gap.confuse import Confusion
-from geocontact.gap.detectability import Detectability
-from geocontact.gap.separability import table
-from geocontact.gap.signatures import reach_of, rest_of
+from geocontact.gap.identifiability.detectability import Detectability
+from geocontact.gap.identifiability.discriminability import Confusion
+from geocontact.gap.identifiability.separability import table
+from geocontact.gap.identifiability.signatures import reach_of, rest_of
 from geocontact.view.confusion_words import size_words
 from geocontact.view.contact_words import NOT_A_DEVICE
 from geocontact.view.curves.detectability import Seen, detectability_figure

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from geocontact.gap.confuse import Confusion
-from geocontact.gap.detectability import POWER, Detectability
-from geocontact.gap.separability import APART
-from geocontact.gap.signatures import rest_of
+from geocontact.gap.identifiability.detectability import POWER, Detectability
+from geocontact.gap.identifiability.discriminability import Confusion
+from geocontact.gap.identifiability.separability import APART
+from geocontact.gap.identifiability.signatures import rest_of
 from geocontact.view.gap_words import names, percent, proposal_words
 
 

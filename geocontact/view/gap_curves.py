@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap.as_measured import errors_as_measured
 from geocontact.gap.diagnose import Findings
+from geocontact.gap.reduction.raw_input_errors import errors_as_measured
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,8 +10,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap.diagnose import Findings
-from geocontact.gap.frequency_map import BAND, FAST_PHASE
-from geocontact.gap.locate import load_outputs
+from geocontact.gap.localise.frequency_map import BAND, FAST_PHASE
+from geocontact.gap.localise.gap_map import load_outputs
 from geocontact.view.curves.before_after import SIDE_BY_SIDE, before_after
 from geocontact.view.curves.gap_map import gap_map_figure
 from geocontact.view.curves.gap_residuals import PHASE, gap_residuals

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.gap_next_experiment import NOTHING, TIMES, in_question, separated
-from geocontact.gap.next_experiment import proposed
+from geocontact.gap.experiment.proposal import proposed
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import elbow_case

@@ -14,7 +14,7 @@ import numpy as np
 
 from geocontact import __version__
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.admission import admitted
+from geocontact.gap.case.admission import admitted
 from geocontact.gap.diagnose import Findings, diagnose
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of

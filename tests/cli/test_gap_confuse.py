@@ -22,7 +22,9 @@ FIGURES = {f"{name}.{ending}" for name in ("separability", "detectability") for 
 def confused(tmp_path_factory: pytest.TempPathFactory) -> Call:
     folder = tmp_path_factory.mktemp("confuse")
     case = damped_elbow(folder / "elbow_7")
-    with mock.patch("geocontact.gap.confuse.attribute", return_value=diagnosed_elbow()[1].attribution):
+    with mock.patch(
+        "geocontact.gap.identifiability.discriminability.attribute", return_value=diagnosed_elbow()[1].attribution
+    ):
         return done(
             call("gap", "confuse", case, "--effects", ",".join(ASKED), "--out", folder / "out", folder=folder / "out")
         )

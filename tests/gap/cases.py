@@ -17,18 +17,18 @@ from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.gap import contest
-from geocontact.gap.contest import Contender, base_contender, pairs, singles
+from geocontact.gap.case.problem import Problem, problem_of
+from geocontact.gap.case.refit import Measured
 from geocontact.gap.diagnose import diagnose
-from geocontact.gap.evidence import judged
-from geocontact.gap.flat_tops import FlatTop, flat_tops
-from geocontact.gap.form import forms
-from geocontact.gap.locate import Window, gap_map, windows
-from geocontact.gap.map_cell import Cell
-from geocontact.gap.oddities import oddities
-from geocontact.gap.problem import Problem, problem_of
-from geocontact.gap.refit import Measured
-from geocontact.gap.surrogate import Surrogate, surrogate
+from geocontact.gap.localise.cell import Cell
+from geocontact.gap.localise.gap_map import Window, gap_map, windows
+from geocontact.gap.selection import model_comparison as contest
+from geocontact.gap.selection.clipping import FlatTop, flat_tops
+from geocontact.gap.selection.evidence import judged
+from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, singles
+from geocontact.gap.selection.model_discrepancy import forms
+from geocontact.gap.selection.residual_anomalies import oddities
+from geocontact.gap.selection.surrogate import Surrogate, surrogate
 from geocontact.systems.catalogue import system_of
 
 TRUE = {"k": 260.0, "x": 0.035, "y": 0.05}
@@ -81,7 +81,7 @@ def diagnosis(*arguments: object, **options: object) -> Diagnosis:
 
 def diagnosis_that_names_nothing(*arguments: object, **options: object) -> Diagnosis:
     """The same where one effect in question is one too many."""
-    with patch("geocontact.gap.verdict.MOST", 0):
+    with patch("geocontact.gap.selection.verdict.MOST", 0):
         return diagnosis(*arguments, **options)
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.absorbed import UNSEEN, VISIBLE, Visibility, absorbed, mistakes, shown
-from geocontact.gap.next_experiment import first_of
-from geocontact.gap.problem import Problem, problem_of
+from geocontact.gap.case.problem import Problem, problem_of
+from geocontact.gap.experiment.proposal import first_of
+from geocontact.gap.identifiability.non_identifiable import UNSEEN, VISIBLE, Visibility, absorbed, mistakes, shown
 from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from geocontact.gap.detectability import POWER
+from geocontact.gap.identifiability.detectability import POWER
 from tests.elsewhere import Elsewhere
 from tests.gap.told import powers, smallest
 

@@ -9,9 +9,9 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from geocontact.data.diagnosis import Diagnosis
+from geocontact.gap.case.problem import Noise, problem_of
 from geocontact.gap.diagnose import diagnose, estimates
-from geocontact.gap.evidence import Judged
-from geocontact.gap.problem import Noise, problem_of
+from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.noise.noise_levels import Levels
 from geocontact.systems.catalogue import system_of
 from geocontact.view.gap_words import proposal_words, verdict_sentences

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from geocontact.gap.evidence import held_back, log_evidence, log_mean
-from geocontact.gap.refit import Refit
+from geocontact.gap.case.refit import Refit
+from geocontact.gap.selection.evidence import held_back, log_evidence, log_mean
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import PARAMETERS, elbow_case
 

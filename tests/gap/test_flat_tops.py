@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.gap.flat_tops import SURE_OF_IT, pile
+from geocontact.gap.selection.clipping import SURE_OF_IT, pile
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Clip, diagnosis, flat, held
 

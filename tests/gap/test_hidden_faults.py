@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.contest import base_contender, finished
-from geocontact.gap.evidence import by_smoothing
-from geocontact.gap.faults import fault_of
-from geocontact.gap.hidden_faults import hidden_mistakes, undone
-from geocontact.gap.problem import problem_of
-from geocontact.gap.refit import refit
+from geocontact.gap.case.problem import problem_of
+from geocontact.gap.case.refit import refit
+from geocontact.gap.data_errors.gross import fault_of
+from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
+from geocontact.gap.selection.evidence import by_smoothing
+from geocontact.gap.selection.model_comparison import base_contender, finished
 from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere

@@ -8,8 +8,8 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.input_spectrum import switches
-from geocontact.gap.inputs import denoised, left, loudest, seen_noise, shaken
+from geocontact.gap.inputs.denoise import denoised, left, loudest, seen_noise, shaken
+from geocontact.gap.inputs.spectrum import switches
 from geocontact.identify.signals.low_pass import LowPass
 
 STEP = 0.02

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import multivariate_normal
 
-from geocontact.gap.leave_one_out import left_out
+from geocontact.gap.reduction.leave_one_out import left_out
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Late, gains
 

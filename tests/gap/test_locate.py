@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.gap.frequency_map import PHASES, _placed, energies
-from geocontact.gap.locate import BLOCKS, Window, _least, load_outputs, shortest, systematic
-from geocontact.gap.map_cell import Cell
+from geocontact.gap.localise.cell import Cell
+from geocontact.gap.localise.frequency_map import PHASES, _placed, energies
+from geocontact.gap.localise.gap_map import BLOCKS, Window, _least, load_outputs, shortest, systematic
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Bump, Drift, Swing, Unmeasured, elbow_case, located

@@ -7,8 +7,8 @@ import pytest
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.input_spectrum import switches
-from geocontact.gap.oddities import moving
+from geocontact.gap.inputs.spectrum import switches
+from geocontact.gap.selection.residual_anomalies import moving
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Tremor, held, in_steps, knock, odd, rung
 

@@ -7,8 +7,8 @@ import pytest
 
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.plant import chosen, plant, visible
-from geocontact.gap.problem import Problem, problem_of
+from geocontact.gap.case.problem import Problem, problem_of
+from geocontact.gap.inject import chosen, plant, visible
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import elbow_case

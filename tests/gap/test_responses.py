@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs import drawn as noise
-from geocontact.gap.weighing import heard
+from geocontact.gap.case.whitening import heard
+from geocontact.gap.inputs.denoise import drawn as noise
 from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.identify.noise.input_noise import Lasting
 from geocontact.identify.signals.low_pass import LowPass

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from geocontact.chain.system import System
-from geocontact.gap.refit import Measured, derivatives, free
-from geocontact.gap.rivals import Hypothesis, Recording, Rows, kept
+from geocontact.gap.case.refit import Measured, derivatives, free
+from geocontact.gap.experiment.competing_models import Hypothesis, Recording, Rows, kept
 from tests.systems.examples import example
 
 SIGMA = 20.0  # N

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.gap.separability import Separation, classes, table
+from geocontact.gap.identifiability.separability import Separation, classes, table
 from tests.elsewhere import Elsewhere
 from tests.gap.told import (
     lag_against_delay,

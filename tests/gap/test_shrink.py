@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.as_measured import directions, errors_as_measured, passed_on
-from geocontact.gap.contest import base_contender, singles
-from geocontact.gap.evidence import Judged
-from geocontact.gap.problem import Problem, problem_of
-from geocontact.gap.shrink import WIDE, between, shrinkage
-from geocontact.gap.weighing import sensitivity
+from geocontact.gap.case.problem import Problem, problem_of
+from geocontact.gap.case.whitening import sensitivity
+from geocontact.gap.reduction.error_reduction import WIDE, between, shrinkage
+from geocontact.gap.reduction.raw_input_errors import directions, errors_as_measured, passed_on
+from geocontact.gap.selection.evidence import Judged
+from geocontact.gap.selection.model_comparison import base_contender, singles
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
 

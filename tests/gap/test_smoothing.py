@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.contest import base_contender
-from geocontact.gap.evidence import by_smoothing
-from geocontact.gap.problem import Problem, evaluated, problem_of
-from geocontact.gap.refit import at
+from geocontact.gap.case.problem import Problem, evaluated, problem_of
+from geocontact.gap.case.refit import at
+from geocontact.gap.selection.evidence import by_smoothing
+from geocontact.gap.selection.model_comparison import base_contender
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
 

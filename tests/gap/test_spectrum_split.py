@@ -9,8 +9,8 @@ import pytest
 from jaxtyping import Float
 from scipy.optimize import minimize
 
-from geocontact.gap.input_spectrum import Spectrum
-from geocontact.gap.spectrum_split import TAIL, TAILED, Parts, split
+from geocontact.gap.inputs.spectrum import Spectrum
+from geocontact.gap.inputs.spectrum_components import TAIL, TAILED, Parts, split
 from geocontact.identify.signals.low_pass import LowPass
 
 STEP = 0.01
@@ -103,7 +103,7 @@ def test_a_tail_of_the_movement_is_not_taken_for_noise(monkeypatch: pytest.Monke
     answer = split(seen, FILTERS)
     assert int(np.argmin(answer.unlikely)) == len(FILTERS) - 1
     assert answer.noise[-1] == pytest.approx(1e-4, rel=0.3)
-    monkeypatch.setattr("geocontact.gap.spectrum_split.TAILED", 1e9)
+    monkeypatch.setattr("geocontact.gap.inputs.spectrum_components.TAILED", 1e9)
     assert int(np.argmin(split(seen, FILTERS).unlikely)) < 5
 
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.gap.contest import base_contender
-from geocontact.gap.evidence import judged
-from geocontact.gap.problem import problem_of
-from geocontact.gap.surrogate import chosen, surrogate
+from geocontact.gap.case.problem import problem_of
+from geocontact.gap.selection.evidence import judged
+from geocontact.gap.selection.model_comparison import base_contender
+from geocontact.gap.selection.surrogate import chosen, surrogate
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import Bump, elbow_case, stairs, stood_in

@@ -7,11 +7,21 @@ import pytest
 
 from geocontact.data.parameter import Parameter
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.contest import Contender
-from geocontact.gap.evidence import Judged
-from geocontact.gap.problem import Noise
-from geocontact.gap.refit import Refit
-from geocontact.gap.verdict import ALLOWED, BEYOND, FORM, LEAST, SURE, answer, borne_out, standing, with_mistake
+from geocontact.gap.case.problem import Noise
+from geocontact.gap.case.refit import Refit
+from geocontact.gap.selection.evidence import Judged
+from geocontact.gap.selection.model_comparison import Contender
+from geocontact.gap.selection.verdict import (
+    ALLOWED,
+    BEYOND,
+    FORM,
+    LEAST,
+    SURE,
+    answer,
+    borne_out,
+    standing,
+    with_mistake,
+)
 from geocontact.identify.noise.noise_levels import Levels
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.gap.evidence import log_evidence
-from geocontact.gap.weighing import LOUDER, SENSOR_LOUDER, Weighing, usual_levels
+from geocontact.gap.case.whitening import LOUDER, SENSOR_LOUDER, Weighing, usual_levels
+from geocontact.gap.selection.evidence import log_evidence
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.input_noise import Instant
 from geocontact.identify.noise.noise_levels import Levels

@@ -16,16 +16,16 @@ from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.absorbed import absorbed
 from geocontact.gap.attribute import Attribution
-from geocontact.gap.contest import base_contender, singles
-from geocontact.gap.detectability import SURE, detectabilities, power
-from geocontact.gap.experiments import menu
-from geocontact.gap.next_experiment import TELLS, first_of, next_experiment
-from geocontact.gap.problem import problem_of
-from geocontact.gap.separability import classes, imitator_of, refitted, separation, separations
-from geocontact.gap.signatures import Ground, at_nats, ground_of, own_slopes, sized
-from geocontact.gap.verdict import Answer
+from geocontact.gap.case.problem import problem_of
+from geocontact.gap.experiment.menu import menu
+from geocontact.gap.experiment.proposal import TELLS, first_of, next_experiment
+from geocontact.gap.identifiability.detectability import SURE, detectabilities, power
+from geocontact.gap.identifiability.non_identifiable import absorbed
+from geocontact.gap.identifiability.separability import classes, imitator_of, refitted, separation, separations
+from geocontact.gap.identifiability.signatures import Ground, at_nats, ground_of, own_slopes, sized
+from geocontact.gap.selection.model_comparison import base_contender, singles
+from geocontact.gap.selection.verdict import Answer
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
 
@@ -168,7 +168,7 @@ def proposed(effects: Mapping[str, float] | None, times: float = TELLS) -> NextE
         rivals, said = [], Answer("no_gap", (), {}, (), base)
     found = Attribution(problem, None, problem, base, tuple(rivals), {}, (), (), said)
     names = [each.name for each in absorbed(problem, known, ())]
-    with patch("geocontact.gap.next_experiment.TELLS", times):
+    with patch("geocontact.gap.experiment.proposal.TELLS", times):
         return next_experiment(found, first_of(known, names))
 
 

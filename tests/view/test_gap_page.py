@@ -12,7 +12,7 @@ import pytest
 from geocontact.data.diagnosis import ChannelGap, Diagnosis, Estimate, FaultFound, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings
-from geocontact.gap.map_cell import Cell
+from geocontact.gap.localise.cell import Cell
 from geocontact.view.gap_curves import HeldOut, held_out
 from geocontact.view.gap_figures import axis_units, gap_figures, ranking
 from geocontact.view.gap_page import gap_page

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geocontact.gap.frequency_map import BAND, FAST, FAST_PHASE
-from geocontact.gap.map_cell import Cell
+from geocontact.gap.localise.cell import Cell
+from geocontact.gap.localise.frequency_map import BAND, FAST, FAST_PHASE
 from geocontact.view.curves.style import DOUBLE, SMALL, empty, in_style
 from geocontact.view.curves.text import plain
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from geocontact.gap.map_cell import Cell
+from geocontact.gap.localise.cell import Cell
 from geocontact.view.curves.before_after import before_after
 from geocontact.view.curves.bland_altman import bland_altman
 from geocontact.view.curves.gap_map import gap_map_figure

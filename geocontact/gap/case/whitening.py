@@ -1,0 +1,172 @@
+"""What a residual weighs: noise, trial-to-trial variation and noise of the inputs, as a whitening per trial."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.differentiated_inputs import Movement, rate_of_waves
+from geocontact.chain.links import Modifier
+from geocontact.chain.system import System
+from geocontact.data.parameter import Parameter
+from geocontact.data.trial import Trial
+from geocontact.gap.inputs.responses import responses
+from geocontact.identify.noise.covariance import Layout, Whitener
+from geocontact.identify.noise.input_noise import InputNoise, Instant
+from geocontact.identify.noise.noise_levels import Beliefs, Levels
+from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
+from geocontact.identify.signals.low_pass import LowPass
+
+POSITION_VARIES = 1e-3  # m
+ANGLE_VARIES = 0.01  # rad
+SHARE_VARIES = 0.04  # of any other parameter
+INPUT_NOISE = 2e-3  # of an input's half-range
+ALIKE, OWN = 0.8, 0.5  # standard deviations of the logarithm of input noise: of a unit, and of one input beyond that
+LOUDER = 2.0  # times what is believed of an input's noise that it may be
+SENSOR_LOUDER = 1.2  # times what was told of a sensor's
+QUIETEST = 0.1  # of `INPUT_NOISE`, that an input's limit is at the least: resolution, slow errors
+Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
+"""Of power that is left, by frequency [Hz]."""
+
+SLOW, SLOW_TIME = 0.4, 0.7  # s, that slow noise usually remembers, and standard deviation of the logarithm
+SLOW_SHARE, SLOW_LEVEL = 0.3, 0.8  # of the quick noise, that it usually is, and of the logarithm of its level
+BUMP = 1e-4  # of an input's half-range
+LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
+
+
+@dataclass(frozen=True)
+class Weighing:
+    """Whitening of one trial: v → (I + B Q Bᵀ)^(-1/2) W v.
+
+    Parameters
+    ----------
+    whitener
+        W, of sensor noise and input noise.
+    directions, gains
+        Left singular vectors of B Q^(1/2), and 1 - 1/sqrt(1 + s²) of each.
+    log_scale
+        Half the logarithm of the determinant of the whole covariance.
+    """
+
+    whitener: Whitener
+    directions: Float[np.ndarray, "n q"]
+    gains: Float[np.ndarray, " q"]
+    log_scale: float
+
+    @classmethod
+    def of(cls, whitener: Whitener, varied: Float[np.ndarray, "t c q"]) -> Weighing:
+        """From the whitener and derivatives with respect to what varies, times its standard deviation."""
+        if varied.shape[-1] == 0:
+            return cls(whitener, np.zeros((sum(map(len, whitener.rows)), 0)), np.zeros(0), whitener.log_scale)
+        directions, singular, _ = np.linalg.svd(whitener(varied), full_matrices=False)
+        grown = np.sqrt(1.0 + singular**2)
+        return cls(whitener, directions, 1.0 - 1.0 / grown, whitener.log_scale + float(np.log(grown).sum()))
+
+    def __call__(self, values: Float[np.ndarray, "t c p"]) -> Float[np.ndarray, "n p"]:
+        """Whitened columns."""
+        white = self.whitener(values)
+        return np.asarray(white - self.directions @ (self.gains[:, None] * (self.directions.T @ white)))
+
+
+def varies_by(parameter: Parameter, value: float) -> float:
+    """Standard deviation that a base parameter usually has from trial to trial: donning, placement."""
+    if parameter.unit == "m":
+        return POSITION_VARIES
+    return ANGLE_VARIES if parameter.unit == "rad" else SHARE_VARIES * abs(value)
+
+
+def heard(
+    system: System, trial: Trial, values: Mapping[str, float], passed: Mapping[str, LowPass], left: Mapping[str, Share]
+) -> InputNoise:
+    """What noise of a trial's inputs makes of the outputs that a model predicts.
+
+    That of each input came through its filter in `passed`; `left` says by frequency what was left of some since.
+    """
+
+    def spectrum(name: str) -> NoiseSpectrum:
+        through = passed[name]
+        rates = partial(rate_of_waves, step=through.step, reach=system.motion.reach)
+        return NoiseSpectrum.after(through, rates, left.get(name, np.ones_like))
+
+    spectra = tuple(spectrum(name) for name in system.inputs)
+    return (responses if system.dynamic else sensitivity)(system, trial, values, spectra)
+
+
+def sensitivity(
+    system: System, trial: Trial, values: Mapping[str, float], spectra: tuple[NoiseSpectrum, ...]
+) -> Instant:
+    """How the outputs answer to each input's value and rate, sample by sample, by central differences."""
+    answers = []
+    for kind, per_second in (("position", 1.0), ("rate", 6.0)):
+        columns = []
+        for row, name in enumerate(system.inputs):
+            step = BUMP * per_second * system.scale.span.get(name, 1.0)
+            above, below = (_bumped(system, kind, row, sign * step).simulate(trial, values) for sign in (1.0, -1.0))
+            columns.append(np.nan_to_num((above - below) / (2.0 * step)))
+        answers.append(np.stack(columns, axis=-1))
+    return Instant(trial.time, answers[0], answers[1], spectra)
+
+
+def _bumped(system: System, kind: str, row: int, by: float) -> System:
+    def change(movement: Movement, _: Movement, __: Mapping[str, float]) -> Movement:
+        moved = getattr(movement, kind).copy()
+        moved[row] += by
+        return replace(movement, **{kind: moved})
+
+    return replace(system, motion=system.motion.having(Modifier("bump", LAST, change)))
+
+
+def usual_levels(
+    system: System,
+    told: Mapping[str, float],
+    rough: Float[np.ndarray, " c"],
+    seen: Mapping[str, float],
+    most: Mapping[str, float],
+) -> Beliefs:
+    """What is believed of the noise before the residuals are looked at.
+
+    The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
+    stands in and is believed less. Quick noise remembers a few samples, slow noise some tenths of a second. Inputs are
+    known as well as their spectra show (`seen`), 0.2 % of their half-range at the least unless `most` is less, and
+    those of one unit about equally well, since they come from the same markers. A sensor is hardly noisier than
+    `SENSOR_LOUDER` times what was told, an input than `LOUDER` times what is believed, or than `most` (a tenth of the
+    0.2 % at the least); nothing more is believed of it than that.
+    """
+    known = np.array([name in told for name in system.outputs])
+    sd = np.array([told.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
+    units = [system.units.get(name, name) for name in system.inputs]
+    alike = np.array([[a == b for b in units] for a in units])
+    own = np.array([max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs])
+    inputs = np.exp(alike @ np.log(own) / alike.sum(axis=1))
+    covariance = ALIKE**2 * alike + OWN**2 * np.eye(len(units))
+    white, quick = np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2)
+    sure = np.ones(len(sd))
+    widths = np.concatenate([white, quick, SLOW_LEVEL * sure, sure, SLOW_TIME * sure])
+    factor = np.zeros((len(widths) + len(units),) * 2)
+    factor[: len(widths), : len(widths)] = np.diag(widths)
+    factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
+    memory = np.array([2.0 * system.scale.step * sure, SLOW * sure])
+    sensors = SENSOR_LOUDER * np.array([told.get(name, np.inf) for name in system.outputs])
+    loudest = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
+    loudest = np.maximum(loudest, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs])
+    inputs = np.minimum(inputs, loudest)
+    return Beliefs(Levels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, loudest)
+
+
+def layouts_of(
+    system: System,
+    trials: Sequence[Trial],
+    values: Mapping[str, float],
+    present: Sequence[np.ndarray],
+    passed: Mapping[str, LowPass],
+    left: Mapping[str, Share],
+) -> list[Layout]:
+    """One per trial, inputs' noise (see `heard`) seen through the model at `values`."""
+    return [
+        Layout.of(t.time, there, heard(system, t, values, passed, left))
+        for t, there in zip(trials, present, strict=True)
+    ]

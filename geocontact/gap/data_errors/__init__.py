@@ -1,0 +1,1 @@
+"""Mistakes in the data: found, corrected, or hidden by base parameters."""

@@ -1,0 +1,113 @@
+"""Models that may be true, held against each other on trials: what one leaves of another, to first order and refitted.
+
+Where A is true and B is fitted instead, B leaves
+
+    ½ rᵀ (I + D S² Dᵀ)⁻¹ r,   r = A's prediction minus B's, whitened, D B's derivatives, S their prior spread
+
+to first order. B may do better than that by going further than derivatives reach; `kept` fits it to what A predicts,
+within bounds, its prior around where it started: min ½ |r(φ)|² + ½ |(φ - φ₀)/S|².
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.system import System
+from geocontact.gap.case.refit import Measured, Search, Weigh
+from geocontact.gap.selection.evidence import prior_spread
+
+ROUNDS = 20  # of a refit
+CLOSE = 1e-4  # relative change of the nats at which it ends
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """A model that may be true: the names that it stands for, what it is and how it was fitted.
+
+    `residuals`, `jacobian` are those of the trials that exist.
+    """
+
+    name: str
+    system: System
+    values: dict[str, float]
+    residuals: list[Float[np.ndarray, "_ c"]]
+    jacobian: list[Float[np.ndarray, "_ c p"]]
+
+    @property
+    def spread(self) -> Float[np.ndarray, " p"]:
+        """Prior standard deviation of its parameters."""
+        return prior_spread(self.system, self.values)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Somebody who is true, and somebody who is fitted instead."""
+
+    true: Hypothesis
+    imitator: Hypothesis
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Whitened difference of a pair on some trials, and the imitator's directions in units of their prior spread."""
+
+    moved: Float[np.ndarray, " n"]
+    directions: Float[np.ndarray, "n p"]
+
+    def with_(self, other: Rows, times: int) -> Rows:
+        """These rows, and others that are recorded so many times."""
+        root = float(np.sqrt(times))
+        moved = np.concatenate([self.moved, root * other.moved])
+        return Rows(moved, np.concatenate([self.directions, root * other.directions]))
+
+    @property
+    def nats(self) -> float:
+        """What the imitator leaves."""
+        part = self.directions.T @ self.moved
+        inner = np.eye(len(part)) + self.directions.T @ self.directions
+        return 0.5 * float(self.moved @ self.moved - part @ np.linalg.solve(inner, part))
+
+
+@dataclass(frozen=True)
+class Recording:
+    """Trials without noise that the true model would give, and the imitator as it is in them; each so many times."""
+
+    imitator: System
+    measured: Measured
+    weighings: Sequence[Weigh]
+    times: int = 1
+
+
+def kept(imitator: Hypothesis, recordings: Sequence[Recording]) -> float:
+    """What an imitator leaves where it is refitted to these recordings together, within bounds [nats]."""
+    from scipy.optimize import least_squares
+
+    searches = [Search(one.imitator, one.measured, one.weighings) for one in recordings]
+    roots = [float(np.sqrt(one.times)) for one in recordings]
+    first = searches[0]
+    start = np.array([imitator.values[p.name] for p in first.parameters]) / first.scale
+    believed = np.divide(first.scale, imitator.spread, out=np.zeros(len(start)), where=imitator.spread > 0.0)
+
+    def whitened(parts: list[list[Float[np.ndarray, "_ c p"]]]) -> Float[np.ndarray, "n p"]:
+        rows = [
+            root * weigh(part)
+            for root, one, own in zip(roots, recordings, parts, strict=True)
+            for weigh, part in zip(one.weighings, own, strict=True)
+        ]
+        return np.concatenate(rows)
+
+    def residual(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
+        off = whitened([[r[..., None] for r in one.residuals(z.tobytes())] for one in searches])[:, 0]
+        return np.concatenate([off, believed * (z - start)])
+
+    def slope(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
+        moved = -whitened([one.slopes(z.tobytes()) for one in searches]) * first.scale
+        return np.concatenate([moved, np.diag(believed)])
+
+    inside = np.clip(start, first.lower + 1e-6, first.upper - 1e-6)
+    bounds = (first.lower, first.upper)
+    return float(least_squares(residual, inside, slope, bounds, max_nfev=ROUNDS, ftol=CLOSE).cost)

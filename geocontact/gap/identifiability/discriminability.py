@@ -1,0 +1,105 @@
+"""What trials can tell at all: which effects they would show, which they cannot tell apart, from which size on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from threadpoolctl import threadpool_limits
+
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.system import System
+from geocontact.data.diagnosis import NextExperiment
+from geocontact.data.gap_case import GapCase
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.attribute import Attribution, attribute
+from geocontact.gap.case.admission import admitted
+from geocontact.gap.experiment.proposal import first_of, next_experiment
+from geocontact.gap.identifiability.detectability import Detectability, detectabilities
+from geocontact.gap.identifiability.non_identifiable import mistakes, shown, swallowed, visibilities
+from geocontact.gap.identifiability.separability import Separation, classes, separations
+from geocontact.gap.identifiability.signatures import Ground, Sized, at_nats, ground_of
+
+NATS = 50.0  # visible nats that effects are compared at
+
+
+@dataclass(frozen=True)
+class Confusion:
+    """What was found out about the trials of a case.
+
+    Parameters
+    ----------
+    found
+        The diagnosis that noise and base parameters are taken from.
+    ground
+        Base model and weighing of all trials.
+    effects
+        Every candidate asked about, as visible as asked for, or as its bounds let it be.
+    separations, classes
+        Every one against every other, and those that cannot be told apart.
+    detectabilities
+        From which amplitude on each is seen.
+    absorbed
+        Effects, and mistakes in the data, that refitted base parameters swallow, the most completely swallowed first.
+    mistakes
+        Names of mistakes in the data that would leave a gap in every variant, if made in all calibration trials.
+    proposal
+        What to record next.
+    """
+
+    found: Attribution
+    ground: Ground
+    effects: tuple[Sized, ...]
+    separations: tuple[Separation, ...]
+    classes: tuple[tuple[str, ...], ...]
+    detectabilities: tuple[Detectability, ...]
+    absorbed: tuple[str, ...]
+    mistakes: tuple[str, ...]
+    proposal: NextExperiment | None
+
+
+def offered(system: System, names: Sequence[str] = ()) -> tuple[Candidate, ...]:
+    """Candidates with a parameter, those of some effects only where names are given."""
+    return tuple(one for one in known(system, names) if one.parameters)
+
+
+def known(system: System, names: Sequence[str] = ()) -> tuple[Candidate, ...]:
+    """The same with mistakes in the data, which have no parameter."""
+    return tuple(one for one in candidates(system) if not names or one.name in names or one.label in names)
+
+
+def confuse(
+    case: GapCase,
+    system: System,
+    names: Sequence[str] = (),
+    nats: float = NATS,
+    step: Callable[[], None] = lambda: None,
+) -> Confusion:
+    """What the trials of a case tell of effects, on one core.
+
+    Noise, deviations of trials and base parameters are those of the diagnosis' answer, so that a gap which is there
+    does not pass for noise; effects are set on top of the base model.
+
+    Parameters
+    ----------
+    case, system
+        As for `gap.diagnose.diagnose`.
+    names
+        Effects or candidates asked about; all where there are none.
+    nats
+        How visible each effect is taken to be when it is held against others.
+    step
+        Called twice per candidate.
+    """
+    with threadpool_limits(limits=1):
+        found = attribute(admitted(case, system), system, candidates)
+        problem, judged = found.clean, found.answer.chosen.judged
+        ground = ground_of(problem, judged.noise, judged.model.values)
+        asked = offered(problem.system, names)
+        effects = tuple(at_nats(ground, one, nats) for one in asked)
+        apart = separations(ground, effects, step)
+        wrong = mistakes(problem, known(problem.system, names))
+        hidden = tuple(each.name for each in swallowed((*visibilities(problem, asked), *wrong), ()))
+        seen = detectabilities(ground, offered(problem.system), asked, step)
+        proposal = next_experiment(found, first_of(asked, hidden))
+    return Confusion(found, ground, effects, apart, classes(apart), seen, hidden, shown(wrong), proposal)

@@ -1,0 +1,164 @@
+"""Which effects these trials would tell apart: what is left of one when another, and the base, may imitate it.
+
+Suppose effect e is there at some amplitude and somebody fits effect f instead, base parameters with it. What f cannot
+imitate of e, ½ min |s_e - (s_f(φ) + base)|² in whitened units, are the nats by which e beats f on such trials.
+To first order that is what the directions of f's parameters at one of its starts leave of s_e; the point that this step
+leads to is simulated, and where it does not keep what it promises a short bounded refit takes its place. Where even a
+straight imitation leaves more than `FAR` nats nothing is simulated; the figure then tells that the two differ, and
+roughly how much.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.system import System
+from geocontact.gap.case.refit import free, refit
+from geocontact.gap.identifiability.signatures import Ground, Sized, orthonormal, own_slopes
+
+APART = 5.0  # nats from which two effects count as told apart
+FAR = 25.0  # nats from which a first-order figure is not checked
+KEPT = 0.5  # nats by which the simulated end of a straight step may lie beside what it promises, and a tenth of that
+REFITTED = 8  # rounds of a refit
+NONE = "none"
+Way = Literal["itself", "linearised", "refitted"]
+
+
+@dataclass(frozen=True)
+class Separation:
+    """By how much one effect beats another on trials that have it.
+
+    Parameters
+    ----------
+    true, imitator
+        Labels of the candidates; "none" for the base model alone as imitator.
+    nats
+        What the imitator leaves.
+    way
+        How that was found.
+    """
+
+    true: str
+    imitator: str
+    nats: float
+    way: Way
+
+
+@dataclass(frozen=True)
+class Imitator:
+    """A model that tries to look like others: where it may start from, and the directions that it has there.
+
+    `slopes` and `directions` are those of all its parameters, the base's first.
+    """
+
+    label: str
+    system: System
+    starts: tuple[Mapping[str, float], ...]
+    slopes: tuple[Float[np.ndarray, "n p"], ...]
+    directions: tuple[Float[np.ndarray, "n k"], ...]
+
+
+def base_alone(ground: Ground) -> Imitator:
+    """The base model, which can only be refitted."""
+    return Imitator(NONE, ground.system, (ground.values,), (ground.slopes,), (ground.base,))
+
+
+def imitator_of(ground: Ground, candidate: Candidate) -> Imitator:
+    """The base model with a candidate, at every start that this offers."""
+    system = candidate.apply(ground.system)
+    starts = tuple({**ground.values, **start} for start in candidate.starts)
+    slopes = tuple(
+        np.hstack([ground.slopes, own_slopes(ground, candidate, start, ground.moved(system, start))])
+        for start in starts
+    )
+    return Imitator(candidate.label, system, starts, slopes, tuple(orthonormal(each) for each in slopes))
+
+
+def separations(
+    ground: Ground, effects: Sequence[Sized], step: Callable[[], None] = lambda: None
+) -> tuple[Separation, ...]:
+    """Every effect against the base model and against every other; `step` is called after each effect."""
+    imitators = [base_alone(ground), *(imitator_of(ground, one.candidate) for one in effects)]
+    found = []
+    for one in effects:
+        target = ground.moved(one.candidate.apply(ground.system), {**ground.values, **one.values})
+        found += [separation(ground, one, target, other) for other in imitators]
+        step()
+    return tuple(found)
+
+
+def separation(ground: Ground, one: Sized, target: Float[np.ndarray, " n"], other: Imitator) -> Separation:
+    """What `other` leaves of `target`, which is what the effect does, `Ground.moved`."""
+    names = one.candidate.label, other.label
+    if names[0] == names[1]:
+        return Separation(*names, 0.0, "itself")
+    costs = [0.5 * float(target @ target - (d.T @ target) @ (d.T @ target)) for d in other.directions]
+    best = int(np.argmin(costs))
+    promised = max(costs[best], 0.0)
+    if promised > FAR:
+        return Separation(*names, promised, "linearised")
+    point, kept = _straight(ground, target, other, best)
+    if abs(kept - promised) <= KEPT + 0.1 * promised:
+        return Separation(*names, kept, "linearised")
+    return Separation(*names, min(kept, refitted(ground, one, other, point)), "refitted")
+
+
+def _straight(
+    ground: Ground, target: Float[np.ndarray, " n"], other: Imitator, which: int
+) -> tuple[dict[str, float], float]:
+    """Where one straight step to the target leads, within bounds, and what it leaves of the target there [nats]."""
+    start, columns = other.starts[which], other.slopes[which]
+    moved = ground.moved(other.system, start)
+    size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+    shift = np.linalg.lstsq(columns / size, target - moved, rcond=1e-9)[0] / size
+    values = dict(start)
+    for p, by in zip(free(other.system), shift, strict=True):
+        values[p.name] = float(np.clip(values[p.name] + by, p.lower, p.upper))
+    off = target - ground.moved(other.system, values)
+    return values, 0.5 * float(off @ off)
+
+
+def refitted(ground: Ground, one: Sized, other: Imitator, start: Mapping[str, float]) -> float:
+    """What a bounded least-squares fit of `other` leaves of trials that have the effect and no noise [nats]."""
+    there = one.candidate.apply(ground.system)
+    full = {**ground.values, **one.values}
+    outputs = [
+        np.where(np.isfinite(o), there.simulate(t, full), np.nan)
+        for t, o in zip(ground.measured.trials, ground.measured.outputs, strict=True)
+    ]
+    measured = replace(ground.measured, outputs=tuple(outputs))
+    return refit(other.system, measured, ground.weighings, [start, *other.starts], REFITTED).cost
+
+
+def classes(found: Sequence[Separation], least: float = APART) -> tuple[tuple[str, ...], ...]:
+    """Effects that these trials cannot tell apart: within a class each imitates every other to less than `least` nats.
+
+    Complete linkage; classes of one are left out. The base model is none of them.
+    """
+    from scipy.cluster.hierarchy import fcluster, linkage
+    from scipy.spatial.distance import squareform
+
+    labels, matrix = table(found)
+    if len(labels) < 2:
+        return ()
+    apart = np.maximum(matrix[:, 1:], matrix[:, 1:].T)
+    np.fill_diagonal(apart, 0.0)
+    which = fcluster(linkage(squareform(apart, checks=False), "complete"), np.nextafter(least, 0.0), "distance")
+    groups = [tuple(labels[i] for i in np.flatnonzero(which == k)) for k in dict.fromkeys(which)]
+    return tuple(group for group in groups if len(group) > 1)
+
+
+def table(found: Sequence[Separation]) -> tuple[list[str], Float[np.ndarray, "e f"]]:
+    """Labels, and nats: a row per true effect, a column per imitator, the base model's first."""
+    labels = list(dict.fromkeys(each.true for each in found))
+    columns = [NONE, *labels]
+    matrix = np.full((len(labels), len(columns)), np.nan)
+    for each in found:
+        matrix[labels.index(each.true), columns.index(each.imitator)] = each.nats
+    return labels, matrix

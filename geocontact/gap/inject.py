@@ -1,0 +1,159 @@
+"""A known effect put into measured trials, so that its owner sees what a diagnosis of them makes of it.
+
+What was measured stays: noise, deviations of trials and whatever else the model misses. A sensor's effect acts on the
+measured outputs themselves; a mistake in the data is made in the columns; anything else is added as the difference
+between the base model with and without it, y + S(u; θ, φ) - S(u; θ), at the base parameters that fit best. Missing
+samples stay missing, except that a delay moves them with the others; what comes over from a channel that was not
+measured is the model's. Samples for which one of the two models has no value (a centre of pressure without load) stay
+as measured.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.system import System
+from geocontact.data.gap_case import GapCase
+from geocontact.data.trial import Trial
+from geocontact.gap.case.problem import Plain, Problem
+from geocontact.gap.case.refit import derivatives
+from geocontact.gap.data_errors.correction import mistaken
+from geocontact.gap.identifiability.signatures import reach_of, rest_of
+
+DOUBLINGS = 10
+"""Of the amplitude, from the faintest that is tried to the largest."""
+HALVINGS = 20
+"""Of the interval in which the amplitude is looked for."""
+
+
+@dataclass(frozen=True)
+class Planted:
+    """A case with an effect put in.
+
+    Parameters
+    ----------
+    case
+        Outputs changed, and for a mistake in an input that input.
+    values
+        Of the effect's parameters, SI.
+    size
+        Root mean square of the gap that no base parameter imitates, calibration trials, each channel in units of its
+        floor; NaN for a mistake in the data.
+    """
+
+    case: GapCase
+    values: Mapping[str, float]
+    size: float
+
+
+def plant(
+    case: GapCase,
+    problem: Problem,
+    one: Candidate,
+    values: Mapping[str, float],
+    size: float,
+    trials: frozenset[str] | None = None,
+) -> Planted:
+    """The case with the effect put in.
+
+    Parameters
+    ----------
+    problem
+        Of the same case: its base model at the fit.
+    values
+        Of parameters of the effect; those that are not given are where a search would set out, the amplitude so that
+        the gap has `size`, or as large as its bounds admit.
+    size
+        Of `Planted.size`.
+    trials
+        For a mistake in the data: the trials that have it, all where None.
+    """
+    if one.somewhere is not None:
+        some = frozenset(t.name for t in (*case.calibration, *case.evaluation)) if trials is None else trials
+        return Planted(_changed(case, lambda trial: mistaken(trial, one) if trial.name in some else trial), {}, np.nan)
+    system = problem.system
+    changed = one.apply(system)
+    given = {p.name: p.start for p in one.parameters} | dict(values)
+    amplitude = one.parameters[0]
+    if amplitude.name not in values:
+        given[amplitude.name] = _amplitude(problem, changed, one, given, size)
+    case = _changed(case, lambda trial: _with(trial, system, changed, problem.plain.values, given))
+    return Planted(case, given, visible(problem, changed, given))
+
+
+def visible(problem: Problem, changed: System, values: Mapping[str, float]) -> float:
+    """`Planted.size` of the base model changed so, to first order in what base parameters can imitate."""
+    measured, base = problem.calibration, problem.plain.values
+    weigh = [Plain(there, problem.floor) for there in measured.present]
+    before = measured.residuals(problem.system, base)
+    after = measured.residuals(changed, {**base, **values})
+    moved = np.concatenate([w((a - b)[..., None])[:, 0] for w, a, b in zip(weigh, after, before, strict=True)])
+    slopes = derivatives(problem.system, measured, base, before)
+    basis = np.linalg.qr(np.concatenate([w(j) for w, j in zip(weigh, slopes, strict=True)]))[0]
+    return float(np.sqrt(np.mean((moved - basis @ (basis.T @ moved)) ** 2)))
+
+
+def chosen(offered: Sequence[Candidate], label: str) -> Candidate:
+    """The candidate of that label, or of that name where it has one variant; ValueError with what there is."""
+    exact = [one for one in offered if one.label == label]
+    named = [one for one in offered if one.name == label]
+    if len(exact) == 1 or len(named) == 1:
+        return (exact or named)[0]
+    if named:
+        raise ValueError(f"{label} has variants; choose one of {', '.join(one.label for one in named)}")
+    names = dict.fromkeys(one.name for one in offered)
+    raise ValueError(f"{label!r} is no effect of this system; there are {', '.join(names)}")
+
+
+def _amplitude(problem: Problem, changed: System, one: Candidate, values: Mapping[str, float], size: float) -> float:
+    """Where the gap has that size first, from where the effect is faintest on; the far end where it never has."""
+    p = one.parameters[0]
+    rest, reach = rest_of(one), reach_of(one, values)
+    if not np.isfinite(reach):
+        reach = 1e3 * (p.start - rest)
+
+    def reached(share: float) -> bool:
+        return visible(problem, changed, {**values, p.name: rest + share * reach}) >= size
+
+    low = 0.0
+    for share in 2.0 ** np.arange(-DOUBLINGS, 1.0):  # a clipped signal is flat again in the end: sizes rise and fall
+        if reached(share):
+            high = float(share)
+            break
+        low = float(share)
+    else:
+        return float(rest + reach)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if reached(middle) else (middle, high)
+    return float(rest + high * reach)
+
+
+def _changed(case: GapCase, change: Callable[[Trial], Trial]) -> GapCase:
+    return replace(
+        case,
+        calibration=tuple(change(trial) for trial in case.calibration),
+        evaluation=tuple(change(trial) for trial in case.evaluation),
+    )
+
+
+def _with(
+    trial: Trial, system: System, changed: System, base: Mapping[str, float], given: Mapping[str, float]
+) -> Trial:
+    columns = [trial.signals.channels.index(name) for name in system.outputs]
+    values = trial.signals.values.copy()
+    measured = values[:, columns]
+    by = np.nan_to_num(changed.simulate(trial, {**base, **given}) - system.simulate(trial, base))
+    values[:, columns] = measured + by
+    if all(getattr(changed, link) is getattr(system, link) for link in ("motion", "geometry", "law", "balance")):
+        own = tuple(one for one in changed.sensor.modifiers if one not in system.sensor.modifiers)
+        numbers = {**trial.covariates, **system.known, **base, **given}
+        movement = system.motion.seen(trial, numbers)
+        read = replace(changed.sensor, modifiers=own).read(measured, movement, numbers)
+        kept = np.isfinite(read) | all(one.apart for one in own)
+        values[:, columns] = np.where(kept, read, measured + by)
+    return replace(trial, signals=replace(trial.signals, values=values))

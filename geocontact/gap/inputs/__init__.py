@@ -1,0 +1,1 @@
+"""Measured inputs: their filter, their noise, their resolution, and what the outputs owe to them."""

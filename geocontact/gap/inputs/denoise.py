@@ -1,0 +1,281 @@
+"""Measured inputs with their noise taken off, so that no candidate gains by smoothing them.
+
+A low-pass filter, an inertia or a damper that a model does not have can look useful merely because it smooths the noise
+of the inputs that the model is driven by. The noise of each input is read off its spectrum, or estimated from what the
+base model misses (`identify.noise.covariance`); its spectrum is that of the low-pass filter that motion usually has been
+through, and the Wiener filter 1 - N/P takes it off: P is the spectrum of the recording, N that of the noise. Both hold
+for a stretch of it: a movement that sets out sharply after a rest keeps its high frequencies, and the rest loses its
+noise. Where the signal stands far above the noise nothing changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from jaxtyping import Complex, Float, Int
+
+from geocontact.data.trial import Trial
+from geocontact.gap.inputs.even_grid import even_grid
+from geocontact.gap.inputs.filter_cutoff import HIGHEST, USUAL
+from geocontact.identify.signals.low_pass import LowPass
+
+PLATEAU = (0.25, 0.42, 0.58, 0.75, 0.92)  # of the corner
+FLAT = 2.5  # largest over smallest power of a plateau
+CHANCE = 1e-3  # that the noise of an input is louder than the limit that its spectrum sets
+BLACKMAN = 1.73  # bins as wide as one under the window (Harris 1978, Proc. IEEE 66:51)
+SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
+PERIODS, FEWEST = 8.0, 8  # of the corner in a stretch, and samples in a quarter of it at the least
+WINDOWS = 1.5  # sum of the squares of Hann windows that stand a quarter of their width apart
+Filters = Mapping[str, LowPass]
+"""What each input came through."""
+
+
+def denoised(trial: Trial, noise: Mapping[str, float], passed: Filters) -> Trial:
+    """A trial with the noise of some inputs, standard deviations in their units, taken off by a Wiener filter.
+
+    `passed` are the filters that the inputs came through.
+
+    Samples are put on an even grid for it and back by linear interpolation of what was taken off; where an input was
+    not measured nothing is taken off.
+    """
+    return changed(trial, noise, lambda name, even, step: -noise_in(even, step, noise[name], passed[name]))
+
+
+def shaken(trial: Trial, noise: Mapping[str, float], passed: Filters, rng: np.random.Generator) -> Trial:
+    """What `denoised` makes of a recording, with noise again as that leaves it.
+
+    Noise of these standard deviations is drawn, and taken off as far as the filter takes it off the recording. Of
+    movement that was taken off along with it nothing is added.
+    """
+
+    def change(name: str, even: Float[np.ndarray, " n"], step: float) -> Float[np.ndarray, " n"]:
+        sd, through = noise[name], passed[name]
+        more, own = drawn(rng, len(even), step, sd, through), Stretches.of(even, step, through)
+        shares = own.shares(sd)
+        return np.asarray(more - own.summed(shares) - Stretches.of(more, step, through).summed(shares))
+
+    return changed(trial, noise, change)
+
+
+def changed(
+    trial: Trial,
+    names: Iterable[str],
+    change: Callable[[str, Float[np.ndarray, " n"], float], Float[np.ndarray, " n"]],
+) -> Trial:
+    """A trial with something added to some inputs, worked out on an even grid from name, values and step [s] there."""
+    time, grid = trial.time, even_grid(trial.time)
+    values = trial.signals.values.copy()
+    for name in names:
+        column = trial.signals.channels.index(name)
+        there = np.isfinite(values[:, column])
+        if there.sum() < 4 * FEWEST:
+            continue
+        even = np.interp(grid, time[there], values[there, column])
+        values[there, column] += np.interp(time[there], grid, change(name, even, float(grid[1] - grid[0])))
+    return replace(trial, signals=replace(trial.signals, values=values))
+
+
+def drawn(rng: np.random.Generator, count: int, step: float, sd: float, passed: LowPass) -> Float[np.ndarray, " n"]:
+    """Gaussian noise of this standard deviation that came through a filter."""
+    long = 2 * count  # the end does not know of the beginning
+    power = passed.power(np.fft.rfftfreq(long, step))
+    white = np.fft.rfft(rng.standard_normal(long))
+    return np.asarray(sd * np.fft.irfft(white * np.sqrt(power * (long // 2 + 1) / power.sum()), long)[:count])
+
+
+def seen_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float | None:
+    """Noise of an input as its spectrum over all trials shows it, None where the movement hides it."""
+    return plateau(_evenly(trials, name), passed)
+
+
+def loudest(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
+    """Standard deviation that an input's noise cannot well exceed: that of the quietest band of its spectrum.
+
+    Movement only adds to what a band holds; how little noise may hold there by chance is told by a χ² of as many values
+    as are independent under the window. Bands are those of the plateau, below the corner and below that of most
+    laboratories, of which the one that allows more counts, since the corner may have come out too high. Infinite where
+    no trial is long enough.
+    """
+    from scipy.stats import chi2
+
+    recordings, found = _evenly(trials, name), []
+    for corner in {passed.corner, min(passed.corner, USUAL)}:
+        bands = in_bands(recordings, passed, corner)
+        if not bands:
+            return float("inf")
+        least = CHANCE / len(bands)
+        freedom = [2.0 * band.values / BLACKMAN for band in bands]
+        found.append(min(band.variance * f / chi2.ppf(least, f) for band, f in zip(bands, freedom, strict=True)))
+    return float(np.sqrt(max(found)))
+
+
+def _evenly(trials: Sequence[Trial], name: str) -> list[tuple[Float[np.ndarray, " _"], float]]:
+    """Evenly spaced values of an input and their step [s], of each trial that is long enough."""
+    recordings = []
+    for trial in trials:
+        column, grid = trial.column(name), even_grid(trial.time)
+        there = np.isfinite(column)
+        if there.sum() > 4 * FEWEST:
+            recordings.append((np.interp(grid, trial.time[there], column[there]), float(grid[1] - grid[0])))
+    return recordings
+
+
+def plateau(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed: LowPass) -> float | None:
+    """Standard deviation of an input's noise where its spectrum shows it, else None.
+
+    A movement slower than the low-pass filter leaves a plateau of noise between its own frequencies and the corner:
+    over the bands from a quarter of it up to it power per power let through is the same. `recordings` are evenly
+    spaced values and their step [s].
+    """
+    levels = [band.variance for band in in_bands(recordings, passed, passed.corner)]
+    return float(np.sqrt(np.mean(levels))) if levels and max(levels) < FLAT * min(levels) else None
+
+
+@dataclass(frozen=True)
+class Band:
+    """Variance of noise that would have the power of a band, and how many values of one spectrum its mean is worth."""
+
+    variance: float
+    values: float
+
+
+def in_bands(recordings: Sequence[tuple[Float[np.ndarray, " _"], float]], passed: LowPass, corner: float) -> list[Band]:
+    """Each band of the plateau below `corner` [Hz]; none where recordings are too short to have values in all."""
+    bands = []
+    for low, high in pairwise(corner * share for share in PLATEAU):
+        power, spread = [], 0.0
+        for values, step in recordings:
+            spectrum, frequency, scale = _spectrum(values, step, passed)
+            inside = (frequency >= low) & (frequency < high)
+            if inside.any():
+                power.append(float(np.mean(np.abs(spectrum[inside]) ** 2 / passed.power(frequency[inside])) / scale))
+                spread += 1.0 / int(inside.sum())
+        if not power:
+            return []
+        bands.append(Band(float(np.mean(power)), len(power) ** 2 / spread))
+    return bands
+
+
+def _spectrum(
+    values: Float[np.ndarray, " n"], step: float, passed: LowPass
+) -> tuple[Complex[np.ndarray, " f"], Float[np.ndarray, " f"], float]:
+    """Windowed spectrum, its frequencies, and what its power is for unit variance where the filter lets all through."""
+    count = len(values)
+    window = np.blackman(count)
+    spectrum = np.fft.rfft((values - np.linspace(values[0], values[-1], count)) * window)
+    frequency = np.fft.rfftfreq(count, step)
+    return spectrum, frequency, float((window**2).sum() * count / (2.0 * passed.power(frequency).sum()))
+
+
+@dataclass(frozen=True)
+class Left:
+    """Share of the power of an input's noise that is left after a Wiener filter, by frequency [Hz]."""
+
+    frequency: Float[np.ndarray, " f"]
+    share: Float[np.ndarray, " f"]
+
+    def __call__(self, frequency: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+        """At some frequencies."""
+        return np.asarray(np.interp(frequency, self.frequency, self.share))
+
+
+def left(trials: Sequence[Trial], name: str, sd: float, passed: LowPass) -> Left | None:
+    """What `denoised` leaves of an input's noise, on average over all stretches; None where it takes nothing off.
+
+    Where it takes off the share s of the power N + X, it leaves (1 - s) N of noise and of movement it should not have
+    taken. What a cubic follows within a stretch stays as it is.
+    """
+    found = []
+    for trial in trials:
+        there, grid = np.isfinite(trial.column(name)), even_grid(trial.time)
+        if there.sum() < 4 * FEWEST:
+            continue
+        even = np.interp(grid, trial.time[there], trial.column(name)[there])
+        own = Stretches.of(even, float(grid[1] - grid[0]), passed)
+        found.append((np.fft.rfftfreq(own.width, grid[1] - grid[0]), 1.0 - own.shares(sd) * own.beside_cubics))
+    if not found:
+        return None
+    frequency = found[0][0]
+    each = np.concatenate([[np.interp(frequency, f, row) for row in rows] for f, rows in found])
+    return Left(frequency, each.mean(axis=0))
+
+
+def cubics(width: int) -> Float[np.ndarray, "w four"]:
+    """Orthonormal polynomials up to the third degree over a stretch."""
+    return np.asarray(np.linalg.qr(np.vander((2.0 * np.arange(width) + 1.0) / width - 1.0, 4))[0])
+
+
+@dataclass(frozen=True)
+class Stretches:
+    """Spectra of overlapping stretches of evenly spaced values.
+
+    Stretches last `PERIODS` periods of the corner, or of the highest corner that is looked for where nothing was
+    filtered, less a cubic, a quarter of a stretch apart, weighed by a Hann window before and after so that they add up
+    to the whole (Portnoff, IEEE Trans. Acoust. Speech Signal Process. 28:55, 1980).
+
+    Parameters
+    ----------
+    count, width
+        Of the values, and of a stretch.
+    begin
+        Of each stretch, in values padded by one width in front.
+    window
+        Weights in a stretch.
+    spectra
+        One per stretch.
+    shape
+        Power that the filter lets through.
+    """
+
+    count: int
+    width: int
+    begin: Int[np.ndarray, " k"]
+    window: Float[np.ndarray, " w"]
+    spectra: Complex[np.ndarray, "k f"]
+    shape: Float[np.ndarray, " f"]
+
+    @classmethod
+    def of(cls, values: Float[np.ndarray, " n"], step: float, passed: LowPass) -> Stretches:
+        """Of values `step` seconds apart."""
+        hop = max(round(0.25 * PERIODS / (min(passed.corner, HIGHEST) * step)), FEWEST)
+        width = 4 * hop
+        longer = np.pad(values, (width, 2 * width), mode="reflect", reflect_type="odd")
+        window = np.sin(np.pi * (np.arange(width) + 0.5) / width) ** 2
+        slow = cubics(width)
+        begin = np.arange(0, len(longer) - width + 1, hop)
+        each = longer[begin[:, None] + np.arange(width)]
+        spectra = np.fft.rfft(window * (each - (each @ slow) @ slow.T))
+        return cls(len(values), width, begin, window, spectra, passed.power(np.fft.rfftfreq(width, step)))
+
+    @property
+    def beside_cubics(self) -> Float[np.ndarray, " f"]:
+        """Share of the power at each frequency of the spectra that a stretch less its cubic keeps."""
+        slow = cubics(self.width)
+        waves = np.exp(2j * np.pi * np.outer(np.arange(len(self.shape)), np.arange(self.width)) / self.width)
+        rest = self.window * (waves - (waves @ slow) @ slow.T)
+        return np.asarray(np.minimum((np.abs(rest) ** 2).sum(axis=1) / (self.window**2).sum(), 1.0))
+
+    def shares(self, sd: float) -> Float[np.ndarray, "k f"]:
+        """Share of each power that is noise of this standard deviation."""
+        from scipy.ndimage import uniform_filter1d
+
+        shape = self.shape
+        noise = sd**2 * float(self.window @ self.window) * self.width * shape / (2.0 * shape.sum() - shape[0])
+        power = uniform_filter1d(np.abs(self.spectra) ** 2, SMOOTH, axis=1, mode="nearest")
+        return np.asarray(np.minimum(noise / np.maximum(power, 1e-300), 1.0))
+
+    def summed(self, shares: Float[np.ndarray, "k f"]) -> Float[np.ndarray, " n"]:
+        """These shares of the spectra, put together again."""
+        off = np.zeros(int(self.begin[-1]) + self.width)
+        for begin, part in zip(self.begin, np.fft.irfft(shares * self.spectra, self.width), strict=True):
+            off[begin : begin + self.width] += self.window * part
+        return np.asarray(off[self.width : self.width + self.count] / WINDOWS)
+
+
+def noise_in(values: Float[np.ndarray, " n"], step: float, sd: float, passed: LowPass) -> Float[np.ndarray, " n"]:
+    """What a Wiener filter takes off evenly spaced values whose low-passed noise has this standard deviation."""
+    stretches = Stretches.of(values, step, passed)
+    return stretches.summed(stretches.shares(sd))

@@ -1,0 +1,81 @@
+"""Power of a measured input over frequency, from all trials."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.trial import Trial
+from geocontact.gap.inputs.even_grid import even_grid
+from geocontact.gap.inputs.quantisation import resolution
+
+ROUNDED = 1e-5  # of a half-range, up to which a white rest is rounding at any rate: five digits
+TREND = 3  # degree of the polynomial that is taken off before the window
+APART = 3  # bins from which spectral values under the window count as independent
+FEWEST = 24  # samples of a trial that has a spectrum
+BOTH = 2  # values of an input that goes on and off
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Power of one input over all trials: of unit variance for white noise of unit variance.
+
+    Parameters
+    ----------
+    frequency
+        Of each value [Hz].
+    power
+        In the input's unit squared.
+    half_range
+        Of the input, in its unit.
+    rounding
+        Standard deviation of what rounding adds at the most, in its unit.
+    """
+
+    frequency: Float[np.ndarray, " f"]
+    power: Float[np.ndarray, " f"]
+    half_range: float
+    rounding: float
+
+
+def switches(trials: Sequence[Trial], name: str) -> bool:
+    """Whether an input only goes on and off, or stands still: then it is no measurement, and has no noise."""
+    values = np.concatenate([trial.column(name) for trial in trials])
+    return len(np.unique(values[np.isfinite(values)])) <= BOTH
+
+
+def spectrum(trials: Sequence[Trial], name: str, step: float) -> Spectrum | None:
+    """Periodograms under Nuttall's window, of all trials long enough, below Nyquist's frequency of a `step` [s].
+
+    None where there are none, where nothing moves, and of an input that only goes on and off.
+    """
+    from scipy.interpolate import CubicSpline
+    from scipy.signal.windows import nuttall
+
+    frequency, power, values = [], [], []
+    if switches(trials, name):
+        return None
+    for trial in trials:
+        column = trial.column(name)
+        there = np.isfinite(column)
+        if there.sum() < FEWEST:
+            continue
+        grid = even_grid(trial.time[there])
+        even = CubicSpline(trial.time[there], column[there])(grid)
+        u = np.linspace(-1.0, 1.0, len(grid))
+        window = nuttall(len(grid))
+        bent = even - np.polynomial.legendre.legval(u, np.polynomial.legendre.legfit(u, even, TREND))
+        frequency.append(np.fft.rfftfreq(len(grid), grid[1] - grid[0])[APART:-1:APART])
+        power.append((np.abs(np.fft.rfft(bent * window)) ** 2 / (window**2).sum())[APART:-1:APART])
+        values.append(column[there])
+    if not values or not np.ptp(np.concatenate(values)) > 0.0:
+        return None
+    half_range = 0.5 * float(np.ptp(np.concatenate(values)))
+    least = (1e-12 * half_range) ** 2
+    rounding = max(resolution(values) / np.sqrt(12.0), ROUNDED * half_range)
+    f, p = np.concatenate(frequency), np.concatenate(power) + least
+    below = f < 0.5 / step  # a quicker recording than the others goes beyond
+    return Spectrum(f[below], p[below], half_range, rounding) if below.any() and least > 0.0 else None

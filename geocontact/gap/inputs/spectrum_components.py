@@ -1,0 +1,183 @@
+"""A spectrum of a measured input taken apart: movement, noise as a filter leaves it, a white rest.
+
+S = A exp(-(f/b)^q) + B/(1 + (f/f_t)^4)² + N H²(f) + R, by Whittle's likelihood (Whittle 1953, J. R. Stat. Soc.
+B 15:125). The first term is a movement that falls off with frequency. The second, for which TAILED nats must speak, is
+the tail of one that is put together of pieces: where its third derivative jumps, the power falls off with the eighth
+power of the frequency (Bracewell, The Fourier Transform and Its Applications, 2000, ch. 8). H² is the filter
+(`identify.signals.low_pass`), R rounding. Noise much louder or quieter than usual is believed less, and so is a rest that is
+louder than rounding, so that noise which nobody filtered is not taken for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.gap.inputs.spectrum import Spectrum
+from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
+from geocontact.identify.signals.low_pass import LowPass
+
+LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
+OVER = 1.0  # standard deviation of the logarithm of a rest's power beyond rounding
+TAIL = 2.0  # Hz, from which a movement's tail falls off
+TAILED = 3.0  # nats that must speak for it
+FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
+SLOWEST, QUICKEST = np.log([0.02, 20.0])  # of log b
+FALLS, STEEPS = (0.1, 0.4, 1.2, 3.0), (0.9, 1.6)  # b [Hz] and q that a search starts from
+BROAD = ((8.0, 0.7), (20.0, 0.7))  # the same of movements that fill the spectrum
+FIRST, BEST = 40, 4  # steps from all starts, and how many of them, for each filter, go on
+MANY = 400  # values of a spectrum that are not pooled
+FAINT = 600.0  # exponent beyond which a movement is nothing
+BENT = 1e6  # ratio of power to what is expected that counts in the curvature at the most
+
+
+@dataclass(frozen=True)
+class Split:
+    """For each filter: Whittle's -log likelihood with what was believed, and the noise after the filter.
+
+    `noise` is its standard deviation, in the input's unit.
+    """
+
+    unlikely: Float[np.ndarray, " k"]
+    noise: Float[np.ndarray, " k"]
+
+
+def split(seen: Spectrum, filters: Sequence[LowPass]) -> Split:
+    """The likeliest movement, noise and rest of a spectrum, given each of the filters, one at least.
+
+    The filters are of one sampling frequency, and the spectrum lies below half of it.
+    """
+    parts = Parts.of(seen, filters)
+    plain, tailed = (_likeliest(parts, with_tail) for with_tail in (False, True))
+    better = tailed.unlikely + TAILED < plain.unlikely
+    return Split(
+        np.where(better, tailed.unlikely + TAILED, plain.unlikely), np.where(better, tailed.noise, plain.noise)
+    )
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Everything of which likelihoods are made.
+
+    Parameters
+    ----------
+    frequency, power, count
+        Of the spectrum: its values, or means of neighbours and how many of them.
+    passed
+        Share of the power that each filter lets through at each frequency.
+    part
+        That each filter lets through of white noise.
+    usual
+        Logarithm of the power that noise before each filter is believed to have.
+    rounding
+        Logarithm of the power of rounding.
+    """
+
+    frequency: Float[np.ndarray, " f"]
+    power: Float[np.ndarray, " f"]
+    count: Float[np.ndarray, " f"]
+    passed: Float[np.ndarray, "k f"]
+    part: Float[np.ndarray, " k"]
+    usual: Float[np.ndarray, " k"]
+    rounding: float
+
+    @classmethod
+    def of(cls, seen: Spectrum, filters: Sequence[LowPass]) -> Parts:
+        """Of a spectrum below Nyquist's frequency."""
+        frequency, power, count = _pooled(seen)
+        even = np.linspace(0.0, 0.5 / filters[0].step, 400)
+        part = np.array([one.power(even).mean() for one in filters])
+        passed = np.array([one.power(frequency) for one in filters])
+        usual = 2.0 * np.log(LEVEL * seen.half_range) - np.log(part)
+        return cls(frequency, power, count, passed, part, usual, 2.0 * float(np.log(seen.rounding)))
+
+    def scored(self, x: Batch, which: Int[np.ndarray, " b"]) -> Scored:
+        """-log likelihoods with their gradients, and curvatures to step by.
+
+        Curvatures are half of what is expected, half of what the powers that are met would make of it: far off, where
+        powers are much larger than expected, steps stay short.
+
+        Parameters
+        ----------
+        x
+            Rows of log A, log b, log q, log N, log R and, if there is a tail, log B.
+        which
+            Filter of each row.
+        """
+        ratio, steep = np.log(self.frequency) - x[:, 1:2], np.exp(x[:, 2:3])
+        fall = np.minimum(np.exp(steep * ratio), FAINT)
+        movement = np.exp(x[:, 0:1] - fall)
+        noise, rest = np.exp(x[:, 3:4]) * self.passed[which], np.exp(x[:, 4:5]) * np.ones_like(self.frequency)
+        slopes, total = [movement, movement * fall * steep, -movement * fall * steep * ratio], movement + noise + rest
+        slopes += [noise, rest]
+        if x.shape[1] > len(slopes):
+            tail = np.exp(x[:, 5:]) / (1.0 + (self.frequency / TAIL) ** 4) ** 2
+            slopes, total = [*slopes, tail], total + tail
+        slope = np.stack(slopes, axis=1) / total[:, None]
+        met = self.power / total
+        gradient = (slope * (self.count * (1.0 - met))[:, None]).sum(axis=2)
+        curved = (slope * (0.5 * self.count * (1.0 + np.minimum(met, BENT)))[:, None]) @ slope.transpose(0, 2, 1)
+        off, over = (x[:, 3] - self.usual[which]) / LOUDER, np.maximum(x[:, 4] - self.rounding, 0.0) / OVER
+        gradient[:, 3] += off / LOUDER
+        gradient[:, 4] += over / OVER
+        curved[:, 3, 3] += LOUDER**-2
+        curved[:, 4, 4] += (over > 0.0) * OVER**-2
+        value = (self.count * (np.log(total) + met)).sum(axis=1) + 0.5 * (off**2 + over**2)
+        return value, gradient, curved
+
+
+def _pooled(seen: Spectrum) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
+    """Frequencies, powers, and how many values each is the mean of: neighbours, where there are more than `MANY`.
+
+    The likelihood of values that share what is expected is that of their mean, as often as there are of them.
+    """
+    order = np.argsort(seen.frequency, kind="stable")
+    frequency, power = seen.frequency[order], seen.power[order]
+    if len(frequency) <= MANY:
+        return frequency, power, np.ones(len(frequency))
+    edges = np.geomspace(frequency[0], frequency[-1], MANY)
+    _, first = np.unique(np.searchsorted(edges, frequency, side="right"), return_index=True)
+    count = np.diff(np.append(first, len(frequency))).astype(float)
+    return np.add.reduceat(frequency, first) / count, np.add.reduceat(power, first) / count, count
+
+
+def _likeliest(parts: Parts, with_tail: bool) -> Split:
+    """Of all starts, for each filter."""
+    top = float(np.log(parts.power.max()))
+    low = np.array([top - 20.0, SLOWEST, FLATTEST, top - 60.0, top - 80.0, top - 60.0])
+    high = np.array([top + 40.0, QUICKEST, STEEPEST, top + 2.0, top, top + 20.0])
+    start = _starts(parts)
+    places = len(start) // len(parts.part)
+    which = np.repeat(np.arange(len(parts.part)), places)
+    chosen = slice(6 if with_tail else 5)
+    low, high, start = low[chosen], high[chosen], start[:, chosen]
+    first = least(lambda x, rows: parts.scored(x, which[rows]), start, low, high, FIRST)
+    order = np.argsort(first.value.reshape(-1, places), axis=1, kind="stable")[:, :BEST]
+    best = (order + places * np.arange(len(order))[:, None]).ravel()
+    found = least(lambda x, rows: parts.scored(x, which[best][rows]), first.at[best], low, high)
+    value, noise = (each.reshape(order.shape) for each in (found.value, found.at[:, 3]))
+    k = np.arange(len(order)), value.argmin(axis=1)
+    return Split(value[k], np.sqrt(np.exp(noise[k]) * parts.part))
+
+
+def _starts(parts: Parts) -> Batch:
+    """Parameters to start from, tail and all: as many rows for each filter, one filter after the other."""
+    slow = np.argsort(parts.frequency)[: max(4, len(parts.frequency) // 20)]
+    powers = np.log(parts.power)
+    top, (bottom, middle) = float(powers.max()), np.quantile(powers, [0.05, 0.3])
+    heights = [
+        (b, q, float(np.median(powers[slow] + np.minimum((parts.frequency[slow] / b) ** q, 30.0))))
+        for b, q in product(FALLS, STEEPS)
+    ]
+    heights += [(b, q, float(np.median(powers)) + 1.0) for b, q in BROAD]
+    return np.array(
+        [
+            [height, np.log(b), np.log(q), noise, bottom - 1.0, top - 6.0]
+            for usual, (b, q, height) in product(parts.usual, heights)
+            for noise in (usual, middle)
+        ]
+    )

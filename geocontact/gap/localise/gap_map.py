@@ -1,0 +1,240 @@
+"""Where the gap lies: over channel and phase and state (each input, its rate, the load).
+
+The residual of the base model, its trial-to-trial part taken off, is summed over blocks inside trials, longer than the
+noise remembers. A cell's statistic is its sum over blocks in units of the root of the summed squares. Under no gap each
+block's sign is arbitrary: flipping them at random gives the distribution of the largest statistic over the whole map,
+so that the p-values hold for the family of all cells (Nichols & Holmes, Hum. Brain Mapp. 15:1, 2002). Of the squared
+residual along an axis, what is left when the squared means (their variance taken off) are taken away is the floor: with
+it the parts add up to the whole. Intervals of the shares are from blocks drawn anew within each trial.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.differentiated_inputs import recorded
+from geocontact.chain.system import System
+from geocontact.gap.case.problem import Problem, noise_variance
+from geocontact.gap.data_errors.correction import put_back
+from geocontact.gap.data_errors.gross import Fault
+from geocontact.gap.localise.cell import Cell, shares
+from geocontact.gap.localise.frequency_map import frequency_map
+from geocontact.gap.selection.evidence import Judged
+
+LOADS = ("N", "N m")
+PHASES = 20
+BINS = 6
+BLOCKS = 16  # per trial
+FLIPS = 2000
+RESAMPLED = 400  # times that blocks are drawn anew
+FAMILIES = 2  # of cells, each with its own family-wise p
+HOLDS = 0.70  # of the squared gap lies in the window that is reported
+GRID = 101
+SMOOTHED = 0.025  # of a trial, over which a residual is smoothed
+
+
+@dataclass(frozen=True)
+class Window:
+    """Where a channel's gap is over a trial: the shortest stretch that holds 70 % of it."""
+
+    channel: str
+    phase: tuple[float, float]
+    share: float
+    p_value: float
+
+
+def gap_map(problem: Problem, base: Judged) -> tuple[Cell, ...]:
+    """Every cell, all trials."""
+    residuals = _deviations_off(problem, base)
+    return (*_means(problem, base, residuals), *frequency_map(problem, base, residuals))
+
+
+def windows(
+    problem: Problem,
+    clean: Problem,
+    base: Judged,
+    after: Judged | None,
+    fault: Fault | None,
+    cells: tuple[Cell, ...],
+) -> tuple[Window, ...]:
+    """Channels with a gap, the one with most of it first, on the held-out trials.
+
+    `problem` is the case as it came, `clean` the one with the mistake `fault` undone. `base`, and `after` where
+    something was named, were fitted to the latter.
+
+    With a model that explains the gap it is the difference of the two predictions; without one it is the squared
+    residual less the variance of the noise.
+    """
+    count = len(problem.calibration.trials)
+    phase = np.linspace(0.0, 1.0, GRID)
+    curves = np.zeros((GRID, len(problem.system.outputs)))
+    gaps = missed(problem, after, fault)
+    for i, (trial, there) in enumerate(zip(problem.evaluation.trials, problem.evaluation.present, strict=True)):
+        noise = 0.0 if after is not None else noise_variance(clean.layouts[count + i], base.noise.levels)
+        square = gaps[i] ** 2 - noise
+        own = (trial.time - trial.time[0]) / (trial.time[-1] - trial.time[0])
+        for c in range(curves.shape[1]):
+            curves[:, c] += np.interp(phase, own, np.where(there[:, c], square[:, c], 0.0))
+    curves = np.maximum(curves if after is not None else smoothed(curves), 0.0)
+    parts = curves.sum(axis=0) / problem.floor**2
+    shares = parts / max(parts.sum(), 1e-300)
+    found = [
+        Window(name, shortest(curves[:, c]), float(shares[c]), _least(cells, name))
+        for c, name in enumerate(problem.system.outputs)
+        if parts[c] > 0.0
+    ]
+    return tuple(sorted(found, key=lambda window: -window.share))
+
+
+def missed(problem: Problem, after: Judged | None, fault: Fault | None) -> list[Float[np.ndarray, "_ c"]]:
+    """What the base model misses of each held-out trial: what `after` adds, or without it the whole residual."""
+    before = problem.evaluation.residuals(problem.system, problem.plain.values)
+    if after is None:
+        return before
+    count = len(problem.calibration.trials)
+    return [
+        own - put_back(fault, trial.name, problem.system.outputs, left)
+        for trial, own, left in zip(problem.evaluation.trials, before, after.model.residuals[count:], strict=True)
+    ]
+
+
+def shortest(curve: Float[np.ndarray, " g"]) -> tuple[float, float]:
+    """Shortest window of an evenly spaced curve over 0...1 that holds 70 % of its sum."""
+    total = np.concatenate([[0.0], np.cumsum(curve)])
+    wanted = HOLDS * total[-1]
+    ends = np.searchsorted(total, total[:-1] + wanted - 1e-12 * total[-1])
+    starts = np.arange(len(curve))
+    inside = ends <= len(curve)
+    width = np.where(inside, ends - starts, len(curve) + 1)
+    best = int(np.argmin(width))
+    return float(best / len(curve)), float(min(ends[best], len(curve)) / len(curve))
+
+
+def smoothed(curves: Float[np.ndarray, "t ..."]) -> Float[np.ndarray, "t ..."]:
+    """Curves over a trial, without what is shorter than a part of it."""
+    from scipy.ndimage import gaussian_filter1d
+
+    return np.asarray(gaussian_filter1d(curves, SMOOTHED * len(curves), axis=0, mode="nearest"))
+
+
+def _least(cells: tuple[Cell, ...], channel: str) -> float:
+    """Of the channel's most significant cell, of two families: means, and what is faster."""
+    return min(1.0, FAMILIES * min((cell.p_value for cell in cells if cell.channel == channel), default=1.0))
+
+
+def _deviations_off(problem: Problem, base: Judged) -> list[Float[np.ndarray, "_ c"]]:
+    """Residuals without what trials deviate by."""
+    from geocontact.identify.noise.trial_variation import Products, deviations
+
+    left = []
+    for whitener, residual, jacobian in zip(
+        base.noise.whiteners, base.model.residuals, base.model.jacobian, strict=True
+    ):
+        design = jacobian[..., : len(problem.usual)]
+        products = Products.of(whitener(residual[..., None])[:, 0], whitener(design))
+        left.append(residual - design @ deviations(products, base.noise.varies))
+    return left
+
+
+def _means(problem: Problem, base: Judged, residuals: list[Float[np.ndarray, "_ c"]]) -> list[Cell]:
+    trials = problem.calibration.trials + problem.evaluation.trials
+    present = problem.calibration.present + problem.evaluation.present
+    blocks = [np.minimum(np.arange(len(t)) * BLOCKS // len(t), BLOCKS - 1) for t in trials]
+    rng = np.random.default_rng(0)
+    cells = []
+    for axis, values, edges in _axes(problem, base):
+        which = [np.clip(np.searchsorted(edges, v, side="right") - 1, 0, len(edges) - 2) for v in values]
+        for c, name in enumerate(problem.system.outputs):
+            sums, counts = (np.zeros((len(trials), BLOCKS, len(edges) - 1)) for _ in range(2))
+            total = 0.0
+            for i, (residual, there, own) in enumerate(zip(residuals, present, which, strict=True)):
+                rows = np.flatnonzero(there[:, c])
+                np.add.at(sums[i], (blocks[i][rows], own[rows]), residual[rows, c])
+                np.add.at(counts[i], (blocks[i][rows], own[rows]), 1.0)
+                total += float((residual[rows, c] ** 2).sum())
+            cells += [_Sums(name, axis, edges, sums, counts, total)]
+    p_values = _family_wise([each.sums.reshape(-1, each.sums.shape[-1]) for each in cells])
+    return [cell for each, p in zip(cells, p_values, strict=True) for cell in each.cells(p, rng)]
+
+
+@dataclass(frozen=True)
+class _Sums:
+    """Residual of a channel along an axis: sums and counts of the bins, block by block, and its sum of squares."""
+
+    channel: str
+    axis: str
+    edges: Float[np.ndarray, " e"]
+    sums: Float[np.ndarray, "i k b"]
+    counts: Float[np.ndarray, "i k b"]
+    total: float
+
+    def cells(self, p_values: Float[np.ndarray, " b"], rng: np.random.Generator) -> list[Cell]:
+        """Those that were measured in."""
+        count = self.counts.sum(axis=(0, 1))
+        squares = systematic(self.sums, self.counts)
+        some = rng.integers(BLOCKS, size=(RESAMPLED, *self.sums.shape[:2]))
+        trial = np.arange(len(self.sums))[:, None]
+        drawn = np.array([shares(systematic(self.sums[trial, k], self.counts[trial, k])) for k in some])
+        low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
+        share, floor = shares(squares), 1.0 - float(squares.sum()) / max(self.total, 1e-300)
+        mean = self.sums.sum(axis=(0, 1)) / np.maximum(count, 1.0)
+        return [
+            Cell(
+                self.channel, self.axis, float(self.edges[b]), float(self.edges[b + 1]), float(mean[b]),
+                float(share[b]), float(p_values[b]), (float(low[b]), float(high[b])), floor,
+            )
+            for b in np.flatnonzero(count)
+        ]  # fmt: skip
+
+
+def systematic(sums: Float[np.ndarray, "i k b"], counts: Float[np.ndarray, "i k b"]) -> Float[np.ndarray, " b"]:
+    """Squared gap of each bin: its mean squared, less the variance of the mean, for every sample."""
+    count = np.maximum(counts.sum(axis=(0, 1)), 1.0)
+    return np.asarray(np.maximum(sums.sum(axis=(0, 1)) ** 2 - (sums**2).sum(axis=(0, 1)), 0.0) / count)
+
+
+def _family_wise(tables: list[Float[np.ndarray, "k _"]]) -> list[Float[np.ndarray, " _"]]:
+    """p of every column of block sums, by flipping the signs of all blocks of a map."""
+    together = np.concatenate(tables, axis=1)
+    size = np.sqrt((together**2).sum(axis=0))
+    size[size == 0.0] = np.inf
+    signs = np.random.default_rng(0).choice([-1.0, 1.0], (FLIPS, len(together)))
+    largest = np.abs(signs @ (together / size)).max(axis=1)
+    statistic = np.abs((together / size).sum(axis=0))
+    p_values = (1.0 + (largest[:, None] >= statistic).sum(axis=0)) / (1.0 + FLIPS)
+    return np.split(p_values, np.cumsum([table.shape[1] for table in tables])[:-1])
+
+
+def _axes(problem: Problem, base: Judged) -> list[tuple[str, list[np.ndarray], Float[np.ndarray, " e"]]]:
+    """Name, values per trial and bin edges of every axis."""
+    trials = problem.calibration.trials + problem.evaluation.trials
+    outputs = problem.calibration.outputs + problem.evaluation.outputs
+    phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
+    found = [("phase", phase, np.linspace(0.0, 1.0, PHASES + 1))]
+    movements = [recorded(t.signals, problem.system.inputs) for t in trials]
+    for row, name in enumerate(problem.system.inputs):
+        position, rate = [m.position[row] for m in movements], [m.rate[row] for m in movements]
+        found += [(axis, values, _quantiles(values)) for axis, values in ((name, position), (f"{name}'", rate))]
+    rows = load_outputs(problem.system)
+    if rows:
+        predicted = [(m - r)[:, rows] for m, r in zip(outputs, base.model.residuals, strict=True)]
+        load = [p[:, 0] if len(rows) == 1 else np.linalg.norm(p, axis=1) for p in predicted]
+        found.append(("load", [np.nan_to_num(v) for v in load], _quantiles(load)))
+    return found
+
+
+def load_outputs(system: System) -> list[int]:
+    """Outputs whose predicted values are the load, or whose root of summed squares is: forces, else moments."""
+    for unit in LOADS:
+        rows = [i for i, name in enumerate(system.outputs) if system.unit(name) == unit]
+        if rows:
+            return rows
+    return []
+
+
+def _quantiles(values: list[np.ndarray]) -> Float[np.ndarray, " e"]:
+    together = np.concatenate(values)
+    return np.unique(np.quantile(together[np.isfinite(together)], np.linspace(0.0, 1.0, BINS + 1)))

@@ -1,0 +1,146 @@
+"""How far the gap shrinks on trials that were not used once the effect is in the model.
+
+What is asked for is the reduction on fresh trials of the same kind, of which the held-out ones are a few, against the
+model with the effect at its true values. Where these lie is best told by all trials together. The error that stays, a²,
+is what that best fit leaves of each trial and what it bent towards it, with what the fitted noise levels imply counted
+as part of a trial more. The error that goes, g², is how far the base model, fitted to few trials, is from the truth on
+the held-out ones: from the best fit, and what that errs by itself; and what noise of the inputs makes of the one error
+beyond the other, which may be less than nothing. Then
+
+    reduction = 1 - rmse_after / rmse_before = 1 - (1 + g²/a²)^(-1/2).
+
+The interval comes from the spread of g²/a²: parameters and the form of the effect, which is never exactly that of the
+candidate (from the fit), trials that differ in motion and in their deviations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from geocontact.gap.case.problem import Problem
+from geocontact.gap.data_errors.gross import Fault
+from geocontact.gap.reduction.raw_input_errors import Errors, errors_as_measured, misjudged, passed_on
+from geocontact.gap.selection.evidence import Judged
+
+FORM = 0.04  # relative standard deviation of g² for the form of the effect
+HEARD, UNHEARD = (
+    2.0,
+    0.05,
+)  # of g²/a², that it may lie below 0: times what noise of the inputs was seen to make, and more
+LEAST = -0.75  # that it is at the least
+WIDE = 1.0  # half-width of the interval of log(g²/a²) up to which it is taken of the logarithm
+TELLING = 2.0  # times the squared floor that the squared error before must be, for a share to mean something
+
+
+@dataclass(frozen=True)
+class Shrinkage:
+    """One channel's gap.
+
+    Parameters
+    ----------
+    rmse_before, rmse_after
+        On the held-out trials as they were measured, without and with the effect [the channel's unit].
+    floor
+        Noise, noise of inputs and trial-to-trial variation, root mean square on the held-out trials.
+    reduction, low, high
+        Of fresh trials of the same kind, and its 95 % interval.
+    unexplained
+        (mse_after - floor²)/(mse_before - floor²); None where there is too little gap for it.
+    """
+
+    rmse_before: float
+    rmse_after: float
+    floor: float
+    reduction: float
+    low: float
+    high: float
+    unexplained: float | None
+
+
+def shrinkage(
+    problem: Problem, clean: Problem, after: Judged, named: bool, fault: Fault | None = None
+) -> dict[str, Shrinkage]:
+    """Of every channel.
+
+    Parameters
+    ----------
+    problem, clean
+        The case as it came, and with a mistake in its data undone; the same where there is none.
+    after
+        The model with what was named, fitted to the clean case, or the base where nothing was.
+    named
+        Whether anything was.
+    fault
+        The mistake. Calibration trials that have it while others have not tell nothing of what stays on others.
+    """
+    from scipy.stats import t
+
+    errors = errors_as_measured(problem, clean, after, fault)
+    count, present = len(problem.calibration.trials), problem.recorded.present
+    student = float(t.ppf(0.975, max(errors.told_by - 1, 1)))  # a spread that is known from as few trials
+    heard = np.zeros(len(problem.system.outputs))
+    if named and fault is None:  # beside a mistake in the data noise of the inputs is nothing
+        base = (problem.system.as_measured(), errors.values, errors.before[count:])
+        own = (after.model.system.as_measured(), after.model.values, errors.after[count:])
+        heard = passed_on(problem, after, [base, own])
+    found = {}
+    for c, name in enumerate(problem.system.outputs):
+        error = _mean_square(errors.before[count:], present[count:], c)
+        stays = _mean_square(errors.after[count:], present[count:], c)
+        floor = float(np.mean([f[c] for f in errors.implied[count:]]))
+        if not named:
+            found[name] = Shrinkage(error**0.5, error**0.5, floor**0.5, 0.0, 0.0, 0.0, None)
+            continue
+        (gone, gone_sd), (left, left_sd) = _gone(problem, errors, c), errors.left[c]
+        gone += float(heard[c])
+        spread = student * float(np.hypot(gone_sd, gone / left * left_sd)) / left
+        least = max(-(HEARD * abs(float(heard[c])) / left + UNHEARD), LEAST)
+        low, middle, high = (1.0 - (1.0 + max(each, least)) ** -0.5 for each in between(gone / left, spread))
+        share = None
+        if error >= TELLING * floor:
+            share = min(max(left - floor, 0.0) / (left + gone - floor), 1.0) if left + gone > floor else 0.0
+        found[name] = Shrinkage(error**0.5, stays**0.5, floor**0.5, float(middle), float(low), float(high), share)
+    return found
+
+
+def between(ratio: float, spread: float) -> tuple[float, float, float]:
+    """An interval of g²/a²: of its logarithm, `spread`/`ratio` to either side, as long as that is `WIDE` at the most.
+
+    What is spread wider than that may be less than nothing; its two sides go on growing in proportion, without a jump.
+    """
+    relative = spread / ratio if ratio > 0.0 else np.inf
+    down, up = (1.0 - np.exp(-WIDE)) / WIDE, (np.exp(WIDE) - 1.0) / WIDE
+    if relative <= WIDE:
+        return ratio * float(np.exp(-relative)), ratio, ratio * float(np.exp(relative))
+    return ratio - down * spread, ratio, ratio + up * spread
+
+
+def _mean_square(residuals: list[np.ndarray], present: tuple[np.ndarray, ...], c: int) -> float:
+    values = np.concatenate([r[p[:, c], c] for r, p in zip(residuals, present, strict=True)])
+    return float(np.mean(values**2)) if len(values) else 0.0
+
+
+def _gone(problem: Problem, errors: Errors, c: int) -> tuple[float, float]:
+    """Mean square that the base model's error has beyond what stays, and its standard deviation.
+
+    The base model, fitted to few trials, misses the truth by d + e, d the difference to the best fit with the effect, e
+    that fit's own error; an efficient fit errs independently of what others differ from it by, so the squares add.
+    """
+    squares, slopes, alike = [], [], []
+    for i in range(len(problem.calibration.trials), len(errors.before)):
+        there = problem.recorded.present[i][:, c]
+        own = errors.derivatives[i][there, c]
+        if not len(own):
+            continue
+        off = (errors.before[i] - errors.best[i])[there, c]
+        squares.append(float(np.mean(off**2)))
+        slopes.append(2.0 * off @ own / len(off))
+        alike.append(misjudged(own, errors.known))
+    if not squares:
+        return 0.0, 0.0
+    slope, more = np.mean(slopes, axis=0), float(np.mean(alike))
+    gone = float(np.mean(squares)) + more
+    scatter = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (0.3 * gone) ** 2
+    return gone, float(np.sqrt(slope @ errors.known @ slope + scatter + (FORM * gone) ** 2 + more**2))

@@ -1,0 +1,204 @@
+"""Errors of the base model and of the answer on every trial, inputs and their central differences as measured.
+
+That is what a simulator in somebody's hands does; smoothing inputs first leaves less of an error than is reported here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.system import System
+from geocontact.gap.case.problem import Plain, Problem, differences, noise_variance
+from geocontact.gap.case.refit import refit
+from geocontact.gap.data_errors.correction import put_back
+from geocontact.gap.data_errors.gross import Fault
+from geocontact.gap.inputs.denoise import changed, drawn
+from geocontact.gap.inputs.spectrum import switches
+from geocontact.gap.selection.evidence import Judged, prior_spread
+
+IMPLIED = 0.3  # trials that the fitted noise levels count as
+DRAWS, SEED = 16, 0  # of noise that is added to inputs
+NOTHING = 1e-300  # mean square of a channel that is never measured
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Residuals per trial, calibration first, of what was recorded, mistakes in the data included.
+
+    Parameters
+    ----------
+    before
+        Base model refitted to the calibration trials by plain least squares, every channel divided by its floor.
+    after
+        The answer at its values, fitted to the calibration trials.
+    best
+        The answer where all trials together put it (to first order), its effects bent as they may be otherwise than
+        their candidates (`gap.selection.model_discrepancy`): nearest to the truth, not to be reported as an error on trials it was fitted to.
+    derivatives
+        Of the answer's predictions, with respect to its parameters and to how its effects are bent.
+    known
+        Covariance of these in `best`.
+    implied
+        Mean square per trial and channel that the fitted noise levels imply.
+    left
+        Mean square that stays on a fresh trial, and its standard deviation, per channel; the squared floor.
+    told_by
+        How many trials tell that.
+    values
+        Of the base model's parameters.
+    """
+
+    before: list[Float[np.ndarray, "_ c"]]
+    after: list[Float[np.ndarray, "_ c"]]
+    best: list[Float[np.ndarray, "_ c"]]
+    derivatives: list[Float[np.ndarray, "_ c p"]]
+    known: Float[np.ndarray, "p p"]
+    implied: list[Float[np.ndarray, " c"]]
+    left: tuple[tuple[float, float], ...]
+    told_by: int
+    values: dict[str, float]
+
+
+def errors_as_measured(problem: Problem, clean: Problem, answer: Judged, fault: Fault | None) -> Errors:
+    """Errors of a case: as it came (`problem`), and with a mistake in its data undone (`clean`).
+
+    For the base fit channels are divided by the floors that the answer leaves: those that suit the base model would
+    give little weight to the channel that it misses most.
+    """
+    whole, outputs = problem.recorded, problem.system.outputs
+    names, count = [trial.name for trial in whole.trials], len(problem.calibration.trials)
+    derivatives = [put_back(fault, n, outputs, d) for n, d in zip(names, directions(answer), strict=True)]
+    model = answer.model
+    predicted = clean.recorded.residuals(model.system.as_measured(), model.values)
+    after = [put_back(fault, name, outputs, each) for name, each in zip(names, predicted, strict=True)]
+    varies = seen(clean, answer)
+    shift, known = from_all_trials(clean, answer, varies)
+    best = [r - j @ shift for r, j in zip(after, derivatives, strict=True)]
+    implied = _implied(clean, answer, varies, fault)
+    sound = [fault is None or name not in fault.trials for name in names[:count]]
+    used = [*(sound if any(sound) else [True] * count), *(True for _ in names[count:])]
+    left = tuple(_left(problem, derivatives, known, used, best, implied, c) for c in range(len(outputs)))
+    first = replace(whole, trials=whole.trials[:count], outputs=whole.outputs[:count])
+    weigh = [Plain(there, np.sqrt([value for value, _ in left])) for there in first.present]
+    base = problem.system.as_measured()
+    values = refit(base, first, weigh, [problem.plain.values], 20).values
+    before = whole.residuals(base, values)
+    return Errors(before, after, best, derivatives, known, implied, left, sum(used), values)
+
+
+def passed_on(
+    problem: Problem, answer: Judged, pair: list[tuple[System, dict[str, float], list[Float[np.ndarray, "_ c"]]]]
+) -> Float[np.ndarray, " c"]:
+    """2 E[a (b - a)] with a, b what noise of the inputs does to the answer's prediction and to the base model's.
+
+    Per channel, on the held-out trials: what it makes of the square of the base model's error beyond the answer's, less
+    the square of the difference of the two. `pair` are the base model and the answer, as they see what was measured:
+    system, values, residuals on those trials. Noise is drawn, as loud as the answer has it, and added to what was
+    recorded (simulation extrapolation: Cook & Stefanski 1994, J. Am. Stat. Assoc. 89:1314). A draw in which a
+    simulation fails tells nothing.
+    """
+    trials, rng = problem.recorded.trials[len(problem.calibration.trials) :], np.random.default_rng(SEED)
+    held_out = replace(problem.recorded, trials=trials, outputs=problem.evaluation.outputs)
+    levels = dict(zip(problem.system.inputs, answer.noise.levels.inputs, strict=True))
+    noisy = [name for name in levels if not switches(problem.recorded.trials, name)]
+
+    def change(name: str, even: Float[np.ndarray, " n"], step: float) -> Float[np.ndarray, " n"]:
+        return drawn(rng, len(even), step, levels[name], problem.passed[name])
+
+    found = []
+    for _ in range(DRAWS):
+        more = replace(held_out, trials=tuple(changed(trial, noisy, change) for trial in trials))
+        base, own = (differences(more, *each) for each in pair)
+        product = [2.0 * a * (b - a) for a, b in zip(own, base, strict=True)]
+        sums = [np.where(there, each, 0.0).sum(axis=0) for each, there in zip(product, held_out.present, strict=True)]
+        found.append(sum(sums) / np.maximum(sum(there.sum(axis=0) for there in held_out.present), 1))
+    told = [each for each in found if np.isfinite(each).all()]
+    return np.asarray(np.mean(told, axis=0) if told else np.zeros(len(problem.system.outputs)))
+
+
+def seen(clean: Problem, after: Judged) -> Float[np.ndarray, " q"]:
+    """How much the base parameters differ between trials, around the best fit to all of them."""
+    shift, _ = from_all_trials(clean, after, after.noise.varies)
+    moved = [r - d @ shift for r, d in zip(after.model.residuals, directions(after), strict=True)]
+    return clean.seen_variation(replace(after.model, residuals=moved), after.noise.levels)
+
+
+def from_all_trials(
+    clean: Problem, after: Judged, varies: np.ndarray
+) -> tuple[Float[np.ndarray, " p"], Float[np.ndarray, "p p"]]:
+    """How parameters and bends move when the held-out trials tell of them too, and their covariance then.
+
+    Nothing that is fitted is reported of a trial it was fitted to; this is where the true values are believed to lie.
+    Trials vary as much as they are seen to, so that few of them tell less than many samples would.
+    """
+    noise = replace(after.noise, varies=varies)
+    weighings = clean.weighings(noise, after.model)
+    model = after.model.weighed(weighings)
+    bent = np.concatenate([weigh(b) for weigh, b in zip(weighings, after.bends, strict=True)])
+    spread = np.concatenate([prior_spread(model.system, model.values), np.ones(bent.shape[1])])
+    scaled = np.concatenate([model.whitened_jacobian, bent], axis=1) * spread
+    covariance = np.linalg.inv(np.eye(len(spread)) + scaled.T @ scaled)
+    return spread * (covariance @ (scaled.T @ model.whitened)), spread[:, None] * covariance * spread
+
+
+def directions(one: Judged) -> list[Float[np.ndarray, "_ c k"]]:
+    """Per trial, what is free to move: derivatives with respect to parameters, then bends."""
+    pairs = zip(one.model.jacobian, one.bends, strict=True)
+    return [np.concatenate([jacobian, bends], axis=-1) for jacobian, bends in pairs]
+
+
+def _implied(clean: Problem, after: Judged, varies: np.ndarray, fault: Fault | None) -> list[Float[np.ndarray, " c"]]:
+    """Mean square per channel of what no model can predict, trial by trial.
+
+    Sensor noise, noise that inputs bring in, what smoothing them would take off, and trial-to-trial variation.
+    """
+    found = []
+    raw = clean.recorded.residuals(after.model.system.as_measured(), after.model.values)
+    everything = zip(
+        clean.layouts, after.model.jacobian, clean.recorded.present, after.model.residuals, raw, strict=True
+    )
+    for trial, (layout, jacobian, there, smooth, rough) in zip(clean.recorded.trials, everything, strict=True):
+        own = noise_variance(layout, after.noise.levels) + _varied(jacobian, varies) + (smooth - rough) ** 2
+        own = put_back(fault, trial.name, clean.system.outputs, np.sqrt(own)) ** 2
+        found.append(np.where(there, own, 0.0).sum(axis=0) / np.maximum(there.sum(axis=0), 1))
+    return found
+
+
+def _varied(jacobian: Float[np.ndarray, "t c p"], varies: Float[np.ndarray, " q"]) -> Float[np.ndarray, "t c"]:
+    """Variance that trial-to-trial variation brings to each sample."""
+    return np.asarray(((jacobian[..., : len(varies)] * varies) ** 2).sum(axis=-1))
+
+
+def misjudged(derivatives: Float[np.ndarray, "t p"], posterior: Float[np.ndarray, "p p"]) -> float:
+    """Mean square error of predictions because parameters are not known exactly."""
+    return float(np.einsum("tp,pq,tq->", derivatives, posterior, derivatives)) / len(derivatives)
+
+
+def _left(
+    problem: Problem,
+    derivatives: list[np.ndarray],
+    known: np.ndarray,
+    used: list[bool],
+    best: list[np.ndarray],
+    implied: list[np.ndarray],
+    c: int,
+) -> tuple[float, float]:
+    """Mean square error that stays on a fresh trial, and its standard deviation.
+
+    The best fit bent towards each trial, so each shows less than a fresh one will.
+    """
+    count = len(problem.calibration.trials)
+    each, more = [], []
+    for i, (residual, there, columns) in enumerate(zip(best, problem.recorded.present, derivatives, strict=True)):
+        own = there[:, c]
+        if own.any() and used[i]:
+            more.append(misjudged(columns[own, c], known))
+            each.append(float(np.mean(residual[own, c] ** 2)) + more[-1])
+    floor = float(np.mean([f[c] for f in implied[count:]]))
+    weight = len(each) + IMPLIED
+    left = max((sum(each) + IMPLIED * floor) / weight, NOTHING)
+    scatter = float(np.var(each, ddof=1)) if len(each) > 1 else left**2
+    return left, float(np.sqrt(scatter / weight + np.mean(more) ** 2)) if more else left

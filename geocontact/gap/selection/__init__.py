@@ -1,0 +1,1 @@
+"""Which candidate explains the gap: evidence, comparison, verdict."""

@@ -1,0 +1,235 @@
+"""What no candidate makes and no surrogate sees: a narrow line, ringing, a burst, held samples, coarse steps.
+
+Noise is coloured at most, its spectrum smooth; whitened by the right model it is white. Each check compares the
+whitened residual, or the recording itself, with that, and says in nats (minus the logarithm of a p-value that is
+corrected for everything that was looked at) how far off it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.data.trial import Trial
+from geocontact.gap.case.problem import Problem
+from geocontact.gap.inputs.quantisation import resolution
+from geocontact.gap.inputs.recorded_steps import measured_columns
+from geocontact.gap.inputs.spectrum import switches
+from geocontact.gap.selection.evidence import Judged, bent_off
+
+WINDOWS = (4, 8, 16, 32, 64)  # samples
+SHORTEST = 64  # samples of a trial whose spectrum is looked at
+BESIDE = (-8, -7, -6, -5, -4, -3, 3, 4, 5, 6, 7, 8)  # bins that a line is compared with
+TURNS = 6  # periods in a trial from which something may be a line
+MOVES = 0.01  # of the largest amplitude in an input's spectrum, from which a frequency belongs to the movement
+OTHERS = 4  # times the width of a stretch that what it is compared with counts for
+PACKETS = (16, 24, 32)  # samples that an oscillation is looked for in
+CYCLES = 4  # periods per window from which it counts as one
+HELD_USUALLY = 2e-3  # share of samples that repeat the last by chance, at the least
+COARSE, SURELY = 0.33, 12.0  # steps, in noise levels, that are coarse, and how sure that makes of it [nats]
+
+
+@dataclass(frozen=True)
+class Oddity:
+    """In words what is odd, where, and how sure that is [nats]."""
+
+    words: str
+    channel: str
+    nats: float
+
+
+def oddities(problem: Problem, judged: Judged) -> list[Oddity]:
+    """Every check, the surest first."""
+    found = [
+        *lines(problem, judged),
+        *ringing(problem, judged),
+        *bursts(problem, judged),
+        *held(problem),
+        *steps(problem),
+    ]
+    return sorted(found, key=lambda each: -each.nats)
+
+
+def innovations(problem: Problem, judged: Judged) -> list[list[Float[np.ndarray, " _"]]]:
+    """Whitened residual of each channel of each trial in the order of time, without what bends make up for."""
+    weighings = problem.weighings(judged.noise, judged.model)
+    channels = len(problem.floor)
+    out = []
+    for weighing, residual in zip(weighings, bent_off(judged), strict=True):
+        white = weighing(residual[..., None])[:, 0]
+        flat = np.full(residual.size, np.nan)
+        flat[np.concatenate(weighing.whitener.rows)] = white
+        out.append([column[np.isfinite(column)] for column in flat.reshape(-1, channels).T])
+    return out
+
+
+def lines(problem: Problem, judged: Judged) -> list[Oddity]:
+    """A narrow line in the spectrum: power at one frequency against that of its neighbours, trials taken together.
+
+    At frequencies of the movement a model misses something, and nothing is odd. What only goes on and off has all
+    frequencies, and is no movement.
+    """
+    from scipy.stats import f, gamma
+
+    found = []
+    trials = [*problem.calibration.trials, *problem.evaluation.trials]
+    moved = [name for name in problem.system.inputs if not switches(trials, name)]
+    rows = innovations(problem, judged)
+    for c, name in enumerate(problem.system.outputs):
+        long = [(trial, row[c]) for trial, row in zip(trials, rows, strict=True) if len(row[c]) >= SHORTEST]
+        series = [x for _, x in long]
+        if not series:
+            continue
+        grid = np.linspace(0.0, 0.5, max(map(len, series)) // 2)
+        doubt = np.zeros(len(grid))
+        for trial, x in long:
+            power = np.abs(np.fft.rfft((x - x.mean()) * np.hanning(len(x)))) ** 2
+            usual, beside = _around(power)
+            nats = -f.logsf(power / usual, 2, beside)  # neighbours overlap under the window, so half of them count
+            ruled_out = moving(trial, moved, len(power))
+            ruled_out[:TURNS] = ruled_out[-1] = True  # at Nyquist's frequency power has half the freedom
+            doubt += np.interp(grid, np.arange(len(power)) / len(x), np.where(ruled_out, 0.0, nats))
+        peak = int(np.argmax(doubt))
+        nats = -float(gamma.logsf(doubt[peak], len(series))) - float(np.log(len(grid)))
+        hertz = grid[peak] / problem.system.scale.step
+        found.append(Oddity(f"a line at {hertz:.3g} Hz", name, max(nats, 0.0)))
+    return found
+
+
+def moving(trial: Trial, inputs: Sequence[str], count: int) -> Bool[np.ndarray, " f"]:
+    """Which of `count` frequencies from 0 to Nyquist's are part of the movement of some input."""
+    frequency = np.linspace(0.0, 0.5, count)
+    found = np.zeros(count, bool)
+    for name in inputs:
+        column = trial.column(name)
+        there = np.isfinite(column)
+        if not there.any() or np.ptp(column[there]) == 0.0:
+            continue
+        grid = np.arange(len(column))
+        even = np.interp(grid, grid[there], column[there])
+        size = np.abs(np.fft.rfft((even - even.mean()) * np.hanning(len(even))))
+        wide = np.maximum.reduce([size, np.roll(size, 1), np.roll(size, -1)])
+        found |= np.interp(frequency, np.fft.rfftfreq(len(even)), wide) > MOVES * size.max()
+    return found
+
+
+def _around(power: Float[np.ndarray, " f"]) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
+    """Mean power of the bins a little to either side, and how many of them there are."""
+    at = np.arange(len(power))[:, None] + np.array(BESIDE)
+    there = (at > 0) & (at < len(power))
+    count = there.sum(axis=1).astype(float)
+    return (power[np.where(there, at, 0)] * there).sum(axis=1) / count, count
+
+
+def ringing(problem: Problem, judged: Judged) -> list[Oddity]:
+    """An oscillation that comes at the same phase of every trial and dies away: power there against that elsewhere.
+
+    Of one frequency, beyond what all frequencies gain there.
+    """
+    from scipy.stats import f
+
+    found = []
+    rows = innovations(problem, judged)
+    for c, name in enumerate(problem.system.outputs):
+        best, hertz = 0.0, 0.0
+        for width in PACKETS:
+            spectra = [_packets(trial[c], width) for trial in rows if len(trial[c]) >= 4 * width]
+            if not spectra:
+                continue
+            frames = min(map(len, spectra))
+            grid = np.linspace(0.0, 1.0, frames)
+            together = np.mean([_along(each, grid) for each in spectra], axis=0)
+            usual = np.mean([each.mean(axis=0) for each in spectra], axis=0)
+            others = (usual * frames - together) / (frames - 1)
+            freedom = 2 * len(spectra)
+            ratio = together / others
+            ratio /= np.maximum(np.median(ratio, axis=1, keepdims=True), 1.0)  # louder at all frequencies is no ringing
+            nats = -f.logsf(ratio, freedom, freedom * frames // 2) - np.log(ratio.size * len(PACKETS))
+            frame, at = np.unravel_index(int(np.argmax(nats)), nats.shape)
+            if nats[frame, at] > best:
+                best, hertz = float(nats[frame, at]), (at + CYCLES) / (width * problem.system.scale.step)
+        found.append(Oddity(f"ringing at {hertz:.3g} Hz at the same phase of every trial", name, best))
+    return found
+
+
+def _packets(values: Float[np.ndarray, " n"], width: int) -> Float[np.ndarray, "m f"]:
+    """Power spectra of half-overlapping windows, without their lowest frequencies."""
+    starts = range(0, len(values) - width + 1, width // 2)
+    frames = np.array([values[a : a + width] for a in starts]) * np.hanning(width)
+    return np.asarray(np.abs(np.fft.rfft(frames, axis=1)[:, CYCLES:-1]) ** 2)
+
+
+def _along(power: Float[np.ndarray, "m f"], grid: Float[np.ndarray, " p"]) -> Float[np.ndarray, "p f"]:
+    """Frames nearest in phase."""
+    return np.asarray(power[np.round(grid * (len(power) - 1)).astype(int)])
+
+
+def bursts(problem: Problem, judged: Judged) -> list[Oddity]:
+    """A stretch of one trial in which the residual is far larger than there and then in the other trials."""
+    from scipy.stats import f
+
+    found = []
+    rows = innovations(problem, judged)
+    for c, name in enumerate(problem.system.outputs):
+        best, looked = 0.0, 0
+        for width in WINDOWS:
+            energies = [_energy(trial[c], width) for trial in rows if len(trial[c]) >= 4 * width]
+            for own, energy in enumerate(energies):
+                phase = np.linspace(0.0, 1.0, len(energy))
+                others = [
+                    np.interp(phase, np.linspace(0.0, 1.0, len(e)), e) for i, e in enumerate(energies) if i != own
+                ]
+                usual = np.maximum(np.median(others, axis=0), 1.0) if others else np.ones(len(energy))
+                best = max(best, float((-f.logsf(energy / usual, width, OTHERS * width)).max()))
+                looked += 2 * len(energy) // width
+        found.append(Oddity("a burst", name, max(best - float(np.log(max(looked, 1))), 0.0)))
+    return found
+
+
+def _energy(values: Float[np.ndarray, " n"], width: int) -> Float[np.ndarray, " m"]:
+    """Mean square in a running window."""
+    total = np.concatenate([[0.0], np.cumsum(values**2)])
+    return np.asarray((total[width:] - total[:-width]) / width)
+
+
+def held(problem: Problem) -> list[Oddity]:
+    """Samples that repeat the one before, away from the ends of the range, where saturation would hold them.
+
+    By chance as many repeat as the resolution of the recording and the size of its steps suggest.
+    """
+    found = []
+    for c, name in enumerate(problem.system.outputs):
+        columns = measured_columns(problem, c)
+        step = resolution(columns)
+        repeats, count, expected = 0, 0, 0.0
+        for x in columns:
+            low, high = np.percentile(x, [2.0, 98.0])
+            inside = (x[1:] > low) & (x[1:] < high)
+            steps = np.diff(x)[inside]
+            repeats += int((steps == 0.0).sum())
+            count += len(steps)
+            usual = float(np.median(np.abs(steps))) / 0.6745 if len(steps) else 0.0
+            expected += len(steps) * min(0.4 * step / usual if usual > 0.0 else 1.0, 1.0)
+        share, chance = repeats / max(count, 1), max(expected / max(count, 1), HELD_USUALLY)
+        if share > chance:
+            rest = np.log(max(1.0 - share, 1e-12) / max(1.0 - chance, 1e-12))
+            nats = count * (share * np.log(share / chance) + (1.0 - share) * rest)
+            found.append(Oddity(f"{100.0 * share:.1f} % of the samples repeat the last", name, float(nats)))
+    return found
+
+
+def steps(problem: Problem) -> list[Oddity]:
+    """A recording that comes in steps that are coarse against its noise."""
+    found = []
+    for c, name in enumerate(problem.system.outputs):
+        columns = measured_columns(problem, c)
+        step = resolution(columns)
+        values = sum(map(len, columns))
+        distinct = len(np.unique(np.round(np.concatenate(columns) / max(step, 1e-300)))) if values else 0
+        coarse = step / problem.floor_of_noise[c]
+        if coarse > COARSE and distinct < values:
+            found.append(Oddity(f"it comes in steps of {step:.3g}", name, SURELY * coarse / COARSE))
+    return found

@@ -1,0 +1,283 @@
+"""A flexible stand-in for whatever a model misses: bumps over position, rate, both, and time, changing parameters.
+
+A discrepancy as of Kennedy & O'Hagan (2001, J. R. Stat. Soc. B 63:425), on a grid of radial functions of which only
+those are taken, one by one, that are worth their price (matching pursuit: Mallat & Zhang, IEEE Trans. Signal Process.
+41:3397, 1993), their weights integrated out. It cannot name a cause. It answers whether
+there is anything systematic to explain, and how much of it a named effect leaves over.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.differentiated_inputs import recorded
+from geocontact.gap.case.problem import Problem
+from geocontact.gap.selection.evidence import Judged, log_evidence, prior_spread
+from geocontact.gap.selection.evidence import judged as judged_as
+
+ALONG = (12, 30)  # bumps over one input's position or rate, wide ones and narrow ones
+ACROSS = (6,)  # bumps per side over position and rate together
+THROUGH = (6, 16, 40)  # bumps over a trial
+ALONE = (5, 12)  # bumps over a trial that are a trial's own
+CLOSER = 2  # times as close as bumps are wide they stand, so that none falls in between
+STRETCHES = 8  # of a trial, that parameters may differ between
+NARROWEST = 1.5  # steps, in noise levels of the channel, that are looked for
+FEWEST_STAIRS, MOST_STAIRS = 8, 200  # half waves over the range of a channel
+RENEWED = 2  # times that the noise is estimated anew with the stand-in in place
+DEEPEST = 24  # bumps that are taken at most
+RIDGE = 1e-6  # against parameters that do nothing
+SIZES = (0.3, 1.0, 3.0, 10.0, 30.0)  # standard deviation of the weights, in noise levels of the channel
+
+
+@dataclass(frozen=True)
+class Surrogate:
+    """What the best family adds to a model.
+
+    Parameters
+    ----------
+    family
+        "position of beta".
+    gain
+        Of evidence over all trials [nats].
+    calibration
+        The same on the calibration trials alone.
+    price
+        Of choosing family, bumps and sizes [nats].
+    predicted
+        What it predicts of the residual of every trial, in the channels' units.
+    """
+
+    family: str
+    gain: float
+    calibration: float
+    price: float
+    predicted: tuple[Float[np.ndarray, "_ c"], ...]
+
+    @property
+    def nats(self) -> float:
+        """Gain once the choice is paid for."""
+        return self.gain - self.price
+
+
+def surrogate(problem: Problem, judged: Judged) -> Surrogate:
+    """The family that gains most on top of a model, under the noise that suits model and stand-in together.
+
+    Noise that was fitted to what a model misses explains it away. So the stand-in is chosen under the model's own noise
+    and under quieter noise, and noise levels are estimated anew from what the latter's choice leaves over.
+    """
+    spread = prior_spread(judged.model.system, judged.model.values)
+    made = [*families(problem), *lonely(problem, judged)]
+    price = float(np.log(len(made) * (2 + RENEWED)))
+
+    def under(one: Judged) -> Surrogate:
+        weighings = problem.weighings(one.noise, one.model)
+        unbent = _without(one.whitened_bends)
+        known, residual = unbent(one.model.whitened_jacobian * spread), unbent(one.model.whitened[:, None])[:, 0]
+        best = Surrogate("", 0.0, 0.0, 0.0, tuple(np.zeros_like(each) for each in one.model.residuals))
+        for name, features in made:
+            white = unbent(np.concatenate([w(part) for w, part in zip(weighings, features, strict=True)]))
+            found = chosen(residual, white, known, one.fitted_rows, price)
+            if found.gain - found.price > best.nats:
+                shift = spread * found.shift
+                predicted = tuple(
+                    part[..., found.columns] @ found.weights + jacobian @ shift
+                    for part, jacobian in zip(features, one.model.jacobian, strict=True)
+                )
+                best = Surrogate(name, found.gain, found.calibration, found.price, predicted)
+        return best
+
+    quiet = judged_as(problem, judged.model, problem.quieter(judged.noise), judged.bends)
+    found = [(judged, under(judged)), (quiet, under(quiet))]
+    for _ in range(RENEWED):
+        if not found[-1][1].family:
+            break
+        left = [a - b for a, b in zip(judged.model.residuals, found[-1][1].predicted, strict=True)]
+        noise = problem.weighed(replace(judged.model, residuals=left), quiet.noise)
+        other = judged_as(problem, judged.model, noise, judged.bends)
+        found.append((other, under(other)))
+    bare = max((one for one, _ in found), key=lambda one: one.nats)  # better noise alone is no gain of the stand-in
+    gained = [
+        replace(
+            best,
+            gain=best.gain + one.nats - bare.nats,
+            calibration=best.calibration + one.calibration - bare.calibration,
+        )
+        for one, best in found
+    ]
+    return max(gained, key=lambda each: each.nats)
+
+
+def _without(bends: Float[np.ndarray, "n m"]) -> Callable[[Float[np.ndarray, "n k"]], Float[np.ndarray, "n k"]]:
+    """v → (I + B Bᵀ)^(-1/2) v: what the bends of an effect may explain weighs less."""
+    if not bends.shape[1]:
+        return lambda values: values
+    left, singular, _ = np.linalg.svd(bends, full_matrices=False)
+    gains = 1.0 - 1.0 / np.sqrt(1.0 + singular**2)
+    return lambda values: values - left @ (gains[:, None] * (left.T @ values))
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Columns of a family that are worth their price, their weights, and what they gain.
+
+    `shift` is how the fitted parameters move to make room, in units of their prior spread.
+    """
+
+    columns: list[int]
+    weights: Float[np.ndarray, " k"]
+    shift: Float[np.ndarray, " p"]
+    gain: float
+    calibration: float
+    price: float
+
+
+def chosen(
+    residual: Float[np.ndarray, " n"],
+    columns: Float[np.ndarray, "n m"],
+    known: Float[np.ndarray, "n p"],
+    rows: int,
+    price: float,
+) -> Choice:
+    """Bumps taken one by one, each the one that gains most, as long as it gains more than its choice costs.
+
+    `known` are the derivatives of the fitted parameters times their prior spread; what they explain counts for nothing.
+    `rows` is how many of the rows are of calibration trials.
+    """
+    basis, _ = np.linalg.qr(np.concatenate([known, RIDGE * np.eye(known.shape[1])]))
+    basis = basis[: len(known)]
+    left, free = residual - basis @ (basis.T @ residual), columns - basis @ (basis.T @ columns)
+    each = float(np.log(columns.shape[1] * len(SIZES)))
+    taken: list[int] = []
+    directions, spread = np.zeros((0, len(left))), np.zeros(0)
+    squares = np.array(SIZES)[:, None] ** 2
+    power, along = (free**2).sum(axis=0), free.T @ left
+    while len(taken) < DEEPEST:
+        gains = 0.5 * along**2 / (power + 1.0 / squares) - 0.5 * np.log1p(squares * power)
+        size, column = np.unravel_index(int(np.argmax(gains)), gains.shape)
+        if gains[size, column] < each:
+            break
+        taken.append(int(column))
+        spread = np.append(spread, SIZES[size])
+        direction = free[:, column] - directions.T @ (directions @ free[:, column])
+        direction /= np.linalg.norm(direction)
+        directions = np.vstack([directions, direction])
+        shared = free.T @ direction
+        power, along = np.maximum(power - shared**2, 0.0), along - shared * (direction @ left)
+    if not taken:
+        return Choice([], np.zeros(0), np.zeros(known.shape[1]), 0.0, 0.0, price)
+    design = free[:, taken]
+    gain = log_evidence(left, design, spread) + 0.5 * float(left @ left)
+    part = log_evidence(left[:rows], design[:rows], spread) + 0.5 * float(left[:rows] @ left[:rows])
+    weights = _posterior(left, design, spread)
+    ridge = RIDGE * np.eye(known.shape[1])
+    apart = np.concatenate([residual - columns[:, taken] @ weights, np.zeros(known.shape[1])])
+    shift = np.linalg.lstsq(np.concatenate([known, ridge]), apart, rcond=None)[0]
+    return Choice(taken, weights, shift, gain, part, price + each * len(taken))
+
+
+def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
+    """Name and features of every family: one array per trial, calibration first, channels with weights of their own."""
+    trials = problem.calibration.trials + problem.evaluation.trials
+    system, scale = problem.system, problem.floor_of_noise
+    movements = [recorded(trial.signals, system.inputs) for trial in trials]
+    for row, name in enumerate(system.inputs):
+        position = [m.position[row] for m in movements]
+        rate = [m.rate[row] for m in movements]
+        yield f"position of {name}", [_per_channel(bumps, scale) for bumps in _line(position, ALONG)]
+        yield f"rate of {name}", [_per_channel(bumps, scale) for bumps in _line(rate, ALONG)]
+        both = zip(_line(position, ACROSS, 1), _line(rate, ACROSS, 1), strict=True)
+        crossed = [(a[:, :, None] * b[:, None, :]).reshape(len(a), -1) for a, b in both]
+        yield f"position and rate of {name}", [_per_channel(bumps, scale) for bumps in crossed]
+    phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
+    yield "time within the trial", [_per_channel(bumps, scale) for bumps in _line(phase, THROUGH)]
+
+
+def lonely(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
+    """Families whose weights are a trial's own: a disturbance in it, parameters that change during it."""
+    trials = problem.calibration.trials + problem.evaluation.trials
+    phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
+    bumps = [_per_channel(each, problem.floor_of_noise) for each in _line(phase, ALONE)]
+    yield "stretches of single trials", _apart(bumps)
+    count, edges = len(problem.usual), np.arange(1, STRETCHES) / STRETCHES
+    changing = [
+        np.concatenate([j[..., :count] * problem.usual * (p > edge)[:, None, None] for edge in edges], axis=-1)
+        for j, p in zip(judged.model.jacobian, phase, strict=True)
+    ]
+    yield "parameters that change during a trial", _apart(changing)
+    yield "parameters that change at one moment of every trial", changing
+    yield from stairs(problem, judged)
+
+
+def stairs(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
+    """Waves over the prediction itself, which recording in coarse steps leaves: first harmonics of a sawtooth."""
+    clean = [own_course(problem, judged, i) for i in range(len(judged.model.residuals))]
+    for c, name in enumerate(problem.system.outputs):
+        together = np.concatenate([each[:, c] for each in clean])
+        extent, noise = float(together.max() - together.min()), float(problem.floor_of_noise[c])
+        count = min(int(2.0 * extent / (NARROWEST * noise)), MOST_STAIRS) if noise > 0.0 else 0
+        if count < FEWEST_STAIRS:
+            continue
+        turns = np.pi * np.arange(FEWEST_STAIRS, count + 1) / extent
+        waves = []
+        for each in clean:
+            angle = each[:, c, None] * turns
+            waves.append(np.zeros((*each.shape, 2 * len(turns))))
+            waves[-1][:, c] = noise * np.concatenate([np.sin(angle), np.cos(angle)], axis=1)
+        yield f"steps of {name}", waves
+
+
+def own_course(problem: Problem, judged: Judged, i: int) -> Float[np.ndarray, "t c"]:
+    """What a model predicts for a trial with the trial's own deviations as they most probably were."""
+    model, noise = judged.model, judged.noise
+    moved = model.jacobian[i][..., : len(noise.varies)] * noise.varies
+    whitener = noise.whiteners[i]
+    design, residual = whitener(moved), whitener(model.residuals[i][..., None])[:, 0]
+    deviation = np.linalg.solve(np.eye(design.shape[1]) + design.T @ design, design.T @ residual)
+    return np.asarray(np.nan_to_num(problem.recorded.outputs[i]) - model.residuals[i] + moved @ deviation)
+
+
+def _apart(features: list[Float[np.ndarray, "_ c m"]]) -> list[Float[np.ndarray, "_ c k"]]:
+    """The same features with weights for every trial."""
+    out = []
+    for i, own in enumerate(features):
+        wide = np.zeros((*own.shape[:2], len(features), own.shape[2]))
+        wide[:, :, i] = own
+        out.append(wide.reshape(*own.shape[:2], -1))
+    return out
+
+
+def _line(
+    values: list[Float[np.ndarray, " _"]], counts: Sequence[int], closer: int = CLOSER
+) -> list[Float[np.ndarray, "_ m"]]:
+    """Gaussian bumps, evenly spaced over the range that 98 % of the samples are in.
+
+    As wide as their distance if there were `counts` of them; they stand `closer` times as close.
+    """
+    low, high = np.percentile(np.concatenate(values), [1.0, 99.0])
+    clipped = [np.clip(v, low, high)[:, None] for v in values]
+    made = []
+    for count in counts:
+        centres = np.linspace(low, high, closer * (count - 1) + 1)
+        width = max((high - low) / (count - 1), 1e-300)
+        made.append([np.exp(-0.5 * ((v - centres) / width) ** 2) for v in clipped])
+    return [np.concatenate(scales, axis=1) for scales in zip(*made, strict=True)]
+
+
+def _per_channel(bumps: Float[np.ndarray, "t m"], scale: Float[np.ndarray, " c"]) -> Float[np.ndarray, "t c k"]:
+    """The same bumps for each channel, in its noise level."""
+    channels = len(scale)
+    out = np.zeros((len(bumps), channels, channels, bumps.shape[1]))
+    for c in range(channels):
+        out[:, c, c] = scale[c] * bumps
+    return out.reshape(len(bumps), channels, -1)
+
+
+def _posterior(
+    residual: Float[np.ndarray, " n"], design: Float[np.ndarray, "n p"], spread: Float[np.ndarray, " p"]
+) -> Float[np.ndarray, " p"]:
+    scaled = design * spread
+    return spread * np.linalg.solve(np.eye(len(spread)) + scaled.T @ scaled, scaled.T @ residual)

@@ -1,0 +1,204 @@
+"""From evidence to a verdict that can be trusted either way: explained, no gap, unknown, unresolved.
+
+Real effects never have exactly the form of a candidate, so differences of evidence are not taken at face value: they
+are divided by a tolerance that grows with what there is to explain. What the best model leaves over speaks for an
+effect outside the table, and so does an amplitude that wants to be more than is physical.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from geocontact.gap.selection.model_comparison import Contender
+
+Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
+
+SURE = 6.0  # nats below which a gain may be luck
+FORM = 0.02  # tolerance of form, as a share of what is explained
+LEFT_OVER = 0.2  # of all there is to explain may be left by the effect that is named
+PAIR = 0.12  # of what is explained that a second effect must add
+ALIVE = 0.03  # least probability of a candidate that is still in question
+BEYOND = 0.3  # part of what a gain exceeds that by that counts
+STRANGER = 3.0  # nats more that something without a name must gain: a stand-in also finds what models smooth away
+ANY_FORM = 0.1  # of what something without a name gains, it gains because it has any form
+LEAST = 0.02  # share of what changes below which their gain counts for no more: fifty times as much at the most
+ALLOWED = 4.0  # nats that luck may add on held-out trials
+MOST = 4  # candidates still in question beyond which nothing is named
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What is said, and how sure it is."""
+
+    verdict: Verdict
+    effects: tuple[str, ...]
+    probabilities: dict[str, float]
+    ambiguity: tuple[str, ...]
+    chosen: Contender
+
+
+def borne_out(total: float, calibration: float, share: float) -> float:
+    """Gain over all trials, as far as the calibration trials bear it out.
+
+    An effect that is there shows in the trials that it was fitted to as much as in the others, in proportion to what it
+    changes there. `share` is the calibration trials' part of that. What is lost there is a price, and stays as it is.
+    """
+    expected = max(calibration, 0.0) / max(share, LEAST) + min(calibration, 0.0) + ALLOWED
+    return total if total <= expected else expected + BEYOND * (total - expected)
+
+
+def gain_of(one: Contender, over: Contender, share: float) -> float:
+    """What a model gains over another [nats]."""
+    gain = borne_out(one.judged.nats - over.judged.nats, one.judged.calibration - over.judged.calibration, share)
+    return gain + one.beside - over.beside
+
+
+@dataclass(frozen=True)
+class Standing:
+    """Who is weighed, and what each gains over the base, its choice paid for [nats], by label.
+
+    `best` gains most, less than nothing perhaps; the base where nobody is weighed.
+    """
+
+    base: Contender
+    living: tuple[Contender, ...]
+    gains: Mapping[str, float]
+
+    @property
+    def best(self) -> Contender:
+        """Who gains most."""
+        return max(self.living, key=lambda c: self.gains[c.label], default=self.base)
+
+    @property
+    def leader(self) -> Contender:
+        """The same, the base where nobody gains anything."""
+        return self.best if self.gains.get(self.best.label, 0.0) > 0.0 else self.base
+
+
+def standing(
+    base: Contender, contenders: Sequence[Contender], shares: Mapping[str, float], variants: Mapping[str, int]
+) -> Standing:
+    """What the contenders gain; a pair is weighed where it adds enough to the best single.
+
+    Who has no evidence that is a number is not weighed.
+
+    Parameters
+    ----------
+    base
+        The base model.
+    contenders
+        Models with one candidate or two.
+    shares
+        Calibration trials' part of what each changes, by label.
+    variants
+        How many candidates each effect has: they share what is believed of it beforehand.
+    """
+    contenders = [c for c in contenders if np.isfinite(c.nats)]
+    single = [c for c in contenders if len(c.candidates) == 1]
+    chosen_from = {
+        c.label: float(np.log([variants[one.name] * one.ways for one in c.candidates]).sum()) for c in contenders
+    }
+    over_base = {c.label: gain_of(c, base, shares[c.label]) - chosen_from[c.label] for c in contenders}
+    best_single = max((over_base[c.label] for c in single), default=0.0)
+    needed = SURE + PAIR * max(best_single, 0.0)
+    pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]
+    living = (*single, *pairs)
+    gains = {c.label: over_base[c.label] - (needed if len(c.candidates) == 2 else 0.0) for c in living}
+    return Standing(base, living, gains)
+
+
+def answer(held: Standing, unnamed: float, strange: float, rest: float) -> Answer:
+    """The verdict; FloatingPointError where what is given is not a number.
+
+    Parameters
+    ----------
+    held
+        Who is weighed.
+    unnamed
+        What a stand-in for anything unknown gains over the base [nats].
+    strange
+        How sure it is that something is odd about the residual of the leader [nats].
+    rest
+        What the stand-in gains on top of the best contender, with what is odd [nats]. What is there beside an effect is
+        there without it as well: no more of it is believed than what it gains over the base.
+    """
+    base, living, gains = held.base, held.living, held.gains
+    rest = min(rest, max(unnamed, 0.0) + strange)
+    unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0) + strange
+    most = max([*gains.values(), unnamed, 0.0])
+    tolerance = 1.0 + FORM * most
+    weights: dict[tuple[str, ...], float] = {("none",): np.exp((SURE - most) / tolerance)}
+    for c in living:
+        names = ("unknown",) if c.cut_short else c.names
+        weights[names] = max(weights.get(names, 0.0), np.exp((gains[c.label] - most) / tolerance))
+    excess = rest - SURE - LEFT_OVER * most
+    doubt = 1.0 / (1.0 + np.exp(-excess / (1.0 + 0.5 * FORM * most + 0.1 * abs(rest))))
+    doubted = sum(weights.values()) * doubt / max(1.0 - doubt, 1e-9)
+    weights[("unknown",)] = weights.get(("unknown",), 0.0) + np.exp((unnamed - most) / tolerance) + doubted
+    total = sum(weights.values())
+    if not np.isfinite(total):
+        raise FloatingPointError("probabilities cannot be told: what is left unexplained is not a number")
+    shared: dict[str, float] = {}
+    for names, weight in weights.items():
+        for name in names:
+            shared[name] = shared.get(name, 0.0) + weight / total / len(names)
+    return _said(base, living, gains, {names: w / total for names, w in weights.items()}, shared)
+
+
+def with_mistake(said: Answer, mistake: str) -> Answer:
+    """The answer once a mistake in the data was undone first: the mistake is named, and what else was found with it.
+
+    Where nothing else is wrong the mistake is the whole answer. With an effect beside it the two share the effect's
+    probability; with something unknown beside it the case stays unknown, and the mistake is what is still in question.
+    """
+    odds = said.probabilities
+    beside = {name: value for name, value in odds.items() if name not in ("none", "unknown", mistake)}
+    alone = odds.get("none", 0.0) + odds.get(mistake, 0.0)
+    probabilities = {mistake: alone + sum(beside.values()) / 2.0, "unknown": odds.get("unknown", 0.0)}
+    probabilities = _normal(probabilities | {name: value / 2.0 for name, value in beside.items()})
+    if said.verdict == "no_gap":
+        return Answer("explained", (mistake,), probabilities, (mistake,), said.chosen)
+    if said.verdict == "explained":
+        named = (mistake, *(name for name in said.effects if name != mistake))[:2]
+        ambiguity = (*named, *(name for name in said.ambiguity if name not in named))
+        return Answer("explained", named, probabilities, ambiguity, said.chosen)
+    ambiguity = (mistake, *(name for name in said.ambiguity if name != mistake))
+    return Answer(said.verdict, (), probabilities, ambiguity, said.chosen)
+
+
+def _normal(probabilities: Mapping[str, float]) -> dict[str, float]:
+    total = sum(probabilities.values())
+    return {k: v / total for k, v in sorted(probabilities.items(), key=lambda each: -each[1])}
+
+
+def _said(
+    base: Contender,
+    living: Sequence[Contender],
+    gains: Mapping[str, float],
+    joint: Mapping[tuple[str, ...], float],
+    shared: dict[str, float],
+) -> Answer:
+    order = sorted(shared, key=lambda name: -shared[name])
+    probabilities = {name: shared[name] for name in order}
+    alive = tuple(name for name in order if name not in ("none", "unknown") and shared[name] >= ALIVE)
+    effects_odds = 1.0 - joint[("none",)] - joint[("unknown",)]
+    top = max(joint, key=lambda names: joint[names])
+    if joint[("none",)] >= max(effects_odds, joint[("unknown",)]):
+        return Answer("no_gap", (), probabilities, (), base)
+    if joint[("unknown",)] >= effects_odds:
+        return Answer("unknown", (), probabilities, alive, base)
+    named = (
+        top
+        if top[0] not in ("none", "unknown")
+        else max((names for names in joint if names[0] not in ("none", "unknown")), key=lambda names: joint[names])
+    )
+    chosen = max((c for c in living if c.names == named and not c.cut_short), key=lambda c: gains[c.label])
+    named = tuple(sorted(named, key=lambda name: -shared[name]))
+    if len(alive) > MOST:
+        return Answer("unresolved", (), probabilities, alive, chosen)
+    ambiguity = (*named, *(name for name in alive if name not in named))
+    return Answer("explained", named, probabilities, ambiguity if len(ambiguity) > len(named) else named, chosen)
