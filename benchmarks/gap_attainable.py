@@ -126,8 +126,8 @@ def beside(row: dict[str, Any], first: Mapping[str, tuple[str, float]]) -> dict[
 def main() -> None:
     """Draw, refit, write the JSON after every case, print the shares."""
     from benchmarks.machine import machine
-    from geocontact.cli.sources import digest
-    from geocontact.cli.workers import each
+    from geocontact.analyses.source_digest import digest
+    from geocontact.analyses.workers import each
 
     options, rows = arguments(), []
     first = said(options.cases)

@@ -15,6 +15,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from geocontact.analyses.area.page import write_report
     from geocontact.data.errors import InputError, InputWarning
     from geocontact.data.evolution import AreaEvolution
     from geocontact.data.motion import Motion
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from geocontact.geometry.sweep import Axis, sweep
     from geocontact.io.mesh.meshes import read_mesh
     from geocontact.io.motion.motion import read_motion
-    from geocontact.view.contact_page import write_report
 
 __version__ = "0.1.0"
 
@@ -57,7 +57,7 @@ _PLACES = {
     "sweep": "geometry.sweep",
     "read_mesh": "io.mesh.meshes",
     "read_motion": "io.motion.motion",
-    "write_report": "view.contact_page",
+    "write_report": "analyses.area.page",
 }
 
 __all__ = [

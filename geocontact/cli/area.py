@@ -162,6 +162,6 @@ def area(moving: Path, fixed: Path, /, *more_motions: str, options: AreaOptions)
     more_motions
         Further motion files, as a shell glob after --motion gives them.
     """
-    from geocontact.cli.area_analysis import analyse  # numba and friends: not for --help
+    from geocontact.analyses.area.run import analyse  # numba and friends: not for --help
 
     return analyse(moving, fixed, more_motions, options)

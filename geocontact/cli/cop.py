@@ -103,6 +103,6 @@ def cop(spheres: Path, /, *, options: CopOptions) -> int:
     spheres
         Table of the spheres in the foot's frame: px [m], py [m], pz [m], radius [m], zone.
     """
-    from geocontact.cli.cop_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.cop.run import analyse  # numpy and friends: not for --help
 
     return analyse(spheres, options)

@@ -65,6 +65,6 @@ def compare(recording: Path, /, *more_recordings: Path, options: ElbowCompareOpt
     more_recordings
         Further trials.
     """
-    from geocontact.cli.elbow_comparison import compared  # numpy and friends: not for --help
+    from geocontact.analyses.misalignment.compare.run import compared  # numpy and friends: not for --help
 
     return compared((recording, *more_recordings), options)

@@ -70,6 +70,6 @@ def design(*, options: DesignOptions) -> int:
     For the elbow, and for the knee, the hip or any joint of one degree of freedom; slow motion. Writes design.json,
     map.csv, boundary.csv, sensitivity.csv, force.csv, design.png, design.svg, report.html and run.json into OUT.
     """
-    from geocontact.cli.elbow_design_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.misalignment.design.run import analyse  # numpy and friends: not for --help
 
     return analyse(options)

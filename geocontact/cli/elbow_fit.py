@@ -91,6 +91,6 @@ def fit(recording: Path, /, *more_recordings: Path, options: ElbowFitOptions) ->
     more_recordings
         Further trials.
     """
-    from geocontact.cli.elbow_fit_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.misalignment.identify.run import analyse  # numpy and friends: not for --help
 
     return analyse((recording, *more_recordings), options)

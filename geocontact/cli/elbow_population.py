@@ -62,6 +62,6 @@ def population(description: Path, /, *, options: PopulationOptions) -> int:
         A .toml with [k], [l], [z], [x] and [y], each a value, a normal or a uniform distribution with its unit, or a
         table of people; correlations in [correlation].
     """
-    from geocontact.cli.elbow_population_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.misalignment.population.run import analyse  # numpy and friends: not for --help
 
     return analyse(description, options)

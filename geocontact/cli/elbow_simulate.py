@@ -88,6 +88,6 @@ def simulate(*recordings: Path, options: SimulateOptions) -> int:
     recordings
         Angles to simulate along (.csv .mot .sto .c3d); none to make recordings.
     """
-    from geocontact.cli.elbow_simulation import simulated  # numpy and friends: not for --help
+    from geocontact.analyses.misalignment.simulate.run import simulated  # numpy and friends: not for --help
 
     return simulated(recordings, options)

@@ -92,6 +92,6 @@ def fit(mesh: Path, /, *, options: FitOptions) -> int:
     mesh
         Surface to fit to (.stl .ply .obj .vtp).
     """
-    from geocontact.cli.fit_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.shape.run import analyse  # numpy and friends: not for --help
 
     return analyse(mesh, options)

@@ -57,6 +57,6 @@ def benchmark(*, options: BenchmarkOptions) -> int:
     exact intervals, beside two residual regressions, a constant answer and an oracle), cases.csv, reliability.png,
     reliability.svg and run.json into OUT, and prints the table. The default takes an hour and a half on two cores.
     """
-    from geocontact.cli.gap_benchmark_run import run_benchmark  # numpy and friends: not for --help
+    from geocontact.analyses.gap.benchmark.run import run_benchmark  # numpy and friends: not for --help
 
     return run_benchmark(options)

@@ -48,6 +48,6 @@ def confuse(case: Path, /, *, options: ConfuseOptions) -> int:
     case
         Folder with case.toml and trials, see docs/reference/gap_case.md.
     """
-    from geocontact.cli.gap_confusion import confused  # numpy and friends: not for --help
+    from geocontact.analyses.gap.discriminability.run import confused  # numpy and friends: not for --help
 
     return confused(case, options)

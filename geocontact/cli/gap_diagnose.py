@@ -50,9 +50,9 @@ def diagnose(case: Path, /, *, options: DiagnoseOptions) -> int:
         Folder with case.toml and trials, see docs/reference/gap_case.md.
     """
     if options.many:
-        from geocontact.cli.gap_many import diagnose_many
+        from geocontact.analyses.gap.diagnose.many import diagnose_many
 
         return diagnose_many(case, options)
-    from geocontact.cli.gap_analysis import diagnose_one  # numpy and friends: not for --help
+    from geocontact.analyses.gap.diagnose.run import diagnose_one  # numpy and friends: not for --help
 
     return diagnose_one(case, options)

@@ -20,6 +20,6 @@ def gather(settings: Path, /, *, out: Path) -> int:
     out
         Folder for the case.
     """
-    from geocontact.cli.gap_gathered import gathered  # numpy and friends: not for --help
+    from geocontact.analyses.gap.gather.run import gathered  # numpy and friends: not for --help
 
     return gathered(settings, out)

@@ -55,6 +55,6 @@ def plant(case: Path, /, *, options: PlantOptions) -> int:
     case
         Folder with case.toml and trials, see docs/reference/gap_case.md.
     """
-    from geocontact.cli.gap_planting import planted  # numpy and friends: not for --help
+    from geocontact.analyses.gap.inject.run import planted  # numpy and friends: not for --help
 
     return planted(case, options)

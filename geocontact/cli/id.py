@@ -65,6 +65,6 @@ def inverse_dynamics(coordinates: Path, /, *, options: IdOptions) -> int:
     coordinates
         Coordinates of the model over time (.mot, .sto, .csv), as `geocontact ik` writes them.
     """
-    from geocontact.cli.id_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.motion.inverse_dynamics.run import analyse  # numpy and friends: not for --help
 
     return analyse(coordinates, options)

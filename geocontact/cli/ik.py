@@ -67,6 +67,6 @@ def ik(markers: Path, /, *, options: IkOptions) -> int:
     markers
         Marker trajectories (.trc, .c3d).
     """
-    from geocontact.cli.ik_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.motion.inverse_kinematics.run import analyse  # numpy and friends: not for --help
 
     return analyse(markers, options)

@@ -61,6 +61,6 @@ def loadcells(recording: Path, /, *more_recordings: Path, options: LoadcellOptio
     more_recordings
         Further recordings: one sub-folder each.
     """
-    from geocontact.cli.loadcells_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.loadcells.run import analyse  # numpy and friends: not for --help
 
     return analyse((recording, *more_recordings), options)

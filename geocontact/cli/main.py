@@ -12,7 +12,7 @@ from io import TextIOWrapper
 from cyclopts import App, CycloptsError, MissingArgumentError
 
 from geocontact import __version__
-from geocontact.cli.output import discard_drafts
+from geocontact.analyses.results_folder import discard_drafts
 from geocontact.data.errors import InputError
 
 USAGE_ERROR = 2

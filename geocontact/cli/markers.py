@@ -38,6 +38,6 @@ def markers(coordinates: Path, /, *, options: MarkersOptions) -> int:
     coordinates
         Coordinates of the model over time (.mot, .sto, .csv).
     """
-    from geocontact.cli.markers_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.motion.virtual_markers.run import analyse  # numpy and friends: not for --help
 
     return analyse(coordinates, options)

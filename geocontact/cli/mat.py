@@ -162,6 +162,6 @@ def mat(frames: Path, /, *, options: MatOptions) -> int:
     frames
         Recording of the mat: a grid of cells (.csv), novel pedar (.asc), Tekscan (.asf .csv) or XSENSOR (.csv).
     """
-    from geocontact.cli.mat_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.mat.run import analyse  # numpy and friends: not for --help
 
     return analyse(frames, options)

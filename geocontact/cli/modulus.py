@@ -90,6 +90,6 @@ def modulus(*, options: ModulusOptions) -> int:
     Writes modulus.json, curves.csv, sensitivity.csv, modulus.png, modulus.svg, report.html and run.json into OUT, and
     prediction.csv with --predict-area. Area and force give one number, E* = E/(1 - nu^2): E is told for a stated nu.
     """
-    from geocontact.cli.modulus_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.modulus.run import analyse  # numpy and friends: not for --help
 
     return analyse(options)

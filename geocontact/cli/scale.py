@@ -62,6 +62,6 @@ def scale(static: Path, /, *, options: ScaleOptions) -> int:
     static
         Markers while the subject stands still (.trc, .c3d).
     """
-    from geocontact.cli.scale_analysis import analyse  # numpy and friends: not for --help
+    from geocontact.analyses.motion.scale.run import analyse  # numpy and friends: not for --help
 
     return analyse(static, options)

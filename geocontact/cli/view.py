@@ -24,7 +24,7 @@ def view(result: Path, *, window: Annotated[bool, Parameter(negative="")] = Fals
         Open a 3-D window with a time slider instead; the analysis must have been run with --save-map.
     """
     if window:
-        from geocontact.cli.maps import read_series
+        from geocontact.analyses.area.distance_file import read_series
         from geocontact.view.surfaces.window import show_window
 
         show_window(read_series(result))

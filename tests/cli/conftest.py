@@ -7,7 +7,8 @@ from functools import cache
 
 import pytest
 
-from geocontact.cli import area_analysis, patience
+from geocontact.analyses import progress as patience
+from geocontact.analyses.area import run as area_analysis
 from tests.cli.calls import Call, area, done, gait
 
 

@@ -98,7 +98,7 @@ def diagnosed_elbow() -> tuple[GapCase, Findings]:
 def known() -> Iterator[mock.Mock]:
     """The command line is given that diagnosis instead of making it again."""
     findings = diagnosed_elbow()[1]
-    with mock.patch("geocontact.cli.gap_analysis.diagnose", return_value=findings) as instead:
+    with mock.patch("geocontact.analyses.gap.diagnose.run.diagnose", return_value=findings) as instead:
         yield instead
 
 

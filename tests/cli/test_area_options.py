@@ -321,7 +321,7 @@ def test_results_do_not_depend_on_the_number_of_workers(
 
 def test_picture_shows_the_frame_of_the_largest_area(tmp_path: Path) -> None:
     motion = poses(tmp_path, (0, 22, 0), (0, 20, 0), (0, 21, 0))
-    with mock.patch("geocontact.cli.area_results.draw_areas") as drawn:
+    with mock.patch("geocontact.analyses.area.write.draw_areas") as drawn:
         area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=motion, picture=True)
     distance, frame = drawn.call_args.args[3:5]
     assert frame == 1

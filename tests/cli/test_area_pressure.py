@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.cli.left_over import NAMES
+from geocontact.analyses.stale_results import NAMES
 from geocontact.contact.elasticity import layer_modulus
 from meshes.simple_shapes import block, sphere
 from meshes.stl import stl_bytes

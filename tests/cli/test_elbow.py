@@ -13,9 +13,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.cli.elbow_numbers import PER_SI
-from geocontact.cli.elbow_simulation import SEED, TRIALS, USUAL
-from geocontact.cli.left_over import NAMES, PICTURES
+from geocontact.analyses.misalignment.parameters import PER_SI
+from geocontact.analyses.misalignment.simulate.run import SEED, TRIALS, USUAL
+from geocontact.analyses.stale_results import NAMES, PICTURES
 from geocontact.misalignment.explicit import Offsets, displacement
 from geocontact.misalignment.synthetic import PAPER
 from tests.cli.calls import Call, call, done, inventory, written

@@ -11,7 +11,7 @@ from unittest import mock
 import numpy as np
 import pytest
 
-from geocontact.cli.left_over import NAMES
+from geocontact.analyses.stale_results import NAMES
 from geocontact.systems.elbow.misalignment import deflect
 from tests.cli.calls import Call, call, done, inventory, written
 
@@ -37,7 +37,7 @@ def unpictured() -> Iterator[None]:
     """Neither figure nor page are made."""
     with ExitStack() as stack:
         for name in ("design_figure", "save_both", "write_design_report"):
-            stack.enter_context(mock.patch(f"geocontact.cli.elbow_design_results.{name}", return_value=b""))
+            stack.enter_context(mock.patch(f"geocontact.analyses.misalignment.design.write.{name}", return_value=b""))
         yield
 
 

@@ -14,7 +14,7 @@ import pytest
 from scipy import stats
 
 from benchmarks.elbow_population import drawn
-from geocontact.cli.left_over import NAMES
+from geocontact.analyses.stale_results import NAMES
 from geocontact.misalignment.population import Exposure, peak_forces
 from tests.cli.calls import ROOT, Call, call, done, inventory, written
 
@@ -55,7 +55,9 @@ def unpictured() -> Iterator[None]:
     """Neither figure nor page are made."""
     with ExitStack() as stack:
         for name in ("population_figure", "save_both", "write_population_report"):
-            stack.enter_context(mock.patch(f"geocontact.cli.elbow_population_results.{name}", return_value=b""))
+            stack.enter_context(
+                mock.patch(f"geocontact.analyses.misalignment.population.write.{name}", return_value=b"")
+            )
         yield
 
 

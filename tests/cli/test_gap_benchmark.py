@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.cli import gap_benchmark_run
-from geocontact.cli.gap_benchmark_case import ANSWERERS, Task, Worked, alike, failed, renamed, worked
-from geocontact.cli.gap_benchmark_run import mixed
-from geocontact.cli.json_text import plain
+from geocontact.analyses.gap.benchmark import run as gap_benchmark_run
+from geocontact.analyses.gap.benchmark.case import ANSWERERS, Task, Worked, alike, failed, renamed, worked
+from geocontact.analyses.gap.benchmark.run import mixed
+from geocontact.analyses.json_file import plain
 from geocontact.gap_benchmark.drawing import KINDS, SHARES, Lot, drawn, lots, shares
 from geocontact.io.cases.gap_case import read_gap_case
 from tests.cli.calls import ROOT, Call, call, done, process
@@ -101,7 +101,7 @@ def test_a_kept_case_is_the_planted_one(ran: Call) -> None:
 
 
 def test_a_case_that_breaks_down_is_told_and_scored_as_wrong(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geocontact.cli.gap_benchmark_case.from_folder", lambda home: 1 / 0)
+    monkeypatch.setattr("geocontact.analyses.gap.benchmark.case.from_folder", lambda home: 1 / 0)
     found = worked(Task(Lot("elbow", "none", SEED, 0), tmp_path))
     assert found.answers["diagnosis"]["verdict"] == "failed" and np.isnan(found.cpu)
     assert len(found.trouble) == 1 and "ZeroDivisionError" in found.trouble[0] and found.name in found.trouble[0]

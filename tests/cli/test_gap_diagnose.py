@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.cli.json_text import plain
+from geocontact.analyses.json_file import plain
 from tests.cli.calls import Call, call, done, inventory, process
 from tests.cli.gap_cases import DAMPING, TOLD, damped_elbow, in_degrees_and_kilonewtons, known, reordered, spoilt
 
@@ -83,7 +83,7 @@ def test_stages_are_told_as_they_begin(good: Path, tmp_path: Path) -> None:
     def listening(label: str) -> Iterator[Callable[[str], None]]:
         yield lambda stage: heard.append((label, stage))
 
-    with known() as diagnose, mock.patch("geocontact.cli.gap_analysis.stages", listening):
+    with known() as diagnose, mock.patch("geocontact.analyses.gap.diagnose.run.stages", listening):
         done(call("gap", "diagnose", good, "--bare", "--out", tmp_path / "out", folder=tmp_path))
         diagnose.call_args.args[3]("every effect alone")
     assert heard == [("elbow_7", stage) for stage in ("reading", "tables", "every effect alone")]

@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from geocontact.cli.gap_planting import _imitated
+from geocontact.analyses.gap.inject.run import _imitated
 from tests.cli.calls import Call, call, done
 from tests.cli.gap_cases import damped_elbow
 from tests.elsewhere import Elsewhere

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.cli.left_over import NAMES
+from geocontact.analyses.stale_results import NAMES
 from geocontact.loads.loadcells import PUBLISHED
 from tests.cli.calls import Call, call, done, inventory, written
 
@@ -55,7 +55,7 @@ def loadcells(
 @contextmanager
 def unpictured() -> Iterator[None]:
     """Neither figures nor pages are made."""
-    room = "geocontact.cli.loadcells_results"
+    room = "geocontact.analyses.loadcells.write"
     with ExitStack() as stack:
         for name in ("loadcell_figure", "ensemble_figure", "save_both", "write_loadcell_report"):
             stack.enter_context(mock.patch(f"{room}.{name}", return_value=b""))

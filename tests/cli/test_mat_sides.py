@@ -90,6 +90,6 @@ def test_a_mark_that_is_far_off_is_refused_beside_one_that_hangs_over_the_edge(
         found = lay(*given)
         return replace(found, misses=np.array([np.nan, 0.2, *found.misses[2:]]))
 
-    monkeypatch.setattr("geocontact.cli.mat_analysis.lay", laid)
+    monkeypatch.setattr("geocontact.analyses.mat.run.lay", laid)
     result = mat(shells, "outwards", tmp_path / "a")
     assert result.code == 2 and "landmark L2 is missed by 200 mm" in result.err

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from geocontact.cli.left_over import NAMES
+from geocontact.analyses.stale_results import NAMES
 from geocontact.elastic_modulus.area_force import MODULUS
 from tests.cli.calls import Call, call, done, inventory, written
 from tests.identify.synthetic_contact import DURATION, THRESHOLDS, TRUE, synthetic_areas, synthetic_model
@@ -81,7 +81,7 @@ def unpictured() -> Iterator[None]:
     """Neither figure nor page are made."""
     with ExitStack() as stack:
         for name in ("modulus_figure", "save_both", "write_modulus_report"):
-            stack.enter_context(mock.patch(f"geocontact.cli.modulus_results.{name}", return_value=b""))
+            stack.enter_context(mock.patch(f"geocontact.analyses.modulus.write.{name}", return_value=b""))
         yield
 
 

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from geocontact.cli.patience import progress, stages
+from geocontact.analyses.progress import progress, stages
 
 
 class Terminal(io.StringIO):

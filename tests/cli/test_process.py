@@ -11,8 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from geocontact.cli import area_analysis, patience
-from geocontact.cli.maps import DistanceMaps
+from geocontact.analyses import progress as patience
+from geocontact.analyses.area import run as area_analysis
+from geocontact.analyses.area.distance_file import DistanceMaps
 from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, ROOT, SPHERE, area, done, gait, inventory, poses, process
 from tests.contract import FILES
 

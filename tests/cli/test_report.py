@@ -30,12 +30,12 @@ def everything(tmp_path_factory: pytest.TempPathFactory) -> tuple[Call, mock.Moc
     folder = tmp_path_factory.mktemp("report")
     measured = written(folder / "measured.csv", "time [s],threshold [mm],area_fixed [mm^2]\n0.3,4,2400\n")
     options = ("--threshold", "4,1", "--split", "z", "--compare", measured, "--tolerance", "90%", "--bounds", "1e-9")
-    patched = "geocontact.cli.pictures"
+    patched = "geocontact.analyses.area.scene"
     with (
         mock.patch(f"{patched}.draw_stills", return_value=(Still(Path("x.png"), "matplotlib", NOTE),)) as stills,
         mock.patch(f"{patched}.write_vtp_series") as series,
-        mock.patch("geocontact.cli.area_analysis.FRAMES", 1),
-        mock.patch("geocontact.cli.area_analysis.PATIENT", 1),
+        mock.patch("geocontact.analyses.area.run.FRAMES", 1),
+        mock.patch("geocontact.analyses.area.run.PATIENT", 1),
     ):
         result = done(
             area(folder / "out", *options, "--stills", "--paraview", moving=FEMUR, fixed=INSERT,
@@ -109,7 +109,7 @@ def test_series_for_paraview_needs_pyvista_before_anything_is_computed(tmp_path:
     motion = poses(tmp_path, (0, 20, 0))
     with (
         mock.patch.dict(sys.modules, {"pyvista": None}),
-        mock.patch("geocontact.cli.area_analysis.area_evolution") as computed,
+        mock.patch("geocontact.analyses.area.run.area_evolution") as computed,
     ):
         result = area(tmp_path / "out", "--paraview", moving=SPHERE, fixed=PLATE, motion=motion)
     assert result.code == 2 and len(result.complaints) == 1 and "pyvista" in result.err
@@ -120,7 +120,7 @@ def test_long_motions_write_a_page_of_few_frames(tmp_path: Path) -> None:
     """The frame of most contact is the 4th of 9; the page shows it and counts as the table does."""
     heights = (22.0, 24.0, 23.0, 20.5, 26.0, 21.0, 22.0, 23.0, 30.0)
     motion = poses(tmp_path, *((0, height, 0) for height in heights))
-    with mock.patch("geocontact.cli.area_analysis.FRAMES", 3), mock.patch("geocontact.view.contact_page.FRAMES", 3):
+    with mock.patch("geocontact.analyses.area.run.FRAMES", 3), mock.patch("geocontact.analyses.area.page.FRAMES", 3):
         result = done(area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=motion, picture=True))
     said = text(result)
     assert "(frame 4 of 9)" in said and "of 9 frames" in said

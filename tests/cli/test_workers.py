@@ -6,7 +6,7 @@ import os
 
 import pytest
 
-from geocontact.cli.workers import each
+from geocontact.analyses.workers import each
 
 
 def squared(value: int) -> int:

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
+from geocontact.analyses.gap.diagnose.words import proposal_words, verdict_sentences
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.gap.case.problem import Noise, problem_of
 from geocontact.gap.diagnose import diagnose, estimates
 from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.noise.noise_levels import Levels
 from geocontact.systems.catalogue import system_of
-from geocontact.view.gap_words import proposal_words, verdict_sentences
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import (
     Late,

@@ -56,11 +56,11 @@ def test_contracts_hold() -> None:
     [
         ("data/mesh.py", "import geocontact.geometry.plane", ROOMS),
         ("io/mesh/meshes.py", "import geocontact.geometry.plane", ROOMS),
-        ("geometry/plane.py", "def late():\n    import geocontact.view.area_figure", ROOMS),
+        ("geometry/plane.py", "def late():\n    import geocontact.analyses.area.figure", ROOMS),
         ("geometry/plane.py", "import geocontact.contact.law", ROOMS),
         ("effects/mechanical/slip.py", "import geocontact.systems.knee", ROOMS),
         ("identify/optimise/least_squares.py", "import geocontact.chain.links", ROOMS),
-        ("view/area_figure.py", "import geocontact.cli.main", ROOMS),
+        ("analyses/area/figure.py", "import geocontact.cli.main", ROOMS),
         ("geometry/plane.py", "import geocontact.io.mesh.meshes", IO),
         ("loads/resultant.py", "from geocontact.io.mesh.meshes import read_mesh", IO),
         ("contact/law.py", "import geocontact.geometry.surface", ARRAYS),
@@ -71,7 +71,7 @@ def test_contracts_hold() -> None:
         ("gap_benchmark/synthetic/noise.py", "def late():\n    import geocontact.gap.case.refit", PLANTED),
         ("gap_benchmark/synthetic/cases.py", "import geocontact.gap_benchmark.score", PLANTED),
         ("gap/diagnose.py", "import geocontact.gap_benchmark.synthetic.label", WITHHELD),
-        ("cli/gap_many.py", "from geocontact.gap_benchmark.synthetic import plant", WITHHELD),
+        ("analyses/gap/diagnose/many.py", "from geocontact.gap_benchmark.synthetic import plant", WITHHELD),
     ],
 )
 def test_contract_fails_when_broken(copy: Path, module: str, line: str, contract: str) -> None:

@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.cli import patience
+from geocontact.analyses import progress as patience
 from geocontact.io.motion.poses import motion_from_joint
 from geocontact.io.opensim.osim import read_joint
 from geocontact.io.text.tables import read_table

@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.analyses.area import page as contact_page
+from geocontact.analyses.area.page import Told, write_report
+from geocontact.analyses.area.words import NOT_A_DEVICE
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement
 from geocontact.geometry.contact_area.evolution import Settings, area_evolution
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
-from geocontact.view import contact_page
-from geocontact.view.contact_page import Told, write_report
-from geocontact.view.contact_tables import inputs_table
-from geocontact.view.contact_words import NOT_A_DEVICE
-from geocontact.view.directions import camera_directions
 from geocontact.view.page.content import Curves, Readout, Scene, Strip, Table, Words
+from geocontact.view.page.tables import inputs_table
+from geocontact.view.surfaces.directions import camera_directions
 from meshes.simple_shapes import block, sphere
 
 MM = 1e-3

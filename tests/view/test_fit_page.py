@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from geocontact.analyses.shape.page import FittedSurface, drawn, fit_page
 from geocontact.geometry.fit.catalogue import SHAPES
-from geocontact.view.fit_page import FittedSurface, drawn, fit_page
 from geocontact.view.page.content import Scene
 from meshes.simple_shapes import block, cylinder, sphere
 from tests.geometry.bodies import moved, surface, turned

@@ -9,14 +9,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from geocontact.analyses.gap.diagnose.curves import HeldOut, held_out
+from geocontact.analyses.gap.diagnose.figures import axis_units, gap_figures, ranking
+from geocontact.analyses.gap.diagnose.page import gap_page
+from geocontact.analyses.gap.diagnose.words import percent, states, verdict_sentences
 from geocontact.data.diagnosis import ChannelGap, Diagnosis, Estimate, FaultFound, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.localise.cell import Cell
-from geocontact.view.gap_curves import HeldOut, held_out
-from geocontact.view.gap_figures import axis_units, gap_figures, ranking
-from geocontact.view.gap_page import gap_page
-from geocontact.view.gap_words import percent, states, verdict_sentences
 from geocontact.view.page.content import Curves, Page, Picture, Table, Words
 from geocontact.view.page.write import page_html
 from tests.cli.gap_cases import diagnosed_elbow

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 
-from geocontact.view.area_figure import COLOURS
+from geocontact.analyses.area.figure import COLOURS
 from geocontact.view.curves.text import plain
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
-from geocontact.view.curves.detectability import Seen, detectability_figure
+from geocontact.view.curves.diagnosis.detectability import Seen, detectability_figure
 from geocontact.view.curves.save import save
 
 Specimen = Callable[[str], Figure]

@@ -1,0 +1,1 @@
+"""Contact area, and pressure, of two bodies over a motion."""

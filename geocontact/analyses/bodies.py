@@ -1,0 +1,112 @@
+"""The two bodies of an analysis: read, placed in their frames, checked for what can be signed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+from jaxtyping import Bool
+
+from geocontact.analyses.quantities import named_file
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.mesh import Mesh
+from geocontact.geometry.patch_names import Values
+from geocontact.geometry.placement import placed
+from geocontact.geometry.regions import faces_where
+from geocontact.geometry.surface import Surface
+from geocontact.io.mesh.faces import read_face_indices
+from geocontact.io.mesh.meshes import read_mesh
+from geocontact.io.motion.poses import read_pose
+from geocontact.io.opensim.osim_meshes import mesh_placement
+from geocontact.io.text.units import LENGTH
+
+NOTHING: Mapping[str, Values] = MappingProxyType({})
+
+
+def read_body(record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool) -> Surface:
+    """Surface of one body in its body frame; says on stderr what about it needs care.
+
+    `placement` is that of `read_surface`.
+    """
+    surface = read_surface(record, role, path, unit, placement, assume_closed)
+    _warn_of_sides(record, role, surface)
+    return surface
+
+
+def read_surface(
+    record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool = False
+) -> Surface:
+    """Surface in its body frame; says nothing.
+
+    `placement` is a text file with a 4x4 matrix (translation in the mesh unit), or `model.osim:body[:mesh]`.
+    """
+    mesh = read_mesh(path, unit)
+    if placement is not None:
+        mesh = _placed(record, role, mesh, placement, unit)
+    surface = Surface.of(mesh, assume_closed)
+    topology = surface.topology
+    span = (mesh.vertices.max(axis=0) - mesh.vertices.min(axis=0)) * 1e3
+    record.add_input(
+        role, path, sha256=mesh.sha256, unit=unit, vertices=len(mesh.vertices), faces=len(mesh.faces),
+        box_mm=[round(float(length), 4) for length in span], closed=topology.closed,
+        open_edges=topology.open_edges, irregular_edges=topology.irregular_edges,
+        area_mm2=round(float(surface.face_area.sum()) * 1e6, 4), median_edge_mm=_median_edge(surface),
+    )  # fmt: skip
+    return surface
+
+
+def chosen_faces(
+    record: Record, option: str, text: str | None, surface: Surface, unit: str, more: Mapping[str, Values] = NOTHING
+) -> Bool[np.ndarray, " f"] | None:
+    """Faces named by an expression or by a file of face numbers; None when all count.
+
+    `more` are names that the expression may use beside places and normals.
+    """
+    if text is None:
+        return None
+    file = named_file(text)
+    if file is not None:
+        record.add_input(option, file)
+        chosen = np.zeros(len(surface.faces), bool)
+        chosen[read_face_indices(file, len(surface.faces))] = True
+        return chosen
+    try:
+        chosen = faces_where(surface, text, LENGTH[unit], more)
+    except ValueError as error:
+        raise InputError("", option, str(error), "or give a file of face numbers") from error
+    if not chosen.any():
+        raise InputError("", option, f"{text!r} holds for no face of {surface.name}", "check axis, sign and unit")
+    return chosen
+
+
+def _placed(record: Record, role: str, mesh: Mesh, placement: str, unit: str) -> Mesh:
+    model, colon, body = placement.partition(".osim:")
+    if colon:
+        name, _, file = body.partition(":")
+        matrix = mesh_placement(f"{model}.osim", name, file)
+        record.add_input(f"placement of {role}", f"{model}.osim", body=name)
+        return placed(mesh, matrix, LENGTH[unit])
+    pose = read_pose(placement, unit)
+    record.add_input(f"placement of {role}", placement)
+    return placed(mesh, pose.as_matrix())
+
+
+def _median_edge(surface: Surface) -> float:
+    return round(float(np.median(surface.edge_length)) * 1e3, 4)
+
+
+def _warn_of_sides(record: Record, role: str, surface: Surface) -> None:
+    other = {"moving": "area_fixed", "fixed": "area_moving"}[role]
+    if not surface.closed:
+        why = surface.topology.why_open or "it has no closed edge"
+        record.warn(f"{surface.name} is open ({why}): {other} is unsigned")
+        return
+    if not surface.topology.closed:
+        record.warn(f"{surface.name} is taken as closed on your word ({surface.topology.why_open})")
+    if surface.inside_out:
+        record.warn(f"{surface.name}: faces point inwards; taken the other way round")
+    if surface.topology.closed and not surface.normals_trusted:
+        record.warn(f"{surface.name}: parts overlap or are turned over; inside is decided by the winding number")

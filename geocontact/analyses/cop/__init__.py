@@ -1,0 +1,1 @@
+"""Centre of pressure of a foot that stands on spheres."""

@@ -1,0 +1,1 @@
+"""Jobs around the gap between a model and a measurement."""

@@ -1,0 +1,1 @@
+"""A diagnosis of many labelled synthetic cases, scored."""

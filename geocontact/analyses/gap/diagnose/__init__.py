@@ -1,0 +1,1 @@
+"""Diagnosis of one case or of several."""

@@ -1,0 +1,1 @@
+"""Which effects the trials of a case can tell apart."""

@@ -1,0 +1,1 @@
+"""Recordings of several trials gathered into one case."""

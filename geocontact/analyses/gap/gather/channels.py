@@ -1,0 +1,138 @@
+"""Channels that were recorded elsewhere, put beside the inputs of a trial: mats, force plates, sides of a knee."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.io.cases.trial_sources import PlateSource, SidesSource
+from geocontact.io.cases.trial_table import TrialTable
+from geocontact.io.mocap.force_plates import LOADED, ForcePlate, plate_named, read_force_plates
+from geocontact.io.recordings.area_table import AreaTable, read_area_table
+from geocontact.io.recordings.force_curves import read_force_curves
+from geocontact.io.recordings.mat_results import MatResult
+from geocontact.io.text.csv_text import Column
+from geocontact.loads.centre_in_foot import centre_in_foot
+
+SHARED = 0.5  # of a trial's samples that what is put beside them must have been recorded at
+UPRIGHT = 0.999  # smallest cosine between a plate's normal and y
+POSE = {"x": "m", "y": "m", "pitch": "rad"}
+SIDES = ("medial", "lateral")
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """Channels of one recording by name, with their unit and their values at a trial's times."""
+
+    what: str
+    time: Float[np.ndarray, " r"]
+    channels: Mapping[str, tuple[str, Float[np.ndarray, " t"]]]
+
+
+def with_mat(table: TrialTable, site: str, mat: MatResult) -> TrialTable:
+    """The trial with the mat's force."""
+    force = np.interp(table.signals.time, mat.time, mat.force, np.nan, np.nan)
+    return _widened(table, Recorded(f"the mat in {mat.folder.name}", mat.time, {f"{site}_force": ("N", force)}))
+
+
+def with_plate(record: Record, trial: str, table: TrialTable, source: PlateSource) -> TrialTable:
+    """The trial with the plate's reaction as a foot on spheres predicts it; x counted along the belt where one runs."""
+    plate = plate_named(read_force_plates(source.file), source.plate, source.file, "plate =")
+    record.add_input(f"{trial} plates", source.file, plate=plate.name)
+    _require_pose(table, source, plate)
+    time = table.signals.time
+    x, y, pitch = (table.signals.column(name) for name in POSE)
+    reaction = plate.at(time)
+    centre = reaction.centre_of_pressure(plate.point, plate.normal, LOADED)
+    channels = {
+        "force_x": ("N", reaction.force[:, 0]),
+        "force_y": ("N", reaction.force[:, 1]),
+        "cop_x": ("m", centre_in_foot(centre[:, 0], x, y, pitch)),
+    }
+    values = table.signals.values.copy()
+    values[:, table.signals.channels.index("x")] += source.belt * time
+    run = replace(table, signals=replace(table.signals, values=values))
+    return _widened(run, Recorded(f"{plate.name} in {source.file.name}", plate.time, channels))
+
+
+def with_sides(record: Record, trial: str, table: TrialTable, source: SidesSource) -> TrialTable:
+    """The trial with the forces of a knee's sides, and with their areas where they are given."""
+    if source.areas is not None:
+        areas = read_area_table([source.areas])
+        record.add_input(f"{trial} areas", source.areas)
+        at = _threshold(areas, source.threshold)
+        found = {side: areas.areas[side][:, at] for side in SIDES if side in areas.areas}
+        table = _with_both(table, areas.file, "area", "m^2", areas.time, found)
+    forces = read_force_curves(source.forces, source.unit, {})
+    record.add_input(f"{trial} forces", source.forces, unit=forces.unit)
+    return _with_both(table, forces.file, "force", "N", forces.time, forces.forces)
+
+
+def _with_both(
+    table: TrialTable,
+    file: str,
+    name: str,
+    unit: str,
+    time: Float[np.ndarray, " r"],
+    curves: Mapping[str, Float[np.ndarray, " r"]],
+) -> TrialTable:
+    """The trial with `name`_medial and `name`_lateral, linear between samples."""
+    for side in SIDES:
+        if side not in curves:
+            raise InputError(file, "", f"has no {name} of the {side} side", "a knee's case needs both sides apart")
+    at = table.signals.time
+    channels = {f"{name}_{side}": (unit, np.interp(at, time, curves[side], np.nan, np.nan)) for side in SIDES}
+    return _widened(table, Recorded(Path(file).name, time, channels))
+
+
+def _threshold(areas: AreaTable, wanted: float | None) -> int:
+    """Place of the threshold [m] among those of the table."""
+    there = ", ".join(f"{each:g}" for each in areas.thresholds)
+    if wanted is None:
+        if len(areas.thresholds) > 1:
+            raise InputError(areas.file, "", f"holds thresholds of {there} m", "name one: threshold = 0.004")
+        return 0
+    near = np.flatnonzero(np.isclose(areas.thresholds, wanted, rtol=1e-6, atol=0.0))
+    if not len(near):
+        raise InputError(areas.file, "threshold", f"no area at {wanted:g} m", f"thresholds are {there} m")
+    return int(near[0])
+
+
+def _require_pose(table: TrialTable, source: PlateSource, plate: ForcePlate) -> None:
+    """Refuse a trial that does not say where the foot is, and plates that do not lie level with y up."""
+    for name, unit in POSE.items():
+        if name not in table.signals.channels or table.column(name).si != unit:
+            what = f"no column '{name}' in {unit}"
+            raise InputError(table.file, "line 1", what, "a plate's reaction needs x, y and pitch of the foot")
+    if plate.normal[1] < UPRIGHT:
+        normal = ", ".join(f"{value:.2f}" for value in plate.normal)
+        raise InputError(source.file, plate.name, f"its normal is ({normal})", "give a file with y up, x forward")
+
+
+def _widened(table: TrialTable, found: Recorded) -> TrialTable:
+    """The trial with these channels besides, nothing where they were not recorded."""
+    signals = table.signals
+    for name in found.channels:
+        if name in signals.channels:
+            what = f"has a column '{name}' already"
+            raise InputError(table.file, "line 1", what, f"strike it, or leave {found.what} out")
+    inside = (signals.time >= found.time[0]) & (signals.time <= found.time[-1])
+    if inside.mean() < SHARED:
+        what = f"runs from {signals.time[0]:g} to {signals.time[-1]:g} s, {found.what}"
+        times = f"{found.time[0]:g} to {found.time[-1]:g} s"
+        raise InputError(table.file, "", f"{what} from {times}", "put both on one clock")
+    units = tuple(unit for unit, _ in found.channels.values())
+    widened = replace(
+        signals,
+        values=np.column_stack([signals.values, *(values for _, values in found.channels.values())]),
+        channels=(*signals.channels, *found.channels),
+        units=(*signals.units, *units),
+    )
+    columns = (Column(name, unit, unit, 1.0) for name, (unit, _) in found.channels.items())
+    return replace(table, signals=widened, columns=(*table.columns, *columns))

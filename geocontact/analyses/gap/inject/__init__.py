@@ -1,0 +1,1 @@
+"""A known effect put into measured trials, and whether the diagnosis finds it."""

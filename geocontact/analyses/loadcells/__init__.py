@@ -1,0 +1,1 @@
+"""Contact forces from the load cells of an instrumented implant."""

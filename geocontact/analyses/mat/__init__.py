@@ -1,0 +1,1 @@
+"""Pressure-mat frames put on a body surface."""

@@ -1,0 +1,114 @@
+"""A mat on a segment that moves: poses of the segment at the mat's frames, loads in the frame that it moves in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool, Float
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.analyses.mat.recording import Recording
+from geocontact.analyses.run_record import Record
+from geocontact.cli.idle import refuse
+from geocontact.cli.mat import MatOptions
+from geocontact.data.errors import InputError
+from geocontact.data.motion import Motion
+from geocontact.data.pressure_frames import PressureFrames
+from geocontact.geometry.register.moving import poses_at
+from geocontact.io.motion.motion import read_motion
+from geocontact.loads.mat.load import MatLoad
+from geocontact.loads.mat.moving import covariance_in, load_in
+
+TOUCH = 1e-6  # s; a frame so far beyond the motion is at its end, as times are rounded
+
+
+@dataclass(frozen=True, eq=False)
+class Travel:
+    """Poses X_GB of the segment at the mat's frames, and the name of G."""
+
+    poses: RigidTransform
+    frame: str
+
+    def carried(
+        self,
+        whole: MatLoad,
+        parts: Mapping[str, MatLoad],
+        covariance: Float[np.ndarray, "t six six"],
+        point: Float[np.ndarray, " 3"],
+    ) -> tuple[MatLoad, dict[str, MatLoad], Float[np.ndarray, "t six six"]]:
+        """Loads about one point of the segment as loads about `point` of G [m]."""
+        origin = whole.wrench.origin[0]
+        return (
+            load_in(whole, self.poses, point, self.frame),
+            {name: load_in(part, self.poses, point, self.frame) for name, part in parts.items()},
+            covariance_in(covariance, origin, self.poses, point),
+        )
+
+
+def refuse_idle_motion(o: MatOptions) -> None:
+    """Refuse options of reading a motion that is not there, or that contradict each other."""
+    reading = {
+        "--osim": o.osim, "--joint": o.joint, "--moving": o.moving_body, "--map": o.map, "--order": o.order,
+        "--angles": o.angles,
+    }  # fmt: skip
+    refuse(
+        *((o.motion is None and value is not None, option, "does nothing without --motion", "give it too")
+          for option, value in reading.items()),
+        (o.map is not None and o.osim is not None, "--map", "beside --osim names the columns twice", "give one"),
+        (o.moving_body is not None and o.osim is None, "--moving", f"{o.moving_body} needs a joint",
+         "give --osim and --joint"),
+        (o.order is not None and o.osim is not None, "--order", "does nothing here: the joint gives the order",
+         "leave it out"),
+    )  # fmt: skip
+
+
+def followed(record: Record, seen: Recording, o: MatOptions) -> tuple[Recording, Travel | None]:
+    """The frames for which there is a pose, and the poses; all frames and None without --motion."""
+    if o.motion is None:
+        return seen, None
+    motion = _motion(record, o)
+    time, low, high = seen.frames.time, float(motion.time[0]), float(motion.time[-1])
+    inside = (time >= low - TOUCH) & (time <= high + TOUCH)
+    span = f"the mat has frames from {time[0]:g} to {time[-1]:g} s and the motion poses from {low:g} to {high:g} s"
+    if not inside.any():
+        raise InputError(o.motion, "", f"no frame has a pose: {span}", "bring both to one clock")
+    if not inside.all():
+        record.warn(f"{int((~inside).sum())} of {len(time)} frames are left out, they have no pose: {span}")
+    poses = poses_at(motion.time, motion.poses, np.clip(time[inside], low, high))
+    frame = o.frame or _name(o)
+    record.results["motion"] = {
+        "source": motion.source, "frame": frame, "poses": len(motion), "frames_left_out": int((~inside).sum()),
+    }  # fmt: skip
+    chosen = replace(seen, frames=_only(seen.frames, inside), read=_only(seen.read, inside))
+    return chosen, Travel(poses, frame)
+
+
+def _motion(record: Record, o: MatOptions) -> Motion:
+    path = Path(str(o.motion))
+    motion = read_motion(
+        path, osim=o.osim, joint=o.joint, moving=o.moving_body or "child", mapping=o.map, order=o.order, angles=o.angles
+    )
+    refuse(
+        (motion.time_unit != "s", "--motion", f"{path} runs in {motion.time_unit}", "write its time in s"),
+        (len(motion) < 2, "--motion", f"{path} holds one pose", "two are needed"),
+        *((value is not None and name not in motion.heeded, f"--{name}", f"does nothing here: {path} asks for none",
+           "leave it out") for name, value in (("order", o.order), ("angles", o.angles))),
+    )  # fmt: skip
+    record.add_input("motion", path, frames=len(motion), source=motion.source)
+    if o.osim is not None:
+        record.add_input("model", o.osim, joint=o.joint)
+    return motion
+
+
+def _name(o: MatOptions) -> str:
+    """What the motion leads to, in words."""
+    if o.joint is not None:
+        return f"of the {'child' if o.moving_body == 'parent' else 'parent'} body of joint {o.joint}"
+    return f"that {Path(str(o.motion)).name} leads to"
+
+
+def _only(frames: PressureFrames, chosen: Bool[np.ndarray, " t"]) -> PressureFrames:
+    return replace(frames, time=frames.time[chosen], pressure=frames.pressure[chosen])

@@ -1,0 +1,1 @@
+"""Constraint forces of an exoskeleton whose axis is not the axis of the joint."""

@@ -1,0 +1,1 @@
+"""An identified law or a simulation beside recordings."""

@@ -1,0 +1,1 @@
+"""Stiffness, link and offsets identified from force and angle."""

@@ -1,0 +1,1 @@
+"""How the largest force spreads over people whose offsets differ."""

@@ -1,0 +1,1 @@
+"""Synthetic recordings, or ideal forces along recorded angles."""

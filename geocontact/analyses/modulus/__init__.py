@@ -1,0 +1,1 @@
+"""Elastic modulus from contact areas and measured forces."""

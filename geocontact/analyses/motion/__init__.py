@@ -1,0 +1,1 @@
+"""Scaling, inverse kinematics, inverse dynamics and virtual markers of OpenSim models."""

@@ -1,0 +1,1 @@
+"""Joint moments from motion and external loads."""

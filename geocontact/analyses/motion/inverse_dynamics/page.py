@@ -1,0 +1,118 @@
+"""The page of inverse dynamics: moments and forces over time, and what motion, masses and plates leave over."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.analyses.area.words import NOT_A_DEVICE
+from geocontact.analyses.motion.panels import panels_by_joint
+from geocontact.data.multibody.model import GROUND, Multibody
+from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words
+from geocontact.view.page.write import write_page
+
+FRAMES = 1001  # that the page shows at most
+LEFT = (
+    "The joint to the ground has no muscle: what is found along its coordinates is what motion, masses and plates do "
+    "not agree upon (Hicks et al. 2015, J Biomech Eng 137, ask for root mean squares below 5 % of the largest external "
+    "force)."
+)
+FILTERED = (
+    "Moments follow from accelerations: the low-pass of the coordinates decides how much of an impact is left. Forces "
+    "of plates are not filtered. Positive values act along the coordinate."
+)
+
+
+@dataclass(frozen=True)
+class Forces:
+    """Generalised forces over time.
+
+    Parameters
+    ----------
+    time
+        [s].
+    model
+        Whose coordinates they are.
+    values
+        In its order [N m, N].
+    peak
+        Largest measured force on one body [N]; 0 without any.
+    """
+
+    time: Float[np.ndarray, " t"]
+    model: Multibody
+    values: Float[np.ndarray, "t n"]
+    peak: float
+
+    @property
+    def at_ground(self) -> Bool[np.ndarray, " n"]:
+        """Coordinates of joints to the ground that free a body of it, six at one joint."""
+        joints = [joint for joint in self.model.joints for _ in joint.coordinates]
+        return np.array([joint.parent == GROUND and len(joint.coordinates) == 6 for joint in joints], dtype=bool)
+
+    @property
+    def residual(self) -> float:
+        """Size of the force left over there, root mean square [N]; NaN where no body is free."""
+        straight = np.array([c.kind == "translational" for c in self.model.coordinates], dtype=bool)
+        left = self.values[:, self.at_ground & straight]
+        return float(np.sqrt(np.mean(np.sum(left**2, axis=1)))) if left.size else float("nan")
+
+
+def write_forces_report(
+    path: Path, title: str, forces: Forces, tables: Sequence[Table] = (), warnings: Sequence[str] = ()
+) -> int:
+    """Write the self-contained page; returns its size in bytes."""
+    every = -(-len(forces.time) // FRAMES)
+    shown = np.arange(0, len(forces.time), every)
+    turning = np.array([c.kind == "rotational" for c in forces.model.coordinates], dtype=bool)
+    base = forces.at_ground
+    values = np.asarray(forces.values)[shown]
+    sections: list[Section] = [
+        *panels_by_joint(forces.model, "N m", values, turning & ~base),
+        *panels_by_joint(forces.model, "N", values, ~turning & ~base),
+        *_left_over(forces, values, turning, base),
+        *tables,
+        Words("What the numbers do not contain", [LEFT, FILTERED, NOT_A_DEVICE]),
+    ]
+    if warnings:
+        sections.append(Words("Reservations of this run", list(warnings)))
+    page = Page(
+        title=title,
+        subtitle=f"{int((~base).sum())} coordinates of {forces.model.name or 'the model'}",
+        time=forces.time[shown],
+        time_label="time [s]",
+        headline=_headline(forces, turning & ~base),
+        sections=tuple(sections),
+        numbers=shown + 1,
+        total=len(forces.time),
+    )
+    return write_page(page, path)
+
+
+def _headline(forces: Forces, turning: Bool[np.ndarray, " n"]) -> list[tuple[str, str]]:
+    told = []
+    if turning.any():
+        sizes = np.abs(np.where(turning, forces.values, 0.0))
+        frame, which = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
+        where = f"{forces.model.coordinates[which].name} at {forces.time[frame]:.3g} s"
+        told.append(("Largest moment", f"{sizes[frame, which]:.1f} N m, {where}"))
+    if np.isfinite(forces.residual):
+        share = f" ({forces.residual / forces.peak:.1%} of the largest measured force)" if forces.peak > 0.0 else ""
+        told.append(("Left over at the ground, root mean square", f"{forces.residual:.1f} N{share}"))
+    return told
+
+
+def _left_over(
+    forces: Forces, values: Float[np.ndarray, "t n"], turning: Bool[np.ndarray, " n"], base: Bool[np.ndarray, " n"]
+) -> list[Section]:
+    found: list[Section] = []
+    for title, unit, which in (("forces", "N", ~turning & base), ("moments", "N m", turning & base)):
+        names = [c.name for c, there in zip(forces.model.coordinates, which, strict=True) if there]
+        if names:
+            curves = [Curve(name, value) for name, value in zip(names, values[:, which].T, strict=True)]
+            found.append(Curves(f"Left over at the ground: {title}", unit, curves))
+    return found

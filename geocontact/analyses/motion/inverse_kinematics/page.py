@@ -1,0 +1,78 @@
+"""The page of inverse kinematics: coordinates over time, and how far each marker is from the model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.area.words import NOT_A_DEVICE
+from geocontact.analyses.motion.panels import panels_by_joint
+from geocontact.data.multibody.model import Multibody
+from geocontact.dynamics.inverse_kinematics import Poses
+from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Table, Words
+from geocontact.view.page.write import write_page
+
+FRAMES = 1001  # that the page shows at most
+SKIN = (
+    "Markers lie on skin, which slides over bone by centimetres, and the model's joints are not the subject's: the "
+    "distances above tell how far both come together, not how wrong the angles are. Angles of joints that few markers "
+    "tell, and rotations about the long axis of a segment, are the least certain."
+)
+
+
+def write_kinematics_report(
+    path: Path,
+    title: str,
+    model: Multibody,
+    found: Poses,
+    tables: Sequence[Table] = (),
+    warnings: Sequence[str] = (),
+) -> int:
+    """Write the self-contained page; returns its size in bytes."""
+    every = -(-len(found.time) // FRAMES)
+    shown = np.arange(0, len(found.time), every)
+    angular = np.array([c.kind == "rotational" for c in model.coordinates])
+    off = 1e3 * found.distances
+    values = np.asarray(found.values)[shown]
+    sections: list[Section] = [
+        Readout([Row("markers, root mean square", "mm", [_size(row) for row in off[shown]])]),
+        *panels_by_joint(model, "deg", np.degrees(values), angular),
+        *panels_by_joint(model, "m", values, ~angular),
+        Curves("Distance of markers", "mm", [Curve(n, d) for n, d in zip(found.markers, off[shown].T, strict=True)]),
+        _markers(found),
+        *tables,
+        Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),
+    ]
+    if warnings:
+        sections.append(Words("Reservations of this run", list(warnings)))
+    page = Page(
+        title=title,
+        subtitle=f"{len(found.names)} coordinates of {model.name or 'the model'} from {len(found.markers)} markers",
+        time=found.time[shown],
+        time_label="time [s]",
+        headline=[
+            ("Distance of markers, root mean square", f"{np.sqrt(np.nanmean(off**2)):.1f} mm"),
+            ("Largest distance", f"{np.nanmax(off):.1f} mm"),
+        ],
+        sections=tuple(sections),
+        numbers=shown + 1,
+        total=len(found.time),
+    )
+    return write_page(page, path)
+
+
+def _markers(found: Poses) -> Table:
+    rows = [
+        (name, _size(d), f"{np.nanmax(d, initial=0.0):.1f}", f"{np.isnan(d).sum()}")
+        for name, d in zip(found.markers, 1e3 * found.distances.T, strict=True)
+    ]
+    return Table("Markers", ("marker", "rms [mm]", "largest [mm]", "frames not seen"), rows)
+
+
+def _size(distances: Float[np.ndarray, " k"]) -> str:
+    """Root mean square of those that are known, as text."""
+    known = distances[np.isfinite(distances)]
+    return f"{np.sqrt(np.mean(known**2)):.1f}" if len(known) else "-"

@@ -1,0 +1,79 @@
+"""What counts in inverse kinematics and how much, as typed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from geocontact.analyses.quantities import number
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
+from geocontact.io.opensim.marker_weights import read_marker_weights
+from geocontact.io.text.tables import listed
+
+HELD = 1e3  # weight of a coordinate that is held, against 1 of a marker: a radian as dear as 30 m of a marker
+
+
+def marker_tasks(
+    record: Record,
+    model: Multibody,
+    seen: MarkerTrajectories,
+    file: Path | None,
+    weight: tuple[str, ...] = (),
+    hold: tuple[str, ...] = (),
+) -> MarkerTasks:
+    """Weights of --tasks, or 1 for every marker of the model; then what single options say."""
+    if not model.markers:
+        raise InputError(
+            str(record.options["model"]), "", "has no markers", "give a model with a MarkerSet, or --marker-set"
+        )
+    if file is None:
+        tasks = MarkerTasks({m.name: 1.0 for m in model.markers})
+    else:
+        tasks = read_marker_weights(file)
+        record.add_input("--tasks", file, markers=len(tasks.markers), coordinates=len(tasks.coordinates))
+    known = {c.name: c for c in model.coordinates}
+    markers = {**tasks.markers, **_named(weight, "--weight", {m.name for m in model.markers}, "R.Heel=10")}
+    if min(markers.values(), default=0.0) < 0.0:
+        raise InputError("", "--weight", "a weight is negative", "weights are 0 or more")
+    held = _named(hold, "--hold", set(known), "subtalar_angle_r=5.2")
+    fixed = [name for name in held if known[name].locked]
+    if fixed:
+        raise InputError("", "--hold", f"'{fixed[0]}' is locked by the model", "unlock it there, or leave it out")
+    wanted = {name: (HELD, np.radians(v) if known[name].kind == "rotational" else v) for name, v in held.items()}
+    _warn(record, model, seen, markers, [name for name, (w, _) in tasks.coordinates.items() if w > 0.0])
+    return MarkerTasks(markers, {**tasks.coordinates, **wanted})
+
+
+def _warn(
+    record: Record, model: Multibody, seen: MarkerTrajectories, markers: dict[str, float], coordinates: list[str]
+) -> None:
+    """Say which weights count nothing: of what was never seen, of what the model lacks."""
+    visible = np.isfinite(seen.positions).all(axis=2).any(axis=0)
+    there = {name for name, once in zip(seen.names, visible, strict=True) if once}
+    weighty = [name for name, weight in markers.items() if weight > 0.0]
+    own = {m.name for m in model.markers}
+    rows = (
+        ("markers that have a weight were not recorded", [n for n in weighty if n in own and n not in there]),
+        ("markers that have a weight are not in the model", [n for n in weighty if n not in own]),
+        ("coordinates that have a weight are not in the model",
+         [n for n in coordinates if n not in {c.name for c in model.coordinates}]),
+    )  # fmt: skip
+    for what, names in rows:
+        if names:
+            record.warn(f"{seen.source}: {what}: {listed(tuple(names))}")
+
+
+def _named(texts: tuple[str, ...], option: str, names: set[str], example: str) -> dict[str, float]:
+    found = {}
+    for text in texts:
+        name, equals, value = text.rpartition("=")
+        if not equals or name not in names:
+            what = f"'{text}' names nothing of the model"
+            raise InputError("", option, what, f"write for example {example}; there are {listed(tuple(sorted(names)))}")
+        found[name] = number(value, option, example)
+    return found

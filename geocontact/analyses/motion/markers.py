@@ -1,0 +1,58 @@
+"""Marker trajectories as the options of a command want them: turned into the model's axes, cut to a span."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from geocontact.analyses.quantities import time_span, turned_axes
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
+from geocontact.io.mocap.markers import read_markers
+from geocontact.io.opensim.osim_multibody import read_marker_set
+
+LARGEST, SMALLEST, FEW = 20.0, 0.05, 5
+"""Span of the markers in a frame [m] beyond which the unit is another, from so many markers on below."""
+
+
+def markers_given(file: Path, axes: str | None, time: str | None) -> MarkerTrajectories:
+    """Markers of a file with `--axes` and `--time` heeded."""
+    seen = read_markers(file)
+    _refuse_absurd(seen)
+    if axes is not None:
+        seen = seen.turned(turned_axes(axes, "--axes"))
+    if time is None:
+        return seen
+    first, last = time_span(time)
+    part = seen.between(first, last)
+    if not len(part):
+        what = f"no frame between {first:g} and {last:g} s"
+        raise InputError(seen.source, "--time", what, f"the recording is from {seen.time[0]:g} to {seen.time[-1]:g} s")
+    return part
+
+
+def _refuse_absurd(seen: MarkerTrajectories) -> None:
+    """A body spans decimetres to metres; more or less is another unit than the file says."""
+    places = seen.positions[np.isfinite(seen.positions).all(axis=2)]
+    if not len(places):
+        raise InputError(seen.source, "", "no marker is seen in any frame", "is it the right file?")
+    first = next(frame for frame in seen.positions if np.isfinite(frame).all(axis=1).any())
+    there = first[np.isfinite(first).all(axis=1)]
+    size = float(np.linalg.norm(np.ptp(there, axis=0)))
+    if size > LARGEST or (len(there) >= FEW and size < SMALLEST):
+        likely = "mm" if size > LARGEST else "m"
+        what = f"markers span {size:.3g} m in a frame"
+        raise InputError(seen.source, "", what, f"is the unit in the file's head right? perhaps it is {likely}")
+
+
+def with_marker_set(record: Record, model: Multibody, osim: Path, file: Path | None) -> Multibody:
+    """The model with the markers of another file in place of its own."""
+    if file is None:
+        return model
+    markers = read_marker_set(file, osim)
+    record.add_input("--marker-set", file, markers=len(markers))
+    return replace(model, markers=markers)

@@ -1,0 +1,1 @@
+"""A generic model scaled to one person."""

@@ -1,0 +1,1 @@
+"""Markers of a model along a motion."""

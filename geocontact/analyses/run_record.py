@@ -1,0 +1,110 @@
+"""What makes a result reproducible: inputs with hashes, versions, options, warnings, time taken."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import platform
+import sys
+import time
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from importlib.metadata import PackageNotFoundError, version
+from os import PathLike, fspath
+from pathlib import Path
+
+from geocontact import __version__
+from geocontact.analyses.stale_results import PARAVIEW
+from geocontact.data.errors import InputWarning
+
+LIBRARIES = ("numpy", "scipy", "numba", "libigl", "python-fcl", "pandas", "matplotlib")
+
+
+@dataclass
+class Record:
+    """Collects what `run.json` says."""
+
+    command: str
+    options: Mapping[str, object]
+    inputs: list[dict[str, object]] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    results: dict[str, object] = field(default_factory=dict)
+    said: list[str] = field(default_factory=list)
+    started: float = field(default_factory=time.perf_counter)
+
+    def add_input(self, role: str, path: str | PathLike[str], **facts: object) -> None:
+        """Note a file with its SHA-256 and what is known of it."""
+        digest = facts.pop("sha256", None) or hashlib.sha256(Path(path).read_bytes()).hexdigest()
+        self.inputs.append({"role": role, "file": fspath(path), "sha256": digest, **facts})
+
+    def warn(self, line: str) -> None:
+        """Say a reservation once on stderr and keep it for the record."""
+        line = " ".join(line.split())
+        if line not in self.warnings:
+            self.warnings.append(line)
+            print(f"warning: {line}", file=sys.stderr)
+
+    def say(self, text: str) -> None:
+        """Keep a line for stdout; printed when the results are in place, so that a closed pipe costs nothing."""
+        self.said.append(text)
+
+    def speak(self) -> None:
+        """Print what was kept."""
+        for text in self.said:
+            print(text)
+
+    @contextmanager
+    def catching_warnings(self) -> Iterator[None]:
+        """Turn every `InputWarning` raised inside into one line."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("always", InputWarning)
+            warnings.showwarning = lambda message, category, *_, **__: (
+                self.warn(str(message)) if issubclass(category, InputWarning) else None
+            )
+            yield
+
+    def plain_options(self) -> dict[str, object]:
+        """Options given or in force, as JSON holds them."""
+        return {key: _plain(value) for key, value in self.options.items() if value is not None}
+
+    def versions(self) -> dict[str, str]:
+        """What it ran on."""
+        return {"python": platform.python_version(), "platform": platform.platform(), **_versions()}
+
+    def write(self, *folders: Path) -> None:
+        """Write `run.json` into each folder of results; they differ only in `files`, which lists those beside it."""
+        content = {
+            "geocontact": __version__,
+            "command": self.command,
+            "options": self.plain_options(),
+            "inputs": self.inputs,
+            "results": self.results,
+            "warnings": self.warnings,
+            "versions": self.versions(),
+            "seconds": round(time.perf_counter() - self.started, 3),
+        }
+        for folder in dict.fromkeys(folders):
+            inside = [*folder.iterdir(), *(folder / PARAVIEW).rglob("*")]
+            files = sorted({"run.json", *(p.relative_to(folder).as_posix() for p in inside if p.is_file())})
+            text = json.dumps({**content, "files": files}, indent=2, ensure_ascii=False)
+            (folder / "run.json").write_text(text + "\n", encoding="utf-8")
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, (str, int, float, bool)):
+        return value
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    return str(value)
+
+
+def _versions() -> dict[str, str]:
+    found = {}
+    for name in LIBRARIES:
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            found[name] = "not installed"
+    return found

@@ -1,0 +1,1 @@
+"""Cylinder, sphere or plane fitted to a surface."""

@@ -1,0 +1,186 @@
+"""The page of a fit: the surface coloured by its distance to the shape, the numbers, and what they depend on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from geocontact.analyses.area.words import NOT_A_DEVICE
+from geocontact.geometry.fit.directions import across
+from geocontact.geometry.fit.found import OUTLYING, ShapeFit
+from geocontact.geometry.fit.profile import SagittalProfile
+from geocontact.geometry.surface import Surface
+from geocontact.view.page.content import Body, Page, Picture, Scene, Section, Table, Words
+from geocontact.view.page.write import write_page
+
+MM = 1e3
+FINEST = 1e-6  # m; what the colours resolve at least
+ROUND = 72  # sides of the drawn cylinder, rings of the drawn sphere
+SHAPE = "fitted {}"
+BESIDE = (
+    "Points beside the section of the shape, the map of what is left over, and its distribution; dashed: three times "
+    "the noise, beyond which a point is called an outlier."
+)
+OVER_FLEXION = (
+    "Radius of circles fitted to windows of the outline as seen along the axis, with 95 % intervals; a single radius "
+    "holds where the curve is level."
+)
+WAYS = {  # by axis: which way a mesh's axes point in the body is not known here
+    f"{sign}{axis}": tuple(turn * float(axis == other) for other in "xyz")
+    for axis in "xyz"
+    for sign, turn in (("+", 1.0), ("−", -1.0))
+}
+DRAWINGS = {"fit": ("The fit", BESIDE), "profile": ("Radius over flexion", OVER_FLEXION)}
+DISTANCES = (
+    "Distances are geometric. Points far off do not count (biweight, its scale from the median distance), unless plain "
+    "least squares was asked for."
+)
+INTERVAL = (
+    "The interval of the radius comes from leaving out one part of the patch after the other, so that it does not "
+    "shrink as the mesh gets finer. It says nothing of another patch: which faces count decides the radius."
+)
+
+
+@dataclass(frozen=True, eq=False)
+class FittedSurface:
+    """What a page tells: a surface [m], its residual at the vertices (NaN off the patch), and what was fitted."""
+
+    surface: Surface
+    residual: Float[np.ndarray, " n"]
+    chosen: Bool[np.ndarray, " m"]
+    whole: ShapeFit
+    sides: Mapping[str, ShapeFit]
+    profiles: Mapping[str, SagittalProfile]
+
+
+def write_fit_report(
+    path: Path,
+    fitted: FittedSurface,
+    drawings: Mapping[str, bytes],
+    title: str,
+    provenance: Sequence[Table] = (),
+    warnings: Sequence[str] = (),
+) -> int:
+    """Write the self-contained page of one fit; returns its size in bytes.
+
+    Parameters
+    ----------
+    drawings
+        SVG of the figures by name; those that `DRAWINGS` names are shown.
+    provenance
+        Further tables: inputs with hashes, options, versions.
+    warnings
+        Reservations that came up on the way.
+    """
+    return write_page(fit_page(fitted, drawings, title, provenance, warnings), path)
+
+
+def fit_page(
+    fitted: FittedSurface,
+    drawings: Mapping[str, bytes],
+    title: str,
+    provenance: Sequence[Table] = (),
+    warnings: Sequence[str] = (),
+) -> Page:
+    """The page before it becomes a file."""
+    sections: list[Section] = [_scene(fitted)]
+    sections += [Picture(*DRAWINGS[name], drawings[name], wide=name == "fit") for name in DRAWINGS if name in drawings]
+    sections += [_fits(fitted), *provenance, Words("How far to trust it", _words(fitted))]
+    if warnings:
+        sections.append(Words("Reservations of this run", list(warnings)))
+    count = int(fitted.chosen.sum())
+    return Page(
+        title=title,
+        subtitle=f"Fitted to {count} of {len(fitted.chosen)} faces of {fitted.surface.name}; the others are left grey",
+        time=np.zeros(1),
+        time_label="time [s]",
+        headline=_headline(fitted.whole),
+        sections=tuple(sections),
+    )
+
+
+def _headline(fit: ShapeFit) -> list[tuple[str, str]]:
+    lines = []
+    if fit.radius is not None:
+        interval = fit.radius_interval
+        known = "" if interval is None else f" (95 % interval {interval[0] * MM:.3f} … {interval[1] * MM:.3f} mm)"
+        lines.append(("Radius", f"{fit.radius * MM:.3f} mm{known}"))
+    q = fit.quality
+    lines += [
+        ("Distance of the points", f"rms {fit.rms * MM:.3f} mm, mean {fit.mean_abs * MM:.3f} mm"),
+        ("Inliers", f"{int(q.inlier.sum())} of {len(q.residual)} points"),
+    ]
+    return lines
+
+
+def _scene(fitted: FittedSurface) -> Scene:
+    shape = fitted.whole.shape
+    limit = max(OUTLYING * fitted.whole.quality.noise, FINEST)
+    distance = np.where(np.isnan(fitted.residual), np.inf, np.abs(fitted.residual))
+    bodies = [Body(fitted.surface.name, fitted.surface.vertices, fitted.surface.faces, distance=distance[None])]
+    vertices, faces = drawn(fitted)
+    bodies.append(Body(SHAPE.format(shape), vertices, faces, opacity=0.2))
+    return Scene(
+        bodies=bodies,
+        thresholds=(limit,),
+        span=(0.0, 1.5 * limit),
+        value_name=f"distance to the fitted {shape}, to either side; the line is three times the noise",
+        directions=WAYS,
+    )
+
+
+def drawn(fitted: FittedSurface) -> tuple[Float[np.ndarray, "k 3"], Int[np.ndarray, "l 3"]]:
+    """Triangles of the shape [m], as far as the patch reaches."""
+    fit = fitted.whole
+    offset = fitted.surface.vertices[np.isfinite(fitted.residual)] - fit.point
+    frame = across(np.array([0.0, 0.0, 1.0]) if fit.axis is None else fit.axis)
+    local = offset @ frame.T
+    lower, upper = local.min(axis=0), local.max(axis=0)
+    if fit.radius is None:
+        u, v = np.meshgrid([lower[0], upper[0]], [lower[1], upper[1]], indexing="ij")
+        grid = np.stack([u, v, np.zeros((2, 2))], axis=-1)
+    elif fit.axis is None:
+        turn, rise = np.meshgrid(
+            np.linspace(0.0, 2.0 * np.pi, ROUND + 1), np.linspace(0.01, np.pi - 0.01, ROUND // 2), indexing="ij"
+        )
+        ring = np.stack([np.cos(turn) * np.sin(rise), np.sin(turn) * np.sin(rise), np.cos(rise)], axis=-1)
+        grid = fit.radius * ring
+    else:
+        turn, height = np.meshgrid(np.linspace(0.0, 2.0 * np.pi, ROUND + 1), [lower[2], upper[2]], indexing="ij")
+        grid = np.stack([fit.radius * np.cos(turn), fit.radius * np.sin(turn), height], axis=-1)
+    rows, columns = grid.shape[:2]
+    corner = np.arange(rows * columns).reshape(rows, columns)
+    a, b, c, d = (part.ravel() for part in (corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]))
+    faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+    return grid.reshape(-1, 3) @ frame + fit.point, faces
+
+
+def _fits(fitted: FittedSurface) -> Table:
+    header = ("points", "radius [mm]", "95 % interval [mm]", "rms [mm]", "mean [mm]", "inliers", "arc [°]")
+    rows = []
+    for name, fit in {"whole patch": fitted.whole, **fitted.sides}.items():
+        interval = fit.radius_interval
+        rows.append((
+            f"{name}: {len(fit.quality.residual)}",
+            "–" if fit.radius is None else f"{fit.radius * MM:.3f}",
+            "–" if interval is None else f"{interval[0] * MM:.3f} … {interval[1] * MM:.3f}",
+            f"{fit.rms * MM:.3f}", f"{fit.mean_abs * MM:.3f}", f"{int(fit.quality.inlier.sum())}",
+            f"{np.degrees(fit.arc):.0f}",
+        ))  # fmt: skip
+    return Table("Fitted shapes", header, rows)
+
+
+def _words(fitted: FittedSurface) -> list[str]:
+    words = [DISTANCES]
+    if fitted.whole.radius is not None:
+        words.append(INTERVAL)
+        if fitted.whole.rms_inliers > 0.01 * fitted.whole.radius:
+            words.append(
+                f"The points depart from the {fitted.whole.shape} by more than a hundredth of its radius: the surface "
+                "is not one, and its radius is a mean of several."
+            )
+    return [*words, NOT_A_DEVICE]
