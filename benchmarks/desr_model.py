@@ -19,7 +19,7 @@ from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base
-from geocontact.systems.elastic_joint.model import model as elastic_joint
+from geocontact.systems.elastic_joint import model as elastic_joint
 
 RANK = 5.0
 SWITCHED = (-0.15, 0.17)

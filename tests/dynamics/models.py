@@ -7,9 +7,10 @@ from itertools import product
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.data.multibody import joint_kinds
 from geocontact.data.multibody.joint import Coordinate, JointModel, TransformAxis
 from geocontact.data.multibody.joint_function import Affine, JointFunction
-from geocontact.data.multibody.model import Body, Marker, Multibody, joint_kinds
+from geocontact.data.multibody.model import Body, Marker, Multibody
 from geocontact.io.opensim.osim_functions import piecewise_linear, polynomial, simm_spline
 
 STILL = Affine(np.zeros(0), 0.0)

@@ -15,7 +15,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from geocontact.systems.catalogue import system_of
-from geocontact.systems.sit_to_stand.model import model as sit_to_stand
+from geocontact.systems.sit_to_stand import model as sit_to_stand
 from tests.systems.examples import LEVERS, SITES_CONSTANTS, STIFFNESS, example, recording, sites, sites_trial
 
 SYSTEM, TRIALS = example("sit_to_stand")
