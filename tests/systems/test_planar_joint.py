@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geocontact.misalignment.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
-from geocontact.misalignment.explicit import Offsets, require_no_pole
-from geocontact.misalignment.planar_joint import FOLD, LOST, POLE, SOUND, PlanarJoint, extremes_of, grid
+from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
+from geocontact.axis_misalignment.explicit import Offsets, require_no_pole
+from geocontact.axis_misalignment.planar_joint import FOLD, LOST, POLE, SOUND, PlanarJoint, extremes_of, grid
 from geocontact.systems.elbow.misalignment import POLE_SHARE, deflect
 
 TURN = np.radians(120.0)

@@ -17,7 +17,7 @@ from geocontact.identify.signals.zero_lag import zero_lag
 from geocontact.io.recordings import elbow_recording as channels
 from geocontact.io.recordings.elbow_recording import read_elbow_recording
 from geocontact.io.text.columns import parse_map
-from geocontact.misalignment.bins import FORCE, Binned
+from geocontact.axis_misalignment.bins import FORCE, Binned
 
 LEAST_BINS = 8  # that a fit is made to
 SLID = 0.5e-3  # m; a locked joint does not move as far

@@ -29,8 +29,8 @@ from geocontact.identify.signals.agreement import Agreement, agreement
 from geocontact.identify.signals.angle_bins import edges_over, visits
 from geocontact.identify.signals.even_times import at_times, even_times
 from geocontact.io.text.results import write_table
-from geocontact.misalignment.law import NAMES
-from geocontact.misalignment.synthetic import ideal
+from geocontact.axis_misalignment.law import NAMES
+from geocontact.axis_misalignment.synthetic import ideal
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.page.tables import frame_table, inputs_table
 

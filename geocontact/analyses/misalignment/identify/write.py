@@ -33,11 +33,11 @@ from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.identify.intervals.bin_tests import LEVEL, BinTest, Pair
 from geocontact.identify.signals.angle_bins import places
 from geocontact.io.text.results import write_table
-from geocontact.misalignment.bins import Binned
-from geocontact.misalignment.end_stop import curve_of
-from geocontact.misalignment.law import LENGTHS, NAMES
-from geocontact.misalignment.least_squares import r_squared
-from geocontact.misalignment.residuals import residual_by_bin, standard_residuals
+from geocontact.axis_misalignment.bins import Binned
+from geocontact.axis_misalignment.end_stop import curve_of
+from geocontact.axis_misalignment.law import LENGTHS, NAMES
+from geocontact.axis_misalignment.least_squares import r_squared
+from geocontact.axis_misalignment.residuals import residual_by_bin, standard_residuals
 from geocontact.view.page.tables import frame_table, inputs_table
 
 if TYPE_CHECKING:

@@ -26,8 +26,8 @@ from geocontact.data.errors import InputError
 from geocontact.io.recordings.elbow_recording import BETA, MOST_BENT, STRAIGHTEST, read_elbow_recording
 from geocontact.io.text.columns import parse_map
 from geocontact.io.text.results import write_table
-from geocontact.misalignment.explicit import Offsets, require_no_pole, require_reach
-from geocontact.misalignment.synthetic import PAPER, Design, ideal, synthetic
+from geocontact.axis_misalignment.explicit import Offsets, require_no_pole, require_reach
+from geocontact.axis_misalignment.synthetic import PAPER, Design, ideal, synthetic
 from geocontact.view.page.content import Table
 from geocontact.view.page.tables import inputs_table
 

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.misalignment.end_stop import FEWEST, Curve, Stroke, slope_over
-from geocontact.misalignment.law import ElbowLaw
+from geocontact.axis_misalignment.end_stop import FEWEST, Curve, Stroke, slope_over
+from geocontact.axis_misalignment.law import ElbowLaw
 
 TOTAL = {0: 1.0, 5: 0.0, 6: 0.0}
 """k, b and s with which the law's force is d_tot."""

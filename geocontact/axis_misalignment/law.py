@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.misalignment.explicit import Offsets
+from geocontact.axis_misalignment.explicit import Offsets
 from geocontact.systems.elbow.misalignment import misalignment
 
 NAMES = ("k", "x", "y", "l", "z", "b", "s")

@@ -20,7 +20,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.misalignment.axis_drift import STILL, AxisDrift, drift_at
+from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift, drift_at
 from geocontact.systems.elbow.misalignment import POLE_SHARE, attachment
 
 SOUND, POLE, FOLD, LOST = 0, 1, 2, 3

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.misalignment.axis_drift import STILL, AxisDrift
-from geocontact.misalignment.compensation import Compensation, needed_ends
-from geocontact.misalignment.planar_joint import PlanarJoint, deflections, drift_numbers, extremes_of, grid
+from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift
+from geocontact.axis_misalignment.compensation import Compensation, needed_ends
+from geocontact.axis_misalignment.planar_joint import PlanarJoint, deflections, drift_numbers, extremes_of, grid
 
 RAYS = 360
 """Directions in which offsets around a centre are looked at."""

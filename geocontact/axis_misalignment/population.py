@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.misalignment.axis_drift import STILL, AxisDrift
-from geocontact.misalignment.compensation import beyond
-from geocontact.misalignment.planar_joint import SOUND, STEP, extremes_of, grid
+from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift
+from geocontact.axis_misalignment.compensation import beyond
+from geocontact.axis_misalignment.planar_joint import SOUND, STEP, extremes_of, grid
 
 QUANTITIES = ("k", "l", "z", "x", "y")
 """Stiffness [N/m], link length, distance of the attachment, offsets [m]: columns of a sample."""

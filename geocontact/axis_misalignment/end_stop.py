@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.misalignment.bins import BETA, DISPLACEMENT, FORCE, Binned
+from geocontact.axis_misalignment.bins import BETA, DISPLACEMENT, FORCE, Binned
 
 STILL = 0.05  # of the displacement's range: so close to its extreme the joint stands
 STANDS = 0.005  # of it, median deviation: a smooth extreme has more within STILL of it
