@@ -98,7 +98,9 @@ Millimetres = Annotated[float, Typed("m", "millimetres", "[mm]", float)]
 Degrees = Annotated[float, Typed("rad", "degrees", "[deg]", float)]
 Fraction = Annotated[float, Typed("-", "fraction")]
 Pressure = Annotated[float, Typed("Pa", "pressure")]
+TimeSpan = Annotated[tuple[float, float], Typed("s", "time_span"), Spelled(dashed=True)]
 Expression = Annotated[str, Spelled(dashed=True)]
+Texts = Annotated[tuple[str, ...], Spelled(dashed=True, each=True)]
 
 
 @dataclass(frozen=True)

@@ -235,14 +235,14 @@ def windows(text: str, option: str) -> list[tuple[float, float]]:
     return found
 
 
-def time_span(text: str) -> tuple[float, float]:
+def time_span(text: str, option: str) -> tuple[float, float]:
     """ "0.4:1.6" as first and last time [s]."""
     first, colon, last = text.partition(":")
     if not colon:
-        raise InputError("", "`time`", f"'{text}' is not a span", "write for example 0.4:1.6")
-    start, stop = (number(each, "`time`", "0.4:1.6") for each in (first, last))
+        raise InputError("", option, f"'{text}' is not a span", "write for example 0.4:1.6")
+    start, stop = (number(each, option, "0.4:1.6") for each in (first, last))
     if start > stop:
-        raise InputError("", "`time`", f"'{text}' ends before it begins", "write for example 0.4:1.6")
+        raise InputError("", option, f"'{text}' ends before it begins", "write for example 0.4:1.6")
     return start, stop
 
 

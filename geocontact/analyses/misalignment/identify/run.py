@@ -15,13 +15,6 @@ from geocontact.analyses.misalignment.parameters import MMHG
 from geocontact.analyses.misalignment.recordings import MIRRORED, recordings, require_bins, require_locked
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
-from geocontact.cli.elbow_fit import ElbowFitOptions
-from geocontact.data.elbow_recording import ElbowRecording
-from geocontact.data.errors import InputError
-from geocontact.identify.intervals.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours
-from geocontact.identify.intervals.profile_likelihood import Profile
-from geocontact.io.recordings.elbow_recording import DISPLACEMENT
-from geocontact.io.recordings.elbow_recording import FORCE as FORCE_CHANNEL
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
 from geocontact.axis_misalignment.end_stop import Stiffness, Stroke, curve_of, stiffness_by_displacement, stroke_of
 from geocontact.axis_misalignment.explicit import require_no_pole, require_reach
@@ -45,6 +38,13 @@ from geocontact.axis_misalignment.uncertainty import (
     wild_bootstrap,
     with_link_held,
 )
+from geocontact.cli.elbow_fit import ElbowFitOptions
+from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.data.errors import InputError
+from geocontact.identify.intervals.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours
+from geocontact.identify.intervals.profile_likelihood import Profile
+from geocontact.io.recordings.elbow_recording import DISPLACEMENT
+from geocontact.io.recordings.elbow_recording import FORCE as FORCE_CHANNEL
 
 FEW_STRETCHES = 12
 FACTORS = np.geomspace(0.5, 2.0, 41)
