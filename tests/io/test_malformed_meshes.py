@@ -247,7 +247,7 @@ def test_a_pipe_is_refused_without_waiting_for_it(tmp_path):
 def test_unknown_unit_is_refused_with_the_known_ones(tmp_path, unit):
     path = tmp_path / "ball.stl"
     path.write_bytes(STL)
-    with pytest.raises(InputError, match=r"ball\.stl: unknown unit .* pass --unit m, cm, mm or in"):
+    with pytest.raises(InputError, match=r"ball\.stl: unknown unit .* pass `unit` m, cm, mm or in"):
         read_mesh(path, unit)
 
 

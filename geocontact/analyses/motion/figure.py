@@ -24,7 +24,7 @@ def curves_figure(time: Float[np.ndarray, " t"], tables: Mapping[str, pd.DataFra
     """Each table's columns over time [s] under its axis label; a legend where there are few columns."""
     shown = {label: table for label, table in tables.items() if len(table.columns)}
     figure, column = panels(max(len(shown), 1), 1, DOUBLE, 0.12)
-    for axes, (label, table) in zip(np.atleast_1d(column), shown.items(), strict=False):
+    for axes, (label, table) in zip(column, shown.items(), strict=False):
         drawn = [
             (axes.plot(time, table[name], color=PALETTE[k % len(PALETTE)], ls=LINES[k % len(LINES)])[0], plain(name))
             for k, name in enumerate(map(str, table.columns))
@@ -32,5 +32,5 @@ def curves_figure(time: Float[np.ndarray, " t"], tables: Mapping[str, pd.DataFra
         axes.set_ylabel(label)
         if len(drawn) <= MOST:
             legend(axes, drawn)
-    np.atleast_1d(column)[-1].set_xlabel(TIME.label)
+    column[-1].set_xlabel(TIME.label)
     return figure

@@ -47,7 +47,7 @@ def motion_from_csv(path: str | PathLike[str], order: str | None = None, angles:
         raise InputError(table.file, "", what, "keep the quaternion or the Euler columns")
     if euler:
         if order is None:
-            raise InputError(table.file, "", "Euler columns without an order", "pass --order, e.g. --order XYZ")
+            raise InputError(table.file, "", "Euler columns without an order", "pass `order`, e.g. `order` XYZ")
         turned = Rotation.from_euler(_sequence(order, "XYZ"), _in_order(angles_of(table, _TURNS, angles), order))
     else:
         turned = _quaternions(table)
@@ -63,7 +63,7 @@ def motion_from_joint(table: Table, joint: JointModel, moving: str = "child", an
     default value, with a warning; a table with none of them is refused.
     """
     if moving not in ("child", "parent"):
-        raise InputError("", "--moving", f"'{moving}' is not a body of the joint", "give child or parent")
+        raise InputError("", "`moving_body`", f"'{moving}' is not a body of the joint", "give child or parent")
     columns = columns_of(table, (joint,))
     pose = joint.pose(coordinates_of(table, joint.coordinates, columns, angles), len(table.time))
     if not np.all(np.isfinite(pose.as_matrix())):
@@ -140,7 +140,7 @@ def _sequence(order: str, axes: str) -> str:
     sequence = order.upper()
     if set(sequence) - set("XYZ") or len(set(sequence)) != len(sequence) or not set(axes) <= set(sequence):
         what = f"'{order[:20]}' does not order the axes {', '.join(axes)}"
-        raise InputError("", "--order", what, "name each axis once, e.g. XYZ")
+        raise InputError("", "`order`", what, "name each axis once, e.g. XYZ")
     return sequence
 
 

@@ -72,14 +72,14 @@ def require_elbow(beta: Float[np.ndarray, " t"], file: str, name: str) -> None:
     span = f"angle '{name}' runs from {low:.3g} to {high:.3g} degrees"
     if beta.max() - beta.min() < TURN_OF_ANY_ELBOW and high - low > 0.5:
         what = f"{span}, too little for an elbow in degrees: are these radians?"
-        raise InputError(file, "", what, "name the right unit in the header, or pass --angles rad")
+        raise InputError(file, "", what, "name the right unit in the header, or pass `angles` rad")
     if beta.max() - beta.min() < LEAST_TURN:
         raise InputError(file, "", f"{span}: it hardly changes", "give a recording that moves by 10 degrees or more")
     if beta.max() <= 0.0 or (beta.max() <= LEAST_TURN and beta.min() < STRAIGHTEST):
-        raise InputError(file, "", f"{span}: flexion is positive here", f"turn its sign: --map {BETA}=-{name}")
+        raise InputError(file, "", f"{span}: flexion is positive here", f"turn its sign: `map` {BETA}=-{name}")
     if beta.min() < STRAIGHTEST or beta.max() > MOST_BENT:
         what = f"{span}, beyond any elbow: are degrees taken for radians, or is its zero elsewhere?"
-        raise InputError(file, "", what, "pass --angles deg or rad, or take the zero off")
+        raise InputError(file, "", what, "pass `angles` deg or rad, or take the zero off")
 
 
 def _source(table: Table, channel: str, mapping: Mapped, must: bool) -> tuple[float, str] | None:
@@ -87,7 +87,7 @@ def _source(table: Table, channel: str, mapping: Mapped, must: bool) -> tuple[fl
     found = resolve(table, name)
     if found is None and (must or channel in mapping):
         what = f"no column '{name}' for {channel}; columns are: {listed(table.channels)}"
-        raise InputError(table.file, "", what, f"name it: --map {channel}=NAME")
+        raise InputError(table.file, "", what, f"name it: `map` {channel}=NAME")
     return None if found is None else (sign, found)
 
 

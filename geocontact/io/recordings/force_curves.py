@@ -43,14 +43,14 @@ def read_force_curves(path: Path, unit: str | None, mapping: Mapping[str, tuple[
     there = {side: source for side, source in sources.items() if side in mapping or source[1] in table.channels}
     if not there:
         what = f"no column medial, lateral or total; columns are: {listed(table.channels)}"
-        raise InputError(table.file, "", what, "name them: --map medial=F1,lateral=F2")
+        raise InputError(table.file, "", what, "name them: `map` medial=F1,lateral=F2")
     forces, units = _forces(table, there, unit)
     if "total" not in forces and {"medial", "lateral"} <= set(forces):
         forces["total"] = forces["medial"] + forces["lateral"]
     largest = max(float(np.abs(values).max()) for values in forces.values())
     if largest > STRONGEST:
         what = f"forces reach {largest:.0f} N"
-        raise InputError(table.file, "", what, f"is the file in {units} at all? see --unit")
+        raise InputError(table.file, "", what, f"is the file in {units} at all? see `unit`")
     return ForceCurves(table.file, table.time, forces, units)
 
 

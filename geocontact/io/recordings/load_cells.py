@@ -81,7 +81,7 @@ def read_load_cells(
     largest = float(np.abs(forces.sum(axis=1)).max())
     if largest > STRONGEST:
         what = f"all cells together reach {largest:.0f} N"
-        raise InputError(table.file, "", what, f"is the file in {', '.join(sorted(units))} at all? see --unit")
+        raise InputError(table.file, "", what, f"is the file in {', '.join(sorted(units))} at all? see `unit`")
     return CellRecording(table.file, table.time, forces, ", ".join(sorted(units)))
 
 
@@ -98,9 +98,9 @@ def _unit(table: Table, name: str, given: str | None) -> str:
     if said and (si_unit(said) or ("", 0.0))[0] != "N":
         raise InputError(table.file, "", f"column '{name}' is in '{said}'", f"forces are in {', '.join(FORCES)}")
     if said and given and si_unit(said) != si_unit(given):
-        raise InputError(table.file, "", f"column '{name}' is in {said}, not in {given}", "leave --unit out")
+        raise InputError(table.file, "", f"column '{name}' is in {said}, not in {given}", "leave `unit` out")
     if not said and not given:
-        raise InputError(table.file, "--unit", "is missing: the file names no unit", "pass --unit lbf, N or kN")
+        raise InputError(table.file, "`unit`", "is missing: the file names no unit", "pass `unit` lbf, N or kN")
     return next(u for u in FORCES if si_unit(u) == si_unit(said or given or ""))
 
 

@@ -38,7 +38,7 @@ def angles_of(table: Table, names: Sequence[str], angles: str | None = None) -> 
     turns. One that says deg and never exceeds 0.2 is used with a warning.
     """
     if angles not in (None, "deg", "rad"):
-        raise InputError("", "--angles", f"'{angles}' is not a unit of angles here", "give deg or rad")
+        raise InputError("", "`angles`", f"'{angles}' is not a unit of angles here", "give deg or rad")
     values = np.column_stack([table.needed(name) for name in names])
     said = [_said_unit(table, name) for name in names]
     units = [angles or unit or _ask(table, name) for name, unit in zip(names, said, strict=True)]
@@ -67,11 +67,11 @@ def parse_map(text: str, targets: Sequence[str]) -> dict[str, tuple[float, str]]
     for part in text.split(","):
         target, equals, name = (piece.strip() for piece in part.partition("="))
         if not equals or not name.lstrip("-+ "):
-            raise InputError("", "--map", f"'{part.strip()}' is not of the form target=column", "e.g. rz=knee_flexion")
+            raise InputError("", "`map`", f"'{part.strip()}' is not of the form target=column", "e.g. rz=knee_flexion")
         if target not in targets:
-            raise InputError("", "--map", f"unknown target '{target}'", f"targets are: {', '.join(targets)}")
+            raise InputError("", "`map`", f"unknown target '{target}'", f"targets are: {', '.join(targets)}")
         if target in mapping:
-            raise InputError("", "--map", f"target '{target}' is given twice", "name one column for each target")
+            raise InputError("", "`map`", f"target '{target}' is given twice", "name one column for each target")
         mapping[target] = (-1.0 if name.startswith("-") else 1.0, name.lstrip("-+ "))
     return mapping
 
@@ -126,8 +126,8 @@ def _said_unit(table: Table, name: str) -> str | None:
 def _ask(table: Table, name: str) -> NoReturn:
     """Refuse an angle column whose unit the file does not tell, or tells in two ways."""
     if table.angles.conflict:
-        raise InputError(table.file, f"line {table.angles.line}", table.angles.conflict, "pass --angles deg or rad")
-    remedy = "pass --angles deg or rad" + (" (SIMM motion files are in degrees by convention)" * table.angles.simm)
+        raise InputError(table.file, f"line {table.angles.line}", table.angles.conflict, "pass `angles` deg or rad")
+    remedy = "pass `angles` deg or rad" + (" (SIMM motion files are in degrees by convention)" * table.angles.simm)
     where = "header" if table.opensim else f"column '{name}'"
     raise InputError(table.file, "", f"{where} does not say whether angles are degrees or radians", remedy)
 
@@ -135,10 +135,10 @@ def _ask(table: Table, name: str) -> NoReturn:
 def _check_size(table: Table, names: Sequence[str], values: Float[np.ndarray, "t k"], units: list[str]) -> None:
     if found := _beyond_two_turns(table, names, values, units):
         what = f"{found[1]}, too much for the radians that the header declares"
-        raise InputError(table.file, found[0], what, "pass --angles deg or rad")
+        raise InputError(table.file, found[0], what, "pass `angles` deg or rad")
     size = np.max(np.abs(values))
     if set(units) == {"deg"} and 0.0 < size < _FEW_DEGREES:
-        what = f"no angle exceeds {size:.3g} deg; if they are radians pass --angles rad"
+        what = f"no angle exceeds {size:.3g} deg; if they are radians pass `angles` rad"
         warnings.warn(InputWarning(f"{table.file}: {what}"), stacklevel=4)
 
 
@@ -152,7 +152,7 @@ def _warn_of_doubts(
     elif table.angles.conflict:
         doubts.append(f"{table.file} line {table.angles.line}: {table.angles.conflict}; read as {angles} as asked for")
     if found := _beyond_two_turns(table, names, values, [angles] * len(names)):
-        doubts.append(f"{table.file} {found[0]}: {found[1]}, much for radians; if these are degrees pass --angles deg")
+        doubts.append(f"{table.file} {found[0]}: {found[1]}, much for radians; if these are degrees pass `angles` deg")
     for doubt in doubts:
         warnings.warn(InputWarning(doubt), stacklevel=4)
 

@@ -50,8 +50,8 @@ class ScaleResult(Result):
     def write_files(self, folder: Path) -> None:
         """scaled.osim and scale.json."""
         by = {name: factor * np.ones(3) for name, factor in self.factors.items()}
-        pose = self.pose
-        standing = {n: float(v) for n, v in zip(pose.names, pose.values[0], strict=True) if np.isfinite(v)}
+        values = np.asarray(self.pose.values)[0].tolist()
+        standing = {name: v for name, v in zip(self.pose.names, values, strict=True) if np.isfinite(v)}
         write_scaled_model(self.options.model, folder / "scaled.osim", self.model, by, standing)
         write_json(folder / "scale.json", self.summary)
 
