@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -10,7 +11,6 @@ from unittest import mock
 import pytest
 
 from geocontact.analyses.loadcells.job import load_cells
-from geocontact.analyses.stale_results import NAMES
 from geocontact.data.errors import InputWarning
 from tests.analyses.loadcells.synthetic_walk import CELLS, HEAD, LBF, PERIOD, recorded
 from tests.cli.calls import Call, call, done, inventory, written
@@ -43,13 +43,13 @@ def unpictured() -> Iterator[None]:
 
 def test_writes_what_python_writes(tmp_path: Path) -> None:
     """Files by name, tables byte for byte, options as typed and in SI."""
-    typed = ("--cycles", "stride", "--part", "60%", "--map", "PM=-PM,AM=AM", "--parquet")
+    typed = ("--cycles", "stride", "--part", "60%", "--map", "PM=PM,PL=-PL", "--parquet")
     walk = recorded(tmp_path)
     result = done(loadcells(tmp_path, *typed, files=(walk,), picture=True))
     tables = {f"{name}.{ending}" for name in ("forces", "cycles", "ensemble") for ending in ("csv", "parquet")}
-    assert set(inventory(result.folder)) == FILES | CYCLES | tables <= NAMES
+    assert set(inventory(result.folder)) == FILES | CYCLES | tables
     with pytest.warns(InputWarning, match="in tension"):
-        python = load_cells(walk, unit="N", cycles="stride", part=0.6, map="PM=-PM,AM=AM", parquet=True)
+        python = load_cells(walk, unit="N", cycles="stride", part=0.6, map="PM=PM,PL=-PL", parquet=True)
     python.write(tmp_path / "python")
     for name in tables:
         assert (tmp_path / "python" / name).read_bytes() == result.bytes(name), name
@@ -57,7 +57,7 @@ def test_writes_what_python_writes(tmp_path: Path) -> None:
     assert record["options"] == {
         "recordings": [str(walk)],
         "unit": "N",
-        "map": "PM=-PM,AM=AM",
+        "map": "PM=PM,PL=-PL",
         "cycles": "stride",
         "part": "60%",
         "parquet": True,
@@ -77,6 +77,7 @@ def test_several_recordings_have_a_folder_each(tmp_path: Path) -> None:
     both = {f"{name}/{file}" for name in ("normal", "bouncy") for file in FILES}
     assert set(inventory(result.folder)) == {"normal", "bouncy", "styles.csv", "run.json", *CYCLES, *both}
     assert b"Difference to the first style" in result.bytes("bouncy/report.html")
+    assert set(json.loads(result.bytes("bouncy/run.json"))["files"]) == FILES
     roles = {entry["role"]: entry["file"] for entry in result.record()["inputs"]}
     assert roles == {"recording": str(files[1]), "--cycles": str(table)}
 

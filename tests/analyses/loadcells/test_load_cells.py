@@ -61,8 +61,10 @@ def test_other_names_and_signs(tmp_path: Path) -> None:
     turned = recorded(tmp_path, "e.csv", -1.0)
     back = forces(turned, unit="N", map="PM=-PM,AM=-AM,AL=-AL,PL=-PL")
     pd.testing.assert_frame_equal(back, plain, check_exact=True)
-    with pytest.warns(InputWarning, match="cells are in tension .* `map` PM=-PM"):
+    with pytest.warns(InputWarning) as said:
         load_cells(turned, unit="N")
+    assert "cells are in tension" in str(said[0].message) and "`map` PM=-PM" in str(said[0].message)
+    assert "if the file is in lbf pass `unit` lbf" in str(said[1].message) and len(said) == 2
 
 
 @pytest.mark.parametrize(
@@ -150,7 +152,7 @@ def test_one_cycle_has_no_spread_and_it_is_said(tmp_path: Path) -> None:
 
 
 def test_more_styles_than_a_figure_tells_apart_are_said_and_kept(tmp_path: Path) -> None:
-    rows = [f"style {k},,{0.2 + 0.1 * k},{1.3 + 0.1 * k}" for k in range(7)]
+    rows = [f"style {k},walk,{0.2 + 0.1 * i},{1.3 + 0.1 * i}" for k in range(7) for i in (k, k + 1)]
     table = tmp_path / "cycles.csv"
     table.write_text("\n".join(["style, recording, start [s], end [s]", *rows]) + "\n", encoding="utf-8")
     with pytest.warns(InputWarning, match="7 styles are more than a figure tells apart"):
