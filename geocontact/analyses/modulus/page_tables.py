@@ -29,7 +29,8 @@ def moduli(found: Identified) -> Table:
 
 def _free(side: str, each: Identification) -> list[Row]:
     rmse, r2 = agreement(each.measured, each.predicted)
-    drawn, rows = each.replicates, []
+    drawn = each.replicates
+    rows: list[Row] = []
     for k, (name, p) in enumerate(each.profiles.items()):
         per, unit = (1e-6, "MPa") if name == MODULUS else (PER_SI[name], UNITS[name])
         label = "E*" if name == MODULUS else name

@@ -115,8 +115,9 @@ def _other(record: Record, o: ModulusOptions, mapping: Mapping[str, tuple[float,
     if not o.predict_area:
         return None
     table = _areas(record, "`predict_area`", o.predict_area)
-    known = o.predict_force is not None
-    return OtherTrial(table, _forces(record, "`predict_force`", o.predict_force, o, mapping) if known else None)
+    if o.predict_force is None:
+        return OtherTrial(table, None)
+    return OtherTrial(table, _forces(record, "`predict_force`", o.predict_force, o, mapping))
 
 
 def _radii(
