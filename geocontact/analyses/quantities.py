@@ -150,6 +150,11 @@ def angle_range(text: str, option: str, example: str) -> tuple[float, float, flo
     return start * ANGLE["deg"], stop * ANGLE["deg"], step * ANGLE["deg"]
 
 
+def degree_range(text: str, option: str) -> tuple[float, float, float]:
+    """ "-30:120:5" to start, stop, step [rad]; degrees are typed."""
+    return angle_range(text, option, f"{option}=-30:120:5")
+
+
 def directions(text: str, option: str) -> tuple[Vector, Vector]:
     """ "-y,x" to two unit vectors along coordinate axes."""
     names = [part.strip() for part in text.split(",")]
