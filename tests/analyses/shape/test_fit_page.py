@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.analyses.shape.page import FittedSurface, drawn, fit_page
+from geocontact.analyses.shape.fitting import Fitting
+from geocontact.analyses.shape.page import drawn, fit_page
+from geocontact.analyses.shape.patch import Patch
 from geocontact.geometry.fit.catalogue import SHAPES
 from geocontact.view.page.content import Scene
 from meshes.simple_shapes import block, cylinder, sphere
@@ -21,15 +23,14 @@ def test_shape_is_drawn_where_it_is_and_colours_are_distances(shape: str) -> Non
     counted = np.zeros(len(body.vertices), bool)
     counted[body.faces[chosen]] = True
     fit = SHAPES[shape](body.vertices[counted], True)
-    residual = np.where(counted, fit.distance(body.vertices), np.nan)
-    told = FittedSurface(body, residual, chosen, fit, {}, {})
+    told = Fitting(Patch(body, chosen, True, None, -1), fit, {}, {})
     vertices, faces = drawn(told)
     np.testing.assert_allclose(fit.distance(vertices), 0.0, atol=1e-12)
     assert faces.max() < len(vertices) and (np.ptp(vertices, axis=0) > 0.01).any()
     page = fit_page(told, {}, "title")
     scene = next(section for section in page.sections if isinstance(section, Scene))
     shown = scene.bodies[0].distance[0]
-    np.testing.assert_allclose(shown[counted], np.abs(residual[counted]))
+    np.testing.assert_allclose(shown[counted], np.abs(fit.distance(body.vertices)[counted]))
     assert np.isinf(shown[~counted]).all()
     assert set(scene.directions) == {"+x", "−x", "+y", "−y", "+z", "−z"}
     assert ("Radius" in dict(page.headline)) == (shape != "plane")
