@@ -83,11 +83,6 @@ def speller(known: tuple[Declared, ...]) -> Callable[[str], str]:
     return spelled
 
 
-def argument(one: Declared) -> bool:
-    """Whether it is typed without its name."""
-    return one.positional and not one.spelled.keyword
-
-
 def option(one: Declared) -> str:
     """Its name on the command line, without the dashes."""
     return one.spelled.name or one.name.replace("_", "-")
@@ -96,6 +91,11 @@ def option(one: Declared) -> str:
 def key(one: Declared) -> str:
     """Its name in `run.json`."""
     return one.spelled.key or one.name
+
+
+def argument(one: Declared) -> bool:
+    """Whether it is typed without its name."""
+    return one.positional and not one.spelled.keyword
 
 
 def read(one: Declared, value: Any) -> Any:
