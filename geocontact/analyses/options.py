@@ -148,13 +148,20 @@ class Declared:
             return None
         if self.several:
             one = get_args(self.kind)[0]
-            items = value if isinstance(value, (tuple, list)) else (value,)
+            items = (value,) if self._alone(value) else value
             return tuple(Path(item) if one is Path else item for item in items)
         if self.kind is Path:
             return Path(value)
         if self.choices and value not in self.choices:
             raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
         return value
+
+    def _alone(self, value: Any) -> bool:
+        """Whether a value is one of several; a pair is one where pairs are asked for."""
+        if not isinstance(value, (tuple, list)):
+            return True
+        pairs = get_origin(get_args(self.kind)[0]) is tuple
+        return pairs and len(value) > 0 and not isinstance(value[0], (tuple, list))
 
 
 @dataclass(frozen=True)
