@@ -71,7 +71,7 @@ def _frames_table(r: MatFindings) -> pd.DataFrame:
 def _segments_table(r: MatFindings) -> pd.DataFrame:
     """Load of each part, one below the other."""
     tables = [load_table(part, r.frames.time).assign(segment=name) for name, part in r.segments.items()]
-    return pd.concat(tables).loc[:, ["segment", *tables[0].columns[:-1]]]
+    return pd.concat(tables, ignore_index=True).loc[:, ["segment", *tables[0].columns[:-1]]]
 
 
 def _registration_table(found: Registration) -> pd.DataFrame:

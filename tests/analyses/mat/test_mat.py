@@ -206,6 +206,11 @@ def test_files_are_not_read_before_options_are_refused(tmp_path: Path) -> None:
         called(tmp_path / "no.csv", surface=tmp_path / "no.stl", landmarks=tmp_path / "no_marks.csv", gate=-1.0)
 
 
+def test_a_mat_that_is_far_larger_than_the_scan_is_refused(tmp_path: Path) -> None:
+    with refusal("skin.obj: the scan spans 141.4 mm and the mat 500 mm; the file looks like cm"):
+        flat(tmp_path, uniform(), LAYOUT.replace("10.0", "100.0"))
+
+
 SHIPPED = {
     "thigh": ("mat_thigh_16x8", 0.006, 1.0),
     "torso": ("mat_torso_32x8", 0.006, 1.0),
