@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.dynamics.moving_joint import MovingJoint, moving_joint
-from geocontact.dynamics.symbols import apply_numpy, constant
+from geocontact.dynamics.symbols import apply_numpy, constant, entries
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -149,7 +149,7 @@ def tree_of(
     moved = dict(places or {})
     axes = []
     for joint, columns in zip(model.joints, tree.columns(), strict=True):
-        own = moving_joint(joint, q[columns], u[columns], a[columns])
+        own = moving_joint(joint, *(entries(each, columns) for each in (q, u, a)))
         fixed = bodies[joint.parent].carried(joint.parent_offset, moved.get(joint.name))
         moving = fixed.moved(own)
         bodies[joint.child] = moving.carried(joint.child_offset.inv())
