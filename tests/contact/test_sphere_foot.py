@@ -62,6 +62,14 @@ def test_ground_only_pushes_and_parting_costs_nothing(d: float, v: float) -> Non
     assert d > 0.0 or force == 0.0
 
 
+def test_damping_does_not_grow_with_the_elastic_force() -> None:
+    """Beyond the depth of full damping it is b d' at every depth; Hunt and Crossley's is k d^n times a number."""
+    (_, _, b, full), closing = NUMBERS, 0.3
+    deep = np.array([1.0, 2.0, 5.0]) * full
+    damping = normal_force(deep, closing, *NUMBERS) - normal_force(deep, 0.0, *NUMBERS)
+    np.testing.assert_allclose(damping, b * closing, rtol=1e-12)
+
+
 @given(depth, rate)
 def test_force_is_continuous(d: float, v: float) -> None:
     k, n, b, full = NUMBERS
