@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-HEAVY = {"casadi", "dask", "distributed", "ezc3d", "matplotlib", "open3d", "opensim", "pyvista", "trimesh", "vtk"}
+HEAVY = {"casadi", "ezc3d", "matplotlib", "open3d", "opensim", "pyvista", "trimesh", "vtk"}
 NUMERIC = {"fcl", "igl", "numba", "pandas", "scipy"}
 
 
