@@ -110,8 +110,10 @@ READINGS: tuple[Reading, ...] = (
     Reading("strip", "strip of a cylinder, A = 2 b L", 2.0, lambda a, p, e: strip_force(a, p.radius, e, p.length)),
     Reading("cap", "overlap of an undeformed sphere, A = 2 pi R d", 1.5, lambda a, p, e: cap_force(a, p.radius, e)),
     Reading(
-        "threshold", "undeformed sphere within the threshold, A = 2 pi R (d + T)", 1.5,
+        "threshold",
+        "undeformed sphere within the threshold, A = 2 pi R (d + T)",
+        1.5,
         lambda a, p, e: threshold_force(a, p.radius, e, p.threshold),
     ),
-)  # fmt: skip
+)
 """Every reading; "disc" is what the paper's words ask for most directly."""

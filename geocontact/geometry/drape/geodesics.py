@@ -124,10 +124,9 @@ class Geodesics:
         for sign in (1.0, -1.0):
             side = np.flatnonzero(stations >= 0.0 if sign > 0.0 else stations < 0.0)
             side = side[np.argsort(np.abs(stations[side]), kind="stable")]
-            face[:, side], point[:, side], way = traced(
-                self.surface.vertices, self.faces, self.neighbour, start.face, start.point, sign * ahead,
-                np.abs(stations[side])
-            )  # fmt: skip
+            mesh = self.surface.vertices, self.faces, self.neighbour
+            ray = start.face, start.point, sign * ahead
+            face[:, side], point[:, side], way = traced(*mesh, *ray, np.abs(stations[side]))
             heading[:, side] = sign * way
         return Places(face, point), heading
 
