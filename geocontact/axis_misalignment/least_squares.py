@@ -172,13 +172,6 @@ class Estimate:
         """Force of each cell [N]."""
         return self.problem.law.force(self.theta)
 
-    @property
-    def on_bound(self) -> tuple[str, ...]:
-        """Free numbers that ended on a bound."""
-        pairs = zip(self.problem.free, self.values, strict=True)
-        bounds = [(self.problem.parameters[k], v) for k, v in pairs]
-        return tuple(p.name for p, v in bounds if v <= p.lower or v >= p.upper)
-
 
 def problem_of(
     data: Binned, parameters: Sequence[Parameter], priors: Mapping[str, Prior], scale: Scale | None = None

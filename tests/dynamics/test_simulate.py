@@ -16,7 +16,7 @@ from geocontact.data.multibody.model import Body, Multibody
 from geocontact.dynamics import compiled as code
 from geocontact.dynamics.equations import Equations, Memory, equations_of_motion
 from geocontact.dynamics.simulate import Stepper
-from geocontact.dynamics.sphere_contact import SphereLaw, sphere_wrench, together
+from geocontact.dynamics.sphere_contact import SphereLaw, sphere_wrench
 from geocontact.dynamics.tree import tree_of
 from geocontact.geometry.shapes import HalfSpace
 from tests.dynamics.models import all_kinds, free_ball, pendulum
@@ -295,18 +295,3 @@ def test_what_cannot_go_on_says_so() -> None:
         stepper.simulate((np.ones(1), np.ones(1), NONE), np.array([0.0, 1.0]), parameters=np.ones(1))
     with pytest.raises(ValueError, match="there is no coordinate knee"):
         equations_of_motion(tree, prescribed=["knee"])
-
-
-def test_several_spheres_add_up() -> None:
-    tree = tree_of(free_ball())
-    law = SphereLaw(1e5, 1.5, 300.0, 1e-3, 0.01, 0.5, 0.4)
-    one = sphere_wrench(tree.bodies["ball"], 0.02 * X, 0.05, law, GROUND)
-    two = sphere_wrench(tree.bodies["ball"], -0.02 * X, 0.05, law, GROUND)
-    force, moment = together(one, two)
-    run = casadi.Function("f", [tree.q, tree.u], [force, moment, one[0]])
-    q = np.zeros(6)
-    q[4] = 0.049
-    both, turned, alone = (np.array(each).ravel() for each in run(q, np.zeros(6)))
-    np.testing.assert_allclose(both, 2 * alone)
-    np.testing.assert_allclose(alone, [0.0, 1e5 * 1e-3**1.5, 0.0], atol=1e-9)
-    np.testing.assert_allclose(turned, 0.0, atol=1e-12)

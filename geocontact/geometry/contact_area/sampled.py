@@ -62,7 +62,6 @@ class Sampled:
     surface: Surface
     points: Float[np.ndarray, "n 3"]
     faces: Int[np.ndarray, "m 3"]
-    face_index: Int[np.ndarray, " m"]
     across: Float[np.ndarray, " n"]
     edges: Float[np.ndarray, "m 3"]
     area: Float[np.ndarray, " m"]
@@ -95,7 +94,6 @@ class Sampled:
             surface=surface,
             points=points,
             faces=faces,
-            face_index=index,
             across=across,
             edges=surface.edge_length[index],
             area=area,
