@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Memory:
+class LawState:
     """A law's own state.
 
     Parameters
@@ -99,7 +99,7 @@ def equations_of_motion(
     loads: Wrenches | None = None,
     along: Mapping[str, SX] | None = None,
     prescribed: Sequence[str] = (),
-    memory: Sequence[Memory] = (),
+    memory: Sequence[LawState] = (),
     inputs: Sequence[SX] = (),
     parameters: Sequence[SX] = (),
 ) -> Equations:

@@ -74,7 +74,7 @@ class Moving:
 
 
 @dataclass(frozen=True)
-class Axis:
+class JointAxis:
     """What a joint's rates do, in the ground's frame: angular velocity and velocity of `place` per rate, (3, k)."""
 
     place: SX
@@ -105,7 +105,7 @@ class Tree:
     u: SX
     a: SX
     bodies: dict[str, Moving]
-    axes: tuple[Axis, ...]
+    axes: tuple[JointAxis, ...]
     masses: Mapping[str, SX] = field(default_factory=dict)
 
     @property
@@ -154,5 +154,5 @@ def tree_of(
         moving = fixed.moved(own)
         bodies[joint.child] = moving.carried(joint.child_offset.inv())
         rates = (mtimes(fixed.rotation, per) for per in (own.spin_per_rate, own.speed_per_rate))
-        axes.append(Axis(moving.place, *rates))
+        axes.append(JointAxis(moving.place, *rates))
     return Tree(model, q, u, a, bodies, tuple(axes), dict(masses or {}))

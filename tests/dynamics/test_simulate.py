@@ -14,7 +14,7 @@ from geocontact.contact.bristle_friction import bristle_force, deflection_rate
 from geocontact.data.multibody.joint_kinds import prismatic
 from geocontact.data.multibody.model import Body, Multibody
 from geocontact.dynamics import compiled as code
-from geocontact.dynamics.equations import Equations, Memory, equations_of_motion
+from geocontact.dynamics.equations import Equations, LawState, equations_of_motion
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.sphere_contact import SphereLaw, sphere_wrench
 from geocontact.dynamics.tree import tree_of
@@ -109,7 +109,7 @@ def test_derivative_by_a_parameter_without_inputs() -> None:
 def test_memories_grow_where_every_coordinate_is_prescribed(count: int) -> None:
     """z' = c (1 - z) along a course with rate 1: 1 - exp(-c t)."""
     tree, paces = tree_of(slider(1.0)), np.array([1.0, 3.0])[:count]
-    memory = [Memory(z, c * (tree.u[0] - z)) for c in paces for z in [SX.sym("z")]]
+    memory = [LawState(z, c * (tree.u[0] - z)) for c in paces for z in [SX.sym("z")]]
     equations = equations_of_motion(tree, prescribed=["s"], memory=memory)
     assert (equations.q.shape, equations.balance.shape, equations.w.shape) == ((0, 1), (0, 1), (3, 1))
     time = np.linspace(0.0, 1.0, 5)
@@ -214,7 +214,7 @@ def sticking(push: float) -> Stepper:
     growth = deflection_rate(s, tree.u[0], 4.0 / 1e5, 0.7)
     friction = bristle_force(s, growth, 1e5, 300.0)
     along = {"s": push * force + friction}
-    return Stepper(equations_of_motion(tree, along=along, memory=[Memory(s, growth)], inputs=[force]))
+    return Stepper(equations_of_motion(tree, along=along, memory=[LawState(s, growth)], inputs=[force]))
 
 
 def there_and_back(t: float) -> tuple[np.ndarray, np.ndarray]:
