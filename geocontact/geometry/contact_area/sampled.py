@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int8
 
-from geocontact.geometry.inside_outside import resolve_sides
+from geocontact.geometry.inside_outside import resolve_inside_outside
 from geocontact.geometry.kernels.batch import chunk_spheres, move, signed_distances
 from geocontact.geometry.kernels.clip import fraction_below
 from geocontact.geometry.plane import Plane
@@ -126,7 +126,7 @@ def measure(
         spheres = chunk_spheres(points, limit)
     signed = other.closed and other.normals_trusted
     distance, side, slot, closest = signed_distances(other.tree, points, limit, spheres, signed)
-    side, undecided = resolve_sides(other, points, side, distance)
+    side, undecided = resolve_inside_outside(other, points, side, distance)
     across = np.ones(len(points)) if across is None else across
     return Distances(points, distance, side, slot, closest, across, undecided)
 
