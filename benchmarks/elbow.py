@@ -70,9 +70,9 @@ def seconds_per_fit(seed: int) -> list[dict[str, object]]:
     """
     import numpy as np
 
-    from geocontact.misalignment.bins import binned
-    from geocontact.misalignment.least_squares import estimated, problem_of
-    from geocontact.misalignment.synthetic import PAPER, Design
+    from geocontact.axis_misalignment.bins import binned
+    from geocontact.axis_misalignment.least_squares import estimated, problem_of
+    from geocontact.axis_misalignment.synthetic import PAPER, Design
     from tests.systems.elbow_trials import parameters, trials
 
     found = binned(trials(PAPER, Design(), seed), np.radians(2.0))
@@ -116,10 +116,10 @@ def coverage(name: str, runs: int, replicates: int, seed: int) -> dict[str, obje
     import numpy as np
     from scipy.stats import norm, qmc
 
-    from geocontact.misalignment.bins import binned
-    from geocontact.misalignment.least_squares import Prior, estimated, problem_of
-    from geocontact.misalignment.synthetic import PAPER, Design
-    from geocontact.misalignment.uncertainty import covariance, profiled, wild_bootstrap
+    from geocontact.axis_misalignment.bins import binned
+    from geocontact.axis_misalignment.least_squares import Prior, estimated, problem_of
+    from geocontact.axis_misalignment.synthetic import PAPER, Design
+    from geocontact.axis_misalignment.uncertainty import covariance, profiled, wild_bootstrap
     from tests.systems.elbow_trials import parameters, trials
 
     by_prior = name.startswith("priors")
@@ -158,10 +158,10 @@ def ratios(runs: int, seed: int) -> dict[str, object]:
     """Share of runs whose profile intervals hold the true ratios where nothing sets the scale, and both signs of x."""
     import numpy as np
 
-    from geocontact.misalignment.bins import binned
-    from geocontact.misalignment.least_squares import estimated, problem_of
-    from geocontact.misalignment.synthetic import PAPER, Design
-    from geocontact.misalignment.uncertainty import covariance, profiled, with_link_held
+    from geocontact.axis_misalignment.bins import binned
+    from geocontact.axis_misalignment.least_squares import estimated, problem_of
+    from geocontact.axis_misalignment.synthetic import PAPER, Design
+    from geocontact.axis_misalignment.uncertainty import covariance, profiled, with_link_held
     from tests.systems.elbow_trials import parameters, trials
 
     held: dict[str, list[tuple[bool, bool]]] = {}
@@ -194,12 +194,12 @@ def scaled(runs: int, seed: int, donning: float) -> dict[str, object]:
     """Share of runs whose profile interval holds the true k, and its spread, where a free joint sets the scale."""
     import numpy as np
 
-    from geocontact.misalignment.bins import binned
-    from geocontact.misalignment.end_stop import curve_of, stiffness_by_displacement, stroke_of
-    from geocontact.misalignment.least_squares import estimated, problem_of
-    from geocontact.misalignment.scale import scale_of
-    from geocontact.misalignment.synthetic import PAPER, Design
-    from geocontact.misalignment.uncertainty import covariance, profiled
+    from geocontact.axis_misalignment.bins import binned
+    from geocontact.axis_misalignment.end_stop import curve_of, stiffness_by_displacement, stroke_of
+    from geocontact.axis_misalignment.least_squares import estimated, problem_of
+    from geocontact.axis_misalignment.scale import scale_of
+    from geocontact.axis_misalignment.synthetic import PAPER, Design
+    from geocontact.axis_misalignment.uncertainty import covariance, profiled
     from tests.systems.elbow_trials import parameters, trials
 
     design, width = Design(donning=donning), np.radians(2.0)

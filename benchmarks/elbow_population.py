@@ -58,7 +58,7 @@ def sampling():
 
 def drawn(count: int, seed: int):
     """People of that population."""
-    from geocontact.misalignment.population import QUANTITIES
+    from geocontact.axis_misalignment.population import QUANTITIES
 
     one = sampling()
     return one.quantities(one.shares(count, seed), QUANTITIES)
@@ -68,7 +68,7 @@ def exposure():
     """Locked, over the range."""
     import numpy as np
 
-    from geocontact.misalignment.population import Exposure
+    from geocontact.axis_misalignment.population import Exposure
 
     return Exposure(*np.radians(RANGE))
 
@@ -77,7 +77,7 @@ def by_numpy(people, step: float):
     """Largest |F| on the grid of angles only, arrays of people times angles."""
     import numpy as np
 
-    from geocontact.misalignment.planar_joint import grid
+    from geocontact.axis_misalignment.planar_joint import grid
 
     beta = grid(*np.radians(RANGE), np.radians(step))
     s, c = np.sin(beta), np.cos(beta)
@@ -94,7 +94,7 @@ def speed(rounds: int, seed: int) -> dict[str, object]:
     """Processor seconds of a million people, largest forces only; drawing them apart."""
     import numpy as np
 
-    from geocontact.misalignment.population import peak_forces
+    from geocontact.axis_misalignment.population import peak_forces
 
     begun = time.process_time()
     people = drawn(MILLION, seed)
@@ -129,7 +129,7 @@ def convergence(seed: int) -> list[dict[str, float]]:
     """Largest and root mean square error of the peak force [N] by step, refined and on the grid only."""
     import numpy as np
 
-    from geocontact.misalignment.population import peak_forces
+    from geocontact.axis_misalignment.population import peak_forces
 
     people = drawn(CHECKED, seed)
     true = peak_forces(people, exposure(), np.radians(FINEST))[0]
@@ -152,7 +152,7 @@ def drawing(seed: int) -> list[dict[str, float]]:
     import numpy as np
 
     from geocontact.identify.intervals.quantile_intervals import quantile
-    from geocontact.misalignment.population import peak_forces
+    from geocontact.axis_misalignment.population import peak_forces
 
     rows = []
     for count in (1000, 10_000, 100_000, MILLION):

@@ -1,12 +1,14 @@
 """From implant and body-scan meshes, motion and pressure data to contact areas, contact forces and material properties.
 
-The main job in three lines::
+One function for every job; each returns a result that says what was found::
 
     import geocontact as gc
-    moving, fixed = gc.read_surface("femoral.stl", "mm"), gc.read_surface("tibial.stl", "mm")
-    evolution = gc.area_evolution(moving, fixed, gc.read_motion("gait.csv"))
+    result = gc.area("femoral.stl", "tibial.stl", unit="mm", motion="gait.csv", threshold=gc.mm(4))
+    result                        # two sentences; in a notebook with its figure
+    result.table(), result.write("out"), result.page("report.html")
 
-SI units inside (m, rad, s, N, Pa); `evolution.table()` is a data frame with the unit in each column's name.
+SI units inside (m, rad, s, N, Pa): values enter with a unit argument or as `gc.mm(4)`; tables have the unit in each
+column's name.
 """
 
 from __future__ import annotations
@@ -14,11 +16,29 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from geocontact.data.version import VERSION
+
 if TYPE_CHECKING:
-    from geocontact.analyses.area.page import write_report
+    from geocontact.analyses import misalignment
+    from geocontact.analyses.area.job import area, pressure
+    from geocontact.analyses.cop.job import centre_of_pressure
+    from geocontact.analyses.gap.diagnose.job import diagnose
+    from geocontact.analyses.gap.discriminability.job import discriminability
+    from geocontact.analyses.gap.gather.job import gather
+    from geocontact.analyses.gap.inject.job import inject
+    from geocontact.analyses.loadcells.job import load_cells
+    from geocontact.analyses.mat.job import mat
+    from geocontact.analyses.modulus.job import modulus
+    from geocontact.analyses.motion.inverse_dynamics.job import inverse_dynamics
+    from geocontact.analyses.motion.inverse_kinematics.job import inverse_kinematics
+    from geocontact.analyses.motion.scale.job import scale
+    from geocontact.analyses.motion.virtual_markers.job import virtual_markers
+    from geocontact.analyses.result import Result
+    from geocontact.analyses.shape.job import fit_shape
     from geocontact.data.errors import InputError, InputWarning
     from geocontact.data.evolution import AreaEvolution
     from geocontact.data.motion import Motion
+    from geocontact.data.units import GPa, MPa, cm, deg, inch, kN, kPa, lbf, m, mm, mmHg, ms, percent
     from geocontact.geometry.contact_area.area import Refinement
     from geocontact.geometry.contact_area.evolution import ContactPair, Settings, area_evolution
     from geocontact.geometry.contact_area.maps import DistanceMaps
@@ -32,19 +52,22 @@ if TYPE_CHECKING:
     from geocontact.io.mesh.meshes import read_mesh
     from geocontact.io.motion.motion import read_motion
 
-__version__ = "0.1.0"
+__version__ = VERSION
 
 _PLACES = {
     "InputError": "data.errors",
     "InputWarning": "data.errors",
-    "AreaEvolution": "data.evolution",
     "Motion": "data.motion",
+    "Plane": "geometry.plane",
+    "Surface": "geometry.surface",
+    "read_mesh": "io.mesh.meshes",
+    "read_motion": "io.motion.motion",
+    "AreaEvolution": "data.evolution",
     "Refinement": "geometry.contact_area.area",
     "ContactPair": "geometry.contact_area.evolution",
     "Settings": "geometry.contact_area.evolution",
     "area_evolution": "geometry.contact_area.evolution",
     "DistanceMaps": "geometry.contact_area.maps",
-    "Plane": "geometry.plane",
     "Proximity": "geometry.proximity",
     "faces_where": "geometry.regions",
     "separation": "geometry.separation",
@@ -52,12 +75,37 @@ _PLACES = {
     "HalfSpace": "geometry.shapes",
     "Sphere": "geometry.shapes",
     "Tube": "geometry.shapes",
-    "Surface": "geometry.surface",
     "Axis": "geometry.sweep",
     "sweep": "geometry.sweep",
-    "read_mesh": "io.mesh.meshes",
-    "read_motion": "io.motion.motion",
-    "write_report": "analyses.area.page",
+    "area": "analyses.area.job",
+    "pressure": "analyses.area.job",
+    "centre_of_pressure": "analyses.cop.job",
+    "fit_shape": "analyses.shape.job",
+    "load_cells": "analyses.loadcells.job",
+    "modulus": "analyses.modulus.job",
+    "mat": "analyses.mat.job",
+    "scale": "analyses.motion.scale.job",
+    "inverse_kinematics": "analyses.motion.inverse_kinematics.job",
+    "inverse_dynamics": "analyses.motion.inverse_dynamics.job",
+    "virtual_markers": "analyses.motion.virtual_markers.job",
+    "diagnose": "analyses.gap.diagnose.job",
+    "discriminability": "analyses.gap.discriminability.job",
+    "inject": "analyses.gap.inject.job",
+    "gather": "analyses.gap.gather.job",
+    "m": "data.units",
+    "cm": "data.units",
+    "mm": "data.units",
+    "inch": "data.units",
+    "deg": "data.units",
+    "ms": "data.units",
+    "kN": "data.units",
+    "lbf": "data.units",
+    "kPa": "data.units",
+    "MPa": "data.units",
+    "GPa": "data.units",
+    "mmHg": "data.units",
+    "percent": "data.units",
+    "Result": "analyses.result",
 }
 
 __all__ = [
@@ -65,26 +113,55 @@ __all__ = [
     "Axis",
     "ContactPair",
     "DistanceMaps",
+    "GPa",
     "HalfSpace",
     "InputError",
     "InputWarning",
+    "MPa",
     "Motion",
     "Plane",
     "Proximity",
     "Refinement",
+    "Result",
     "Settings",
     "Sphere",
     "Surface",
     "Tube",
+    "area",
     "area_evolution",
+    "centre_of_pressure",
+    "cm",
+    "deg",
+    "diagnose",
+    "discriminability",
     "faces_where",
+    "fit_shape",
+    "gather",
+    "inch",
+    "inject",
+    "inverse_dynamics",
+    "inverse_kinematics",
+    "kN",
+    "kPa",
+    "lbf",
+    "load_cells",
+    "m",
+    "mat",
+    "misalignment",
+    "mm",
+    "mmHg",
+    "modulus",
+    "ms",
+    "percent",
+    "pressure",
     "read_mesh",
     "read_motion",
     "read_surface",
+    "scale",
     "separation",
     "settle",
     "sweep",
-    "write_report",
+    "virtual_markers",
 ]
 
 
@@ -92,7 +169,14 @@ def __getattr__(name: str) -> Any:
     """Import what is asked for, so that `import geocontact` stays light."""
     if name in _PLACES:
         return getattr(import_module(f"geocontact.{_PLACES[name]}"), name)
+    if name == "misalignment":
+        return import_module("geocontact.analyses.misalignment")
     raise AttributeError(f"module 'geocontact' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """All public names, imported or not."""
+    return sorted({*globals(), *__all__})
 
 
 def read_surface(path: str, unit: str, assume_closed: bool = False) -> Surface:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from geocontact.view.curves.save import save
@@ -16,3 +17,11 @@ def save_both(figure: Figure, folder: Path, name: str) -> bytes:
     for ending in ("png", "svg"):
         save(figure, folder / f"{name}.{ending}")
     return (folder / f"{name}.svg").read_bytes()
+
+
+def drawing(figure: Figure) -> bytes:
+    """The drawing that scales, as a page holds it."""
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "figure.svg"
+        save(figure, file)
+        return file.read_bytes()

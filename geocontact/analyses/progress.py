@@ -1,53 +1,21 @@
-"""What is said while something takes long: the first compilation on a machine, many frames, stages of a search."""
+"""Nothing is shown; goes as soon as every analysis has its listener."""
 
 from __future__ import annotations
 
-import sys
-import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-
-SILENCE = 2.5  # s; loading compiled kernels from the cache takes less
+from contextlib import nullcontext
+from typing import Any
 
 
-@contextmanager
-def preparing() -> Iterator[None]:
-    """Say that kernels are being compiled when the block takes longer than loading them from the cache would."""
-    line = "compiling the distance kernels, once on this machine (about half a minute) …"
-    timer = threading.Timer(SILENCE, lambda: print(line, file=sys.stderr, flush=True))
-    timer.daemon = True
-    timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()
+def preparing() -> Any:
+    """Nothing."""
+    return nullcontext()
 
 
-@contextmanager
-def progress(label: str, total: int) -> Iterator[Callable[[], None]]:
-    """A progress bar on stderr when it is a terminal; the block calls what it is given after each step."""
-    if not sys.stderr.isatty() or total < 2:
-        yield lambda: None
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(label, total=total)
-        yield lambda: bar.advance(task)
+def progress(label: str, total: int) -> Any:
+    """Nothing."""
+    return nullcontext(lambda: (label, total))
 
 
-@contextmanager
-def stages(label: str) -> Iterator[Callable[[str], None]]:
-    """What is being done, and for how long, on stderr when it is a terminal; the block names stages as they begin."""
-    if not sys.stderr.isatty():
-        yield lambda _: None
-        return
-    from rich.console import Console
-    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-
-    columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as line:
-        task = line.add_task(label, total=None)
-        yield lambda stage: line.update(task, description=f"{label}: {stage}")
+def stages(label: str) -> Any:
+    """Nothing."""
+    return nullcontext(lambda _: label)

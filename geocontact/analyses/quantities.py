@@ -48,7 +48,33 @@ def length(text: str, option: str, unit: str = "mm") -> float:
     return number(text, option, f"{option} 4 or {option} 4mm") * LENGTH[unit]
 
 
-def modulus(text: str, option: str) -> float:
+def millimetres(value: float, option: str) -> float:
+    """A number of millimetres in metres."""
+    return finite(value, option) * LENGTH["mm"]
+
+
+def degrees(value: float, option: str) -> float:
+    """A number of degrees in radians."""
+    return finite(value, option) * ANGLE["deg"]
+
+
+def finite(value: float, option: str) -> float:
+    """The number, which is finite."""
+    if not math.isfinite(value):
+        raise InputError("", option, f"{value} is not a finite number", "give a number")
+    return value
+
+
+def friction(text: str, option: str) -> tuple[float, float]:
+    """ "0.9,0.7" to a static and a kinetic coefficient."""
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise InputError("", option, f"{text!r} is not two numbers", "write static,kinetic as 0.9,0.7")
+    static, kinetic = (number(part, option, f"{option} 0.9,0.7") for part in parts)
+    return static, kinetic
+
+
+def pressure(text: str, option: str) -> float:
     """ "500MPa", "0.5 GPa" to pascals; the unit is never guessed."""
     found = _NUMBER_AND_UNIT.fullmatch(text.strip())
     known = si_unit(found["unit"]) if found else None
@@ -62,13 +88,13 @@ def modulus(text: str, option: str) -> float:
     return value
 
 
-def thresholds(text: str) -> tuple[float, ...]:
+def lengths(text: str, option: str) -> tuple[float, ...]:
     """Comma-separated lengths [m], in the order given; mm unless a unit is written."""
-    values = tuple(length(part, "--threshold") for part in text.split(","))
+    values = tuple(length(part, option) for part in text.split(","))
     if min(values) < 0.0:
-        raise InputError("", "--threshold", f"{text!r} is negative", "a point counts when its distance is not above it")
+        raise InputError("", option, f"{text!r} is negative", "a point counts when its distance is not above it")
     if len(set(values)) < len(values):
-        raise InputError("", "--threshold", f"{text!r} names a threshold twice", "give each once")
+        raise InputError("", option, f"{text!r} names a threshold twice", "give each once")
     return values
 
 
@@ -86,16 +112,16 @@ def splitting_plane(text: str, unit: str) -> Plane:
     """ "z" or "z=1.5": the plane z = 0 or z = 1.5 (in the mesh unit)."""
     axis, _, at = text.partition("=")
     if axis.strip() not in ("x", "y", "z"):
-        raise InputError("", "--split", f"{text!r} is not an axis", "write x, y or z, or for example z=1.5")
-    return Plane.across(axis.strip(), length(at, "--split", unit) if at else 0.0)
+        raise InputError("", "`split`", f"{text!r} is not an axis", "write x, y or z, or for example z=1.5")
+    return Plane.across(axis.strip(), length(at, "`split`", unit) if at else 0.0)
 
 
 def sweep_range(text: str) -> tuple[str, float, float, float]:
     """ "flexion=0:90:1" to a name and start, stop, step [rad]; degrees are typed."""
     name, found, rest = text.partition("=")
     if not found or not name.strip() or ":" not in rest:
-        raise InputError("", "--sweep", f"{text!r} is not a range", "write flexion=0:90:1 (degrees)")
-    return (name.strip(), *angle_range(rest, "--sweep", "flexion=0:90:1"))
+        raise InputError("", "`sweep`", f"{text!r} is not a range", "write flexion=0:90:1 (degrees)")
+    return (name.strip(), *angle_range(rest, "`sweep`", "flexion=0:90:1"))
 
 
 def turn(text: str, option: str) -> tuple[Vector, float]:
@@ -133,7 +159,7 @@ def directions(text: str, option: str) -> tuple[Vector, Vector]:
     return (first[0], first[1], first[2]), (second[0], second[1], second[2])
 
 
-def centre(text: str, unit: str, option: str = "--centre") -> Vector:
+def centre(text: str, unit: str, option: str = "`centre`") -> Vector:
     """ "x,y,z" in the mesh unit, or a fit.json of a sphere, to metres."""
     file = named_file(text)
     if file is not None:
@@ -155,8 +181,8 @@ def axis(text: str, unit: str) -> Axis:
         source = file.read_text(encoding="utf-8", errors="replace")[:10_000]
     parts = source.replace(",", " ").split()
     if len(parts) != 6:
-        raise InputError("", "--axis", f"{text!r} is neither a file nor six numbers", "write x,y,z,dx,dy,dz")
-    values = [number(part, "--axis", "x,y,z,dx,dy,dz") for part in parts]
+        raise InputError("", "`axis`", f"{text!r} is neither a file nor six numbers", "write x,y,z,dx,dy,dz")
+    values = [number(part, "`axis`", "x,y,z,dx,dy,dz") for part in parts]
     scale = LENGTH[unit]
     return _checked((values[0] * scale, values[1] * scale, values[2] * scale), (values[3], values[4], values[5]), text)
 
@@ -193,7 +219,7 @@ def _checked(point: tuple[float, float, float], direction: tuple[float, float, f
     try:
         return Axis(point, direction)
     except ValueError as error:
-        raise InputError("", "--axis", str(error), f"check {text!r}") from error
+        raise InputError("", "`axis`", str(error), f"check {text!r}") from error
 
 
 def windows(text: str, option: str) -> list[tuple[float, float]]:
@@ -209,14 +235,14 @@ def windows(text: str, option: str) -> list[tuple[float, float]]:
     return found
 
 
-def time_span(text: str) -> tuple[float, float]:
-    """`--time 0.4:1.6` as first and last time [s]."""
+def time_span(text: str, option: str) -> tuple[float, float]:
+    """ "0.4:1.6" as first and last time [s]."""
     first, colon, last = text.partition(":")
     if not colon:
-        raise InputError("", "--time", f"'{text}' is not a span", "write for example 0.4:1.6")
-    start, stop = (number(each, "--time", "0.4:1.6") for each in (first, last))
+        raise InputError("", option, f"'{text}' is not a span", "write for example 0.4:1.6")
+    start, stop = (number(each, option, "0.4:1.6") for each in (first, last))
     if start > stop:
-        raise InputError("", "--time", f"'{text}' ends before it begins", "write for example 0.4:1.6")
+        raise InputError("", option, f"'{text}' ends before it begins", "write for example 0.4:1.6")
     return start, stop
 
 
@@ -238,11 +264,11 @@ def registration(text: str) -> tuple[float, float]:
     """ "1mm,2deg" to a length [m] and an angle [rad]."""
     parts = [part.strip() for part in text.split(",")]
     if len(parts) != 2 or not parts[1].endswith(("deg", "rad")):
-        raise InputError("", "--registration", f"{text!r} is not a length and an angle", "write 1mm,2deg")
-    angle = number(parts[1][:-3], "--registration", "1mm,2deg") * ANGLE[parts[1][-3:]]
-    shift = length(parts[0], "--registration")
+        raise InputError("", "`registration`", f"{text!r} is not a length and an angle", "write 1mm,2deg")
+    angle = number(parts[1][:-3], "`registration`", "1mm,2deg") * ANGLE[parts[1][-3:]]
+    shift = length(parts[0], "`registration`")
     if shift < 0.0 or angle < 0.0:
-        raise InputError("", "--registration", f"{text!r} is negative", "write 1mm,2deg")
+        raise InputError("", "`registration`", f"{text!r} is negative", "write 1mm,2deg")
     return shift, angle
 
 

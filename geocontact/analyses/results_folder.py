@@ -30,7 +30,7 @@ def written_whole(out: Path) -> Iterator[Path]:
     """
     for folder in (out, *out.parents):
         if folder.exists() and not folder.is_dir():
-            raise InputError(folder, "", "is a file", "--out names a folder")
+            raise InputError(folder, "", "is a file", "`out` names a folder")
     base = next(folder for folder in (out, *out.absolute().parents) if folder.is_dir())
     draft = base / f".geocontact-{secrets.token_hex(8)}"
     _drafts.add(draft)  # before it is there: whoever is terminated in between leaves nothing behind
@@ -38,7 +38,7 @@ def written_whole(out: Path) -> Iterator[Path]:
         draft.mkdir(mode=0o700)
     except OSError as error:
         _drafts.discard(draft)
-        raise InputError(base, "", f"cannot be written to ({error.strerror})", "choose another --out") from error
+        raise InputError(base, "", f"cannot be written to ({error.strerror})", "choose another `out`") from error
     try:
         yield draft
         os.chmod(draft, 0o755)
@@ -62,6 +62,6 @@ def written_whole(out: Path) -> Iterator[Path]:
 def _refuse_what_is_in_the_way(targets: list[Path]) -> None:
     for target in targets:
         if target.is_dir():
-            raise InputError(target, "", "is a folder where a result is to be a file", "choose another --out")
+            raise InputError(target, "", "is a folder where a result is to be a file", "choose another `out`")
         if target.parent.exists() and not target.parent.is_dir():
-            raise InputError(target.parent, "", "is a file where results need a folder", "choose another --out")
+            raise InputError(target.parent, "", "is a file where results need a folder", "choose another `out`")

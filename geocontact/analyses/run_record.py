@@ -2,58 +2,82 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import platform
-import sys
 import time
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 from os import PathLike, fspath
 from pathlib import Path
 
-from geocontact import __version__
-from geocontact.analyses.stale_results import PARAVIEW
+from geocontact.analyses.listener import Listener
+from geocontact.analyses.stale_results import RUN, digest, written
 from geocontact.data.errors import InputWarning
+from geocontact.data.version import VERSION
 
 LIBRARIES = ("numpy", "scipy", "numba", "libigl", "python-fcl", "pandas", "matplotlib")
 
 
+def as_python(text: str) -> str:
+    """A message as Python shows it: options are arguments, in backticks."""
+    return text
+
+
 @dataclass
 class Record:
-    """Collects what `run.json` says."""
+    """Collects what a run has to tell beside its numbers, and what `run.json` says.
+
+    Parameters
+    ----------
+    command
+        Name of the analysis, as it is typed.
+    options
+        What was asked for: as typed on the command line, else in SI.
+    in_si
+        The same in SI, with units in the names.
+    inputs
+        Files that were read, with their SHA-256.
+    warnings
+        Reservations, each one line.
+    results
+        Summary by name.
+    sentences
+        What was found.
+    listener
+        Hears of the work while it goes on.
+    spell
+        Turns options in backticks into what the user wrote them as.
+    """
 
     command: str
     options: Mapping[str, object]
+    in_si: Mapping[str, object] = field(default_factory=dict)
     inputs: list[dict[str, object]] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     results: dict[str, object] = field(default_factory=dict)
-    said: list[str] = field(default_factory=list)
+    sentences: list[str] = field(default_factory=list)
     started: float = field(default_factory=time.perf_counter)
+    listener: Listener = field(default_factory=Listener)
+    spell: Callable[[str], str] = as_python
 
     def add_input(self, role: str, path: str | PathLike[str], **facts: object) -> None:
         """Note a file with its SHA-256 and what is known of it."""
-        digest = facts.pop("sha256", None) or hashlib.sha256(Path(path).read_bytes()).hexdigest()
-        self.inputs.append({"role": role, "file": fspath(path), "sha256": digest, **facts})
+        known = facts.pop("sha256", None) or digest(Path(path))
+        self.inputs.append({"role": self.spell(role), "file": fspath(path), "sha256": known, **facts})
 
     def warn(self, line: str) -> None:
-        """Say a reservation once on stderr and keep it for the record."""
-        line = " ".join(line.split())
+        """Keep a reservation, once."""
+        line = self.spell(" ".join(line.split()))
         if line not in self.warnings:
             self.warnings.append(line)
-            print(f"warning: {line}", file=sys.stderr)
+            self.listener.warn(line)
 
     def say(self, text: str) -> None:
-        """Keep a line for stdout; printed when the results are in place, so that a closed pipe costs nothing."""
-        self.said.append(text)
-
-    def speak(self) -> None:
-        """Print what was kept."""
-        for text in self.said:
-            print(text)
+        """Keep a sentence of what was found."""
+        self.sentences.append(self.spell(text))
 
     @contextmanager
     def catching_warnings(self) -> Iterator[None]:
@@ -74,22 +98,24 @@ class Record:
         return {"python": platform.python_version(), "platform": platform.platform(), **_versions()}
 
     def write(self, *folders: Path) -> None:
-        """Write `run.json` into each folder of results; they differ only in `files`, which lists those beside it."""
+        """Write `run.json` into each folder of results; they differ only in what lists the files beside it."""
         content = {
-            "geocontact": __version__,
+            "geocontact": VERSION,
             "command": self.command,
             "options": self.plain_options(),
+            "options_si": {key: _plain(value) for key, value in self.in_si.items()},
             "inputs": self.inputs,
             "results": self.results,
             "warnings": self.warnings,
             "versions": self.versions(),
             "seconds": round(time.perf_counter() - self.started, 3),
         }
-        for folder in dict.fromkeys(folders):
-            inside = [*folder.iterdir(), *(folder / PARAVIEW).rglob("*")]
-            files = sorted({"run.json", *(p.relative_to(folder).as_posix() for p in inside if p.is_file())})
-            text = json.dumps({**content, "files": files}, indent=2, ensure_ascii=False)
-            (folder / "run.json").write_text(text + "\n", encoding="utf-8")
+        places = dict.fromkeys(folders)
+        for folder in places:
+            files = written(folder, places)
+            told = {**content, "files": sorted((*files, RUN)), "sha256": files}
+            text = json.dumps(told, indent=2, ensure_ascii=False)
+            (folder / RUN).write_text(text + "\n", encoding="utf-8")
 
 
 def _plain(value: object) -> object:

@@ -11,9 +11,9 @@ from io import TextIOWrapper
 
 from cyclopts import App, CycloptsError, MissingArgumentError
 
-from geocontact import __version__
 from geocontact.analyses.results_folder import discard_drafts
 from geocontact.data.errors import InputError
+from geocontact.data.version import VERSION
 
 USAGE_ERROR = 2
 FAILURE = 1
@@ -21,7 +21,7 @@ FAILURE = 1
 app = App(
     name="geocontact",
     help="Contact areas, contact forces and material properties from meshes, motion and pressure data.",
-    version=__version__,
+    version=VERSION,
     version_flags=["--version"],
     suppress_keyboard_interrupt=False,
 )

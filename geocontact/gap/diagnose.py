@@ -9,17 +9,18 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Estimate, FaultFound, Where
+from geocontact.data.diagnosis import CellsHeld, ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
 from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_cell import Cell
+from geocontact.data.surface_gap import SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.refit import free
 from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.identifiability.non_identifiable import absorbed
-from geocontact.gap.localise.cell import Cell
 from geocontact.gap.localise.gap_map import gap_map, windows
-from geocontact.gap.localise.on_surface import SurfaceGap, on_surface
+from geocontact.gap.localise.on_surface import on_surface
 from geocontact.gap.reduction.error_reduction import shrinkage
 from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.selection.evidence import Judged, prior_spread
@@ -152,8 +153,8 @@ def estimates(judged: Judged) -> dict[str, Estimate]:
     return found
 
 
-def _faults(found: Attribution) -> tuple[FaultFound, ...]:
+def _faults(found: Attribution) -> tuple[DataErrorFound, ...]:
     if found.fault is None:
         return ()
     one = found.fault.candidate
-    return (FaultFound(one.name, one.channel, one.factor, found.fault.trials),)
+    return (DataErrorFound(one.name, one.channel, one.factor, found.fault.trials),)

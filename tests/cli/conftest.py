@@ -7,7 +7,7 @@ from functools import cache
 
 import pytest
 
-from geocontact.analyses import progress as patience
+from geocontact.cli import show
 from geocontact.analyses.area import run as area_analysis
 from tests.cli.calls import Call, area, done, gait
 
@@ -19,7 +19,7 @@ def unhurried() -> Iterator[None]:
     test_process.py asks for the word.
     """
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(patience, "SILENCE", 3600.0)
+        patch.setattr(show, "SILENCE", 3600.0)
         patch.setattr(area_analysis, "warm_up", cache(area_analysis.warm_up))
         yield
 

@@ -98,7 +98,7 @@ def test_numbers_of_the_law_by_column_file_and_option_agree(tmp_path: Path) -> N
     by_file = written(tmp_path / "law.toml", numbers + zones)
     rest = written(tmp_path / "rest.toml", "k = 9e5\nb = 200.0\n" + numbers + "[zone.heel]\nk = 3e5\nb = 100.0\n")
     results = [
-        done(cop(tmp_path, "--exponent", "1.5", "--friction", "0,0", spheres=column)),
+        done(cop(tmp_path, "--exponent", "1.5", "--friction", "0,0", "--full-depth", "2mm", spheres=column)),
         done(cop(tmp_path, "--law", by_file)),
         done(cop(tmp_path, "--law", rest)),
     ]
@@ -109,8 +109,16 @@ def test_numbers_of_the_law_by_column_file_and_option_agree(tmp_path: Path) -> N
     np.testing.assert_allclose(first["cop_x [m]"].dropna(), 0.15, atol=0.03)
 
 
-def test_default_stiffness_is_said_to_be_one(tmp_path: Path) -> None:
-    assert any("no stiffness given for every sphere" in line for line in done(cop(tmp_path)).warnings)
+def test_numbers_that_nobody_gave_are_told(tmp_path: Path) -> None:
+    warnings = done(cop(tmp_path)).warnings
+    assert any("no stiffness given for every sphere" in line for line in warnings)
+    assumed = "n = 1.2, b = 200 N s/m, delta_full = 0.002 m, mu_s = 0.9, mu_k = 0.7, v_th = 0.25 m/s"
+    assert f"numbers of the force law that were not given are assumed: {assumed}" in warnings
+
+
+def test_numbers_without_effect_are_not_told(tmp_path: Path) -> None:
+    """Without damping no depth of full damping, without friction no threshold speed."""
+    assert done(cop(tmp_path, *LAW)).warnings == []
 
 
 def test_tilted_plane_equals_the_level_one_after_turning_the_foot(tmp_path: Path) -> None:

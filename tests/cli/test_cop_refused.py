@@ -74,13 +74,13 @@ def test_files_that_are_no_table(tmp_path: Path, content: bytes) -> None:
         (("--ground", "marsh"), "is neither a file nor of a known form"),
         (("--ground", "floor.stl"), "--unit: is missing"),
         (("--ground", "floor.stl", "--unit", "m"), "floor.stl: there is no such file"),
-        (("--unit", "mm"), "--unit: does nothing here"),
-        (("--plate", "1"), "--plate: does nothing without --compare"),
-        (("--plate-pose", "x.txt"), "--plate-pose: does nothing without --compare"),
+        (("--unit", "mm"), "--unit: has no effect here"),
+        (("--plate", "1"), "--plate: has no effect without --compare"),
+        (("--plate-pose", "x.txt"), "--plate-pose: has no effect without --compare"),
         (("--compare", "x.csv"), "is not a file of ground reactions"),
-        (("--order", "XYZ"), "--order: does nothing here"),
-        (("--angles", "deg"), "--angles: does nothing here"),
-        (("--moving", "parent"), "--moving: needs a joint"),
+        (("--order", "XYZ"), "--order: has no effect here"),
+        (("--angles", "deg"), "--angles: has no effect here"),
+        (("--moving", "parent"), "--moving: has no effect without --osim"),
         (("--osim", "knee.osim"), "--joint: is missing"),
         (("--ground", "plane:0,1,0,-1"), "the foot stays 997 mm above the ground in every frame"),
         (("--ground", "plane:0,1,0,0.1"), "deeper under the ground than any radius in frame 1"),
@@ -115,7 +115,7 @@ def test_law_files(tmp_path: Path, law: str, options: tuple[str, ...], words: st
 def test_a_number_that_would_do_nothing(tmp_path: Path) -> None:
     spheres = sole(tmp_path, f"{GOOD},1e4", head=f"{HEAD}, k [N/m^n]")
     result = cop(tmp_path, "--stiffness", "2e4", spheres=spheres)
-    assert result.code == 2 and "--stiffness: does nothing beside the column k" in result.err
+    assert result.code == 2 and "--stiffness: has no effect with the column k" in result.err
 
 
 def test_force_plates(tmp_path: Path) -> None:

@@ -16,8 +16,8 @@ import pytest
 from geocontact.analyses.misalignment.parameters import PER_SI
 from geocontact.analyses.misalignment.simulate.run import SEED, TRIALS, USUAL
 from geocontact.analyses.stale_results import NAMES, PICTURES
-from geocontact.misalignment.explicit import Offsets, displacement
-from geocontact.misalignment.synthetic import PAPER
+from geocontact.axis_misalignment.explicit import Offsets, displacement
+from geocontact.axis_misalignment.synthetic import PAPER
 from tests.cli.calls import Call, call, done, inventory, written
 
 QUICK = ("--seconds", 20, "--rate", 50, "--noise", 0.2, "--memory", 0.1, "--trials", 3)

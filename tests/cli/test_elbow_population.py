@@ -15,7 +15,7 @@ from scipy import stats
 
 from benchmarks.elbow_population import drawn
 from geocontact.analyses.stale_results import NAMES
-from geocontact.misalignment.population import Exposure, peak_forces
+from geocontact.axis_misalignment.population import Exposure, peak_forces
 from tests.cli.calls import ROOT, Call, call, done, inventory, written
 
 FILES = {

@@ -472,7 +472,7 @@ def test_opensim_s_own_plates_are_not_turned(tmp_path: Path) -> None:
 ID_REFUSED = {
     "plates without a body": (("--plates", "grf.mot"), "belong together"),
     "a plate without its file": (("--plate", "1=foot_r"), "belong together"),
-    "axes without plates": (("--axes", "x,z,-y"), "does nothing without plates"),
+    "axes without plates": (("--axes", "x,z,-y"), "has no effect without plates"),
     "a threshold below nothing": (("--threshold", "-3"), "not a force of 0 N or more"),
     "a cut-off above half the rate": (("--cutoff", "70"), "--cutoff"),
     "a negative cut-off": (("--cutoff", "-1"), "not a frequency"),

@@ -7,19 +7,19 @@ import sys
 
 import pytest
 
-from geocontact.analyses.progress import progress, stages
+from geocontact.cli import show
 
 
-class Terminal(io.StringIO):
+class Screen(io.StringIO):
     """Somebody who looks."""
 
     def isatty(self) -> bool:
         return True
 
 
-def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
+def terminal(monkeypatch: pytest.MonkeyPatch) -> Screen:
     """In the place of stderr; not a fixture, which would come before the test's own capture."""
-    shown = Terminal()
+    shown = Screen()
     monkeypatch.setattr(sys, "stderr", shown)
     monkeypatch.setenv("TERM", "xterm")
     return shown
@@ -27,7 +27,7 @@ def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
 
 def test_stages_are_shown_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     shown = terminal(monkeypatch)
-    with stages("knee_07") as at:
+    with show.Terminal().stages("knee_07") as at:
         at("every effect alone")
         at("two effects together")
     assert "knee_07: two effects together" in shown.getvalue()
@@ -35,7 +35,7 @@ def test_stages_are_shown_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None
 
 def test_steps_are_counted_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     shown = terminal(monkeypatch)
-    with progress("frames", 3) as step:
+    with show.Terminal().progress("frames", 3) as step:
         step()
         step()
     assert "2/3" in shown.getvalue()
@@ -44,7 +44,7 @@ def test_steps_are_counted_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> Non
 def test_a_file_gets_neither(monkeypatch: pytest.MonkeyPatch) -> None:
     written = io.StringIO()
     monkeypatch.setattr(sys, "stderr", written)
-    with stages("knee_07") as at, progress("frames", 3) as step:
+    with show.Terminal().stages("knee_07") as at, show.Terminal().progress("frames", 3) as step:
         at("every effect alone")
         step()
     assert written.getvalue() == ""

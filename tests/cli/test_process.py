@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from geocontact.analyses import progress as patience
+from geocontact.cli import show
 from geocontact.analyses.area import run as area_analysis
 from geocontact.analyses.area.distance_file import DistanceMaps
 from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, ROOT, SPHERE, area, done, gait, inventory, poses, process
@@ -114,7 +114,7 @@ def test_module_and_script_are_the_same_program() -> None:
 
 
 def test_compiling_is_announced_when_it_keeps_the_user_waiting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(patience, "SILENCE", 0.1)
+    monkeypatch.setattr(show, "SILENCE", 0.1)
     monkeypatch.setattr(area_analysis, "warm_up", lambda: time.sleep(1.0))
     result = area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0)))
     (line,) = result.complaints
@@ -125,6 +125,6 @@ def test_many_frames_are_not_mistaken_for_compiling(tmp_path: Path, monkeypatch:
     """Once the kernels are there nothing is said, however long the frames take."""
     add = DistanceMaps.add
     monkeypatch.setattr(DistanceMaps, "add", lambda *given, **named: (time.sleep(1.0), add(*given, **named))[1])
-    monkeypatch.setattr(patience, "SILENCE", 1.0)
+    monkeypatch.setattr(show, "SILENCE", 1.0)
     monkeypatch.setattr(area_analysis, "warm_up", lambda: None)
     done(area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0), (0, 20.1, 0))))

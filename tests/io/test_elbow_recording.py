@@ -51,7 +51,7 @@ def test_a_table_in_other_units_signs_and_names(tmp_path: Path) -> None:
 def test_storage_says_what_its_angles_are(tmp_path: Path, degrees: str, unit: float) -> None:
     r = read_elbow_recording(storage(tmp_path, degrees, unit), {"beta": (1.0, "elbow")}, unit="N")
     np.testing.assert_allclose(np.degrees(r.beta), DEGREES, rtol=1e-7)
-    with pytest.raises(InputError, match="--unit: is missing"):
+    with pytest.raises(InputError, match="`unit`: is missing"):
         read_elbow_recording(storage(tmp_path, degrees, unit), {"beta": (1.0, "elbow")})
 
 
@@ -83,15 +83,15 @@ BAD = {
     "few degrees declared as radians": ("time [s],beta [rad],force [N]", DEGREES / 10, FORCE, "beyond any elbow"),
     "radians declared as degrees": ("time [s],beta [deg],force [N]", np.radians(DEGREES), FORCE, "are these radians"),
     "no unit of the angle": ("time [s],beta,force [N]", DEGREES, FORCE, "degrees or radians"),
-    "turned sign": ("time [s],beta [deg],force [N]", -DEGREES, FORCE, "--map beta=-beta"),
-    "turned sign, a small range": ("time [s],beta [deg],force [N]", -0.2 * DEGREES - 2.0, FORCE, "--map beta=-beta"),
+    "turned sign": ("time [s],beta [deg],force [N]", -DEGREES, FORCE, "`map` beta=-beta"),
+    "turned sign, a small range": ("time [s],beta [deg],force [N]", -0.2 * DEGREES - 2.0, FORCE, "`map` beta=-beta"),
     "zero elsewhere": ("time [s],beta [deg],force [N]", DEGREES + 120, FORCE, "its zero elsewhere"),
     "constant angle": ("time [s],beta [deg],force [N]", np.full(200, 40.0), FORCE, "it hardly changes"),
     "small range": ("time [s],beta [deg],force [N]", 0.1 * DEGREES, FORCE, "it hardly changes"),
     "constant force": ("time [s],beta [deg],force [N]", DEGREES, np.full(200, 3.0), "3 N throughout"),
     "force in mN": ("time [s],beta [deg],force [N]", DEGREES, 1e3 * FORCE, "more than any cuff bears"),
-    "no unit of the force": ("time [s],beta [deg],force", DEGREES, FORCE, "--unit: is missing"),
-    "another channel": ("time [s],beta [deg],load [N]", DEGREES, FORCE, "--map force=NAME"),
+    "no unit of the force": ("time [s],beta [deg],force", DEGREES, FORCE, "`unit`: is missing"),
+    "another channel": ("time [s],beta [deg],load [N]", DEGREES, FORCE, "`map` force=NAME"),
     "a gap": ("time [s],beta [deg],force [N]", np.where(TIME[9] == TIME, np.nan, DEGREES), FORCE, "line 11"),
 }
 

@@ -348,9 +348,9 @@ def test_units_agree_with_each_other(tmp_path):
 @pytest.mark.parametrize(
     ("length", "shown", "given_unit", "plea"),
     [
-        (0.1, "0.1", "mm", "too small for an implant; the file looks like metres, pass --unit m"),
-        (100.0, "100", "m", "too large for an implant or a body; the file looks like millimetres, pass --unit mm"),
-        (1500.0, "1500", "cm", "the file looks like millimetres, pass --unit mm"),
+        (0.1, "0.1", "mm", "too small for an implant; the file looks like metres, pass `unit` m"),
+        (100.0, "100", "m", "too large for an implant or a body; the file looks like millimetres, pass `unit` mm"),
+        (1500.0, "1500", "cm", "the file looks like millimetres, pass `unit` mm"),
         (1e-7, "1e-07", "m", "too small for an implant; check the unit"),
         (1e9, "1e+09", "mm", "too large for an implant or a body; check the unit"),
         (1e300, "1e+300", "mm", "check the unit"),
@@ -370,7 +370,7 @@ def test_absurd_unit_says_what_the_style_guide_prints(tmp_path):
         read_mesh(write_obj(tmp_path, text, "femur.obj"), "mm")
     assert str(caught.value) == (
         "femur.obj: bounding box 0.068 x 0.054 x 0.061 mm is too small for an implant; "
-        "the file looks like metres, pass --unit m"
+        "the file looks like metres, pass `unit` m"
     )
 
 

@@ -21,7 +21,7 @@ from geocontact.io.motion.poses import (
     read_pose,
 )
 from geocontact.io.opensim.osim import read_joint
-from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.tables import TextTable, read_table
 
 QUATERNION = "time [s],tx [mm],ty [cm],tz [m],qw,qx,qy,qz\n0,100,20,0.3,1,0,0,0\n1,0,0,0,0.6,0,0,0.8\n"
 EULER = "time [s],tx [mm],ty [mm],tz [mm],rx [deg],ry [rad],rz [deg]\n0,1,2,3,30,-0.4,50\n1,0,0,0,0,0,90\n"
@@ -85,7 +85,7 @@ BAD_CSV = {
         "both",
     ),
     "time stands": (QUATERNION.replace("\n1,", "\n0,"), "line 3: time 0 does not follow 0"),
-    "Euler without order": (EULER, "Euler columns without an order; pass --order"),
+    "Euler without order": (EULER, "Euler columns without an order; pass `order`"),
 }
 
 
@@ -98,7 +98,7 @@ def test_bad_pose_tables_are_refused(tmp_path: Path, text: str, message: str) ->
 
 @pytest.mark.parametrize("order", ["XY", "XYX", "ABC", "XYZX", ""])
 def test_bad_orders_are_refused(tmp_path: Path, order: str) -> None:
-    with pytest.raises(InputError, match="--order: "):
+    with pytest.raises(InputError, match="`order`: "):
         motion_from_csv(written(tmp_path, EULER, "gait.csv"), order=order)
 
 
@@ -107,7 +107,7 @@ def test_missing_euler_column_is_refused(tmp_path: Path) -> None:
         motion_from_csv(written(tmp_path, EULER.replace("ry", "y"), "gait.csv"), order="XYZ")
 
 
-def knee(folder: Path, text: str = KNEE) -> Table:
+def knee(folder: Path, text: str = KNEE) -> TextTable:
     return read_table(written(folder, text, "gait.mot"))
 
 
@@ -123,7 +123,7 @@ def test_order_overrules_the_order_written(tmp_path: Path) -> None:
     motion = motion_from_map(knee(tmp_path), mapping, order="yzx")
     expected = rotation("y", np.radians(-6)) @ rotation("z", np.radians(30)) @ rotation("x", np.radians(4))
     np.testing.assert_allclose(motion.poses.rotation.as_matrix()[0], expected, atol=1e-15)
-    with pytest.raises(InputError, match="--order: 'XY' does not order the axes Z, X, Y"):
+    with pytest.raises(InputError, match="`order`: 'XY' does not order the axes Z, X, Y"):
         motion_from_map(knee(tmp_path), mapping, order="XY")
 
 
@@ -138,8 +138,8 @@ def test_unmapped_coordinates_are_zero_with_a_warning(tmp_path: Path) -> None:
     ("mapping", "message"),
     [
         ("rz=hip", "no column 'hip'; columns are: fe, aa, ie, ap, pd"),
-        ("rw=fe", "--map: unknown target 'rw'; targets are: rx, ry, rz, tx, ty, tz"),
-        ("rz=fe,rz=aa", "--map: target 'rz' is given twice"),
+        ("rw=fe", "`map`: unknown target 'rw'; targets are: rx, ry, rz, tx, ty, tz"),
+        ("rz=fe,rz=aa", "`map`: target 'rz' is given twice"),
     ],
 )
 def test_bad_maps_are_refused(tmp_path: Path, mapping: str, message: str) -> None:
@@ -158,7 +158,7 @@ def test_map_of_a_csv_takes_units_from_its_headers(tmp_path: Path) -> None:
 
 def test_map_refuses_a_file_that_does_not_tell_its_angles(tmp_path: Path) -> None:
     silent = KNEE.replace("inDegrees=yes\n", "")
-    with pytest.raises(InputError, match=r"gait\.mot: header does not say whether .* pass --angles deg or rad"):
+    with pytest.raises(InputError, match=r"gait\.mot: header does not say whether .* pass `angles` deg or rad"):
         motion_from_map(knee(tmp_path, silent), "rz=fe")
 
 
@@ -217,12 +217,12 @@ def test_coupled_coordinates_stay_in_radians_in_a_file_in_degrees(tmp_path: Path
 
 
 def test_moving_must_be_a_body_of_the_joint(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="--moving: 'femur'"):
+    with pytest.raises(InputError, match="`moving_body`: 'femur'"):
         motion_from_joint(knee(tmp_path), joint(tmp_path), moving="femur")
 
 
 def test_a_wrong_degree_flag_is_noticed_by_size(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"line 7: column 'fe' reaches 60, too much for .* pass --angles deg or rad"):
+    with pytest.raises(InputError, match=r"line 7: column 'fe' reaches 60, too much for .* pass `angles` deg or rad"):
         motion_from_joint(knee(tmp_path, KNEE.replace("=yes", "=no")), joint(tmp_path))
 
 
@@ -286,11 +286,13 @@ def test_knee_angle_columns_by_their_own_names(tmp_path: Path) -> None:
         motion = motion_from_grood_suntay(table, None, "right")
     expected = rotation("z", np.radians(-30)) @ rotation("x", np.radians(4)) @ rotation("y", np.radians(-6))
     np.testing.assert_allclose(motion.poses.rotation.as_matrix()[0], expected, atol=1e-15)
-    with pytest.raises(InputError, match="no columns flexion, adduction, rotation; name them with --map"):
+    with pytest.raises(InputError, match="no columns flexion, adduction, rotation; name them with `map`"):
         motion_from_grood_suntay(knee(tmp_path), None, "right")
 
 
-@pytest.mark.parametrize(("side", "moving", "place"), [("both", "tibia", "--side"), ("right", "child", "--moving")])
+@pytest.mark.parametrize(
+    ("side", "moving", "place"), [("both", "tibia", "`side`"), ("right", "child", "`moving_body`")]
+)
 def test_side_and_moving_body_are_checked(tmp_path: Path, side: str, moving: str, place: str) -> None:
     with pytest.raises(InputError, match=place):
         motion_from_grood_suntay(knee(tmp_path), "flexion=fe,tx=ap", side, moving)

@@ -14,7 +14,7 @@ from hypothesis.extra.numpy import arrays
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.opensim.storage_header import unit_in_text
 from geocontact.io.text.columns import angles_of, lengths, parse_map, resolve
-from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.tables import TextTable, read_table
 
 ROWS = "time\tknee\tknee_tx\n0.0\t10\t0.1\n0.5\t20\t0.2\n1.0\t30\t0.3\n"
 V1 = "Coordinates\nversion=1\nnRows=3\nnColumns=3\ninDegrees={flag}\n{text}endheader\n" + ROWS
@@ -25,7 +25,7 @@ BOTH = "If the header above contains a line with 'inDegrees', this indicates whe
 CSV = "time [s],knee [deg],knee_tx [mm]\n0.0,10,100\n0.5,20,200\n1.0,30,300\n"
 
 
-def table(folder: Path, text: str, name: str = "gait.mot") -> Table:
+def table(folder: Path, text: str, name: str = "gait.mot") -> TextTable:
     file = folder / name
     file.write_text(text, encoding="utf-8")
     return read_table(file)
@@ -63,7 +63,7 @@ def test_version_3_without_counts(tmp_path: Path) -> None:
 def test_simm_form_asks_for_the_unit_and_names_the_convention(tmp_path: Path) -> None:
     read = table(tmp_path, SIMM)
     with pytest.raises(
-        InputError, match=r"gait\.mot: header does not say .* pass --angles deg or rad \(SIMM .* degrees"
+        InputError, match=r"gait\.mot: header does not say .* pass `angles` deg or rad \(SIMM .* degrees"
     ):
         angles_of(read, ["knee"])
     np.testing.assert_array_equal(angles_of(read, ["knee"], "deg")[:, 0], np.radians([10.0, 20.0, 30.0]))
@@ -219,7 +219,7 @@ def test_contradictory_units_are_refused_until_the_user_decides(
         np.testing.assert_array_equal(angles_of(read, ["knee"], "deg")[:, 0], np.radians([10.0, 20.0, 30.0]))
 
 
-def said_when_read(read: Table, columns: list[str], angles: str) -> list[str]:
+def said_when_read(read: TextTable, columns: list[str], angles: str) -> list[str]:
     """Warnings when the angles are read as the user says, after which the values are those of the file in that unit."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -232,14 +232,14 @@ def said_when_read(read: Table, columns: list[str], angles: str) -> list[str]:
 
 def test_degrees_declared_as_radians_are_noticed(tmp_path: Path) -> None:
     read = table(tmp_path, V1.format(flag="no", text=""))
-    with pytest.raises(InputError, match=r"line 10: column 'knee' reaches 30, .*pass --angles deg or rad"):
+    with pytest.raises(InputError, match=r"line 10: column 'knee' reaches 30, .*pass `angles` deg or rad"):
         angles_of(read, ["knee"])
     assert lengths(read, ["knee"])[2, 0] == 30.0  # only a rotation is judged by its size
 
 
 def test_radians_declared_as_degrees_are_only_warned_of(tmp_path: Path) -> None:
     read = table(tmp_path, GOOD.replace("0.2", "0.12").replace("0.3", "0.15"))
-    with pytest.warns(InputWarning, match=r"no angle exceeds 0\.15 deg; if they are radians pass --angles rad"):
+    with pytest.warns(InputWarning, match=r"no angle exceeds 0\.15 deg; if they are radians pass `angles` rad"):
         angles_of(read, ["knee_tx"])
     angles_of(read, ["knee", "knee_tx"])  # a small angle beside a large one is normal
 
@@ -248,7 +248,7 @@ def test_user_overrules_the_header_with_a_warning(tmp_path: Path) -> None:
     read = table(tmp_path, GOOD)
     assert said_when_read(read, ["knee_tx"], "rad") == ["gait.mot: says deg, read as rad as asked for"]
     assert said_when_read(read, ["knee", "knee_tx"], "deg") == []
-    with pytest.raises(InputError, match="--angles: 'turns' is not a unit"):
+    with pytest.raises(InputError, match="`angles`: 'turns' is not a unit"):
         angles_of(read, ["knee"], "turns")
 
 
@@ -261,7 +261,7 @@ def test_user_overrules_one_of_the_headers_of_a_csv(tmp_path: Path) -> None:
 def test_degrees_read_as_radians_on_the_users_word_are_noticed_by_size(tmp_path: Path) -> None:
     """Beyond two turns (4 pi) in any column; a file that says nothing is the usual case."""
     silent = GOOD.replace("inDegrees=yes\n", "")
-    line = "column 'knee' reaches 30, much for radians; if these are degrees pass --angles deg"
+    line = "column 'knee' reaches 30, much for radians; if these are degrees pass `angles` deg"
     assert said_when_read(table(tmp_path, silent), ["knee_tx", "knee"], "rad") == [f"gait.mot line 9: {line}"]
     assert said_when_read(table(tmp_path, silent), ["knee"], "deg") == []
     for most, count in (("12.56", 0), ("-12.56", 0), ("12.57", 1), ("-12.57", 1)):
@@ -284,7 +284,7 @@ def test_csv_lengths_need_a_unit(tmp_path: Path, header: str, message: str) -> N
 def test_csv_angles_need_a_unit(tmp_path: Path) -> None:
     read = table(tmp_path, CSV.replace(" [deg]", ""), "gait.csv")
     with pytest.raises(
-        InputError, match="column 'knee' does not say whether angles are degrees or radians; pass --angles"
+        InputError, match="column 'knee' does not say whether angles are degrees or radians; pass `angles`"
     ):
         angles_of(read, ["knee"])
     with pytest.raises(InputError, match="angle column 'knee' is in 'turn'"):
@@ -309,5 +309,5 @@ def test_map_keeps_order_and_sign() -> None:
 
 @pytest.mark.parametrize("text", ["", "rz", "rz=", "=a", "rw=a", "rz=a,rz=b", "rz=-", "rz=a,,tx=b"])
 def test_malformed_maps_are_refused(text: str) -> None:
-    with pytest.raises(InputError, match="--map"):
+    with pytest.raises(InputError, match="`map`"):
         parse_map(text, ("rz", "tx"))

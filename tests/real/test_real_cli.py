@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses import progress as patience
+from geocontact.cli import show
 from geocontact.io.motion.poses import motion_from_joint
 from geocontact.io.opensim.osim import read_joint
 from geocontact.io.text.tables import read_table
@@ -27,7 +27,7 @@ FIXED, MOVING, GAP = "area_fixed [mm^2]", "area_moving [mm^2]", "min_distance [m
 def unhurried() -> Iterator[None]:
     """No word about compiling, which depends on the machine and its load."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(patience, "SILENCE", 3600.0)
+        patch.setattr(show, "SILENCE", 3600.0)
         yield
 
 

@@ -9,21 +9,20 @@ from functools import cache
 import numpy as np
 import pytest
 
-from geocontact.identify.intervals.bin_tests import DRAWS, lilliefors
-from geocontact.misalignment.bins import FORCE, Binned, binned
-from geocontact.misalignment.end_stop import Stroke, curve_of, stiffness_by_displacement, stroke_of
-from geocontact.misalignment.law import NAMES, ElbowLaw
-from geocontact.misalignment.least_squares import (
+from geocontact.axis_misalignment.bins import FORCE, Binned, binned
+from geocontact.axis_misalignment.end_stop import Stroke, curve_of, stiffness_by_displacement, stroke_of
+from geocontact.axis_misalignment.law import NAMES, ElbowLaw
+from geocontact.axis_misalignment.least_squares import (
     Estimate,
     Prior,
     estimated,
     problem_of,
     r_squared,
 )
-from geocontact.misalignment.residuals import normal_residuals, normality, standard_residuals
-from geocontact.misalignment.scale import Scale, scale_of
-from geocontact.misalignment.synthetic import PAPER, Design, ideal, multisine
-from geocontact.misalignment.uncertainty import (
+from geocontact.axis_misalignment.residuals import normal_residuals, normality, standard_residuals
+from geocontact.axis_misalignment.scale import Scale, scale_of
+from geocontact.axis_misalignment.synthetic import PAPER, Design, ideal, multisine
+from geocontact.axis_misalignment.uncertainty import (
     along_the_scale,
     covariance,
     direction,
@@ -31,6 +30,7 @@ from geocontact.misalignment.uncertainty import (
     wild_bootstrap,
     with_link_held,
 )
+from geocontact.identify.intervals.bin_tests import DRAWS, lilliefors
 from tests.systems.elbow_trials import QUICK, parameters, trials
 
 WIDTH = np.radians(2.0)

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geocontact.misalignment.axis_drift import polynomial
-from geocontact.misalignment.compensation import Compensation
-from geocontact.misalignment.design import (
+from geocontact.axis_misalignment.axis_drift import polynomial
+from geocontact.axis_misalignment.compensation import Compensation
+from geocontact.axis_misalignment.design import (
     Task,
     boundary,
     disc,
@@ -20,7 +20,7 @@ from geocontact.misalignment.design import (
     offset_map,
     sensitivities,
 )
-from geocontact.misalignment.planar_joint import FOLD, POLE
+from geocontact.axis_misalignment.planar_joint import FOLD, POLE
 
 K, L, Z, X, Y = 222.43, 0.169, 0.127, 0.048, 0.059
 """The values identified in the source, one point of the line along which stiffness and lengths trade."""

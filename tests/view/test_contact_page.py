@@ -8,7 +8,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.area import page as contact_page
 from geocontact.analyses.area.page import Told, write_report
-from geocontact.analyses.area.words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement
 from geocontact.geometry.contact_area.evolution import Settings, area_evolution

@@ -10,7 +10,8 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.area.pressure_page import Pressures, face_map, headline, pressure_sections, pressure_words
-from geocontact.analyses.area.words import counted, reviewers_words
+from geocontact.analyses.area.words import reviewers_words
+from geocontact.analyses.page_words import counted
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Course, Motion
 from geocontact.geometry.contact_area.evolution import Settings

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact import __version__
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
+from geocontact.data.version import VERSION
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
 from geocontact.view.surfaces.camera import View
@@ -43,7 +43,7 @@ def write_paraview(
         signed=evolution.signed,
         time_unit=motion.time_unit,
     )
-    write_vtp_series(series, folder, f"geocontact {__version__}")
+    write_vtp_series(series, folder, f"geocontact {VERSION}")
 
 
 def write_stills(

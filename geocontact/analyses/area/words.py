@@ -9,21 +9,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Words
-
-NOT_A_DEVICE = (
-    "A research result, not a clinical device: it must not be used to diagnose, "
-    "to plan treatment or to select an implant for a patient."
-)
-
-
-def counted(count: int, noun: str) -> str:
-    """ "1 frame", "6 frames": of nouns that take an s."""
-    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def reviewers_words(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +10,7 @@ from jaxtyping import Float
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73")  # Okabe-Ito: told apart by colour-blind readers
 
@@ -25,14 +25,8 @@ class LoadCurves:
     free_moment: Float[np.ndarray, " t"]
 
 
-def draw_cop(
-    ours: LoadCurves,
-    plate: LoadCurves | None,
-    normal: Float[np.ndarray, "t 3"],
-    title: str,
-    files: tuple[Path, ...],
-) -> None:
-    """Draw and save the figure, once per file name (png, svg, pdf by ending).
+def cop_figure(ours: LoadCurves, plate: LoadCurves | None, normal: Float[np.ndarray, "t 3"], title: str) -> Figure:
+    """Forces, centre and free moment over time, and the path.
 
     Parameters
     ----------
@@ -41,7 +35,6 @@ def draw_cop(
     normal
         Normal of the ground in each frame, NaN without contact: the path is seen along the axis nearest to it.
     """
-    from matplotlib import rc_context
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -72,9 +65,7 @@ def draw_cop(
         panels[name].legend(fontsize=8, frameon=False, ncols=2)
     panels["free"].set_xlabel("time [s]")
     figure.suptitle(title.replace("$", r"\$"), fontsize=11)
-    with rc_context({"svg.hashsalt": "geocontact"}):  # the same picture gets the same bytes
-        for file in files:
-            figure.savefig(file, dpi=150, metadata={"Date": None} if file.suffix == ".svg" else None)
+    return figure
 
 
 def _path(axes: Axes, curves: LoadCurves, right: int, ahead: int) -> None:

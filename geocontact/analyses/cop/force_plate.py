@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float, Int
 
+from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.run_record import Record
-from geocontact.cli.cop import CopOptions
 from geocontact.data.errors import InputError
 from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
 from geocontact.io.motion.poses import read_pose
@@ -31,18 +31,15 @@ class PlateCurves:
 
 
 def chosen_plate(record: Record, o: CopOptions) -> ForcePlate | None:
-    """The plate to compare with, in our frame; None without --compare."""
+    """The plate to compare with, in our frame; None where none is asked for."""
     if o.compare is None:
-        for option, value in (("--plate", o.plate), ("--plate-pose", o.plate_pose)):
-            if value is not None:
-                raise InputError("", option, "does nothing without --compare", "name the file of force plates")
         return None
-    plate = plate_named(read_force_plates(o.compare), o.plate, o.compare, "--plate")
-    record.add_input("--compare", o.compare, plate=plate.name)
+    plate = plate_named(read_force_plates(o.compare), o.plate, o.compare, "`plate`")
+    record.add_input("`compare`", o.compare, plate=plate.name)
     if o.plate_pose is None:
         return plate
     pose = read_pose(o.plate_pose)
-    record.add_input("--plate-pose", o.plate_pose)
+    record.add_input("`plate_pose`", o.plate_pose)
     wrench = plate.wrench.seen_from(pose, "ground")
     return replace(plate, wrench=wrench, point=pose.apply(plate.point), normal=pose.rotation.apply(plate.normal))
 
@@ -88,4 +85,4 @@ def _refuse_other_frame(path: Path, plate: ForcePlate, ours: CentreOfPressure) -
     if len(normals) and float((normals @ plate.normal).mean()) < ALIGNED:
         mine, theirs = (", ".join(f"{value:.2f}" for value in n) for n in (normals.mean(axis=0), plate.normal))
         what = f"its normal is ({theirs}), that of our ground ({mine})"
-        raise InputError(path, plate.name, what, "give the pose of the plates' frame in ours with --plate-pose")
+        raise InputError(path, plate.name, what, "give the pose of the plates' frame in ours with `plate_pose`")

@@ -1,13 +1,12 @@
-"""The numbers of the force law: from the table of spheres, a file, the command line, or the defaults."""
+"""The numbers of the force law: from the table of spheres, a file, an option, or the defaults."""
 
 from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.quantities import length, number
+from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.run_record import Record
-from geocontact.cli.cop import CopOptions
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.spheres import LawFile, SphereTable, read_law
 from geocontact.loads.sphere_set import SoleLaw
@@ -18,53 +17,79 @@ STATIC, KINETIC, THRESHOLD_SPEED = 0.9, 0.7, 0.25  # -, -, m/s: rubber on a labo
 
 
 def sole_law(record: Record, table: SphereTable, o: CopOptions) -> SoleLaw:
-    """The law; a number that is given in two places is refused, one that is given nowhere has its default."""
+    """The law; a number that is given in two places is refused, one that is given nowhere has its default, told."""
     file = LawFile() if o.law is None else read_law(o.law)
     if o.law is not None:
         record.add_input("law", o.law)
     _refuse_strange_zones(o, file, table)
-    static, kinetic = _friction(o)
-    exponent = _one(o, "--exponent", "n", o.exponent, file.n, EXPONENT)
+    assumed: dict[str, float] = {}
+    static, kinetic = (None, None) if o.friction is None else o.friction
+    one = _Numbers(o, assumed)
+    exponent = one("exponent", "n", o.exponent, file.n, EXPONENT)
     if table.exponent is not None and table.exponent != exponent:
         what = f"column k is in N/m^{table.exponent:g} but the exponent is {exponent:g}"
-        raise InputError("", "--exponent", what, f"give --exponent {table.exponent:g}")
+        raise InputError("", "`exponent`", what, f"give `exponent` {table.exponent:g}")
     try:
-        return SoleLaw(
-            stiffness=_each(record, o, table, file, "k"),
-            damping=_each(record, o, table, file, "b"),
+        law = SoleLaw(
+            stiffness=_each(record, one, table, file, "k"),
+            damping=_each(record, one, table, file, "b"),
             exponent=exponent,
-            full_depth=_one(o, "--full-depth", "delta_full", _full_depth(o), file.delta_full, FULL_DEPTH),
-            static=_one(o, "--friction", "mu_s", static, file.mu_s, STATIC),
-            kinetic=_one(o, "--friction", "mu_k", kinetic, file.mu_k, KINETIC),
-            threshold_speed=_one(o, "--threshold-speed", "v_th", o.threshold_speed, file.v_th, THRESHOLD_SPEED),
+            full_depth=one("full_depth", "delta_full", o.full_depth, file.delta_full, FULL_DEPTH),
+            static=one("friction", "mu_s", static, file.mu_s, STATIC),
+            kinetic=one("friction", "mu_k", kinetic, file.mu_k, KINETIC),
+            threshold_speed=one("threshold_speed", "v_th", o.threshold_speed, file.v_th, THRESHOLD_SPEED),
         )
     except InputError:
         raise
     except ValueError as error:
         raise InputError(o.law or "", "force law", str(error), "correct the number") from error
+    _tell_assumed(record, assumed, law)
+    return law
 
 
-def _one(o: CopOptions, option: str, key: str, typed: float | None, filed: float | None, default: float) -> float:
-    if typed is not None and filed is not None:
-        raise InputError("", option, f"is given a second time by {key} in {o.law}", "give it once")
-    return typed if typed is not None else filed if filed is not None else default
+class _Numbers:
+    """One number of the law from the options or the file; what neither gives is noted as assumed."""
+
+    def __init__(self, o: CopOptions, assumed: dict[str, float]) -> None:
+        self.options, self.assumed = o, assumed
+
+    def __call__(self, option: str, key: str, given: float | None, filed: float | None, default: float) -> float:
+        if given is not None and filed is not None:
+            what = f"is given a second time by {key} in {self.options.law}"
+            raise InputError("", f"`{option}`", what, "give it once")
+        if given is None and filed is None:
+            self.assumed[key] = default
+            return default
+        return given if given is not None else filed if filed is not None else default
 
 
-def _each(record: Record, o: CopOptions, table: SphereTable, file: LawFile, key: str) -> Float[np.ndarray, " n"]:
+UNITS = {"n": "", "b": " N s/m", "delta_full": " m", "mu_s": "", "mu_k": "", "v_th": " m/s"}
+
+
+def _tell_assumed(record: Record, assumed: dict[str, float], law: SoleLaw) -> None:
+    """Say which numbers nobody gave, of those that have an effect."""
+    idle = {"delta_full": not law.damping.any(), "v_th": law.static == 0.0 == law.kinetic}
+    shown = [f"{key} = {assumed[key]:g}{unit}" for key, unit in UNITS.items() if key in assumed and not idle.get(key)]
+    if shown:
+        record.warn(f"numbers of the force law that were not given are assumed: {', '.join(shown)}")
+
+
+def _each(record: Record, one: _Numbers, table: SphereTable, file: LawFile, key: str) -> Float[np.ndarray, " n"]:
     """k or b of every sphere."""
-    option, typed, filed, column, default = {
-        "k": ("--stiffness", o.stiffness, file.k, table.stiffness, STIFFNESS),
-        "b": ("--damping", o.damping, file.b, table.damping, DAMPING),
+    option, given, filed, column, default = {
+        "k": ("stiffness", one.options.stiffness, file.k, table.stiffness, STIFFNESS),
+        "b": ("damping", one.options.damping, file.b, table.damping, DAMPING),
     }[key]
     zones = {name: value for name, zone in file.zone.items() if (value := getattr(zone, key)) is not None}
     if column is not None:
-        if typed is not None or filed is not None or zones:
-            source = option if typed is not None else f"{key} in {o.law}"
-            raise InputError("", source, f"does nothing beside the column {key} of the spheres", "give it once")
+        if given is not None or filed is not None or zones:
+            source = f"`{option}`" if given is not None else f"{key} in {one.options.law}"
+            raise InputError("", source, f"has no effect with the column {key} of the spheres", "give it once")
         return column
-    rest = _one(o, option, key, typed, filed, default)
-    if typed is None and filed is None and set(zones) < set(table.zone) and key == "k":
-        where = "every sphere" if not zones else f"zone {', '.join(sorted(set(table.zone) - set(zones)))}"
+    without = set(table.zone) - set(zones)
+    rest = one(option, key, given, filed, default) if without or given is not None or filed is not None else default
+    if key == "k" and key in one.assumed:
+        where = "every sphere" if not zones else f"zone {', '.join(sorted(without))}"
         record.warn(f"no stiffness given for {where}: {default:g} N/m^n is taken; forces are only as good as that")
     return np.array([zones.get(zone, rest) for zone in table.zone])
 
@@ -74,17 +99,3 @@ def _refuse_strange_zones(o: CopOptions, file: LawFile, table: SphereTable) -> N
     if strange:
         known = ", ".join(dict.fromkeys(table.zone))
         raise InputError(o.law or "", f"zone.{strange[0]}", "no sphere is in that zone", f"zones are: {known}")
-
-
-def _friction(o: CopOptions) -> tuple[float | None, float | None]:
-    if o.friction is None:
-        return None, None
-    parts = o.friction.split(",")
-    if len(parts) != 2:
-        raise InputError("", "--friction", f"{o.friction!r} is not two numbers", "write static,kinetic as 0.9,0.7")
-    static, kinetic = (number(part, "--friction", "--friction 0.9,0.7") for part in parts)
-    return static, kinetic
-
-
-def _full_depth(o: CopOptions) -> float | None:
-    return None if o.full_depth is None else length(o.full_depth, "--full-depth")

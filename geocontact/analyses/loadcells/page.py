@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.area.words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.data.cell_regression import CellRegression
 from geocontact.loads.loadcells import CompartmentForces
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.area.words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.surface import Surface

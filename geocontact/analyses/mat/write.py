@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float, Int
 
-from geocontact import __version__
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.mat.figure import mat_figure
 from geocontact.analyses.mat.page import MatStory, write_mat_report
@@ -20,6 +19,7 @@ from geocontact.analyses.options_table import options_table
 from geocontact.analyses.run_record import Record
 from geocontact.cli.mat import MatOptions
 from geocontact.data.errors import InputError
+from geocontact.data.version import VERSION
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.surface import Surface
@@ -103,7 +103,7 @@ def write_results(
         for name, values in chosen.items()
     }
     try:
-        write_mat_vtp(folder / "mat_on_surface.vtp", r.surface, faces, f"geocontact {__version__}")
+        write_mat_vtp(folder / "mat_on_surface.vtp", r.surface, faces, f"geocontact {VERSION}")
     except InputError as error:
         record.warn(str(error))
     drawing = save_both(mat_figure(time, r.whole, r.laid, r.pressure, r.map), folder, "mat")

@@ -8,9 +8,9 @@ from pathlib import Path
 from geocontact.analyses import quantities
 from geocontact.analyses.misalignment.parameters import require_link
 from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.axis_drift import read_axis_drift
-from geocontact.misalignment.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
 
 EXAMPLE = "x=0:-8:2,y=0:5"
 

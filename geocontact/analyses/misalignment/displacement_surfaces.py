@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.misalignment.explicit import Offsets, displacement
+from geocontact.axis_misalignment.explicit import Offsets, displacement
 
 ANGLES = np.radians(np.arange(0.0, 136.0, 1.0))
 SHARE = 0.6  # of the link: the largest offset that is shown

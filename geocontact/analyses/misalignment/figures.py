@@ -10,9 +10,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.misalignment.displacement_surfaces import Surfaces
+from geocontact.axis_misalignment.end_stop import Curve, Stroke
+from geocontact.axis_misalignment.uncertainty import Direction
 from geocontact.identify.intervals.profile_likelihood import Profile
-from geocontact.misalignment.end_stop import Curve, Stroke
-from geocontact.misalignment.uncertainty import Direction
 from geocontact.view.curves.quantity import FORCE, Quantity
 from geocontact.view.curves.residuals import residual_histogram, residual_quantiles
 from geocontact.view.curves.style import BLACK, DOUBLE, GREY, LINES, MARKERS, PALETTE, empty, in_style, legend, panels

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.bins import FORCE, Binned
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.even_times import at_times, even_times
@@ -17,7 +18,6 @@ from geocontact.identify.signals.zero_lag import zero_lag
 from geocontact.io.recordings import elbow_recording as channels
 from geocontact.io.recordings.elbow_recording import read_elbow_recording
 from geocontact.io.text.columns import parse_map
-from geocontact.misalignment.bins import FORCE, Binned
 
 LEAST_BINS = 8  # that a fit is made to
 SLID = 0.5e-3  # m; a locked joint does not move as far

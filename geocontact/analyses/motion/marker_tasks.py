@@ -26,24 +26,24 @@ def marker_tasks(
     weight: tuple[str, ...] = (),
     hold: tuple[str, ...] = (),
 ) -> MarkerTasks:
-    """Weights of --tasks, or 1 for every marker of the model; then what single options say."""
+    """Weights of the task file, or 1 for every marker of the model; then what single options say."""
     if not model.markers:
         raise InputError(
-            str(record.options["model"]), "", "has no markers", "give a model with a MarkerSet, or --marker-set"
+            str(record.options["model"]), "", "has no markers", "give a model with a MarkerSet, or `marker_set`"
         )
     if file is None:
         tasks = MarkerTasks({m.name: 1.0 for m in model.markers})
     else:
         tasks = read_marker_weights(file)
-        record.add_input("--tasks", file, markers=len(tasks.markers), coordinates=len(tasks.coordinates))
+        record.add_input("`tasks`", file, markers=len(tasks.markers), coordinates=len(tasks.coordinates))
     known = {c.name: c for c in model.coordinates}
-    markers = {**tasks.markers, **_named(weight, "--weight", {m.name for m in model.markers}, "R.Heel=10")}
+    markers = {**tasks.markers, **_named(weight, "`weight`", {m.name for m in model.markers}, "R.Heel=10")}
     if min(markers.values(), default=0.0) < 0.0:
-        raise InputError("", "--weight", "a weight is negative", "weights are 0 or more")
-    held = _named(hold, "--hold", set(known), "subtalar_angle_r=5.2")
+        raise InputError("", "`weight`", "a weight is negative", "weights are 0 or more")
+    held = _named(hold, "`hold`", set(known), "subtalar_angle_r=5.2")
     fixed = [name for name in held if known[name].locked]
     if fixed:
-        raise InputError("", "--hold", f"'{fixed[0]}' is locked by the model", "unlock it there, or leave it out")
+        raise InputError("", "`hold`", f"'{fixed[0]}' is locked by the model", "unlock it there, or leave it out")
     wanted = {name: (HELD, np.radians(v) if known[name].kind == "rotational" else v) for name, v in held.items()}
     _warn(record, model, seen, markers, [name for name, (w, _) in tasks.coordinates.items() if w > 0.0])
     return MarkerTasks(markers, {**tasks.coordinates, **wanted})

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.analyses.quantities import time_span, turned_axes
+from geocontact.analyses.quantities import turned_axes
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
@@ -19,19 +19,19 @@ LARGEST, SMALLEST, FEW = 20.0, 0.05, 5
 """Span of the markers in a frame [m] beyond which the unit is another, from so many markers on below."""
 
 
-def markers_given(file: Path, axes: str | None, time: str | None) -> MarkerTrajectories:
-    """Markers of a file with `--axes` and `--time` heeded."""
+def markers_given(file: Path, axes: str | None, time: tuple[float, float] | None) -> MarkerTrajectories:
+    """Markers of a file in the model's axes, between two times [s]."""
     seen = read_markers(file)
     _refuse_absurd(seen)
     if axes is not None:
-        seen = seen.turned(turned_axes(axes, "--axes"))
+        seen = seen.turned(turned_axes(axes, "`axes`"))
     if time is None:
         return seen
-    first, last = time_span(time)
+    first, last = time
     part = seen.between(first, last)
     if not len(part):
         what = f"no frame between {first:g} and {last:g} s"
-        raise InputError(seen.source, "--time", what, f"the recording is from {seen.time[0]:g} to {seen.time[-1]:g} s")
+        raise InputError(seen.source, "`time`", what, f"the recording is from {seen.time[0]:g} to {seen.time[-1]:g} s")
     return part
 
 
@@ -54,5 +54,5 @@ def with_marker_set(record: Record, model: Multibody, osim: Path, file: Path | N
     if file is None:
         return model
     markers = read_marker_set(file, osim)
-    record.add_input("--marker-set", file, markers=len(markers))
+    record.add_input("`marker_set`", file, markers=len(markers))
     return replace(model, markers=markers)

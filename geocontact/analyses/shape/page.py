@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from geocontact.analyses.area.words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.geometry.fit.directions import across
 from geocontact.geometry.fit.found import OUTLYING, ShapeFit
 from geocontact.geometry.fit.profile import SagittalProfile

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from geocontact import __version__
 from geocontact.analyses.json_file import finite
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.run_record import Record
@@ -20,6 +19,7 @@ from geocontact.analyses.shape.page import FittedSurface, write_fit_report
 from geocontact.analyses.shape.patch import Patch
 from geocontact.analyses.shape.profile_figure import profile_figure
 from geocontact.cli.fit import FitOptions
+from geocontact.data.version import VERSION
 from geocontact.geometry.fit.found import ShapeFit
 from geocontact.geometry.fit.profile import SagittalProfile
 from geocontact.io.text.results import write_table
@@ -60,7 +60,7 @@ def write_results(record: Record, f: Fitting, folder: Path) -> None:
         for ending in ("png", "svg"):
             save(figure, folder / f"{name}.{ending}")
     if f.options.paraview:
-        write_fit_vtp(folder / "fit.vtp", surface, residual, f.patch.faces, f"geocontact {__version__}")
+        write_fit_vtp(folder / "fit.vtp", surface, residual, f.patch.faces, f"geocontact {VERSION}")
     shown = FittedSurface(surface, residual, f.patch.faces, f.whole, f.sides, f.profiles)
     drawings = {name: (folder / f"{name}.svg").read_bytes() for name in figures}
     tables = [inputs_table(record.inputs), options_table(record)]

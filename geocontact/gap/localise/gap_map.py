@@ -17,10 +17,10 @@ from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
+from geocontact.data.gap_cell import Cell, shares
 from geocontact.gap.case.problem import Problem, noise_variance
 from geocontact.gap.data_errors.correction import put_back
 from geocontact.gap.data_errors.gross import Fault
-from geocontact.gap.localise.cell import Cell, shares
 from geocontact.gap.localise.frequency_map import frequency_map
 from geocontact.gap.selection.evidence import Judged
 
@@ -183,11 +183,18 @@ class _Sums:
         mean = self.sums.sum(axis=(0, 1)) / np.maximum(count, 1.0)
         return [
             Cell(
-                self.channel, self.axis, float(self.edges[b]), float(self.edges[b + 1]), float(mean[b]),
-                float(share[b]), float(p_values[b]), (float(low[b]), float(high[b])), floor,
+                self.channel,
+                self.axis,
+                float(self.edges[b]),
+                float(self.edges[b + 1]),
+                float(mean[b]),
+                float(share[b]),
+                float(p_values[b]),
+                (float(low[b]), float(high[b])),
+                floor,
             )
             for b in np.flatnonzero(count)
-        ]  # fmt: skip
+        ]
 
 
 def systematic(sums: Float[np.ndarray, "i k b"], counts: Float[np.ndarray, "i k b"]) -> Float[np.ndarray, " b"]:

@@ -118,7 +118,7 @@ def _simulator(settings: CaseSettings, file: Path, trial: TrialTable, allowed: b
         return None
     if not allowed:
         what = f"would run {settings.simulate[:80]!r}, which a case does not do unasked"
-        raise InputError(file, "simulate", what, "pass --run-simulator if you trust it")
+        raise InputError(file, "simulate", what, "pass `run_simulator` if you trust it")
     units = dict(zip(trial.signals.channels, trial.signals.units, strict=True))
     channels = (*settings.inputs, *settings.outputs)
     if missing := [name for name in channels if name not in units]:

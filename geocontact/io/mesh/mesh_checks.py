@@ -46,7 +46,7 @@ def require_plausible(vertices: Float[np.ndarray, "n 3"], unit: str, plausible: 
         return
     size = "too small for an implant" if metres < plausible[0] else "too large for an implant or a body"
     fitting = [u for u in _COMMON_FIRST if u != unit and _LIKELY[0] <= diagonal * LENGTH[u] <= _LIKELY[1]]
-    remedy = f"the file looks like {_IN_WORDS[fitting[0]]}, pass --unit {fitting[0]}" if fitting else "check the unit"
+    remedy = f"the file looks like {_IN_WORDS[fitting[0]]}, pass `unit` {fitting[0]}" if fitting else "check the unit"
     shown = " x ".join(f"{side:.0f}" if 100 <= side < 1e7 else f"{side:.3g}" for side in box)
     raise InputError(file, "", f"bounding box {shown} {unit} is {size}", remedy)
 
@@ -55,13 +55,20 @@ def metres_per(unit: str, file: str) -> float:
     """Metres per `unit` of a mesh file; InputError that lists the units when it is none of them."""
     if unit not in MESH_UNITS:
         what = f"unknown unit '{unit}'"
-        raise InputError(file, "", what, f"pass --unit {', '.join(MESH_UNITS[:-1])} or {MESH_UNITS[-1]}")
+        raise InputError(file, "", what, f"pass `unit` {', '.join(MESH_UNITS[:-1])} or {MESH_UNITS[-1]}")
     return LENGTH[unit]
 
 
-def warn_about_faces(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"], file: str) -> None:
-    """Warn about faces without area and faces with the same three vertices as an earlier one."""
-    _warn(degenerate(vertices, faces), "degenerate faces (zero area), ignored in areas", file)
+def check_faces(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"], file: str) -> None:
+    """Refuse a mesh none of whose faces has an area.
+
+    Some faces without area, and faces with the same three vertices as an earlier one, are warned about.
+    """
+    flat = degenerate(vertices, faces)
+    if flat.all():
+        what = f"none of its faces ({len(faces)}) has an area: the corners of each lie on one line"
+        raise InputError(file, "", what, "export the surface again")
+    _warn(flat, "degenerate faces (zero area), ignored in areas", file)
     _warn(repeated(faces), "duplicate faces (same three vertices as an earlier face)", file)
 
 

@@ -12,14 +12,14 @@ from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.multibody.knee_angles import SIGN, tibia_in_femur
 from geocontact.io.text.columns import mapped, parse_map
-from geocontact.io.text.tables import Table
+from geocontact.io.text.tables import TextTable
 
 _ANGLES = ("flexion", "adduction", "rotation")
 _SHIFTS = ("tx", "ty", "tz")
 
 
 def motion_from_grood_suntay(
-    table: Table,
+    table: TextTable,
     mapping: str | None,
     side: str,
     moving: str = "tibia",
@@ -41,11 +41,11 @@ def motion_from_grood_suntay(
     """
     _require_side(side)
     if moving not in ("tibia", "femur"):
-        raise InputError("", "--moving", f"'{moving}' is not a body of the knee", "MOVING is tibia or femur")
+        raise InputError("", "`moving_body`", f"'{moving}' is not a body of the knee", "MOVING is tibia or femur")
     present = [name for name in _ANGLES + _SHIFTS if name in table.channels]
     text = mapping or ",".join(f"{name}={name}" for name in present)
     if not text:
-        raise InputError(table.file, "", "no columns flexion, adduction, rotation", "name them with --map")
+        raise InputError(table.file, "", "no columns flexion, adduction, rotation", "name them with `map`")
     parsed = parse_map(text, _ANGLES + _SHIFTS)
     turned, moved = mapped(table, parsed, _ANGLES, _SHIFTS, angles)
     rotation = tibia_in_femur(turned[:, 0], turned[:, 1], turned[:, 2], side)
@@ -57,4 +57,4 @@ def motion_from_grood_suntay(
 
 def _require_side(side: str) -> None:
     if side not in SIGN:
-        raise InputError("", "--side", f"'{side}' is not a side", "give right or left")
+        raise InputError("", "`side`", f"'{side}' is not a side", "give right or left")

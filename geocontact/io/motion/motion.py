@@ -48,7 +48,7 @@ def read_motion(
     if Path(fspath(path)).suffix.lower() not in SUFFIXES:
         raise InputError(path, "", "is not a motion file that is read", f"give one of {', '.join(SUFFIXES)}")
     if (osim is None) != (joint is None):
-        missing, given = ("--joint", "--osim") if joint is None else ("--osim", "--joint")
+        missing, given = ("`joint`", "`osim`") if joint is None else ("`osim`", "`joint`")
         raise InputError("", missing, f"is missing beside {given}", "give the model and the joint in it")
     if osim is not None and joint is not None:
         return motion_from_joint(read_table(path), read_joint(osim, joint), moving, angles)
@@ -59,4 +59,4 @@ def read_motion(
         return motion_from_map(read_table(path), mapping, order, angles)
     if Path(fspath(path)).suffix.lower() == ".csv":
         return motion_from_csv(path, order, angles)
-    raise InputError(path, "", "coordinates need a model to become poses", "give --osim and --joint, or --map")
+    raise InputError(path, "", "coordinates need a model to become poses", "give `osim` and `joint`, or `map`")

@@ -16,7 +16,7 @@ from geocontact.data.multibody.joint import JointModel
 from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of, warn_of_defaults
 from geocontact.io.text.columns import angles_of, lengths, mapped, parse_map
-from geocontact.io.text.tables import Table, listed, read_table
+from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import LENGTH
 
 __all__ = ["motion_from_csv", "motion_from_grood_suntay", "motion_from_joint", "motion_from_map", "read_pose"]
@@ -47,7 +47,7 @@ def motion_from_csv(path: str | PathLike[str], order: str | None = None, angles:
         raise InputError(table.file, "", what, "keep the quaternion or the Euler columns")
     if euler:
         if order is None:
-            raise InputError(table.file, "", "Euler columns without an order", "pass --order, e.g. --order XYZ")
+            raise InputError(table.file, "", "Euler columns without an order", "pass `order`, e.g. `order` XYZ")
         turned = Rotation.from_euler(_sequence(order, "XYZ"), _in_order(angles_of(table, _TURNS, angles), order))
     else:
         turned = _quaternions(table)
@@ -56,14 +56,14 @@ def motion_from_csv(path: str | PathLike[str], order: str | None = None, angles:
     return Motion(table.time, poses, table.file, table.time_unit, heeded=heeded)
 
 
-def motion_from_joint(table: Table, joint: JointModel, moving: str = "child", angles: str | None = None) -> Motion:
+def motion_from_joint(table: TextTable, joint: JointModel, moving: str = "child", angles: str | None = None) -> Motion:
     """Motion of a joint's child body in its parent body; `moving="parent"` gives the parent in the child.
 
     Columns are coordinates by name or by path (`/jointset/joint/name/value`). A coordinate without a column keeps its
     default value, with a warning; a table with none of them is refused.
     """
     if moving not in ("child", "parent"):
-        raise InputError("", "--moving", f"'{moving}' is not a body of the joint", "give child or parent")
+        raise InputError("", "`moving_body`", f"'{moving}' is not a body of the joint", "give child or parent")
     columns = columns_of(table, (joint,))
     pose = joint.pose(coordinates_of(table, joint.coordinates, columns, angles), len(table.time))
     if not np.all(np.isfinite(pose.as_matrix())):
@@ -75,7 +75,7 @@ def motion_from_joint(table: Table, joint: JointModel, moving: str = "child", an
     return Motion(table.time, poses, source, table.time_unit, heeded=frozenset(heeded))
 
 
-def motion_from_map(table: Table, mapping: str, order: str | None = None, angles: str | None = None) -> Motion:
+def motion_from_map(table: TextTable, mapping: str, order: str | None = None, angles: str | None = None) -> Motion:
     """Motion from named columns: `"rz=knee_flexion,rx=knee_adduction,ry=-knee_rotation,tx=knee_tx"`.
 
     Rotations are intrinsic in the order in which the r* entries are written (`rz,rx,ry` is R = Rz Rx Ry) unless
@@ -140,7 +140,7 @@ def _sequence(order: str, axes: str) -> str:
     sequence = order.upper()
     if set(sequence) - set("XYZ") or len(set(sequence)) != len(sequence) or not set(axes) <= set(sequence):
         what = f"'{order[:20]}' does not order the axes {', '.join(axes)}"
-        raise InputError("", "--order", what, "name each axis once, e.g. XYZ")
+        raise InputError("", "`order`", what, "name each axis once, e.g. XYZ")
     return sequence
 
 
@@ -148,7 +148,7 @@ def _in_order(turned: Float[np.ndarray, "t 3"], order: str) -> Float[np.ndarray,
     return turned[:, ["XYZ".index(axis) for axis in order.upper()]]
 
 
-def _quaternions(table: Table) -> Rotation:
+def _quaternions(table: TextTable) -> Rotation:
     missing = [name for name in _QUATERNION if name not in table.channels]
     if missing:
         what = f"no column {', '.join(missing)}"

@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.load_cells import STRONGEST, column_in_newtons
-from geocontact.io.text.tables import Table, listed, read_table
+from geocontact.io.text.tables import TextTable, listed, read_table
 
 SIDES = ("medial", "lateral", "total")
 
@@ -43,19 +43,19 @@ def read_force_curves(path: Path, unit: str | None, mapping: Mapping[str, tuple[
     there = {side: source for side, source in sources.items() if side in mapping or source[1] in table.channels}
     if not there:
         what = f"no column medial, lateral or total; columns are: {listed(table.channels)}"
-        raise InputError(table.file, "", what, "name them: --map medial=F1,lateral=F2")
+        raise InputError(table.file, "", what, "name them: `map` medial=F1,lateral=F2")
     forces, units = _forces(table, there, unit)
     if "total" not in forces and {"medial", "lateral"} <= set(forces):
         forces["total"] = forces["medial"] + forces["lateral"]
     largest = max(float(np.abs(values).max()) for values in forces.values())
     if largest > STRONGEST:
         what = f"forces reach {largest:.0f} N"
-        raise InputError(table.file, "", what, f"is the file in {units} at all? see --unit")
+        raise InputError(table.file, "", what, f"is the file in {units} at all? see `unit`")
     return ForceCurves(table.file, table.time, forces, units)
 
 
 def _forces(
-    table: Table, sources: Mapping[str, tuple[float, str]], unit: str | None
+    table: TextTable, sources: Mapping[str, tuple[float, str]], unit: str | None
 ) -> tuple[dict[str, Float[np.ndarray, " t"]], str]:
     found = {side: (sign, *column_in_newtons(table, name, unit)) for side, (sign, name) in sources.items()}
     units = ", ".join(sorted({said for _, _, said in found.values()}))

@@ -45,10 +45,10 @@ class MatResult:
 
 
 def read_mat_result(folder: Path) -> MatResult:
-    """Cells and frames in the folder that `geocontact mat --out` named."""
+    """Cells and frames in the folder that `geocontact mat` named."""
     for name in (CELLS, FRAMES):
         if not (folder / name).is_file():
-            raise InputError(folder, "", f"no {name} in it", "name the folder that `geocontact mat --out` wrote")
+            raise InputError(folder, "", f"no {name} in it", "name the folder that `geocontact mat` wrote")
     table, frames = read_side_table(folder / CELLS), read_trial(folder / FRAMES)
     wanted = ("id", "row", "column", *PLACE, AREA)
     if missing := tuple(name for name in wanted if name not in table.columns):

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 
-from geocontact.analyses.area.figure import COLOURS
 from geocontact.view.curves.text import plain
 
 if TYPE_CHECKING:
@@ -28,6 +27,7 @@ T = TypeVar("T")
 SINGLE, DOUBLE = 0.085, 0.174  # widths of one and two columns [m]
 INCH = 0.0254  # [m]
 POINT = INCH / 72.0  # [m]
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 PALETTE = (*COLOURS, "#E69F00", "#56B4E9")
 LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)))
 MARKERS = ("o", "s", "^", "D", "v", "P")

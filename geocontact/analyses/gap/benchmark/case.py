@@ -12,10 +12,10 @@ from typing import Any
 
 from threadpoolctl import threadpool_limits
 
-from geocontact import __version__
 from geocontact.analyses.json_file import plain
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
+from geocontact.data.version import VERSION
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.diagnose import Findings, diagnose
@@ -142,7 +142,7 @@ def from_folder(home: Path) -> Findings:
     """The whole path of `gap diagnose` but for what is written."""
     case = read_gap_case(home)
     system = system_of(case)
-    return diagnose(case, system, __version__)
+    return diagnose(case, system, VERSION)
 
 
 def _opponents(problem: Problem) -> dict[str, dict[str, Any]]:

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.area.words import NOT_A_DEVICE
 from geocontact.analyses.gap.diagnose.curves import HeldOut, resampled
 from geocontact.analyses.gap.diagnose.figures import SURFACE, axis_units, quantity_of, ranking
 from geocontact.analyses.gap.diagnose.words import names, percent, place, verdict_sentences
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings

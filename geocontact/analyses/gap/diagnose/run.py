@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import asdict
 from pathlib import Path
 
-from geocontact import __version__
 from geocontact.analyses.gap.diagnose.words import verdict_sentences
 from geocontact.analyses.gap.diagnose.write import write_results
 from geocontact.analyses.progress import stages
@@ -14,6 +13,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.cli.gap_diagnose import DiagnoseOptions
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
+from geocontact.data.version import VERSION
 from geocontact.gap.attribute import Listener, nobody
 from geocontact.gap.diagnose import Findings, diagnose
 from geocontact.io.cases.case_cells import cells_file
@@ -45,7 +45,7 @@ def diagnosed(record: Record, folder: Path, draft: Path, o: DiagnoseOptions, at:
     case = read_gap_case(folder, run_programs=o.run_simulator)
     system = system_of(case)
     add_inputs(record, folder, case)
-    findings = diagnose(case, system, __version__, at)
+    findings = diagnose(case, system, VERSION, at)
     record.results["diagnosis"] = {
         "verdict": findings.diagnosis.verdict,
         "effects": list(findings.diagnosis.effects),

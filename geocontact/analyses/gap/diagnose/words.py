@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, NextExperiment, Where
-from geocontact.gap.localise.cell import Cell
-from geocontact.gap.localise.frequency_map import BAND, FAST_PHASE
+from geocontact.data.gap_cell import Cell
+from geocontact.data.gap_cell import BAND, FAST_PHASE
 
 SIGNIFICANT = 0.05  # family-wise
 TELLING = 0.35  # share of a channel's gap along one axis that a part of its range must hold to be named

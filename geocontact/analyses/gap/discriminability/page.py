@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geocontact.analyses.area.words import NOT_A_DEVICE
 from geocontact.analyses.gap.discriminability.words import size_words
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.gap.identifiability.detectability import Detectability
 from geocontact.gap.identifiability.discriminability import Confusion
 from geocontact.gap.identifiability.separability import table

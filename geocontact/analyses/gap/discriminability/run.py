@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from geocontact import __version__
 from geocontact.analyses.gap.diagnose.run import add_inputs
 from geocontact.analyses.gap.discriminability.page import confusion_figures, write_confusion_report
 from geocontact.analyses.gap.discriminability.words import confusion_sentences, sizes_sentence
@@ -23,6 +22,7 @@ from geocontact.chain.system import System
 from geocontact.cli.gap_confuse import ConfuseOptions
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
+from geocontact.data.version import VERSION
 from geocontact.gap.identifiability.detectability import POWER, Detectability
 from geocontact.gap.identifiability.discriminability import Confusion, confuse, known, offered
 from geocontact.gap.identifiability.separability import APART, table
@@ -113,7 +113,7 @@ def answer(case: GapCase, found: Confusion, nats: float) -> dict[str, Any]:
         },
         "detectability": {one.candidate.label: _seen(one) for one in found.detectabilities},
         "next_experiment": None if found.proposal is None else found.proposal.as_dict(),
-        "version": __version__,
+        "version": VERSION,
     }
 
 

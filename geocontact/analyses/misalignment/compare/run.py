@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.area.words import counted
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.misalignment import parameters as elbow_numbers
 from geocontact.analyses.misalignment.figures import CONSTRAINT, comparison_figure
@@ -19,8 +18,11 @@ from geocontact.analyses.misalignment.pages import write_comparison_report
 from geocontact.analyses.misalignment.parameters import MMHG, PER_SI, unit_in_key
 from geocontact.analyses.misalignment.recordings import recordings
 from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import counted
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.law import NAMES
+from geocontact.axis_misalignment.synthetic import ideal
 from geocontact.cli.elbow_compare import ElbowCompareOptions
 from geocontact.cli.idle import refuse, width_rule
 from geocontact.data.elbow_recording import ElbowRecording
@@ -29,8 +31,6 @@ from geocontact.identify.signals.agreement import Agreement, agreement
 from geocontact.identify.signals.angle_bins import edges_over, visits
 from geocontact.identify.signals.even_times import at_times, even_times
 from geocontact.io.text.results import write_table
-from geocontact.misalignment.law import NAMES
-from geocontact.misalignment.synthetic import ideal
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.page.tables import frame_table, inputs_table
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.misalignment.design import Boundary
+from geocontact.axis_misalignment.design import Boundary
 from geocontact.view.curves.style import BLACK, DOUBLE, GREY, PALETTE, in_style, legend, panels
 
 if TYPE_CHECKING:

@@ -13,10 +13,8 @@ from geocontact.analyses.misalignment.design.write import describe, stroke_words
 from geocontact.analyses.misalignment.device import above_zero, drift, link, stroke
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
-from geocontact.cli.elbow_design import DesignOptions
-from geocontact.data.errors import InputError
-from geocontact.misalignment.compensation import Compensation
-from geocontact.misalignment.design import (
+from geocontact.axis_misalignment.compensation import Compensation
+from geocontact.axis_misalignment.design import (
     Boundary,
     OffsetMap,
     Sensitivity,
@@ -28,7 +26,9 @@ from geocontact.misalignment.design import (
     offset_map,
     sensitivities,
 )
-from geocontact.misalignment.planar_joint import FATES, grid
+from geocontact.axis_misalignment.planar_joint import FATES, grid
+from geocontact.cli.elbow_design import DesignOptions
+from geocontact.data.errors import InputError
 
 MM = 1e3
 MOST_POINTS = 1_000_000

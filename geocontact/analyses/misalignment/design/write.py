@@ -15,11 +15,11 @@ from geocontact.analyses.misalignment.design.figure import design_figure
 from geocontact.analyses.misalignment.design.page import write_design_report
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.compensation import Compensation, needed_ends
+from geocontact.axis_misalignment.design import Stroke
+from geocontact.axis_misalignment.planar_joint import FOLD, LOST, POLE, SOUND
 from geocontact.cli.elbow_design import DesignOptions
 from geocontact.io.text.results import write_table
-from geocontact.misalignment.compensation import Compensation, needed_ends
-from geocontact.misalignment.design import Stroke
-from geocontact.misalignment.planar_joint import FOLD, LOST, POLE, SOUND
 from geocontact.view.page.content import Table
 from geocontact.view.page.tables import inputs_table
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from geocontact.analyses.misalignment.parameters import PER_SI, TYPED
+from geocontact.axis_misalignment.law import LENGTHS, SCALED
 from geocontact.identify.intervals.profile_likelihood import Profile
-from geocontact.misalignment.law import LENGTHS, SCALED
 
 if TYPE_CHECKING:
     from geocontact.analyses.misalignment.identify.run import Fitted

@@ -15,18 +15,11 @@ from geocontact.analyses.misalignment.parameters import MMHG
 from geocontact.analyses.misalignment.recordings import MIRRORED, recordings, require_bins, require_locked
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
-from geocontact.cli.elbow_fit import ElbowFitOptions
-from geocontact.data.elbow_recording import ElbowRecording
-from geocontact.data.errors import InputError
-from geocontact.identify.intervals.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours
-from geocontact.identify.intervals.profile_likelihood import Profile
-from geocontact.io.recordings.elbow_recording import DISPLACEMENT
-from geocontact.io.recordings.elbow_recording import FORCE as FORCE_CHANNEL
-from geocontact.misalignment.bins import FORCE, Binned, binned
-from geocontact.misalignment.end_stop import Stiffness, Stroke, curve_of, stiffness_by_displacement, stroke_of
-from geocontact.misalignment.explicit import require_no_pole, require_reach
-from geocontact.misalignment.law import LENGTHS, SCALED, offsets_of
-from geocontact.misalignment.least_squares import (
+from geocontact.axis_misalignment.bins import FORCE, Binned, binned
+from geocontact.axis_misalignment.end_stop import Stiffness, Stroke, curve_of, stiffness_by_displacement, stroke_of
+from geocontact.axis_misalignment.explicit import require_no_pole, require_reach
+from geocontact.axis_misalignment.law import LENGTHS, SCALED, offsets_of
+from geocontact.axis_misalignment.least_squares import (
     Estimate,
     Problem,
     estimated,
@@ -34,9 +27,9 @@ from geocontact.misalignment.least_squares import (
     problem_of,
     r_squared,
 )
-from geocontact.misalignment.residuals import Excess, excess, normality
-from geocontact.misalignment.scale import Scale, scale_of
-from geocontact.misalignment.uncertainty import (
+from geocontact.axis_misalignment.residuals import Excess, excess, normality
+from geocontact.axis_misalignment.scale import Scale, scale_of
+from geocontact.axis_misalignment.uncertainty import (
     Direction,
     along_the_scale,
     covariance,
@@ -45,6 +38,13 @@ from geocontact.misalignment.uncertainty import (
     wild_bootstrap,
     with_link_held,
 )
+from geocontact.cli.elbow_fit import ElbowFitOptions
+from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.data.errors import InputError
+from geocontact.identify.intervals.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours
+from geocontact.identify.intervals.profile_likelihood import Profile
+from geocontact.io.recordings.elbow_recording import DISPLACEMENT
+from geocontact.io.recordings.elbow_recording import FORCE as FORCE_CHANNEL
 
 FEW_STRETCHES = 12
 FACTORS = np.geomspace(0.5, 2.0, 41)

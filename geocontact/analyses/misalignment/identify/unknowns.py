@@ -5,12 +5,12 @@ from __future__ import annotations
 from geocontact.analyses import quantities
 from geocontact.analyses.misalignment import parameters as elbow_numbers
 from geocontact.analyses.misalignment.parameters import EXAMPLE, PER_SI, TYPED
+from geocontact.axis_misalignment.law import ABSENT, LENGTHS, NAMES, UNITS
+from geocontact.axis_misalignment.least_squares import Prior
 from geocontact.cli.elbow_fit import ElbowFitOptions
 from geocontact.cli.idle import bootstrap_rule, refuse, width_rule
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
-from geocontact.misalignment.law import ABSENT, LENGTHS, NAMES, UNITS
-from geocontact.misalignment.least_squares import Prior
 
 WIDEST = {
     "k": (10.0, 10e3), "x": (-0.15, 0.15), "y": (-0.15, 0.15), "l": (0.05, 0.5), "z": (-0.3, 0.3), "b": (-500.0, 500.0),

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.area.words import counted
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.json_file import finite
 from geocontact.analyses.misalignment.figures import (
@@ -27,17 +26,18 @@ from geocontact.analyses.misalignment.identify.unknowns import SCALE_WORDS
 from geocontact.analyses.misalignment.pages import CONDITIONS, FORCES, RESIDUALS, TOLD, write_fit_report
 from geocontact.analyses.misalignment.parameters import MMHG, PER_SI, TYPED, unit_in_key
 from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.bins import Binned
+from geocontact.axis_misalignment.end_stop import curve_of
+from geocontact.axis_misalignment.law import LENGTHS, NAMES
+from geocontact.axis_misalignment.least_squares import r_squared
+from geocontact.axis_misalignment.residuals import residual_by_bin, standard_residuals
 from geocontact.cli.elbow_fit import ElbowFitOptions
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.identify.intervals.bin_tests import LEVEL, BinTest, Pair
 from geocontact.identify.signals.angle_bins import places
 from geocontact.io.text.results import write_table
-from geocontact.misalignment.bins import Binned
-from geocontact.misalignment.end_stop import curve_of
-from geocontact.misalignment.law import LENGTHS, NAMES
-from geocontact.misalignment.least_squares import r_squared
-from geocontact.misalignment.residuals import residual_by_bin, standard_residuals
 from geocontact.view.page.tables import frame_table, inputs_table
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.area.words import NOT_A_DEVICE
 from geocontact.analyses.misalignment.design.page import MODEL
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.identify.intervals.quantile_intervals import Estimate
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
 from geocontact.view.page.write import write_page

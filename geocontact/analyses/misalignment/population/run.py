@@ -16,14 +16,14 @@ from geocontact.analyses.misalignment.device import above_zero, drift, stroke
 from geocontact.analyses.misalignment.population.write import describe, write_results
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.planar_joint import FATES, SOUND, STEP
+from geocontact.axis_misalignment.population import QUANTITIES, Exposure, peak_forces
 from geocontact.cli.elbow_population import PopulationOptions
 from geocontact.data.errors import InputError
 from geocontact.identify.intervals.quantile_intervals import Estimate, probability, quantile
 from geocontact.identify.intervals.sampling import Factor, Normal, People, Sampling, Uniform, root
 from geocontact.identify.intervals.sobol_indices import Indices, RankRegression, rank_regression, variance_shares
 from geocontact.io.recordings.population import PopulationFile, read_population
-from geocontact.misalignment.planar_joint import FATES, SOUND, STEP
-from geocontact.misalignment.population import QUANTITIES, Exposure, peak_forces
 
 UNITS = {name: "N/m" if name == "k" else "m" for name in QUANTITIES}
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)

@@ -16,11 +16,11 @@ from geocontact.analyses.misalignment.population.figure import population_figure
 from geocontact.analyses.misalignment.population.page import write_population_report
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.planar_joint import FOLD, LOST, POLE
+from geocontact.axis_misalignment.population import QUANTITIES
 from geocontact.cli.elbow_population import PopulationOptions
 from geocontact.identify.intervals.quantile_intervals import Estimate
 from geocontact.io.text.results import write_table
-from geocontact.misalignment.planar_joint import FOLD, LOST, POLE
-from geocontact.misalignment.population import QUANTITIES
 from geocontact.view.page.content import Table
 from geocontact.view.page.tables import inputs_table
 

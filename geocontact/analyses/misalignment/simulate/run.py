@@ -19,6 +19,8 @@ from geocontact.analyses.misalignment.parameters import MMHG, PER_SI, TYPED, uni
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.explicit import Offsets, require_no_pole, require_reach
+from geocontact.axis_misalignment.synthetic import PAPER, Design, ideal, synthetic
 from geocontact.cli.elbow_simulate import SimulateOptions
 from geocontact.cli.idle import refuse
 from geocontact.data.elbow_recording import ElbowRecording
@@ -26,8 +28,6 @@ from geocontact.data.errors import InputError
 from geocontact.io.recordings.elbow_recording import BETA, MOST_BENT, STRAIGHTEST, read_elbow_recording
 from geocontact.io.text.columns import parse_map
 from geocontact.io.text.results import write_table
-from geocontact.misalignment.explicit import Offsets, require_no_pole, require_reach
-from geocontact.misalignment.synthetic import PAPER, Design, ideal, synthetic
 from geocontact.view.page.content import Table
 from geocontact.view.page.tables import inputs_table
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.quantities import turned_axes
 from geocontact.analyses.run_record import Record
-from geocontact.cli.id import IdOptions
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody
 from geocontact.data.wrench import Wrench
@@ -33,8 +33,6 @@ def loads_on_bodies(
 
     `values` are the coordinates at those times [rad, m].
     """
-    if not (np.isfinite(o.threshold) and o.threshold >= 0.0):
-        raise InputError("", "--threshold", f"{o.threshold:g} is not a force of 0 N or more", "e.g. 10")
     file, loads = _given(record, o)
     if file is None:
         return {}
@@ -45,7 +43,7 @@ def loads_on_bodies(
         names = tuple(body.name for body in model.bodies)
         if load.body not in names:
             raise InputError(o.loads or "", load.plate, f"no body '{load.body}'", f"bodies are: {listed(names)}")
-        named = "--plate" if o.loads is None else f"{o.loads} <force_identifier>"
+        named = "`plate`" if o.loads is None else f"{o.loads} <force_identifier>"
         plate = _turned(plate_named(plates, load.plate, file, named), o, file, model)
         wrench = _during(file, _loaded(plate, load, o.threshold), time)
         _warn_of_far_points(record, file, load, wrench, model.poses(values)[load.body].translation)
@@ -57,32 +55,26 @@ def loads_on_bodies(
 
 
 def _given(record: Record, o: IdOptions) -> tuple[Path | None, tuple[ExternalLoad, ...]]:
-    """The file of the plates, and which acts on what: by OpenSim's external loads or by `--plates` and `--plate`."""
+    """The file of the plates, and which acts on what: by OpenSim's external loads or by `plates` and `plate`."""
     if o.loads is not None:
-        if o.plates is not None or o.plate:
-            raise InputError("", "--plates", "beside --loads names the plates twice", "give one of them")
         file, loads = read_external_loads(o.loads)
-        record.add_input("--loads", o.loads, forces=len(loads))
+        record.add_input("`loads`", o.loads, forces=len(loads))
         return file, loads
-    if (o.plates is None) != (not o.plate):
-        raise InputError("", "--plates", "and --plate belong together", "write --plates grf.c3d --plate 1=calcn_r")
     chosen = []
     for text in o.plate:
         plate, equals, body = text.rpartition("=")
         if not equals:
-            raise InputError("", "--plate", f"'{text}' is not a plate and a body", "write 1=calcn_r")
+            raise InputError("", "`plate`", f"'{text}' is not a plate and a body", "write 1=calcn_r")
         chosen.append(ExternalLoad(plate, body))
-    if o.axes is not None and o.plates is None:
-        raise InputError("", "--axes", "does nothing without plates", "leave it out")
     return o.plates, tuple(chosen)
 
 
 def _turned(plate: ForcePlate, o: IdOptions, file: Path, model: Multibody) -> ForcePlate:
     """The plate in the model's axes; refused where its floor is not level there."""
     if o.axes is not None and plate.wrench.frame == OPENSIM_FRAME:
-        raise InputError(file, "--axes", "does nothing: the file is in OpenSim's axes, y up", "leave it out")
+        raise InputError(file, "`axes`", "has no effect: the file is in OpenSim's axes, y up", "leave it out")
     if o.axes is not None:
-        turn = turned_axes(o.axes, "--axes")
+        turn = turned_axes(o.axes, "`axes`")
         wrench = plate.wrench
         wrench = Wrench(turn.apply(wrench.force), turn.apply(wrench.moment), turn.apply(wrench.origin), wrench.frame)
         plate = replace(plate, wrench=wrench, point=turn.apply(plate.point), normal=turn.apply(plate.normal))
@@ -90,7 +82,7 @@ def _turned(plate: ForcePlate, o: IdOptions, file: Path, model: Multibody) -> Fo
     if -plate.normal @ down < UP and np.linalg.norm(model.gravity) > 0.0:
         normal = " ".join(f"{x:.2g}" for x in plate.normal)
         what = f"its floor's normal is {normal}, the model's gravity pulls along {' '.join(f'{x:.2g}' for x in down)}"
-        raise InputError(file, plate.name, what, "say which axes are the model's: --axes x,z,-y where z is up")
+        raise InputError(file, plate.name, what, "say which axes are the model's: `axes` x,z,-y where z is up")
     return plate
 
 
@@ -109,14 +101,14 @@ def _loaded(plate: ForcePlate, load: ExternalLoad, threshold: float) -> ForcePla
 def _during(file: Path, plate: ForcePlate, time: Float[np.ndarray, " t"]) -> Wrench:
     if time[0] < plate.time[0] - 1e-6 or time[-1] > plate.time[-1] + 1e-6:
         what = f"runs from {plate.time[0]:g} to {plate.time[-1]:g} s, the motion from {time[0]:g} to {time[-1]:g} s"
-        raise InputError(file, plate.name, what, "cut the motion with --time")
+        raise InputError(file, plate.name, what, "cut the motion with `time`")
     wrench = plate.at(np.clip(time, plate.time[0], plate.time[-1]))
     lost = ~(np.isfinite(wrench.force).all(axis=1) & np.isfinite(wrench.moment).all(axis=1))
     if lost.any():
         what = (
             f"force, point or torque is missing at {time[np.argmax(lost)]:g} s and in {int(lost.sum())} frames in all"
         )
-        raise InputError(file, plate.name, what, "fill the gap, or cut the motion with --time")
+        raise InputError(file, plate.name, what, "fill the gap, or cut the motion with `time`")
     return wrench
 
 
@@ -132,4 +124,4 @@ def _warn_of_far_points(
     arm = np.linalg.norm(wrench.moved_to(origin).moment[on], axis=1) / size[on]
     if arm.max() > REACH:
         what = f"a force of {size[on][np.argmax(arm)]:.3g} N passes {arm.max():.3g} m from the origin of {load.body}"
-        record.warn(f"{file}: {load.plate}: {what}: exchanged plates, or a higher --threshold?")
+        record.warn(f"{file}: {load.plate}: {what}: exchanged plates, or a higher `threshold`?")

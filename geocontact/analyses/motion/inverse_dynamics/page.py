@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.area.words import NOT_A_DEVICE
+from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.panels import panels_by_joint
-from geocontact.data.multibody.model import GROUND, Multibody
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words
 from geocontact.view.page.write import write_page
 
@@ -25,41 +24,6 @@ FILTERED = (
     "Moments follow from accelerations: the low-pass of the coordinates decides how much of an impact is left. Forces "
     "of plates are not filtered. Positive values act along the coordinate."
 )
-
-
-@dataclass(frozen=True)
-class Forces:
-    """Generalised forces over time.
-
-    Parameters
-    ----------
-    time
-        [s].
-    model
-        Whose coordinates they are.
-    values
-        In its order [N m, N].
-    peak
-        Largest measured force on one body [N]; 0 without any.
-    """
-
-    time: Float[np.ndarray, " t"]
-    model: Multibody
-    values: Float[np.ndarray, "t n"]
-    peak: float
-
-    @property
-    def at_ground(self) -> Bool[np.ndarray, " n"]:
-        """Coordinates of joints to the ground that free a body of it, six at one joint."""
-        joints = [joint for joint in self.model.joints for _ in joint.coordinates]
-        return np.array([joint.parent == GROUND and len(joint.coordinates) == 6 for joint in joints], dtype=bool)
-
-    @property
-    def residual(self) -> float:
-        """Size of the force left over there, root mean square [N]; NaN where no body is free."""
-        straight = np.array([c.kind == "translational" for c in self.model.coordinates], dtype=bool)
-        left = self.values[:, self.at_ground & straight]
-        return float(np.sqrt(np.mean(np.sum(left**2, axis=1)))) if left.size else float("nan")
 
 
 def write_forces_report(

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.area.words import NOT_A_DEVICE
 from geocontact.analyses.motion.panels import panels_by_joint
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Table, Words

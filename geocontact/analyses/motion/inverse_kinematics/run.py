@@ -1,63 +1,84 @@
-"""Inverse kinematics: reads, computes, writes, says what it found."""
+"""Joint angles from markers."""
 
 from __future__ import annotations
 
 import time
-from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 
-from geocontact.analyses.motion.inverse_kinematics.page import write_kinematics_report
-from geocontact.analyses.motion.inverse_kinematics.write import knee_table, knees_of, write_results
-from geocontact.analyses.motion.marker_tasks import marker_tasks
-from geocontact.analyses.motion.markers import markers_given, with_marker_set
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.progress import progress
-from geocontact.analyses.results_folder import written_whole
+from geocontact.analyses.json_file import plain
+from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
+from geocontact.analyses.motion.inverse_kinematics.read import Seen
+from geocontact.analyses.motion.inverse_kinematics.result import IkResult
 from geocontact.analyses.run_record import Record
-from geocontact.cli.ik import IkOptions
 from geocontact.data.errors import InputError
-from geocontact.dynamics.inverse_kinematics import inverse_kinematics
+from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
 from geocontact.dynamics.tree import tree_of
-from geocontact.io.opensim.osim_multibody import read_multibody
-from geocontact.io.text.results import write_table
-from geocontact.view.page.tables import inputs_table
+from geocontact.io.text.tables import listed
+
+FAR = 50.0  # mm between markers and model that no subject has who stood model for it
 
 
-def analyse(markers: Path, o: IkOptions) -> int:
-    """Run the whole analysis."""
-    record = Record("ik", {"markers": markers, **asdict(o)})
-    with record.catching_warnings(), written_whole(o.out) as draft:
-        model = read_multibody(o.model)
-        record.add_input("--model", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
-        model = with_marker_set(record, model, o.model, o.marker_set)
-        knees = knees_of(o.knee, model)
-        seen = markers_given(markers, o.axes, o.time)
-        record.add_input("markers", markers, frames=len(seen), markers=len(seen.names))
-        tasks = marker_tasks(record, model, seen, o.tasks, o.weight, o.hold)
-        tree, filled = tree_of(model), _filled(o.fill)
-        began = time.perf_counter()
-        with progress("frames", len(seen)) as step:
-            try:
-                found = inverse_kinematics(tree, seen, tasks, lambda _: step(), fill=filled)
-            except ValueError as error:
-                raise InputError(markers, "", str(error), "compare the names in the file with the model's") from error
-        seconds = time.perf_counter() - began
-        write_results(record, model, found, draft, seconds)
-        if knees:
-            write_table(knee_table(model, found, knees), draft, False, "knees")
-        title = f"Inverse kinematics of {markers.name}"
-        tables = [inputs_table(record.inputs), options_table(record)]
-        write_kinematics_report(draft / "report.html", title, model, found, tables, list(record.warnings))
-        record.write(draft)
-        written = sorted(file.name for file in draft.iterdir())
-    record.say(f"results in {o.out}: {', '.join(written)}")
-    record.speak()
-    return 0
+def run(seen: Seen, o: IkOptions, record: Record) -> IkResult:
+    """Coordinates of every frame, how far the markers are from the model, and what sums them up."""
+    tree = tree_of(seen.model)
+    began = time.perf_counter()
+    with record.listener.progress("frames", len(seen.markers)) as step:
+        try:
+            found = inverse_kinematics(tree, seen.markers, seen.tasks, lambda _: step(), fill=o.fill)
+        except ValueError as error:
+            raise InputError(o.markers, "", str(error), "compare the names in the file with the model's") from error
+    summary = _summary(found, time.perf_counter() - began)
+    result = IkResult(record=record, options=o, seen=seen, poses=found, summary=summary)
+    record.results.update(plain(summary))
+    rms, squares = result.rms_mm, result.markers_mm
+    _warn(record, found, rms)
+    worst = max(squares, key=lambda name: squares[name]["rms_mm"])
+    record.say(
+        f"{len(found.time)} frames, {len(found.markers)} markers: {rms:.1f} mm from the model, root mean square, "
+        f"most at {worst}"
+    )
+    return result
 
 
-def _filled(seconds: float) -> float:
-    if not (np.isfinite(seconds) and seconds >= 0.0):
-        raise InputError("", "--fill", f"{seconds:g} is not a time", "write seconds; 0 fills nothing")
-    return seconds
+def _summary(found: Poses, seconds: float) -> dict[str, object]:
+    """Numbers of the whole recording, as `ik.json` holds them."""
+    squares = {
+        name: {"rms_mm": float(np.sqrt(np.mean(d[there] ** 2))), "max_mm": float(d[there].max())}
+        for name, d in zip(found.markers, 1e3 * found.distances.T, strict=True)
+        if (there := np.isfinite(d)).any()
+    }
+    missing = ~np.isfinite(found.values)
+    filled = ~found.told & ~missing & found.told.any(axis=0)
+    return {
+        "frames": len(found.time),
+        "frames_per_second": len(found.time) / seconds,
+        "steps_mean": float(found.steps.mean()),
+        "unsettled_frames": int((~found.settled).sum()),
+        "filled_frames": {n: int(k) for n, k in zip(found.names, filled.sum(axis=0), strict=True) if k},
+        "missing_frames": {n: int(k) for n, k in zip(found.names, missing.sum(axis=0), strict=True) if k},
+        "rms_mm": 1e3 * float(np.sqrt(np.nanmean(found.distances**2))),
+        "max_mm": 1e3 * float(np.nanmax(found.distances)),
+        "markers": squares,
+    }
+
+
+def _warn(record: Record, found: Poses, rms: float) -> None:
+    if not found.settled.all():
+        count = int((~found.settled).sum())
+        record.warn(f"{count} frames did not settle: markers and model may not belong together")
+    if rms > FAR:
+        record.warn(f"markers are {rms:.0f} mm from the model: another subject's size, axes (`axes`) or unit?")
+    never = np.asarray(~found.told.any(axis=0))
+    if never.any():
+        names = tuple(name for name, each in zip(found.names, never, strict=True) if each)
+        record.warn(f"no frame tells {listed(names)}: kept at the model's default")
+    for lost, what in (
+        (~found.told & np.isfinite(found.values) & ~never, "filled between frames that tell them"),
+        (~np.isfinite(found.values), "left empty, markers do not tell them"),
+    ):
+        names = tuple(name for name, each in zip(found.names, lost.any(axis=0), strict=True) if each)
+        if names:
+            frames = found.time[lost.any(axis=1)]
+            span = f"{len(frames)} frames from {frames[0]:g} to {frames[-1]:g} s"
+            record.warn(f"{span}: {what}: {listed(names)}")

@@ -1,0 +1,111 @@
+"""What a centre of pressure may be asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from geocontact.analyses.options import (
+    AngleUnit,
+    Excludes,
+    Expression,
+    Length,
+    MeshUnit,
+    Options,
+    Requires,
+    Spelled,
+    Typed,
+)
+from geocontact.data.errors import InputError
+
+Friction = Annotated[tuple[float, float], Typed("-", "friction")]
+
+
+@dataclass(frozen=True)
+class CopOptions(Options):
+    """Centre of pressure, force and free moment of a foot that stands on spheres, over a motion.
+
+    Parameters
+    ----------
+    spheres
+        Table of the spheres in the foot's frame: px [m], py [m], pz [m], radius [m], zone.
+    motion
+        Poses of the foot in the ground's frame (.csv), or coordinates (.mot .sto) with `osim` and `joint`, or `map`.
+    ground
+        plane:nx,ny,nz,offset (all x with n.x = offset [m], n made a unit vector), stairs:h0,x1:h1,x2:h2 (height h1 [m]
+        from x1 on, y up), or a mesh; plane:0,1,0,0 unless given.
+    unit
+        Unit of the ground's mesh; never guessed.
+    point
+        What the normal forces weigh: the points on the ground, or the centres of the spheres.
+    gate
+        Normal force [N] below which there is no centre of pressure.
+    law
+        Numbers of the force law in a .toml: k, b, n, delta_full, mu_s, mu_k, v_th, and k, b in [zone.NAME].
+    stiffness
+        k [N/m^n] of every sphere; 8e4 unless given here, in `law` or as a column `k [N/m^n]`.
+    damping
+        b [N s/m] of every sphere; 200 unless given here, in `law` or as a column `b [N s/m]`.
+    exponent
+        n of F = k depth^n; 1.2 unless given.
+    full_depth
+        Depth [m] from which damping acts fully: 2 mm unless given.
+    friction
+        Static and kinetic coefficient: 0.9,0.7 unless given.
+    threshold_speed
+        Speed [m/s] at which static friction is reached; 0.25 unless given.
+    compare
+        Ground reactions of force plates (.mot .sto .c3d) to put beside ours.
+    plate
+        Name or number of the plate; needed when there are several.
+    plate_pose
+        File with the 4x4 pose of the plates' frame in ours (translation in m), as for a laboratory with z up.
+    osim
+        OpenSim model whose joint turns coordinates into poses: its parent body is the ground, its child the foot.
+    joint
+        Name of that joint.
+    moving_body
+        parent: the foot is the joint's parent body; child unless given.
+    map
+        Columns instead of a model: rz=pitch,tx=x,ty=y
+    order
+        Order of intrinsic rotations: XYZ is R = Rx Ry Rz.
+    angles
+        Unit of angles where the file does not say.
+    parquet
+        Also write the tables as .parquet.
+    """
+
+    spheres: Path
+    _: KW_ONLY
+    motion: Path
+    ground: Expression | None = None
+    unit: MeshUnit | None = None
+    point: Literal["ground", "sphere"] = "ground"
+    gate: float = 20.0
+    law: Path | None = None
+    stiffness: float | None = None
+    damping: float | None = None
+    exponent: float | None = None
+    full_depth: Length | None = None
+    friction: Friction | None = None
+    threshold_speed: float | None = None
+    compare: Path | None = None
+    plate: Annotated[str | None, Requires("compare", "name the file of force plates")] = None
+    plate_pose: Annotated[Path | None, Requires("compare", "name the file of force plates")] = None
+    osim: Path | None = None
+    joint: str | None = None
+    moving_body: Annotated[
+        Literal["child", "parent"] | None, Spelled("moving"), Requires("osim", "give `osim` and `joint`")
+    ] = None
+    map: Annotated[Expression | None, Excludes("osim", "with `osim` names the columns twice", "give one")] = None
+    order: Annotated[str | None, Excludes("osim")] = None
+    angles: AngleUnit | None = None
+    parquet: bool = False
+
+    def refuse_impossible(self) -> None:
+        """A gate that is no force."""
+        if not (math.isfinite(self.gate) and self.gate >= 0.0):
+            raise InputError("", "`gate`", f"{self.gate:g} is not a force of 0 N or more", "e.g. 20")

@@ -1,0 +1,63 @@
+"""What a centre of pressure is computed from: sole, law, motion, ground and a plate, as the options name them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from geocontact.analyses.cop.force_plate import chosen_plate
+from geocontact.analyses.cop.ground import ground_of
+from geocontact.analyses.cop.law import sole_law
+from geocontact.analyses.cop.options import CopOptions
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.motion import Motion
+from geocontact.io.mocap.force_plates import ForcePlate
+from geocontact.io.motion.motion import read_motion
+from geocontact.io.recordings.spheres import read_spheres
+from geocontact.loads.ground import Ground
+from geocontact.loads.sphere_set import SoleLaw, SphereSet
+
+
+@dataclass(frozen=True)
+class Foot:
+    """A sole with its law and its motion over the ground, and a force plate beside it where there is one."""
+
+    name: str
+    sole: SphereSet
+    law: SoleLaw
+    motion: Motion
+    ground: Ground
+    plate: ForcePlate | None
+
+
+def read(o: CopOptions, record: Record) -> Foot:
+    """Everything the options name."""
+    ground = ground_of(record, o)
+    table = read_spheres(o.spheres)
+    record.add_input("spheres", o.spheres, spheres=len(table.radius))
+    sole = SphereSet(table.centre, table.radius, table.zone)
+    law = sole_law(record, table, o)
+    motion = _motion(record, o)
+    return Foot(o.spheres.name, sole, law, motion, ground, chosen_plate(record, o))
+
+
+def _motion(record: Record, o: CopOptions) -> Motion:
+    motion = read_motion(
+        o.motion,
+        osim=o.osim,
+        joint=o.joint,
+        moving=o.moving_body or "child",
+        mapping=o.map,
+        order=o.order,
+        angles=o.angles,
+    )
+    for option, value in (("order", o.order), ("angles", o.angles)):
+        if value is not None and option not in motion.heeded:
+            what = f"has no effect here: {o.motion} is read without it"
+            raise InputError("", f"`{option}`", what, "leave it out")
+    if motion.time_unit != "s":
+        raise InputError(o.motion, "", "time is in per cent of a cycle", "damping and friction need seconds")
+    record.add_input("motion", o.motion, frames=len(motion), source=motion.source)
+    if o.osim is not None:
+        record.add_input("model", o.osim, joint=o.joint)
+    return motion

@@ -1,0 +1,103 @@
+"""What a centre of pressure is found to be: tables with the frame in their first line, figure, page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from geocontact.analyses.cop.figure import LoadCurves, cop_figure
+from geocontact.analyses.cop.force_plate import PlateCurves
+from geocontact.analyses.cop.options import CopOptions
+from geocontact.analyses.cop.read import Foot
+from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.plain_page import write_plain_page
+from geocontact.analyses.result import Result
+from geocontact.io.text.results import write_table
+from geocontact.loads.centre_of_pressure import CentreOfPressure
+from geocontact.loads.sphere_loads import SphereLoads
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FRAME = "# frame = ground, in which the motion gives the foot's pose; forces are those on the foot; cop = {}"
+CENTRES = {"ground": "centre of the ground points", "sphere": "centre of the sphere centres"}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class CopResult(Result):
+    """Loads on a foot over its motion, in the frame of the ground.
+
+    Parameters
+    ----------
+    foot
+        Sole, law, motion and ground.
+    loads
+        Force of every sphere in every frame.
+    centre
+        Resultant, centre of pressure and free moment of every frame.
+    plate, comparison
+        What a force plate shows, and the differences to it; None without a plate.
+    """
+
+    options: CopOptions
+    foot: Foot
+    loads: SphereLoads
+    centre: CentreOfPressure
+    plate: PlateCurves | None
+    comparison: pd.DataFrame | None
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`cop`, `zones`, and `comparison` with a plate."""
+        found = {"cop": self._loads_table(), "zones": self._zones_table()}
+        return found if self.comparison is None else {**found, "comparison": self.comparison}
+
+    def figure(self) -> Figure:
+        """Forces, centre and free moment over time, and the path seen from above."""
+        time, c = self.foot.motion.time, self.centre
+        ours, theirs = LoadCurves(time, c.wrench.force, c.centre, c.free_moment), None
+        if self.plate is not None:
+            p = self.plate
+            theirs = LoadCurves(time[p.frames], p.force, p.centre, p.free_moment)
+        return cop_figure(ours, theirs, c.normal, f"{self.foot.name} on the ground, {self.options.motion.name}")
+
+    def write_files(self, folder: Path) -> None:
+        """Tables and figure."""
+        line = FRAME.format(CENTRES[self.options.point])
+        for name, table in self.tables().items():
+            write_table(table, folder, self.options.parquet, name)
+            file = folder / f"{name}.csv"
+            file.write_text(f"{line}\n{file.read_text(encoding='utf-8')}", encoding="utf-8", newline="\n")
+        save_both(self.figure(), folder, "cop")
+
+    def write_page(self, file: Path) -> None:
+        """Figure and numbers of every frame."""
+        write_plain_page(self, f"Centre of pressure of {self.foot.name}", file)
+
+    def _loads_table(self) -> pd.DataFrame:
+        """Force, centre and free moment of every frame; centre and free moment are empty below the gate."""
+        c = self.centre
+        vectors = {
+            f"{name}_{axis} [{unit}]": values[:, k]
+            for name, unit, values in (("force", "N", c.wrench.force), ("cop", "m", c.centre))
+            for k, axis in enumerate("xyz")
+        }
+        return pd.DataFrame(
+            {
+                "time [s]": self.foot.motion.time,
+                **vectors,
+                "free_moment [N m]": c.free_moment,
+                "normal [N]": c.pressing,
+                "spheres [-]": np.count_nonzero(self.loads.depth > 0.0, axis=1),
+                "max_depth [m]": np.maximum(self.loads.depth.max(axis=1), 0.0),
+            }
+        )
+
+    def _zones_table(self) -> pd.DataFrame:
+        """Normal force of every zone."""
+        zones = self.foot.sole.zones.items()
+        forces = {f"{name} [N]": self.loads.pressing[:, which].sum(axis=1) for name, which in zones}
+        return pd.DataFrame({"time [s]": self.foot.motion.time, **forces})

@@ -1,0 +1,100 @@
+"""One frame for every analysis: called from Python it returns a result, executed it also fills a folder."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from inspect import Parameter, Signature
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+from geocontact.analyses.listener import Listener
+from geocontact.analyses.options import Declared, Options, declared
+from geocontact.analyses.result import Result
+from geocontact.analyses.results_folder import written_whole
+from geocontact.analyses.run_record import Record, as_python
+from geocontact.data.errors import InputWarning
+
+I = TypeVar("I")
+R = TypeVar("R", bound=Result)
+
+
+class Job(Generic[I, R]):
+    """An analysis: its name, its options, and what reads and computes.
+
+    Called with the options' arguments it returns the result; reservations become `InputWarning`s.
+
+    Parameters
+    ----------
+    command
+        Name, as it is typed.
+    options
+        Class of the options, below `Options`.
+    read
+        Reads what the options name, and tells the record of it.
+    run
+        Computes from what was read; tells the record what was found and what is to be doubted.
+    """
+
+    def __init__(
+        self,
+        command: str,
+        options: type[Options],
+        read: Callable[[Any, Record], I],
+        run: Callable[[I, Any, Record], R],
+    ) -> None:
+        self.command, self.options, self.read, self.run = command, options, read, run
+        self.__doc__ = options.__doc__
+        self.__name__ = command.replace(" ", "_")
+
+    @property
+    def __signature__(self) -> Signature:
+        """Names, types and defaults of the options, without what only the command line needs."""
+        return Signature([_parameter(one) for one in declared(self.options)])
+
+    def __call__(self, *inputs: Any, **options: Any) -> R:
+        """Read and compute; nothing is written. Arguments are those of `__signature__`; paths may be text."""
+        asked = self.options(*inputs, **options)
+        record = Record(self.command, asked.in_si(), asked.in_si())
+        with record.catching_warnings():
+            result = self.run(self.read(asked, record), asked, record)
+        for line in record.warnings:
+            warnings.warn(line, InputWarning, stacklevel=2)
+        return result
+
+    def __repr__(self) -> str:
+        return f"<analysis {self.command}{self.__signature__}>"
+
+
+def _parameter(one: Declared) -> Parameter:
+    kind = Parameter.POSITIONAL_OR_KEYWORD if one.positional else Parameter.KEYWORD_ONLY
+    default = Parameter.empty if one.required else one.default
+    return Parameter(one.name, kind, default=default, annotation=one.kind | None if one.optional else one.kind)
+
+
+@dataclass(frozen=True)
+class Call:
+    """How the command line called an analysis.
+
+    Parameters
+    ----------
+    typed
+        Options as typed.
+    listener
+        Hears of the work.
+    spell
+        Turns options in backticks into what was typed.
+    """
+
+    typed: Mapping[str, object]
+    listener: Listener
+    spell: Callable[[str], str] = as_python
+
+
+def execute(job: Job[Any, R], options: Options, out: Path, call: Call) -> tuple[R, list[str]]:
+    """Evaluate and write into `out`, whole or not at all; the result and the names of the files."""
+    record = Record(job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell)
+    with record.catching_warnings(), written_whole(out) as draft:
+        result = job.run(job.read(options, record), options, record)
+        return result, result.put(draft)

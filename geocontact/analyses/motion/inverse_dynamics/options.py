@@ -1,0 +1,68 @@
+"""What inverse dynamics may be asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated
+
+from geocontact.analyses.options import AngleUnit, Excludes, Expression, Options, Texts, TimeSpan
+from geocontact.data.errors import InputError
+
+TWICE = Excludes("loads", "with `loads` names the plates twice", "give one of them")
+
+
+@dataclass(frozen=True)
+class IdOptions(Options):
+    """Joint moments and forces of a recorded motion: Newton and Euler, with the measured ground reactions.
+
+    Parameters
+    ----------
+    coordinates
+        Coordinates of the model over time (.mot, .sto, .csv), as `geocontact ik` writes them.
+    model
+        OpenSim model (.osim): masses, inertias, joints.
+    loads
+        OpenSim's external loads (.xml): which force plate acts on which body. Without it nothing but gravity acts.
+    plates
+        File of force plates (.mot, .sto, .c3d) in place of `loads`, with `plate`.
+    plate
+        Which plate acts on which body, by name or number: 1=calcn_r. May be given again.
+    axes
+        Which of the plates' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
+    threshold
+        Force [N] below which a plate counts as unloaded, since the point of a small force means little. OpenSim has
+        none; a warning names forces that pass far from their body.
+    cutoff
+        Low-pass of the coordinates [Hz], OpenSim's filter; 0 leaves them as they are.
+    time
+        First and last time [s] that are written: 0.4:1.6. The filter sees the whole recording.
+    angles
+        Unit of angles where the file does not say it: deg or rad.
+    """
+
+    coordinates: Path
+    _: KW_ONLY
+    model: Path
+    loads: Path | None = None
+    plates: Annotated[Path | None, TWICE] = None
+    plate: Annotated[Texts, TWICE] = ()
+    axes: Expression | None = None
+    threshold: float = 0.0
+    cutoff: float = 6.0
+    time: TimeSpan | None = None
+    angles: AngleUnit | None = None
+
+    def refuse_impossible(self) -> None:
+        """Plates without bodies, axes without plates, numbers that cannot be."""
+        if (self.plates is None) != (not self.plate):
+            what = "and `plate` belong together"
+            raise InputError("", "`plates`", what, "write `plates` grf.c3d `plate` 1=calcn_r")
+        if self.axes is not None and self.plates is None and self.loads is None:
+            raise InputError("", "`axes`", "has no effect without plates", "leave it out")
+        if not (math.isfinite(self.threshold) and self.threshold >= 0.0):
+            raise InputError("", "`threshold`", f"{self.threshold:g} is not a force of 0 N or more", "e.g. 10")
+        if not (math.isfinite(self.cutoff) and self.cutoff >= 0.0):
+            what = f"{self.cutoff:g} is not a frequency"
+            raise InputError("", "`cutoff`", what, "0 leaves the coordinates as they are")

@@ -1,0 +1,59 @@
+"""What inverse kinematics may be asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+
+from geocontact.analyses.options import Expression, Options, Texts, TimeSpan
+from geocontact.data.errors import InputError
+
+
+@dataclass(frozen=True)
+class IkOptions(Options):
+    """Joint angles from recorded markers: weighted least squares in every frame, limits of the model kept.
+
+    Parameters
+    ----------
+    markers
+        Marker trajectories (.trc, .c3d).
+    model
+        OpenSim model (.osim) with the markers.
+    tasks
+        OpenSim's setup of inverse kinematics or its task set (.xml): weights of markers and coordinates. Without it all
+        markers of the model count alike.
+    marker_set
+        Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
+    weight
+        Weight of a marker over that of `tasks`: R.Heel=10; 0 leaves it out. May be given again.
+    hold
+        Coordinate held near a value (deg, m; rad where the model couples it to others): subtalar_angle_r=5.2. May be
+        given again.
+    fill
+        Longest gap [s] over which coordinates that no marker determines are filled by a spline; longer ones stay empty.
+    knee
+        Knee whose angles after Grood and Suntay are written: right=femur_r,tibia_r, the bodies as the model calls them,
+        x forward, y up and z to the right in both. May be given again.
+    axes
+        Which of the markers' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
+    time
+        First and last time [s]: 0.4:1.6.
+    """
+
+    markers: Path
+    _: KW_ONLY
+    model: Path
+    tasks: Path | None = None
+    marker_set: Path | None = None
+    weight: Texts = ()
+    hold: Texts = ()
+    fill: float = 0.1
+    knee: Texts = ()
+    axes: Expression | None = None
+    time: TimeSpan | None = None
+
+    def refuse_impossible(self) -> None:
+        """A gap that is no time."""
+        if not (math.isfinite(self.fill) and self.fill >= 0.0):
+            raise InputError("", "`fill`", f"{self.fill:g} is not a time", "write seconds; 0 fills nothing")

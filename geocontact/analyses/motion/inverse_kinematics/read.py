@@ -1,0 +1,36 @@
+"""What inverse kinematics starts from: a model with markers, and where they were seen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from geocontact.analyses.motion.inverse_kinematics.knees import Knee, knees_of
+from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
+from geocontact.analyses.motion.marker_tasks import marker_tasks
+from geocontact.analyses.motion.markers import markers_given, with_marker_set
+from geocontact.analyses.run_record import Record
+from geocontact.data.multibody.marker_tasks import MarkerTasks
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
+from geocontact.io.opensim.osim_multibody import read_multibody
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A model, its markers as they were seen, what each of them counts, and knees whose clinical angles are wanted."""
+
+    model: Multibody
+    markers: MarkerTrajectories
+    tasks: MarkerTasks
+    knees: list[Knee]
+
+
+def read(o: IkOptions, record: Record) -> Seen:
+    """Everything the options name."""
+    model = read_multibody(o.model)
+    record.add_input("`model`", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
+    model = with_marker_set(record, model, o.model, o.marker_set)
+    knees = knees_of(o.knee, model)
+    seen = markers_given(o.markers, o.axes, o.time)
+    record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
+    return Seen(model, seen, marker_tasks(record, model, seen, o.tasks, o.weight, o.hold), knees)

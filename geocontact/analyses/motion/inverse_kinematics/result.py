@@ -1,0 +1,93 @@
+"""What inverse kinematics finds: coordinates for OpenSim, distances of the markers, clinical knee angles, page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pandas as pd
+
+from geocontact.analyses.json_file import write_json
+from geocontact.analyses.motion.figure import curves_figure
+from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
+from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
+from geocontact.analyses.motion.inverse_kinematics.page import write_kinematics_report
+from geocontact.analyses.motion.inverse_kinematics.read import Seen
+from geocontact.analyses.motion.printed import printed
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.result import Result
+from geocontact.dynamics.inverse_kinematics import Poses
+from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.io.text.results import write_table
+from geocontact.view.page.tables import inputs_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class IkResult(Result):
+    """Coordinates of a model over time.
+
+    Parameters
+    ----------
+    seen
+        Model, markers and weights.
+    poses
+        Coordinates [rad, m] and distances of the markers [m] of every frame.
+    summary
+        Numbers of the whole recording, with units in their names.
+    """
+
+    options: IkOptions
+    seen: Seen
+    poses: Poses
+    summary: dict[str, Any]
+
+    @property
+    def rms_mm(self) -> float:
+        """Distance of the markers from the model, root mean square over markers and frames [mm]."""
+        return float(self.summary["rms_mm"])
+
+    @property
+    def markers_mm(self) -> dict[str, dict[str, float]]:
+        """Root mean square and largest distance of each marker that was seen [mm]."""
+        return dict(self.summary["markers"])
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`coordinates` [deg, m], `markers` with the distance of each, and `knees` where they are asked for."""
+        p = self.poses
+        units = ["deg" if c.kind == "rotational" else "m" for c in self.seen.model.coordinates]
+        values = printed(self.seen.model.coordinates, p.values).T
+        angles = {f"{name} [{unit}]": v for name, unit, v in zip(p.names, units, values, strict=True)}
+        found = {"coordinates": pd.DataFrame({"time [s]": p.time, **angles}), "markers": self._distances()}
+        return {**found, "knees": knee_table(self.seen.model, p, self.seen.knees)} if self.seen.knees else found
+
+    def figure(self) -> Figure:
+        """Angles of all joints over time, and how far the markers are from the model."""
+        angles = self.table("coordinates").filter(like="[deg]")
+        return curves_figure(
+            self.poses.time, {"angle [deg]": angles, "markers [mm]": self.table("markers").iloc[:, 1:]}
+        )
+
+    def write_files(self, folder: Path) -> None:
+        """ik.mot for OpenSim, tables, ik.json, page."""
+        values = printed(self.seen.model.coordinates, self.poses.values)
+        file = folder / "ik.mot"
+        write_storage(file, self.poses.time, self.poses.names, values, title="Coordinates", degrees=True)
+        for name, table in self.tables().items():
+            if name != "coordinates":  # which ik.mot holds
+                write_table(table, folder, False, name)
+        write_json(folder / "ik.json", self.summary)
+        self.write_page(folder / "report.html")
+
+    def write_page(self, file: Path) -> None:
+        """Coordinates over time, and how far each marker is from the model."""
+        title = f"Inverse kinematics of {self.options.markers.name}"
+        tables = [inputs_table(self.record.inputs), options_table(self.record)]
+        write_kinematics_report(file, title, self.seen.model, self.poses, tables, list(self.warnings))
+
+    def _distances(self) -> pd.DataFrame:
+        off = {f"{name} [mm]": 1e3 * d for name, d in zip(self.poses.markers, self.poses.distances.T, strict=True)}
+        return pd.DataFrame({"time [s]": self.poses.time, **off})

@@ -1,0 +1,55 @@
+"""What scaling may be asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+
+from geocontact.analyses.options import Expression, Options, Texts, TimeSpan
+from geocontact.data.errors import InputError
+
+
+@dataclass(frozen=True)
+class ScaleOptions(Options):
+    """A model made to measure from a static trial: sizes of bodies, mass, places of markers.
+
+    Parameters
+    ----------
+    static
+        Markers while the subject stands still (.trc, .c3d).
+    model
+        Generic OpenSim model (.osim) with markers.
+    scale
+        Bodies and the pairs of markers whose distances tell their size: femur_r,femur_l=R.Hip/R.Knee,L.Hip/L.Knee.
+        May be given again; bodies that are not named keep their size. The factor is the same along all axes.
+    marker_set
+        Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
+    mass
+        Of the subject [kg], shared among the bodies as in the model.
+    keep_markers
+        Leave markers where scaling puts them; otherwise they are moved to where they were seen in the static trial,
+        but for those that the model calls fixed.
+    tasks
+        OpenSim's setup of inverse kinematics or its task set (.xml) for the static pose; without it all markers alike.
+    axes
+        Which of the markers' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
+    time
+        First and last time [s] of standing still.
+    """
+
+    static: Path
+    _: KW_ONLY
+    model: Path
+    scale: Texts = ()
+    marker_set: Path | None = None
+    mass: float | None = None
+    keep_markers: bool = False
+    tasks: Path | None = None
+    axes: Expression | None = None
+    time: TimeSpan | None = None
+
+    def refuse_impossible(self) -> None:
+        """A mass that is none."""
+        if self.mass is not None and not (math.isfinite(self.mass) and self.mass > 0.0):
+            raise InputError("", "`mass`", f"{self.mass:g} kg is not a mass", "write for example 72.6")

@@ -1,0 +1,9 @@
+"""Virtual markers of a model along a motion: `geocontact markers`, `gc.virtual_markers`."""
+
+from __future__ import annotations
+
+from geocontact.analyses.job import Job
+from geocontact.analyses.motion.virtual_markers.options import MarkersOptions
+from geocontact.analyses.motion.virtual_markers.run import read, run
+
+virtual_markers = Job("markers", MarkersOptions, read, run)

@@ -1,0 +1,50 @@
+"""Where the markers of a model are: a table, and a file for OpenSim."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from geocontact.analyses.motion.figure import curves_figure
+from geocontact.analyses.motion.virtual_markers.options import MarkersOptions
+from geocontact.analyses.plain_page import write_plain_page
+from geocontact.analyses.result import Result
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.io.mocap.trc_writer import write_trc
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class MarkersResult(Result):
+    """Markers of a model over time, in the ground's frame [m]."""
+
+    options: MarkersOptions
+    markers: MarkerTrajectories
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`markers` [m]."""
+        places = self.markers.positions
+        columns = {
+            f"{name}_{axis} [m]": places[:, k, i]
+            for k, name in enumerate(self.markers.names)
+            for i, axis in enumerate("xyz")
+        }
+        return {"markers": pd.DataFrame({"time [s]": self.markers.time, **columns})}
+
+    def figure(self) -> Figure:
+        """Every axis over time."""
+        table = self.table()
+        return curves_figure(self.markers.time, {f"{axis} [m]": table.filter(like=f"_{axis} [") for axis in "xyz"})
+
+    def write_files(self, folder: Path) -> None:
+        """markers.trc [mm]."""
+        write_trc(folder / "markers.trc", self.markers)
+
+    def write_page(self, file: Path) -> None:
+        """Figure and table."""
+        write_plain_page(self, f"Virtual markers along {self.options.coordinates.name}", file)

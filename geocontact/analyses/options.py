@@ -1,0 +1,265 @@
+"""What an analysis may be asked for: one declaration for Python, the command line and the documentation.
+
+The options of an analysis are a frozen dataclass below `Options`: inputs first, then keyword-only options, values
+in SI. What else there is to know of an option stands in its annotation: its unit (`Typed`), how the command line spells
+it (`Spelled`), and with which other options it has an effect (`Requires`, `Excludes`, `Needs`). A message names an
+option in backticks, which is how Python spells it; the command line turns that into its own spelling.
+"""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, Field, dataclass, fields
+from functools import cache
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+
+from geocontact.data.errors import InputError
+
+
+@dataclass(frozen=True)
+class Typed:
+    """The SI unit of an option's value, and how the command line reads what is typed.
+
+    Parameters
+    ----------
+    si
+        SI unit, "-" for none.
+    read
+        Function of `analyses.quantities` that takes the text and the option's name and gives the value in SI.
+    hint
+        What the help of the command line says of units.
+    kind
+        Type of what is typed.
+    """
+
+    si: str
+    read: str
+    hint: str = ""
+    kind: Any = str
+
+
+@dataclass(frozen=True)
+class Spelled:
+    """How the command line spells an option, where that does not follow from its name.
+
+    Parameters
+    ----------
+    name
+        Without the two dashes; that of the field with dashes for underscores unless given.
+    key
+        Name in `run.json`; that of the field unless given.
+    default
+        The default as it is typed, where that is not the default in SI.
+    dashed
+        A value may begin with a minus.
+    each
+        May be given again and again, one value each time.
+    """
+
+    name: str = ""
+    key: str = ""
+    default: Any = None
+    dashed: bool = False
+    each: bool = False
+
+
+@dataclass(frozen=True)
+class Requires:
+    """The option has no effect unless the other one is given; `remedy` is what to do, "give `other`" unless told."""
+
+    other: str
+    remedy: str = ""
+
+
+@dataclass(frozen=True)
+class Excludes:
+    """The option has no effect, or contradicts, where the other one is given; `why` is added to the message."""
+
+    other: str
+    why: str = ""
+    remedy: str = "leave it out"
+
+
+@dataclass(frozen=True)
+class Needs:
+    """Where this option is given the other one is needed too; `remedy` gives an example."""
+
+    other: str
+    remedy: str = ""
+
+
+MeshUnit = Literal["m", "cm", "mm", "in"]
+ForceUnit = Literal["lbf", "N", "kN", "mN", "kgf"]
+AngleUnit = Literal["deg", "rad"]
+Length = Annotated[float, Typed("m", "length", "mm unless a unit is written")]
+Lengths = Annotated[tuple[float, ...], Typed("m", "lengths", "mm unless a unit is written")]
+Millimetres = Annotated[float, Typed("m", "millimetres", "[mm]", float)]
+Degrees = Annotated[float, Typed("rad", "degrees", "[deg]", float)]
+Fraction = Annotated[float, Typed("-", "fraction")]
+Pressure = Annotated[float, Typed("Pa", "pressure")]
+TimeSpan = Annotated[tuple[float, float], Typed("s", "time_span"), Spelled(dashed=True)]
+Expression = Annotated[str, Spelled(dashed=True)]
+Texts = Annotated[tuple[str, ...], Spelled(dashed=True, each=True)]
+
+
+@dataclass(frozen=True)
+class Declared:
+    """One option as it was declared.
+
+    Parameters
+    ----------
+    kind
+        Its type without None and without annotations.
+    optional
+        Whether it may be None.
+    words
+        What the docstring of the options says of it.
+    """
+
+    name: str
+    kind: Any
+    optional: bool
+    positional: bool
+    default: Any
+    typed: Typed | None
+    spelled: Spelled
+    rules: tuple[Requires | Excludes | Needs, ...]
+    words: str
+
+    @property
+    def required(self) -> bool:
+        """Whether there is no default."""
+        return self.default is MISSING
+
+    @property
+    def choices(self) -> tuple[Any, ...]:
+        """Values that are allowed; empty where any is."""
+        return get_args(self.kind) if get_origin(self.kind) is Literal else ()
+
+    @property
+    def several(self) -> bool:
+        """Whether the value is a tuple of any length."""
+        return get_origin(self.kind) is tuple and get_args(self.kind)[-1] is Ellipsis
+
+    def coerced(self, value: Any) -> Any:
+        """The value as the analysis takes it: paths for text, a tuple for a single value."""
+        if value is None:
+            return None
+        if self.several:
+            one = get_args(self.kind)[0]
+            items = value if isinstance(value, (tuple, list)) else (value,)
+            return tuple(Path(item) if one is Path else item for item in items)
+        if self.kind in (Path, float):
+            return self.kind(value)
+        if self.choices and value not in self.choices:
+            raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
+        return value
+
+
+@dataclass(frozen=True)
+class Options:
+    """Base of the options of every analysis: values are coerced, and options without effect are refused."""
+
+    def __post_init__(self) -> None:
+        for one in declared(type(self)):
+            object.__setattr__(self, one.name, one.coerced(getattr(self, one.name)))
+        self.refuse_without_effect()
+        self.refuse_impossible()
+
+    def refuse_impossible(self) -> None:
+        """InputError for values that cannot be; for an analysis to fill."""
+
+    def refuse_without_effect(self) -> None:
+        """InputError for the first option that has no effect here, or lacks another one that it needs."""
+        for one in declared(type(self)):
+            if self.given(one.name):
+                for rule in one.rules:
+                    _refuse(one.name, rule, self.given(rule.other))
+
+    def given(self, name: str) -> bool:
+        """Whether an option was given: it is neither None, nor False, nor empty."""
+        value = getattr(self, name)
+        return value is not None and value is not False and value != ()
+
+    def in_si(self) -> dict[str, object]:
+        """Values of what was given or is in force, by name, with the SI unit where there is one."""
+        units = {one.name: one.typed.si for one in declared(type(self)) if one.typed is not None}
+        return {
+            f"{name} [{units[name]}]" if units.get(name, "-") != "-" else name: getattr(self, name)
+            for name in (one.name for one in declared(type(self)))
+            if getattr(self, name) is not None
+        }
+
+
+def _refuse(name: str, rule: Requires | Excludes | Needs, other: bool) -> None:
+    match rule:
+        case Requires() if not other:
+            what = f"has no effect without `{rule.other}`"
+            raise InputError("", f"`{name}`", what, rule.remedy or f"give `{rule.other}`")
+        case Excludes() if other:
+            what = rule.why or f"has no effect with `{rule.other}`"
+            raise InputError("", f"`{name}`", what, rule.remedy)
+        case Needs() if not other:
+            raise InputError("", f"`{rule.other}`", f"is missing with `{name}`", rule.remedy or "give it too")
+
+
+def declared(options: type[Options]) -> tuple[Declared, ...]:
+    """The options of a class in the order of their declaration."""
+    anything: Any = options
+    return _all(anything)
+
+
+@cache
+def _all(options: Any) -> tuple[Declared, ...]:
+    hints = get_type_hints(options, include_extras=True)
+    words = documented(options.__doc__ or "")
+    return tuple(_declared(each, hints[each.name], words.get(each.name, "")) for each in fields(options))
+
+
+def _declared(each: Field[Any], hint: Any, words: str) -> Declared:
+    kind, marks, optional = _taken_apart(hint)
+    default = each.default if each.default_factory is MISSING else each.default_factory()
+    return Declared(
+        each.name,
+        kind,
+        optional,
+        not each.kw_only,
+        default,
+        next((mark for mark in marks if isinstance(mark, Typed)), None),
+        next((mark for mark in marks if isinstance(mark, Spelled)), Spelled()),
+        tuple(mark for mark in marks if isinstance(mark, (Requires, Excludes, Needs))),
+        words,
+    )
+
+
+def _taken_apart(hint: Any) -> tuple[Any, list[Any], bool]:
+    """Type without None, marks of all layers (the outer ones first), whether None is allowed."""
+    marks: list[Any] = []
+    optional = False
+    while True:
+        if get_origin(hint) is Annotated:
+            hint, *own = get_args(hint)
+            marks += own
+        elif get_origin(hint) in (Union, UnionType) and NoneType in get_args(hint):
+            hint = next(each for each in get_args(hint) if each is not NoneType)
+            optional = True
+        else:
+            return hint, marks, optional
+
+
+def documented(docstring: str) -> dict[str, str]:
+    """What the section Parameters of a numpy docstring says of each name; names may share a text."""
+    found: dict[str, list[str]] = {}
+    names: tuple[str, ...] = ()
+    _, _, section = docstring.partition("Parameters\n")
+    lines = section.splitlines()[1:]
+    margin = min((len(line) - len(line.lstrip()) for line in lines if line.strip()), default=0)
+    for line in lines:
+        if line.strip() and len(line) - len(line.lstrip()) == margin:
+            names = tuple(part.strip() for part in line.split(","))
+            found |= {name: [] for name in names}
+        elif line.strip():
+            for name in names:
+                found[name].append(line.strip())
+    return {name: " ".join(text) for name, text in found.items()}

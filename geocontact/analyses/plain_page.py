@@ -1,0 +1,32 @@
+"""A page of figure, numbers and inputs, for analyses that have nothing to show over time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from geocontact.analyses.figure_files import drawing
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.result import Result
+from geocontact.view.page.content import Page, Picture, Section, Words
+from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
+
+ROWS = 200  # of a table that the page shows
+
+
+def write_plain_page(result: Result, title: str, file: Path) -> None:
+    """Sentences, figure, tables, inputs with hashes, options and reservations."""
+    sections: list[Section] = [Words("What was found", list(result.sentences))] if result.sentences else []
+    figure = result.figure()
+    if figure is not None:
+        sections.append(Picture("Figure", "", drawing(figure), wide=True))
+    for name, table in result.tables().items():
+        shown = f"{name}, {ROWS} of {len(table)} rows" if len(table) > ROWS else name
+        sections.append(frame_table(shown, table.iloc[:ROWS]))
+    sections += [inputs_table(result.record.inputs), options_table(result.record)]
+    if result.warnings:
+        sections.append(Words("Reservations of this run", list(result.warnings)))
+    page = Page(title, f"geocontact {result.record.command}", np.zeros(1), "", sections=tuple(sections))
+    write_page(page, file)

@@ -1,0 +1,110 @@
+"""What every analysis returns: tables, figure, page, and in words what was found."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, field
+from io import BytesIO
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from geocontact.analyses.results_folder import written_whole
+from geocontact.analyses.run_record import Record
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Result(ABC):
+    """Base of the results of all analyses.
+
+    A notebook shows it as its sentences and its figure. Numbers in its fields are in SI; tables have the unit in each
+    column's name.
+
+    Parameters
+    ----------
+    record
+        Inputs with their hashes, options, reservations, time taken: what `run.json` holds.
+    """
+
+    record: Record = field(repr=False)
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """What was found, in words."""
+        return tuple(self.record.sentences)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Reservations, each one line."""
+        return tuple(self.record.warnings)
+
+    @property
+    def accepted(self) -> bool:
+        """False where a comparison that was asked for is beyond its tolerance."""
+        return True
+
+    @property
+    def folders(self) -> tuple[str, ...]:
+        """Sub-folders that `write` fills, each with a `run.json` of its own, as "" the folder itself."""
+        return ("",)
+
+    @abstractmethod
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """Tables by the name of their file, the main one first."""
+
+    def table(self, name: str = "") -> pd.DataFrame:
+        """One table, the main one unless named; KeyError names those that there are."""
+        tables = self.tables()
+        if name and name not in tables:
+            raise KeyError(f"no table {name!r}; there are {', '.join(tables)}")
+        return tables[name or next(iter(tables))]
+
+    def figure(self) -> Figure | None:
+        """The main figure; None where there is nothing to draw."""
+        return None
+
+    @abstractmethod
+    def write_files(self, folder: Path) -> None:
+        """Write tables, figures and page into a folder that is there."""
+
+    @abstractmethod
+    def write_page(self, file: Path) -> None:
+        """Write the page, one file that needs no network."""
+
+    def put(self, draft: Path) -> list[str]:
+        """Write everything into `draft`, `run.json` included; names of the files."""
+        self.write_files(draft)
+        self.record.write(draft, *(draft / name for name in self.folders))
+        return sorted(file.relative_to(draft).as_posix() for file in draft.rglob("*") if file.is_file())
+
+    def write(self, folder: str | PathLike[str]) -> Path:
+        """Write what the command writes into a folder, whole or not at all; the folder is made where it is missing.
+
+        Results that an earlier run left there and this one does not write again are removed, all else stays.
+        """
+        out = Path(folder)
+        with self.record.catching_warnings(), written_whole(out) as draft:
+            self.put(draft)
+        return out
+
+    def page(self, file: str | PathLike[str]) -> Path:
+        """Write the page alone: one HTML file with figures and numbers that can be mailed."""
+        path = Path(file)
+        with self.record.catching_warnings():
+            self.write_page(path)
+        return path
+
+    def __repr__(self) -> str:
+        return "\n".join((*self.sentences, *(f"warning: {line}" for line in self.warnings)))
+
+    def _repr_png_(self) -> bytes | None:
+        figure = self.figure()
+        if figure is None:
+            return None
+        picture = BytesIO()
+        figure.savefig(picture, format="png", dpi=96)
+        return picture.getvalue()

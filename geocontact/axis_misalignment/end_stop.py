@@ -1,0 +1,174 @@
+"""Where a compensation joint of an elbow exoskeleton stands at an end of its stroke, read off binned recordings.
+
+A joint at a stroke end does not move although the angle does, and force builds up; a joint that slides keeps the force
+at one level. Both are asked for: a displacement curve has a flat extreme of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.axis_misalignment.bins import BETA, DISPLACEMENT, FORCE, Binned
+
+STILL = 0.05  # of the displacement's range: so close to its extreme the joint stands
+STANDS = 0.005  # of it, median deviation: a smooth extreme has more within STILL of it
+FEWEST = 3  # bins that make up a stand, or a free range
+BUILT_UP = 3.0  # standard deviations of the force while the joint slides
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Means over all trials of a bin: angle [rad], force [N], displacement of the joint [m]."""
+
+    beta: Float[np.ndarray, " b"]
+    force: Float[np.ndarray, " b"]
+    joint: Float[np.ndarray, " b"]
+
+
+@dataclass(frozen=True)
+class EndStop:
+    """A stand of the joint at one end of its stroke.
+
+    Parameters
+    ----------
+    side
+        "lower" or "upper" end of the displacement.
+    position
+        Where it stands [m].
+    first, last
+        Angles over which it stands [rad].
+    leaves
+        Angle at which it starts to slide [rad].
+    force
+        Of the largest magnitude there, less the level while it slides [N].
+    """
+
+    side: str
+    position: float
+    first: float
+    last: float
+    leaves: float
+    force: float
+
+
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """What the joint does over the angle: its stands, and the level and spread of the force while it slides [N].
+
+    `slides` says for each bin whether the joint is at neither extreme of its displacement.
+    """
+
+    curve: Curve
+    stops: tuple[EndStop, ...]
+    level: float
+    spread: float
+    slides: Bool[np.ndarray, " b"]
+
+
+@dataclass(frozen=True)
+class Stiffness:
+    """Slope of the locked force over the free joint's displacement [N/m].
+
+    While the joint slides its displacement is d_tot (but for its zero), and the locked force is k d_tot: their ratio is
+    k, which angle and force alone do not tell.
+
+    Parameters
+    ----------
+    value, error
+        Mean over the locked trials and its standard error; NaN with a single trial.
+    trials, bins
+        Trials, and bins in common of each on average.
+    """
+
+    value: float
+    error: float
+    trials: int
+    bins: float
+
+
+def curve_of(data: Binned) -> Curve:
+    """Means over all trials, bin by bin, of the bins that were reached."""
+    cells = data.cells
+    bins = len(data.visits.edges) - 1
+    count = np.bincount(cells.place, cells.count, bins)
+    there = count > 0.0
+    wanted = (cells.means[:, k] for k in (BETA, FORCE, DISPLACEMENT))
+    columns = [np.bincount(cells.place, cells.count * means, bins)[there] / count[there] for means in wanted]
+    return Curve(*columns)
+
+
+def stroke_of(curve: Curve) -> Stroke | None:
+    """Stands and free range of the joint; None where it slides over fewer than three bins."""
+    low, high = float(curve.joint.min()), float(curve.joint.max())
+    near = STILL * (high - low)
+    at = {"lower": curve.joint <= low + near, "upper": curve.joint >= high - near}
+    slides = ~(at["lower"] | at["upper"])
+    if slides.sum() < FEWEST:
+        return None
+    level = float(np.median(curve.force[slides]))
+    spread = float(curve.force[slides].std())
+    stops = [stop for side, still in at.items() if (stop := _stop(curve, side, still, level, spread)) is not None]
+    return Stroke(curve, tuple(stops), level, spread, slides)
+
+
+def _stop(curve: Curve, side: str, still: Bool[np.ndarray, " b"], level: float, spread: float) -> EndStop | None:
+    """The longest stand at one extreme, where force builds up in it."""
+    runs = np.split(np.arange(len(still)), np.flatnonzero(np.diff(still.astype(int))) + 1)
+    run = max((r for r in runs if still[r[0]]), key=len)
+    built = curve.force[run] - level
+    most = float(built[int(np.argmax(np.abs(built)))])
+    position = float(np.median(curve.joint[run]))
+    stands = float(np.median(np.abs(curve.joint[run] - position))) <= STANDS * float(np.ptp(curve.joint))
+    if len(run) < FEWEST or abs(most) < BUILT_UP * spread or not stands:
+        return None
+    first, last = float(curve.beta[run[0]]), float(curve.beta[run[-1]])
+    return EndStop(side, position, first, last, _leaves(curve, run, position), most)
+
+
+def _leaves(curve: Curve, run: np.ndarray, position: float) -> float:
+    """Angle at which the straight line through the first two bins off the stand meets it [rad]; its end without."""
+    last = len(curve.beta) - 1
+    way = 1 if run[-1] < last else -1
+    begin = int(run[-1] if way == 1 else run[0])
+    outside = [begin + way, begin + 2 * way]
+    if not 0 <= outside[1] <= last:
+        return float(curve.beta[begin])
+    (b1, b2), (d1, d2) = curve.beta[outside], curve.joint[outside]
+    met = b1 + (position - d1) * (b2 - b1) / (d2 - d1) if d1 != d2 else curve.beta[begin]
+    low, high = sorted((float(curve.beta[begin]), float(b1)))
+    return min(max(float(met), low), high)
+
+
+def stiffness_by_displacement(locked: Sequence[Curve], stroke: Stroke, width: float) -> Stiffness | None:
+    """k from the locked force of each trial and the free displacement at the same angles.
+
+    None where no trial has three bins in common with the free range; `width` is that of a bin [rad].
+    """
+    found = [slope_over(each.beta, each.force, stroke, width) for each in locked]
+    slopes = [(s, n) for s, n in found if n >= FEWEST]
+    if not slopes:
+        return None
+    values = np.array([s for s, _ in slopes])
+    error = float(values.std(ddof=1) / np.sqrt(len(values))) if len(values) > 1 else float("nan")
+    return Stiffness(float(values.mean()), error, len(values), float(np.mean([n for _, n in slopes])))
+
+
+def slope_over(
+    beta: Float[np.ndarray, " b"], values: Float[np.ndarray, " b"], stroke: Stroke, width: float
+) -> tuple[float, int]:
+    """Least-squares slope of one trial's bin means over the free displacement at the same angles, and of how many bins.
+
+    Bins over which the joint slides count; NaN where there are fewer than three.
+    """
+    free = stroke.curve
+    near = {j: np.flatnonzero(np.abs(beta - free.beta[j]) < 0.5 * width) for j in np.flatnonzero(stroke.slides)}
+    pairs = [(j, int(places[0])) for j, places in near.items() if len(places)]
+    if len(pairs) < FEWEST:
+        return float("nan"), len(pairs)
+    moved = free.joint[[j for j, _ in pairs]]
+    off = moved - moved.mean()
+    return float(off @ values[[k for _, k in pairs]] / (off @ off)), len(pairs)

@@ -1,0 +1,220 @@
+"""Offsets, link and stiffness of an elbow exoskeleton from binned forces, and what the bins cannot tell.
+
+The explicit model's own fit counts every bin alike (its eq. 19). Here a bin counts by the time spent in it over twice
+the noise's correlation time, which makes the sum of squares a likelihood, so that priors have their weight.
+F(k/s, s × lengths) = F exactly: k and the four lengths are known up to one factor, whatever is recorded of angle and
+force. One of them, a prior, or the displacement of a free joint has to say the rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.axis_misalignment.bins import BETA, FORCE, PRESSURE, RATE, Binned
+from geocontact.axis_misalignment.law import NAMES, SCALED, ElbowLaw
+from geocontact.axis_misalignment.scale import Scale
+from geocontact.data.parameter import Parameter
+from geocontact.identify.optimise.levenberg_marquardt import Search, levenberg_marquardt
+from geocontact.identify.optimise.quasi_newton import spread_starts
+
+STARTS = 8
+SAME = 1e-6  # of the cost: searches that end so close to each other end equally well
+
+
+@dataclass(frozen=True)
+class Prior:
+    """What is known of a parameter from elsewhere: normal, with a mean and a standard deviation."""
+
+    mean: float
+    sd: float
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Mean forces of cells, the law at their means, and what is known of its numbers beforehand.
+
+    Parameters
+    ----------
+    force
+        Mean force of each cell [N].
+    law
+        At the cells' mean angles, rates and pressures.
+    weight
+        Root of each cell's information [1/N].
+    parameters
+        One for each of NAMES, in that order; fixed where known.
+    priors
+        By name, of free ones.
+    scale
+        What a free joint's displacement tells of the lengths; None without.
+    """
+
+    force: Float[np.ndarray, " n"]
+    law: ElbowLaw
+    weight: Float[np.ndarray, " n"]
+    parameters: tuple[Parameter, ...]
+    priors: Mapping[str, Prior]
+    scale: Scale | None = None
+
+    @cached_property
+    def free(self) -> list[int]:
+        """Places of the free numbers in NAMES."""
+        return [k for k, p in enumerate(self.parameters) if not p.fixed]
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Free numbers."""
+        return tuple(NAMES[k] for k in self.free)
+
+    @cached_property
+    def scalable(self) -> bool:
+        """Whether one factor may change k and the lengths: a known number forbids it, unless it is 0."""
+        return not any(p.fixed and p.start != 0.0 for p in self.parameters if p.name in SCALED)
+
+    @cached_property
+    def scale_free(self) -> bool:
+        """Whether nothing known sets that factor, neither a prior nor a free joint's displacement."""
+        return self.scalable and self.scale is None and not set(self.priors) & set(SCALED)
+
+    def theta(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " 7"]:
+        """All numbers, given the free ones."""
+        full = self._starts.copy()
+        full[self.free] = values
+        return full
+
+    def residual(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " m"]:
+        """What the law is too large by, in standard deviations; then what scale and priors are missed by in theirs."""
+        theta = self.theta(values)
+        off = (self.law.force(theta) - self.force) * self.weight
+        scale = [] if self.scale is None else [self.scale.residual(theta)]
+        return np.concatenate([off, scale, (values - self._prior_mean)[self._known] / self._prior_sd[self._known]])
+
+    def jacobian(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, "m p"]:
+        """Derivative of the residual."""
+        theta = self.theta(values)
+        slopes = self.law.slopes(theta)[:, self.free] * self.weight[:, None]
+        scale = [] if self.scale is None else [self.scale.slopes(theta)[None, self.free]]
+        return np.vstack([slopes, *scale, np.diag(1.0 / self._prior_sd)[self._known]])
+
+    def held(self, name: str, value: float) -> Problem:
+        """The same problem with one number known; its prior stays, as a constant that no step changes."""
+        known = replace(self.parameters[NAMES.index(name)], start=value, lower=value, upper=value, fixed=True)
+        parameters = tuple(known if p.name == name else p for p in self.parameters)
+        return replace(self, parameters=parameters, priors={n: p for n, p in self.priors.items() if n != name})
+
+    def measuring(self, force: Float[np.ndarray, " n"]) -> Problem:
+        """The same problem with other mean forces."""
+        return replace(self, force=force)
+
+    def drawn(self, force: Float[np.ndarray, " n"], rng: np.random.Generator) -> Problem:
+        """The same problem with other mean forces, and with what is known otherwise as it could have been found."""
+        priors = {n: Prior(float(rng.normal(p.mean, p.sd)), p.sd) for n, p in self.priors.items()}
+        return replace(self, force=force, priors=priors, scale=None if self.scale is None else self.scale.drawn(rng))
+
+    def searched(self, start: Float[np.ndarray, " p"]) -> Search:
+        """Least squares from one start."""
+        free = [self.parameters[k] for k in self.free]
+        lower, upper = np.array([p.lower for p in free]), np.array([p.upper for p in free])
+        scale = np.array([_scale(p) for p in free])
+        return levenberg_marquardt(self.residual, self.jacobian, start, lower, upper, scale)
+
+    @cached_property
+    def _starts(self) -> Float[np.ndarray, " 7"]:
+        return np.array([p.start for p in self.parameters])
+
+    @cached_property
+    def _prior_mean(self) -> Float[np.ndarray, " p"]:
+        return np.array([self.priors[n].mean if n in self.priors else 0.0 for n in self.names])
+
+    @cached_property
+    def _prior_sd(self) -> Float[np.ndarray, " p"]:
+        return np.array([self.priors[n].sd if n in self.priors else np.inf for n in self.names])
+
+    @cached_property
+    def _known(self) -> list[int]:
+        return [k for k, n in enumerate(self.names) if n in self.priors]
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """Values of the free numbers, the best of several searches.
+
+    Parameters
+    ----------
+    theta
+        All numbers, in the order of NAMES.
+    values
+        The free ones.
+    costs, ends
+        Half the sum of squares and the free numbers at the end of every search, in the order of the starts.
+    """
+
+    problem: Problem
+    theta: Float[np.ndarray, " 7"]
+    values: Float[np.ndarray, " p"]
+    cost: float
+    converged: bool
+    costs: tuple[float, ...]
+    ends: tuple[Float[np.ndarray, " p"], ...]
+
+    @property
+    def named(self) -> dict[str, float]:
+        """All numbers by name."""
+        return dict(zip(NAMES, map(float, self.theta), strict=True))
+
+    @property
+    def predicted(self) -> Float[np.ndarray, " n"]:
+        """Force of each cell [N]."""
+        return self.problem.law.force(self.theta)
+
+
+def problem_of(
+    data: Binned, parameters: Sequence[Parameter], priors: Mapping[str, Prior], scale: Scale | None = None
+) -> Problem:
+    """What the bins of some trials ask."""
+    means, weight = data.cells.means, np.sqrt(data.information)
+    return Problem(means[:, FORCE], law_at(means), weight, tuple(parameters), priors, scale)
+
+
+def law_at(means: Float[np.ndarray, "n 5"]) -> ElbowLaw:
+    """The law at the means of cells or visits."""
+    return ElbowLaw(*(np.ascontiguousarray(means[:, k]) for k in (BETA, RATE, PRESSURE)))
+
+
+def estimated(problem: Problem, starts: int = STARTS) -> Estimate:
+    """The best of the searches from the parameters' own start and `starts` more, spread over the bounds."""
+    names = problem.names
+    own = {n: problem.parameters[NAMES.index(n)].start for n in names}
+    spread = spread_starts(problem.parameters, starts)
+    begins = [np.array([start.get(n, own[n]) for n in names]) for start in spread]
+    return best_from(problem, begins)
+
+
+def best_from(problem: Problem, begins: Sequence[Float[np.ndarray, " p"]]) -> Estimate:
+    """The best of the searches from some starts.
+
+    Of searches that end equally well the first counts: where only the scale is free, that is the first start.
+    """
+    found = [problem.searched(begin) for begin in begins]
+    least = min(each.cost for each in found)
+    best = next(each for each in found if each.cost <= (1.0 + SAME) * least + np.finfo(float).tiny)
+    costs, ends = tuple(each.cost for each in found), tuple(each.values for each in found)
+    return Estimate(problem, problem.theta(best.values), best.values, best.cost, best.converged, costs, ends)
+
+
+def r_squared(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"]) -> float:
+    """Coefficient of determination about the measured mean, as eq. 20; NaN where nothing varies."""
+    spread = measured - measured.mean()
+    total = float(spread @ spread)
+    off = measured - predicted
+    return 1.0 - float(off @ off) / total if total > 0.0 else float("nan")
+
+
+def _scale(p: Parameter) -> float:
+    """Magnitude of a parameter: a fifth of the room between its bounds, or of its start where they are far apart."""
+    return min(0.2 * (p.upper - p.lower), max(abs(p.start), 1e-2 * (p.upper - p.lower)))

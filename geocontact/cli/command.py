@@ -1,0 +1,171 @@
+"""A command of an analysis: its signature and help come from the analysis' options, what is typed becomes SI."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from geocontact.analyses.job import Call, execute
+from geocontact.analyses.options import Declared, Options, declared
+from geocontact.analyses.result import Result
+from geocontact.cli.show import Terminal
+from geocontact.data.errors import InputError
+
+OUT = "Folder for the results."
+
+
+def command(
+    job: str,
+    options: type[Options],
+    words: str,
+    *,
+    rest: str = "",
+    out: str = OUT,
+    after: Callable[[Result, Path], None] | None = None,
+) -> Callable[..., int]:
+    """The function that the command line calls.
+
+    Parameters
+    ----------
+    job
+        Where the analysis is, "geocontact.analyses.cop.job:centre_of_pressure"; imported when it runs.
+    options
+        Its options.
+    words
+        Help: a summary, then what it writes.
+    rest
+        Option that further arguments are added to.
+    out
+        Help of the folder.
+    after
+        Says more at the end.
+    """
+    known = declared(options)
+    spell = speller(known)
+
+    def run(*arguments: Any, **typed: Any) -> int:
+        try:
+            return _run(_typed(known, rest, arguments, typed))
+        except InputError as error:
+            raise InputError(error.file, *map(spell, (error.place, error.what, error.remedy))) from error
+
+    def _run(typed: dict[str, Any]) -> int:
+        folder = typed["out"]
+        given = options(**{one.name: read(one, typed[key(one)]) for one in known if key(one) in typed})
+        place, _, name = job.partition(":")
+        result, files = execute(getattr(import_module(place), name), given, folder, Call(typed, Terminal(), spell))
+        for sentence in result.sentences:
+            print(sentence)
+        print(f"results in {folder}: {', '.join(files)}")
+        if after is not None:
+            after(result, folder)
+        return 0 if result.accepted else 1
+
+    run.__doc__ = spell(words)
+    run.__name__ = options.__name__
+    run.__signature__ = _signature(known, rest, spell, out)  # type: ignore[attr-defined]
+    return run
+
+
+def speller(known: tuple[Declared, ...]) -> Callable[[str], str]:
+    """What turns `` `radius` `` into --radius-mm, for the options of one command."""
+    names = {one.name: one.name.upper() if one.positional else f"--{option(one)}" for one in known} | {"out": "--out"}
+
+    def spelled(text: str) -> str:
+        return re.sub(r"`(\w+)`", lambda found: names.get(found[1], found[0]), text)
+
+    return spelled
+
+
+def option(one: Declared) -> str:
+    """Its name on the command line, without the dashes."""
+    return one.spelled.name or one.name.replace("_", "-")
+
+
+def key(one: Declared) -> str:
+    """Its name in `run.json`."""
+    return one.spelled.key or one.name
+
+
+def read(one: Declared, value: Any) -> Any:
+    """What was typed, in SI."""
+    if one.typed is None or value is None:
+        return value
+    from geocontact.analyses import quantities
+
+    function = getattr(quantities, one.typed.read)
+    return function(value, f"`{one.name}`")
+
+
+def _typed(known: tuple[Declared, ...], rest: str, arguments: tuple[Any, ...], typed: dict[str, Any]) -> dict[str, Any]:
+    """What was typed, by name, in the order of the declaration; defaults included."""
+    found: dict[str, Any] = {}
+    left = list(arguments)
+    for one in known:
+        if one.positional:
+            found[key(one)] = [left.pop(0) for _ in range(len(left))] if one.several else left.pop(0)
+        elif one.name in typed:
+            found[key(one)] = typed[one.name]
+        else:
+            found[key(one)] = _default(one)
+    if rest:
+        found[rest] = [*(found[rest] or ()), *left]
+    return {**found, "out": typed["out"]}
+
+
+def _default(one: Declared) -> Any:
+    return one.default if one.spelled.default is None else one.spelled.default
+
+
+def _signature(known: tuple[Declared, ...], rest: str, spell: Callable[[str], str], out: str) -> inspect.Signature:
+    parameters: list[inspect.Parameter] = []
+    for one in known:
+        if one.positional:
+            parameters += _positional(one, spell)
+    if rest:
+        words = f"Further ones, as a shell pattern after `{rest}` gives them."
+        parameters.append(_parameter(f"more_{rest}s", inspect.Parameter.VAR_POSITIONAL, str, {"help": spell(words)}))
+    keywords = [one for one in known if not one.positional]
+    required = [_keyword(one, spell) for one in keywords if one.required]
+    folder = _parameter("out", inspect.Parameter.KEYWORD_ONLY, Path, {"help": out})
+    return inspect.Signature(
+        [*parameters, *required, folder, *(_keyword(o, spell) for o in keywords if not o.required)]
+    )
+
+
+def _positional(one: Declared, spell: Callable[[str], str]) -> list[inspect.Parameter]:
+    """One argument, or as many as there are; the first one is asked for where there is no default."""
+    told = {"help": spell(one.words)}
+    if not one.several:
+        return [_parameter(one.name, inspect.Parameter.POSITIONAL_ONLY, one.kind, told)]
+    many = _parameter(one.name, inspect.Parameter.VAR_POSITIONAL, Path, told)
+    if not one.required:
+        return [many]
+    first = _parameter(one.name.removesuffix("s"), inspect.Parameter.POSITIONAL_ONLY, Path, told)
+    more = Parameter(help="Further ones: one sub-folder each.")
+    return [first, many.replace(name=f"more_{one.name}", annotation=Annotated[Path, more])]
+
+
+def _keyword(one: Declared, spell: Callable[[str], str]) -> inspect.Parameter:
+    hint = f" ({one.typed.hint})" if one.typed is not None and one.typed.hint else ""
+    told: dict[str, Any] = {"name": f"--{option(one)}", "help": spell(one.words) + hint}
+    if one.kind is bool and one.default is False:
+        told["negative"] = ""
+    if one.spelled.dashed:
+        told["allow_leading_hyphen"] = True
+    if one.several or one.spelled.each:
+        told |= {"negative": "", "consume_multiple": False}
+    kind = one.kind if one.typed is None else one.typed.kind
+    annotation = kind | None if one.optional else kind
+    parameter = _parameter(one.name, inspect.Parameter.KEYWORD_ONLY, annotation, told)
+    return parameter if one.required else parameter.replace(default=_default(one))
+
+
+def _parameter(name: str, kind: Any, annotation: Any, told: dict[str, Any]) -> inspect.Parameter:
+    return inspect.Parameter(name, kind, annotation=Annotated[annotation, Parameter(**told)])

@@ -1,0 +1,60 @@
+"""What a terminal shows while something takes long: the first compilation on a machine, many frames, stages."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from geocontact.analyses.listener import Listener
+
+SILENCE = 2.5  # s; loading compiled kernels from the cache takes less
+
+
+class Terminal(Listener):
+    """Shows warnings on stderr, and where that is a terminal how far the work is."""
+
+    def warn(self, line: str) -> None:
+        """One line on stderr."""
+        print(f"warning: {line}", file=sys.stderr)
+
+    @contextmanager
+    def preparing(self) -> Iterator[None]:
+        """Say that kernels are being compiled when the block takes longer than loading them from the cache would."""
+        line = "compiling the distance kernels, once on this machine (about half a minute) …"
+        timer = threading.Timer(SILENCE, lambda: print(line, file=sys.stderr, flush=True))
+        timer.daemon = True
+        timer.start()
+        try:
+            yield
+        finally:
+            timer.cancel()
+
+    @contextmanager
+    def progress(self, label: str, total: int) -> Iterator[Callable[[], None]]:
+        """A progress bar when stderr is a terminal; the block calls what it is given after each step."""
+        if not sys.stderr.isatty() or total < 2:
+            yield lambda: None
+            return
+        from rich.console import Console
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+        with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+            task = bar.add_task(label, total=total)
+            yield lambda: bar.advance(task)
+
+    @contextmanager
+    def stages(self, label: str) -> Iterator[Callable[[str], None]]:
+        """What is being done, and for how long, when stderr is a terminal; the block names stages as they begin."""
+        if not sys.stderr.isatty():
+            yield lambda _: None
+            return
+        from rich.console import Console
+        from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+        columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False), TimeElapsedColumn())
+        with Progress(*columns, console=Console(stderr=True), transient=True) as line:
+            task = line.add_task(label, total=None)
+            yield lambda stage: line.update(task, description=f"{label}: {stage}")
