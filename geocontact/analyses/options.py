@@ -150,8 +150,8 @@ class Declared:
             one = get_args(self.kind)[0]
             items = value if isinstance(value, (tuple, list)) else (value,)
             return tuple(Path(item) if one is Path else item for item in items)
-        if self.kind is Path:
-            return Path(value)
+        if self.kind in (Path, float):
+            return self.kind(value)
         if self.choices and value not in self.choices:
             raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
         return value

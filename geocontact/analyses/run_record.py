@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import platform
 import time
@@ -15,7 +14,7 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from geocontact.analyses.listener import Listener
-from geocontact.analyses.stale_results import PARAVIEW
+from geocontact.analyses.stale_results import RUN, digest, written
 from geocontact.data.errors import InputWarning
 from geocontact.data.version import VERSION
 
@@ -66,8 +65,8 @@ class Record:
 
     def add_input(self, role: str, path: str | PathLike[str], **facts: object) -> None:
         """Note a file with its SHA-256 and what is known of it."""
-        digest = facts.pop("sha256", None) or hashlib.sha256(Path(path).read_bytes()).hexdigest()
-        self.inputs.append({"role": self.spell(role), "file": fspath(path), "sha256": digest, **facts})
+        known = facts.pop("sha256", None) or digest(Path(path))
+        self.inputs.append({"role": self.spell(role), "file": fspath(path), "sha256": known, **facts})
 
     def warn(self, line: str) -> None:
         """Keep a reservation, once."""
@@ -99,7 +98,7 @@ class Record:
         return {"python": platform.python_version(), "platform": platform.platform(), **_versions()}
 
     def write(self, *folders: Path) -> None:
-        """Write `run.json` into each folder of results; they differ only in `files`, which lists those beside it."""
+        """Write `run.json` into each folder of results; they differ only in what lists the files beside it."""
         content = {
             "geocontact": VERSION,
             "command": self.command,
@@ -111,11 +110,12 @@ class Record:
             "versions": self.versions(),
             "seconds": round(time.perf_counter() - self.started, 3),
         }
-        for folder in dict.fromkeys(folders):
-            inside = [*folder.iterdir(), *(folder / PARAVIEW).rglob("*")]
-            files = sorted({"run.json", *(p.relative_to(folder).as_posix() for p in inside if p.is_file())})
-            text = json.dumps({**content, "files": files}, indent=2, ensure_ascii=False)
-            (folder / "run.json").write_text(text + "\n", encoding="utf-8")
+        places = dict.fromkeys(folders)
+        for folder in places:
+            files = written(folder, places)
+            told = {**content, "files": sorted((*files, RUN)), "sha256": files}
+            text = json.dumps(told, indent=2, ensure_ascii=False)
+            (folder / RUN).write_text(text + "\n", encoding="utf-8")
 
 
 def _plain(value: object) -> object:

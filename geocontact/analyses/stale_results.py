@@ -1,80 +1,30 @@
-"""What an earlier run wrote into a folder of results and the present run does not write again."""
+"""What an earlier run wrote into a folder of results and the present run does not write again.
+
+`run.json` lists the files that a run wrote with their SHA-256. Only a file that still has that content is ever removed:
+whatever somebody else put there, or changed, stays, and a list that lies removes nothing.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import json
-import re
-from pathlib import Path
+from collections.abc import Iterable
+from pathlib import Path, PurePosixPath
 
 RUN = "run.json"
-AREA = ("area.csv", "area.parquet", "area.png", "area.svg", "comparison.csv", "distances.npz", "report.html")
-PRESSURE = ("pressure.csv", "pressure.parquet", "pressure.png", "pressure.svg", "pressure.npz")
-COP = (
-    "cop.csv",
-    "cop.parquet",
-    "cop.png",
-    "cop.svg",
-    "comparison.csv",
-    "comparison.parquet",
-    "zones.csv",
-    "zones.parquet",
-)
-LOADCELLS = (
-    *(f"{name}.{ending}" for name in ("forces", "cycles", "ensemble", "styles") for ending in ("csv", "parquet")),
-    *(f"{name}.{ending}" for name in ("loadcells", "ensemble") for ending in ("png", "svg")),
-    "report.html",
-)
-FIT = (
-    "fit.json", "fit.png", "fit.svg", "fit.vtp", "profile.csv", "profile.parquet", "profile.png", "profile.svg",
-    "report.html",
-)  # fmt: skip
-MODULUS = (
-    "modulus.json", "modulus.png", "modulus.svg", "report.html",
-    *(f"{name}.{ending}" for name in ("curves", "sensitivity", "prediction") for ending in ("csv", "parquet")),
-)  # fmt: skip
-GAP = (
-    "diagnosis.json",
-    *(f"{name}.csv" for name in ("gap_map", "ranking", "held_out", "trials", "surface", "summary")),
-    "report.html",
-)
-ELBOW = (
-    "elbow.json", "truth.json", "report.html",
-    *(f"{name}.{ending}" for name in ("bins", "boxes", "intervals", "scale_line", "held_out", "conditions",
-                                      "boxes_free", "surfaces",
-                                      "comparison") for ending in ("csv", "parquet")),
-    *(f"{name}.{ending}" for name in ("forces", "identifiability", "residuals", "conditions", "surfaces",
-                                      "comparison_force", "comparison_displacement") for ending in ("png", "svg")),
-)  # fmt: skip
-ELBOW_DESIGN = (
-    "design.json", "design.png", "design.svg", "report.html",
-    *(f"{name}.{ending}" for name in ("map", "boundary", "sensitivity", "force") for ending in ("csv", "parquet")),
-)  # fmt: skip
-ELBOW_POPULATION = (
-    "population.json", "population.png", "population.svg", "report.html",
-    *(f"{name}.{end}" for name in ("quantiles", "exceedance", "influence", "samples") for end in ("csv", "parquet")),
-)  # fmt: skip
-TABLES = ("wrench", "uncertainty", "cells", "frames_cells", "segments", "registration", "agreement")
-MAT = (
-    *(f"{name}.{ending}" for name in TABLES for ending in ("csv", "parquet")),
-    "mat.png", "mat.svg", "mat_on_surface.vtp", "report.html",
-)  # fmt: skip
-ASKED = ("confuse.json", "separability.csv", "detectability.csv", "planted.json", "report.html")
-BENCHMARK = ("benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg")
-MULTIBODY = (
-    "scaled.osim", "scale.json", "ik.mot", "ik.json", "markers.csv", "knees.csv", "id.sto", "id.json", "markers.trc",
-    "report.html",
-)  # fmt: skip
-NAMES = frozenset({
-    *AREA, *PRESSURE, *COP, *LOADCELLS, *FIT, *MODULUS, *ELBOW, *ELBOW_DESIGN, *ELBOW_POPULATION, *MAT, *GAP, *ASKED,
-    *BENCHMARK, *MULTIBODY, RUN,
-})  # fmt: skip
-PARAVIEW = "paraview"
-PICTURES = re.compile(
-    r"(gap_map|ranking|separability|detectability|gap_residuals|before_after_\w+|gap_surface_\w+)\.(png|svg)"
-    r"|((locked|free)_\d+|simulated_[^/]+)\.(csv|parquet)"
-    r"|still_[a-z_0-9.,−-]+\.png|paraview/(both|fixed|moving)\.pvd|paraview/frames/(fixed|moving)_\d+\.vtp"
-)
-"""The only files that are ever removed: those that a run writes, and only where its run.json lists them."""
+
+
+def digest(file: Path) -> str:
+    """SHA-256 of a file."""
+    with file.open("rb") as content:
+        return hashlib.file_digest(content, "sha256").hexdigest()
+
+
+def written(folder: Path, others: Iterable[Path]) -> dict[str, str]:
+    """Files of one run in and below `folder` with their SHA-256, but not those of the runs in `others` below it."""
+    apart = {place for place in others if place != folder}
+    files = sorted(file for file in folder.rglob("*") if file.is_file() and not apart & set(file.parents))
+    return {file.relative_to(folder).as_posix(): digest(file) for file in files if file.name != RUN}
 
 
 def left_over(out: Path, draft: Path) -> list[Path]:
@@ -92,7 +42,7 @@ def left_over(out: Path, draft: Path) -> list[Path]:
         told = _told(place)
         if told and told.get("command") == command:
             again = draft / place.relative_to(out)
-            found += [place / name for name in _files(told) if (place / name).is_file() and not (again / name).exists()]
+            found += [file for file in _files(told, place) if not (again / file.relative_to(place)).exists()]
     return found
 
 
@@ -105,11 +55,31 @@ def _told(folder: Path) -> dict[str, object]:
     return content if isinstance(content, dict) else {}
 
 
-def _files(told: dict[str, object]) -> list[str]:
-    listed = told.get("files")
-    if not isinstance(listed, list):
+def _files(told: dict[str, object], place: Path) -> list[Path]:
+    """What a run wrote into a folder and nobody has touched since, and its run.json."""
+    listed = told.get("sha256")
+    if not isinstance(listed, dict):
         return []
-    return [name for name in listed if isinstance(name, str) and (name in NAMES or PICTURES.fullmatch(name))]
+    found = [place / name for name, known in listed.items() if _inside(place, name) and _untouched(place / name, known)]
+    return [*found, place / RUN]
+
+
+def _inside(place: Path, name: str) -> bool:
+    """Whether a name leads to something below the folder it is said of, links followed."""
+    path = PurePosixPath(name)
+    if not path.parts or path.is_absolute() or ".." in path.parts or "\\" in name:
+        return False
+    try:
+        return (place / name).resolve().is_relative_to(place.resolve())
+    except (OSError, ValueError, RuntimeError):
+        return False
+
+
+def _untouched(file: Path, known: object) -> bool:
+    try:
+        return not file.is_symlink() and file.is_file() and digest(file) == known
+    except (OSError, ValueError):
+        return False
 
 
 def _folders(told: dict[str, object]) -> list[object]:
@@ -123,7 +93,8 @@ def _same(folder: Path, before: dict[str, object]) -> bool:
     runs = [_results(each).get("run") for each in (told, before)]
     if isinstance(runs[0], str) and runs[0] == runs[1]:
         return True
-    return bool(told) and {**told, "files": None} == {**before, "files": None}
+    own = {"files": None, "sha256": None}
+    return bool(told) and {**told, **own} == {**before, **own}
 
 
 def _results(told: dict[str, object]) -> dict[str, object]:

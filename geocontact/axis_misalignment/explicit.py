@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.axis_misalignment.deflection import ELBOW_GEOMETRY, POLE_SHARE, closure, deflect
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.systems.elbow.misalignment import ELBOW_GEOMETRY, POLE_SHARE, closure, deflect
 
 NEUTRAL = ELBOW_GEOMETRY.numbers({})  # l_ex, z_ex, x, y come first
 

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.axis_misalignment.deflection import misalignment
 from geocontact.axis_misalignment.explicit import Offsets
-from geocontact.systems.elbow.misalignment import misalignment
+from geocontact.geometry.kernels.compile import kernel
 
 NAMES = ("k", "x", "y", "l", "z", "b", "s")
 UNITS = {"k": "N/m", "x": "m", "y": "m", "l": "m", "z": "m", "b": "N s/m", "s": "1/Pa"}

@@ -15,12 +15,12 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.parameter import Parameter
-from geocontact.identify.optimise.levenberg_marquardt import Search, levenberg_marquardt
-from geocontact.identify.optimise.quasi_newton import spread_starts
 from geocontact.axis_misalignment.bins import BETA, FORCE, PRESSURE, RATE, Binned
 from geocontact.axis_misalignment.law import NAMES, SCALED, ElbowLaw
 from geocontact.axis_misalignment.scale import Scale
+from geocontact.data.parameter import Parameter
+from geocontact.identify.optimise.levenberg_marquardt import Search, levenberg_marquardt
+from geocontact.identify.optimise.quasi_newton import spread_starts
 
 STARTS = 8
 SAME = 1e-6  # of the cost: searches that end so close to each other end equally well

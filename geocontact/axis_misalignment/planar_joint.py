@@ -19,9 +19,9 @@ from math import asin, atan2, sqrt
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.geometry.kernels.compile import kernel
 from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift, drift_at
-from geocontact.systems.elbow.misalignment import POLE_SHARE, attachment
+from geocontact.axis_misalignment.deflection import POLE_SHARE, attachment
+from geocontact.geometry.kernels.compile import kernel
 
 SOUND, POLE, FOLD, LOST = 0, 1, 2, 3
 """What became of a joint: it has a deflection at every angle; γ reaches 90° at some; |x| > l, the limb is straight at

@@ -12,13 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.axis_misalignment.bins import FORCE, Binned
+from geocontact.axis_misalignment.least_squares import Estimate
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.identify.intervals.bin_tests import DRAWS, Normality, lilliefors
 from geocontact.identify.noise.autocorrelation import spread
 from geocontact.identify.noise.bin_noise import mean_covariance
 from geocontact.identify.signals.angle_bins import places
-from geocontact.axis_misalignment.bins import FORCE, Binned
-from geocontact.axis_misalignment.least_squares import Estimate
 
 
 def residual_by_bin(data: Binned, e: Estimate) -> tuple[Float[np.ndarray, " b"], Float[np.ndarray, " b"]]:

@@ -14,9 +14,9 @@ import numpy as np
 from jaxtyping import Float
 from scipy.signal import lfilter
 
-from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.axis_misalignment.compensation import taken_up
 from geocontact.axis_misalignment.explicit import Offsets, constraint_force, displacement
+from geocontact.data.elbow_recording import ElbowRecording
 
 PAPER = {"k": 222.43, "x": 0.048, "y": 0.059, "l": 0.169, "z": 0.127, "b": 0.0, "s": 0.0}
 """What the explicit model's paper identified: one point of the line on which forces do not change."""

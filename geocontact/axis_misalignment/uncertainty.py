@@ -14,11 +14,11 @@ import numpy as np
 from jaxtyping import Float
 from scipy.stats import t as student
 
-from geocontact.identify.intervals.profile_likelihood import POINTS, Profile, profile_of
-from geocontact.identify.noise.autocorrelation import spread
 from geocontact.axis_misalignment.bins import FORCE, Binned
 from geocontact.axis_misalignment.law import LENGTHS, NAMES, SCALED
 from geocontact.axis_misalignment.least_squares import Estimate, Problem, best_from, law_at
+from geocontact.identify.intervals.profile_likelihood import POINTS, Profile, profile_of
+from geocontact.identify.noise.autocorrelation import spread
 
 DISTINCT = 1e-2  # of a number: minima that lie closer are one
 FLAT = 1e-6  # of the largest singular value: below, the data say nothing in this direction

@@ -11,17 +11,18 @@ from threadpoolctl import threadpool_limits
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Estimate, FaultFound, Where
 from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_cell import Cell
 from geocontact.data.held_out import HeldOut
 from geocontact.data.ranked import Ranked
+from geocontact.data.surface_gap import SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.refit import free
 from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.identifiability.non_identifiable import absorbed
-from geocontact.gap.localise.cell import Cell
 from geocontact.gap.localise.gap_map import gap_map, windows
-from geocontact.gap.localise.on_surface import SurfaceGap, on_surface
+from geocontact.gap.localise.on_surface import on_surface
 from geocontact.gap.reduction.error_reduction import shrinkage, shrinkage_of
 from geocontact.gap.reduction.held_out import held_out
 from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from geocontact.analyses.stale_results import NAMES
-from geocontact.systems.elbow.misalignment import deflect
+from geocontact.axis_misalignment.deflection import deflect
 from tests.cli.calls import Call, call, done, inventory, written
 
 FILES = {

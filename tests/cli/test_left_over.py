@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import shutil
 from collections.abc import Callable
@@ -10,7 +11,7 @@ from unittest import mock
 
 import pytest
 
-from geocontact.analyses.stale_results import NAMES
+from geocontact.analyses.stale_results import digest
 from tests.cli.calls import PLATE, SPHERE, Call, area, done, inventory, poses, written
 from tests.contract import FILES
 
@@ -44,7 +45,7 @@ def several(folder: Path, *names: str) -> list[object]:
 def test_every_file_of_a_run_may_be_removed_by_the_next(tmp_path: Path) -> None:
     out = tmp_path / "out"
     done(run(out, *everything(tmp_path), picture=True))
-    assert set(inventory(out)) == FULL | FILES <= NAMES
+    assert set(inventory(out)) == FULL | FILES
     assert set(done(run(out)).record()["files"]) == set(inventory(out)) == PLAIN
 
 
@@ -172,12 +173,20 @@ def copied(out: Path) -> set[str]:
 def of_another_command(out: Path) -> set[str]:
     """Results of a command that writes other files."""
     out.mkdir()
-    written(out / "run.json", json.dumps({"command": "fit", "files": ["run.json", "distances.npz"]}))
-    written(out / "distances.npz", "from the fit")
+    file = written(out / "distances.npz", "from the fit")
+    told = {"command": "fit", "files": ["run.json", "distances.npz"], "sha256": {"distances.npz": digest(file)}}
+    written(out / "run.json", json.dumps(told))
     return {"distances.npz"}
 
 
-@pytest.mark.parametrize("prepare", [unlisted, without_a_record, copied, of_another_command])
+def changed(out: Path) -> set[str]:
+    """A result that somebody has written into since."""
+    done(run(out, "--save-map"))
+    written(out / "distances.npz", "mine now")
+    return {"distances.npz"}
+
+
+@pytest.mark.parametrize("prepare", [unlisted, without_a_record, copied, of_another_command, changed])
 def test_what_is_not_ours_stays(tmp_path: Path, prepare: Callable[[Path], set[str]]) -> None:
     out = tmp_path / "out"
     names = prepare(out)
@@ -187,14 +196,20 @@ def test_what_is_not_ours_stays(tmp_path: Path, prepare: Callable[[Path], set[st
     assert {name: after.get(name, "gone") for name in names} == {name: before[name] for name in names}
 
 
+MINE = hashlib.sha256(b"mine").hexdigest()
+"""Of the files that a lying record names: it knows what they hold."""
+
 HOSTILE = {
-    "paths upwards": {"files": ["../distances.npz", "../../distances.npz", "sub/../../distances.npz"]},
-    "absolute path": {"files": ["{parent}/distances.npz"]},
-    "names of others": {"files": ["notes.txt", "", ".", "..", "sub"]},
-    "folder upwards": {"files": ["distances.npz"], "inputs": [{"folder": ".."}, {"folder": "../elsewhere"}]},
-    "folder of others": {"files": [], "inputs": [{"folder": "sub"}]},
-    "no list": {"files": {"notes.txt": 1}, "inputs": 3},
-    "list of lists": {"files": [["notes.txt"], None, 3], "inputs": [["sub"], None]},
+    "paths upwards": {
+        "sha256": dict.fromkeys(["../distances.npz", "sub/../../distances.npz", "..\\distances.npz"], MINE)
+    },
+    "absolute path": {"sha256": {"{parent}/distances.npz": MINE}},
+    "no files": {"sha256": dict.fromkeys(["", ".", "..", "sub", "\0"], MINE)},
+    "another content": {"sha256": {"notes.txt": "0" * 64, "sub/distances.npz": None}},
+    "folder upwards": {"sha256": {}, "inputs": [{"folder": ".."}, {"folder": "../elsewhere"}]},
+    "folder of others": {"sha256": {}, "inputs": [{"folder": "sub"}]},
+    "no list": {"sha256": ["notes.txt"], "files": {"notes.txt": 1}, "inputs": 3},
+    "only names": {"files": ["notes.txt", "sub/distances.npz"], "inputs": [["sub"], None]},
 }
 
 

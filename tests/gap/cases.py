@@ -13,6 +13,7 @@ from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_cell import Cell
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
@@ -20,7 +21,6 @@ from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.problem import Problem, problem_of
 from geocontact.gap.case.refit import Measured
 from geocontact.gap.diagnose import diagnose
-from geocontact.gap.localise.cell import Cell
 from geocontact.gap.localise.gap_map import Window, gap_map, windows
 from geocontact.gap.selection import model_comparison as contest
 from geocontact.gap.selection.clipping import FlatTop, flat_tops

@@ -11,10 +11,11 @@ import pytest
 from geocontact.data.cell_channels import CellChannels, CellTrial
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
+from geocontact.data.surface_gap import SurfaceGap
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.problem import problem_of
 from geocontact.gap.diagnose import diagnose
-from geocontact.gap.localise.on_surface import SurfaceGap, on_surface
+from geocontact.gap.localise.on_surface import on_surface
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import NOISE, elbow_case

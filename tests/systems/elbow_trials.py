@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from geocontact.data.elbow_recording import ElbowRecording
-from geocontact.data.parameter import Parameter
 from geocontact.axis_misalignment.law import NAMES, UNITS
 from geocontact.axis_misalignment.synthetic import PAPER, Design, synthetic
+from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.data.parameter import Parameter
 
 RANGE = {
     "k": (300.0, 10.0, 10e3), "x": (0.03, -0.15, 0.15), "y": (0.04, -0.15, 0.15), "l": (0.2, 0.05, 0.5),

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from geocontact.axis_misalignment.deflection import misalignment
 from geocontact.chain.differentiated_inputs import recorded
-from geocontact.systems.elbow.misalignment import misalignment
 from tests.systems.examples import ELBOW_CONSTANTS, elbow, elbow_trial, recording
 
 

@@ -9,7 +9,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from geocontact.identify.intervals.bin_tests import DRAWS, lilliefors
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
 from geocontact.axis_misalignment.end_stop import Stroke, curve_of, stiffness_by_displacement, stroke_of
 from geocontact.axis_misalignment.law import NAMES, ElbowLaw
@@ -31,6 +30,7 @@ from geocontact.axis_misalignment.uncertainty import (
     wild_bootstrap,
     with_link_held,
 )
+from geocontact.identify.intervals.bin_tests import DRAWS, lilliefors
 from tests.systems.elbow_trials import QUICK, parameters, trials
 
 WIDTH = np.radians(2.0)

@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geocontact.axis_misalignment.axis_drift import STILL, AxisDrift, from_instant_centre, polynomial, table
+from geocontact.axis_misalignment.deflection import POLE_SHARE, deflect
 from geocontact.axis_misalignment.explicit import Offsets, require_no_pole
 from geocontact.axis_misalignment.planar_joint import FOLD, LOST, POLE, SOUND, PlanarJoint, extremes_of, grid
-from geocontact.systems.elbow.misalignment import POLE_SHARE, deflect
 
 TURN = np.radians(120.0)
 WANDERS = polynomial((0.002, -0.008, 0.003), (-0.001, 0.005, 0.0, -0.001))

@@ -6,9 +6,9 @@ import numpy as np
 
 from geocontact.analyses.misalignment.displacement_surfaces import surfaces
 from geocontact.analyses.misalignment.figures import Boxes, conditions_figure, surface_figure, told_figure
-from geocontact.identify.intervals.profile_likelihood import Profile
 from geocontact.axis_misalignment.end_stop import Curve, Stroke
 from geocontact.axis_misalignment.uncertainty import Direction
+from geocontact.identify.intervals.profile_likelihood import Profile
 
 
 def test_surfaces_stand_in_space_and_say_which_offset_is_0() -> None:

@@ -15,8 +15,8 @@ from geocontact.analyses.gap.diagnose.page import gap_page
 from geocontact.analyses.gap.diagnose.words import percent, states, verdict_sentences
 from geocontact.data.diagnosis import ChannelGap, Diagnosis, Estimate, FaultFound, Where
 from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_cell import Cell
 from geocontact.gap.diagnose import Findings
-from geocontact.gap.localise.cell import Cell
 from geocontact.view.page.content import Curves, Page, Picture, Table, Words
 from geocontact.view.page.write import page_html
 from tests.cli.gap_cases import diagnosed_elbow

@@ -17,7 +17,7 @@ from geocontact.analyses.area.pressure_write import write_pressures
 from geocontact.analyses.area.scene import write_paraview, write_stills
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.stale_results import PARAVIEW
+
 from geocontact.cli.area import AreaOptions
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
@@ -27,6 +27,9 @@ from geocontact.geometry.surface import Surface
 from geocontact.io.text.results import write_table
 from geocontact.view.page.content import Table
 from geocontact.view.page.tables import inputs_table
+
+PARAVIEW = "paraview"
+"""Folder of the series for ParaView."""
 
 
 @dataclass(frozen=True)

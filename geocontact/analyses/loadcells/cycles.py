@@ -14,7 +14,8 @@ from geocontact.analyses.run_record import Record
 from geocontact.cli.loadcells import LoadcellOptions
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.cycles import STEPS, Span, loaded_spans, normalised, strides
-from geocontact.identify.signals.ensemble import mean_and_sd, rms_difference
+from geocontact.data.ensemble import mean_and_sd
+from geocontact.identify.signals.ensemble import rms_difference
 from geocontact.io.recordings.cycle_table import read_cycle_table
 from geocontact.loads.loadcells import CompartmentForces
 

@@ -16,17 +16,14 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.fft import dct, idct
 
+from geocontact.data.gap_cell import BAND, FAST, FAST_PHASE, Cell, shares
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.localise.cell import Cell, shares
 from geocontact.gap.selection.evidence import Judged
 
 DRAWS = 200
 BANDS = (0.0, 1.0, 5.0, np.inf)  # Hz
-FAST = 5.0  # Hz, above which the map over the phase looks
 PHASES = 20
 FINEST = 10  # times as many even steps as samples, where steps differ
-BAND, FAST_PHASE = "band", "fast phase"
-"""Axes of its cells: frequency [Hz], and the phase of the trial for what is faster than `FAST`."""
 
 
 def frequency_map(problem: Problem, base: Judged, residuals: list[Float[np.ndarray, "_ c"]]) -> list[Cell]:

@@ -17,10 +17,10 @@ from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
+from geocontact.data.gap_cell import Cell, shares
 from geocontact.gap.case.problem import Problem, noise_variance
 from geocontact.gap.data_errors.correction import put_back
 from geocontact.gap.data_errors.gross import Fault
-from geocontact.gap.localise.cell import Cell, shares
 from geocontact.gap.localise.frequency_map import frequency_map
 from geocontact.gap.selection.evidence import Judged
 

@@ -19,12 +19,12 @@ within its trials, all by the same part, which tells a gap that comes once.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.cell_channels import CellChannels
+from geocontact.data.surface_gap import SurfaceGap
 from geocontact.data.trial import Trial
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.data_errors.gross import Fault
@@ -37,38 +37,6 @@ SHOWN = 0.5  # of the gap that the cells together must show: less, and most of i
 
 Seen = list[tuple[Float[np.ndarray, "_ n"], Float[np.ndarray, " _"]]]
 """Of each trial: forces of the cells, or what they are off by, and the model's force, or the gap."""
-
-
-@dataclass(frozen=True, eq=False)
-class SurfaceGap:
-    """One channel's gap over the cells of its site.
-
-    Parameters
-    ----------
-    site, channel, ids, place
-        Of the cells; middles in the scan's frame [m].
-    load, gap
-        Part of each cell in the base model's force and in the gap; either adds up to 1.
-    holding
-        The fewest cells that hold 70 % of the gap, the fullest first.
-    p_value
-        That a gap spread as the load is would differ so much from that spread, family-wise over the cells.
-    """
-
-    site: str
-    channel: str
-    ids: tuple[str, ...]
-    place: Float[np.ndarray, "n 3"]
-    load: Float[np.ndarray, " n"]
-    gap: Float[np.ndarray, " n"]
-    holding: tuple[str, ...]
-    p_value: float
-
-    @property
-    def held(self) -> tuple[float, float]:
-        """What those cells hold of the gap, and of the load."""
-        which = [self.ids.index(name) for name in self.holding]
-        return float(self.gap[which].sum()), float(self.load[which].sum())
 
 
 def on_surface(

@@ -36,6 +36,32 @@ def normalised(
     return np.asarray(np.interp(np.minimum(start + (end - start) * STEPS / 100.0, time[-1]), time, values))
 
 
+def cut(
+    time: Float[np.ndarray, " t"], values: Float[np.ndarray, " t"], starts: Float[np.ndarray, " k"]
+) -> Float[np.ndarray, "cycles 101"]:
+    """Each cycle at 0, 1, … 100 % of its own duration, interpolated linearly.
+
+    Filter before, not after: interpolation adds nothing to the signal, and peaks between two samples are cut.
+
+    Parameters
+    ----------
+    time, values
+        Recording, strictly increasing in time [s]. Values between a missing sample (NaN) and its neighbours are
+        missing.
+    starts
+        Where cycles begin [s]; the last one ends the last cycle, so k starts make k - 1 cycles. ValueError where they
+        do not increase, or lie outside of the recording.
+    """
+    if not (np.diff(time) > 0.0).all():
+        raise ValueError("time: not strictly increasing")
+    if len(starts) < 2 or not (np.diff(starts) > 0.0).all():
+        raise ValueError(f"starts: {starts}; expected two or more, increasing, the end of the last cycle included")
+    if starts[0] < time[0] or starts[-1] > time[-1]:
+        said = f"{starts[0]:g} to {starts[-1]:g} s, but the recording has {time[0]:g} to {time[-1]:g} s"
+        raise ValueError(f"starts: {said}")
+    return np.array([normalised(time, values, begin, end) for begin, end in pairwise(starts.tolist())])
+
+
 def loaded_spans(time: Float[np.ndarray, " t"], load: Float[np.ndarray, " t"], level: float) -> list[Span]:
     """From where a load rises through `level` to where it is back below it, complete ones only.
 

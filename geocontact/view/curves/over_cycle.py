@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.signals.ensemble import mean_and_sd
+from geocontact.data.ensemble import mean_and_sd
 from geocontact.view.curves.given import named, positions
 from geocontact.view.curves.quantity import CYCLE, Quantity
 from geocontact.view.curves.style import LINES, PALETTE, in_style, legend, on
@@ -36,7 +36,7 @@ def mean_over_cycle(
     Parameters
     ----------
     cycle
-        Where the samples lie [%], 0 to 100; `cycle.cycles` cuts a recording to it.
+        Where the samples lie [%], 0 to 100; `identify.signals.cycles.cut` cuts a recording to it.
     groups
         Trials by name of the group, SI units.
     quantity

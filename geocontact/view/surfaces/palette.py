@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.area.figure import COLOURS
+from geocontact.view.curves.style import COLOURS
 
 DISTANCE_MAP = "viridis_r"  # perceptually uniform; bright is close
 FAR = "#D9D9D9"  # beyond what was asked for

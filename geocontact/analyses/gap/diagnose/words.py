@@ -6,8 +6,7 @@ from collections.abc import Sequence
 
 from geocontact.analyses.gap.words import names, percent, proposal_words
 from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Where
-from geocontact.gap.localise.cell import Cell
-from geocontact.gap.localise.frequency_map import BAND, FAST_PHASE
+from geocontact.data.gap_cell import BAND, FAST_PHASE, Cell
 
 SIGNIFICANT = 0.05  # family-wise
 TELLING = 0.35  # share of a channel's gap along one axis that a part of its range must hold to be named

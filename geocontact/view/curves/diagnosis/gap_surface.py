@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap.localise.on_surface import SurfaceGap
+from geocontact.data.surface_gap import SurfaceGap
 from geocontact.view.curves.style import DOUBLE, SMALL, empty, in_style
 from geocontact.view.curves.text import plain
 

@@ -1,4 +1,4 @@
-"""One cell of the map of a gap."""
+"""One cell of the map of a gap, and the axes that are frequencies."""
 
 from __future__ import annotations
 
@@ -6,6 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+
+FAST = 5.0  # Hz, above which the map over the phase looks
+BAND, FAST_PHASE = "band", "fast phase"
+"""Axes of energies: frequency [Hz], and the phase of the trial for what is faster than `FAST`."""
 
 
 @dataclass(frozen=True)
