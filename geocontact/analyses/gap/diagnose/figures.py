@@ -9,9 +9,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.gap.diagnose.curves import resampled
+from geocontact.data.gap_cell import BAND, FAST_PHASE
 from geocontact.data.held_out import HeldOut
 from geocontact.gap.diagnose import Findings
-from geocontact.data.gap_cell import BAND, FAST_PHASE
 from geocontact.gap.localise.gap_map import load_outputs
 from geocontact.view.curves.diagnosis.before_after import SIDE_BY_SIDE, before_after
 from geocontact.view.curves.diagnosis.gap_map import gap_map_figure
