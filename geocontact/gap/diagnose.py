@@ -9,7 +9,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Estimate, FaultFound, Where
+from geocontact.data.diagnosis import CellsHeld, ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cell import Cell
 from geocontact.data.held_out import HeldOut
@@ -172,8 +172,8 @@ def estimates(judged: Judged) -> dict[str, Estimate]:
     return found
 
 
-def _faults(found: Attribution) -> tuple[FaultFound, ...]:
+def _faults(found: Attribution) -> tuple[DataErrorFound, ...]:
     if found.fault is None:
         return ()
     one = found.fault.candidate
-    return (FaultFound(one.name, one.channel, one.factor, found.fault.trials),)
+    return (DataErrorFound(one.name, one.channel, one.factor, found.fault.trials),)

@@ -13,7 +13,7 @@ from geocontact.analyses.gap.diagnose.curves import HeldOut, held_out
 from geocontact.analyses.gap.diagnose.figures import axis_units, gap_figures, ranking
 from geocontact.analyses.gap.diagnose.page import gap_page
 from geocontact.analyses.gap.diagnose.words import percent, states, verdict_sentences
-from geocontact.data.diagnosis import ChannelGap, Diagnosis, Estimate, FaultFound, Where
+from geocontact.data.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cell import Cell
 from geocontact.gap.diagnose import Findings
@@ -123,7 +123,7 @@ def test_hostile_names_stay_text(told: Told) -> None:
         case=HOSTILE,
         parameters={HOSTILE: Estimate(1.0, (0.5, 2.0), HOSTILE, False)},
         remarks=(HOSTILE,),
-        faults=(FaultFound("unit_error", HOSTILE, 2.0, (HOSTILE,)),),
+        faults=(DataErrorFound("unit_error", HOSTILE, 2.0, (HOSTILE,)),),
     )
     shown = tuple(replace(trial, name=HOSTILE) for trial in trials)
     there = replace(findings, diagnosis=spoilt)
@@ -215,7 +215,7 @@ def test_other_verdicts(verdict: str, ambiguity: tuple[str, ...], words: list[st
 
 
 def test_a_mistake_in_the_data_is_not_called_missing() -> None:
-    fault = FaultFound("sign_flip", "force", 1.0, ("t03",))
+    fault = DataErrorFound("sign_flip", "force", 1.0, ("t03",))
     alone, both = (said(effects=names, faults=(fault,))[0] for names in (("sign_flip",), ("damping", "sign_flip")))
     assert alone.startswith("sign_flip is a mistake in the data; it sits in force (") and "undoing it removes" in alone
     assert both.startswith("damping is missing; sign_flip is a mistake in the data; they sit in force (")
@@ -223,7 +223,7 @@ def test_a_mistake_in_the_data_is_not_called_missing() -> None:
 
 
 def test_invisible_effects_faults_and_oddities_are_said() -> None:
-    fault = FaultFound("unit_error", "force", 1e-3, ("t01", "t03"))
+    fault = DataErrorFound("unit_error", "force", 1e-3, ("t01", "t03"))
     found = said(absorbed=("preload", "slip"), faults=(fault,), remarks=("a line at 8 Hz in force",))
     assert found[1] == "base parameters would imitate preload or slip: not to be seen here, whether there or not"
     assert found[2] == (

@@ -11,9 +11,9 @@ from geocontact.cli.area import AreaOptions
 from geocontact.contact.elasticity import layer_modulus
 from geocontact.data.errors import InputError
 from geocontact.geometry.contact_area.evolution import Settings
-from geocontact.geometry.phong_offset import bulge, corner_normals
+from geocontact.geometry.phong_offset import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.surface_quadrature import pieces_of
+from geocontact.geometry.surface_quadrature import surface_quadrature
 from geocontact.geometry.thickness import thickness_below
 from geocontact.loads.foundation import Layer, Skin
 
@@ -30,7 +30,7 @@ def layer_given(
     if edge <= 0.0:
         raise InputError("", "--piece", "is not a positive length", f"write for example {PIECE}")
     try:
-        pieces = pieces_of(fixed, edge, faces)
+        pieces = surface_quadrature(fixed, edge, faces)
     except ValueError as error:
         raise InputError("", "--piece", str(error), "give a longer edge") from error
     thickness = _measured(record, fixed, pieces.point, pieces.normal, o.thickness, "--thickness")
@@ -38,7 +38,7 @@ def layer_given(
     if settings.split is not None:
         medial = settings.split.height(pieces.point) * settings.medial_side > 0.0
         parts = {"medial": medial, "lateral": ~medial}
-    height = None if o.facets == FLAT else bulge(fixed, corner_normals(fixed), pieces.face, pieces.point)
+    height = None if o.facets == FLAT else phong_offset(fixed, corner_normals(fixed), pieces.face, pieces.point)
     return Layer(pieces, thickness, modulus, o.foundation or "linear", parts, height)
 
 

@@ -11,7 +11,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.cli.mat import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
-from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.tables import TextTable, read_table
 from geocontact.io.text.units import si_unit
 from geocontact.io.text.wrench_head import WrenchHead, read_wrench_head
 
@@ -49,7 +49,9 @@ def model_curves(record: Record, ours: Wrench, time: Float[np.ndarray, " t"], o:
     return _moved(curves, head, ours, o)
 
 
-def _at(table: Table, name: str, unit: str, time: Float[np.ndarray, " t"], o: MatOptions) -> Float[np.ndarray, " t"]:
+def _at(
+    table: TextTable, name: str, unit: str, time: Float[np.ndarray, " t"], o: MatOptions
+) -> Float[np.ndarray, " t"]:
     known = si_unit(table.units[table.channels.index(name)])
     if known is None or known[0] != unit:
         raise InputError(o.compare or "", "", f"column '{name}' is not in {unit}", f"write `{name} [{unit}]`")

@@ -18,7 +18,7 @@ ROUNDS = 4
 
 
 @dataclass(frozen=True, eq=False)
-class StandingOff:
+class ScanDifference:
     """The largest region of one scan that stands off another.
 
     Parameters
@@ -42,7 +42,7 @@ class StandingOff:
     length: Float[np.ndarray, " n"]
 
 
-def standing_off(with_mat: Surface, bare: Surface) -> StandingOff:
+def scan_difference(with_mat: Surface, bare: Surface) -> ScanDifference:
     """The mat on a scan that lies in the frame of the bare one.
 
     Heights of the vertices over the bare scan are signed by its faces. Of all that is higher than half the thickness
@@ -73,7 +73,7 @@ def standing_off(with_mat: Surface, bare: Surface) -> StandingOff:
     points, length = _edge(with_mat, faces, height - level, inside)
     ground = bare.proximity(points).closest
     whole = inside[with_mat.faces].all(axis=1)
-    return StandingOff(thickness, noise, float(with_mat.face_area[whole].sum()), ground, length)
+    return ScanDifference(thickness, noise, float(with_mat.face_area[whole].sum()), ground, length)
 
 
 def _largest(surface: Surface, faces: np.ndarray, high: Bool[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.sparse import coo_array, csr_array
 
-from geocontact.geometry.drape.geodesics import Geodesics, Places
+from geocontact.geometry.drape.geodesics import Geodesics, SurfacePoints
 from geocontact.geometry.drape.mat import Marks, Mat
 from geocontact.geometry.drape.motions import motions
 from geocontact.geometry.drape.positions import corners_at
@@ -18,7 +18,7 @@ DEPENDENT = 1e-6  # of the largest singular value: motions that the marks do not
 
 
 @dataclass(frozen=True, eq=False)
-class Held:
+class LandmarkConstraints:
     """What is left of a mat's misses once they are seen as motions of the whole mat.
 
     With the misses m of all marks [m] and an orthonormal basis Q of what the motions of the mat do to its marks, Q^t m
@@ -48,9 +48,9 @@ class Held:
         return csr_array(self.matrix @ along.tocsr())
 
 
-def held(
-    geodesics: Geodesics, mat: Mat, nodes: Places, marks: Marks, owner: Int[np.ndarray, " n"], belt: Way | None
-) -> Held:
+def landmark_constraints(
+    geodesics: Geodesics, mat: Mat, nodes: SurfacePoints, marks: Marks, owner: Int[np.ndarray, " n"], belt: Way | None
+) -> LandmarkConstraints:
     """By the marks that lie on the surface with all corners of their cells; directions as the mat lies now."""
     index, share = corners_at(nodes.face.shape, marks.cells)
     there = (nodes.on.ravel()[index] | (share == 0.0)).all(axis=1)
@@ -65,4 +65,4 @@ def held(
     value = np.repeat(share[there][mark, corner], 3)
     shares = coo_array((value, (row.ravel(), column.ravel())), shape=(3 * count, 3 * len(owner)))
     goal = geodesics.nearest(marks.points[there]).point.ravel() if count else np.zeros(0)
-    return Held(csr_array(csr_array(basis) @ shares.tocsr()), basis @ goal)
+    return LandmarkConstraints(csr_array(csr_array(basis) @ shares.tocsr()), basis @ goal)

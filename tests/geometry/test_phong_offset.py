@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.geometry.phong_offset import bulge, corner_normals
+from geocontact.geometry.phong_offset import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
 from meshes.simple_shapes import sphere
 from tests.geometry.bodies import MM, cube, surface, turned
@@ -20,7 +20,7 @@ def places(body: Surface, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
 
 
 def heights(body: Surface) -> np.ndarray:
-    return bulge(body, corner_normals(body), *places(body))
+    return phong_offset(body, corner_normals(body), *places(body))
 
 
 def ball(n: int) -> Surface:
@@ -49,7 +49,7 @@ def test_a_hollow_lies_below_its_triangles_and_turned_faces_do_not_matter() -> N
     turned_over = Surface(body.vertices, body.faces[:, ::-1])
     assert turned_over.inside_out
     _, points = places(body)
-    again = bulge(turned_over, corner_normals(turned_over), np.arange(len(body.faces)), points)
+    again = phong_offset(turned_over, corner_normals(turned_over), np.arange(len(body.faces)), points)
     np.testing.assert_allclose(again, heights(body), atol=1e-12)
     open_hollow = Surface(body.vertices, body.faces[1:, ::-1])
     assert not open_hollow.closed
@@ -66,5 +66,5 @@ def test_a_common_motion_changes_nothing() -> None:
     body, turn, shift = ball(6), turned(20, 50, -70), np.array([0.4, -0.1, 2.0])
     there = Surface(turn.apply(body.vertices) + shift, body.faces)
     face, points = places(body)
-    moved = bulge(there, corner_normals(there), face, turn.apply(points) + shift)
+    moved = phong_offset(there, corner_normals(there), face, turn.apply(points) + shift)
     np.testing.assert_allclose(moved, heights(body), atol=1e-12)
