@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -63,6 +64,18 @@ def finite(value: float, option: str) -> float:
     if not math.isfinite(value):
         raise InputError("", option, f"{value} is not a finite number", "give a number")
     return value
+
+
+def named_numbers(texts: Iterable[str], option: str) -> dict[str, float]:
+    """ "damping.b=25", "damping.c=1" to numbers by name; in SI as they are."""
+    found = {}
+    for text in texts:
+        name, _, value = text.partition("=")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            raise InputError("", option, f"{value!r} is no number", f"write {name}=1.5") from None
+    return found
 
 
 def friction(text: str, option: str) -> tuple[float, float]:

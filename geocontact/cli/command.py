@@ -18,10 +18,11 @@ from geocontact.cli.show import Terminal
 from geocontact.data.errors import InputError
 
 OUT = "Folder for the results."
+MOST_FILES = 20  # that are listed at the end, those in sub-folders among them
 
 
 def command(
-    job: str,
+    job: str | Callable[[Options], str],
     options: type[Options],
     words: str,
     *,
@@ -34,7 +35,8 @@ def command(
     Parameters
     ----------
     job
-        Where the analysis is, "geocontact.analyses.cop.job:centre_of_pressure"; imported when it runs.
+        Where the analysis is, "geocontact.analyses.cop.job:centre_of_pressure", or where it is for options that are
+        given; imported when it runs.
     options
         Its options.
     words
@@ -58,19 +60,26 @@ def command(
     def _run(typed: dict[str, Any]) -> int:
         folder = typed["out"]
         given = options(**{one.name: read(one, typed[key(one)]) for one in known if key(one) in typed})
-        place, _, name = job.partition(":")
+        place, _, name = (job if isinstance(job, str) else job(given)).partition(":")
         result, files = execute(getattr(import_module(place), name), given, folder, Call(typed, Terminal(), spell))
         for sentence in result.sentences:
             print(sentence)
-        print(f"results in {folder}: {', '.join(files)}")
+        print(f"results in {folder}: {', '.join(_shortened(files))}")
         if after is not None:
             after(result, folder)
-        return 0 if result.accepted else 1
+        return int(result.exit_code)
 
     run.__doc__ = spell(words)
     run.__name__ = options.__name__
     run.__signature__ = _signature(known, rest, spell, out)  # type: ignore[attr-defined]
     return run
+
+
+def _shortened(files: list[str]) -> list[str]:
+    """Names of files as they are, but sub-folders as a whole where there are many files in them."""
+    if len(files) <= MOST_FILES:
+        return files
+    return sorted({name if "/" not in name else f"{name.partition('/')[0]}/…" for name in files})
 
 
 def speller(known: tuple[Declared, ...]) -> Callable[[str], str]:

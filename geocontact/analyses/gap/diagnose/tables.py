@@ -1,44 +1,22 @@
-"""Everything a diagnosis writes."""
+"""Tables of a diagnosis, by the name of their files."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-
 import pandas as pd
 
-from geocontact.analyses.gap.diagnose.curves import HeldOut, held_out
-from geocontact.analyses.gap.diagnose.figures import axis_units, gap_figures, ranking
-from geocontact.analyses.gap.diagnose.page import write_gap_report
-from geocontact.analyses.json_file import write_json
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.run_record import Record
-from geocontact.data.gap_case import GapCase
+from geocontact.analyses.gap.diagnose.figures import axis_units
 from geocontact.gap.diagnose import Findings
-from geocontact.io.text.results import write_table
-from geocontact.view.curves.save import save
-from geocontact.view.page.tables import inputs_table
 
 
-def write_results(record: Record, case: GapCase, findings: Findings, folder: Path, pictures: bool) -> None:
-    """Answer, tables, and unless they are not wanted figures and page."""
-    write_json(folder / "diagnosis.json", findings.diagnosis.as_dict())
-    write_table(gap_map_table(findings), folder, parquet=False, name="gap_map")
-    write_table(ranking_table(findings), folder, parquet=False, name="ranking")
-    if findings.trials:
-        write_table(trials_table(findings), folder, parquet=False, name="trials")
-    if findings.surface:
-        write_table(surface_table(findings), folder, parquet=False, name="surface")
-    trials = held_out(findings)
-    write_table(held_out_table(findings, trials), folder, parquet=False, name="held_out")
-    if not pictures:
-        return
-    figures = gap_figures(findings, trials)
-    for name, figure in figures.items():
-        for ending in ("png", "svg"):
-            save(figure, folder / f"{name}.{ending}")
-    tables = [inputs_table(record.inputs), options_table(record)]
-    write_gap_report(folder / "report.html", case, findings, trials, figures, tables, record.warnings)
+def diagnosis_tables(findings: Findings) -> dict[str, pd.DataFrame]:
+    """`gap_map`, `ranking`, `held_out`; `trials` where something is named, `surface` where there are cells of a mat."""
+    found = {
+        "gap_map": gap_map_table(findings),
+        "ranking": ranking_table(findings),
+        "held_out": held_out_table(findings),
+    }
+    found |= {"trials": trials_table(findings)} if findings.trials else {}
+    return found | ({"surface": surface_table(findings)} if findings.surface else {})
 
 
 def gap_map_table(findings: Findings) -> pd.DataFrame:
@@ -64,7 +42,7 @@ def gap_map_table(findings: Findings) -> pd.DataFrame:
 
 def ranking_table(findings: Findings) -> pd.DataFrame:
     """A row per model that was tried, the largest gain first."""
-    rows = ranking(findings)
+    rows = findings.ranking
     return pd.DataFrame(
         {
             "model": [one.label for one in rows],
@@ -106,11 +84,11 @@ def surface_table(findings: Findings) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
-def held_out_table(findings: Findings, trials: Sequence[HeldOut]) -> pd.DataFrame:
+def held_out_table(findings: Findings) -> pd.DataFrame:
     """A row per sample of the held-out trials: measured, base model, and with what was named."""
     system = findings.attribution.problem.system
     parts = []
-    for trial in trials:
+    for trial in findings.held_out:
         columns: dict[str, object] = {"trial": trial.name, "time [s]": trial.time}
         for c, name in enumerate(system.outputs):
             unit = system.unit(name)
