@@ -55,6 +55,8 @@ class Spelled:
         A value may begin with a minus.
     each
         May be given again and again, one value each time.
+    keyword
+        An option there, although in Python it may be given by its place.
     """
 
     name: str = ""
@@ -62,6 +64,7 @@ class Spelled:
     default: Any = None
     dashed: bool = False
     each: bool = False
+    keyword: bool = False
 
 
 @dataclass(frozen=True)

@@ -322,3 +322,31 @@ def length_pair(text: str, option: str) -> tuple[float, float]:
     if len(parts) != 2:
         raise InputError("", option, f"{text!r} is not two lengths", "write for example 5,-3")
     return length(parts[0], option), length(parts[1], option)
+
+
+FREE_UNITS = {"threshold": LENGTH["mm"], "lag": 1.0, "adduction": ANGLE["deg"], "slope": 1.0}
+"""SI units per unit in which the bounds of a free number are typed."""
+
+
+def free_numbers(text: str, option: str) -> dict[str, tuple[float, float] | None]:
+    """ "threshold=1:6,lag" to bounds in SI by name, None where none are given."""
+    found: dict[str, tuple[float, float] | None] = {}
+    for part in text.split(","):
+        name, _, bounds = (piece.strip() for piece in part.partition("="))
+        if name not in FREE_UNITS or name in found:
+            what = f"{part.strip()!r} is none of {', '.join(FREE_UNITS)}, or is named twice"
+            raise InputError("", option, what, "write threshold,lag=-0.05:0.05")
+        found[name] = _bounds(bounds, option, FREE_UNITS[name]) if bounds else None
+    return found
+
+
+def _bounds(text: str, option: str, unit: float) -> tuple[float, float]:
+    low, colon, high = text.partition(":")
+    if not colon:
+        raise InputError("", option, f"{text!r} is not lower:upper", "write threshold=1:6")
+    return number(low, option, "lag=-0.05:0.05") * unit, number(high, option, "lag=-0.05:0.05") * unit
+
+
+def ratios(text: str, option: str) -> tuple[float, ...]:
+    """ "0.25,0.46" to numbers."""
+    return tuple(number(part, option, "0.25,0.46") for part in text.split(","))

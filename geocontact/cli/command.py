@@ -84,12 +84,17 @@ def _shortened(files: list[str]) -> list[str]:
 
 def speller(known: tuple[Declared, ...]) -> Callable[[str], str]:
     """What turns `` `radius` `` into --radius-mm, for the options of one command."""
-    names = {one.name: one.name.upper() if one.positional else f"--{option(one)}" for one in known} | {"out": "--out"}
+    names = {one.name: one.name.upper() if argument(one) else f"--{option(one)}" for one in known} | {"out": "--out"}
 
     def spelled(text: str) -> str:
         return re.sub(r"`(\w+)`", lambda found: names.get(found[1], found[0]), text)
 
     return spelled
+
+
+def argument(one: Declared) -> bool:
+    """Whether it is typed without its name."""
+    return one.positional and not one.spelled.keyword
 
 
 def option(one: Declared) -> str:
@@ -117,7 +122,7 @@ def _typed(known: tuple[Declared, ...], rest: str, arguments: tuple[Any, ...], t
     found: dict[str, Any] = {}
     left = list(arguments)
     for one in known:
-        if one.positional:
+        if argument(one):
             found[key(one)] = [left.pop(0) for _ in range(len(left))] if one.several else left.pop(0)
         elif one.name in typed:
             found[key(one)] = typed[one.name]
@@ -135,12 +140,12 @@ def _default(one: Declared) -> Any:
 def _signature(known: tuple[Declared, ...], rest: str, spell: Callable[[str], str], out: str) -> inspect.Signature:
     parameters: list[inspect.Parameter] = []
     for one in known:
-        if one.positional:
+        if argument(one):
             parameters += _positional(one, spell)
     if rest:
         words = f"Further ones, as a shell pattern after `{rest}` gives them."
         parameters.append(_parameter(f"more_{rest}s", inspect.Parameter.VAR_POSITIONAL, str, {"help": spell(words)}))
-    keywords = [one for one in known if not one.positional]
+    keywords = [one for one in known if not argument(one)]
     required = [_keyword(one, spell) for one in keywords if one.required]
     folder = _parameter("out", inspect.Parameter.KEYWORD_ONLY, Path, {"help": out})
     return inspect.Signature(
