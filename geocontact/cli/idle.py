@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from geocontact.analyses.checks import refuse
 from geocontact.cli.area import AreaOptions
-from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
-
-Idle = tuple[bool, str, str, str]
-"""Whether it is so, the option, what is wrong with it, the remedy."""
 
 
 def refuse_idle(o: AreaOptions, files: Sequence[str]) -> None:
@@ -65,21 +62,3 @@ def refuse_unheeded(o: AreaOptions, motions: Mapping[Path, Motion]) -> None:
         (o.angles is not None and "angles" not in heeded, "--angles",
          f"does nothing here: no angle is read from {files}", "leave it out"),
     )  # fmt: skip
-
-
-def bootstrap_rule(count: int, usual: int) -> Idle:
-    """Replicates that are neither none nor enough."""
-    what, remedy = f"{count} is not 100 to 100000", f"give {usual}, or 0 for none"
-    return (count != 0 and not 100 <= count <= 100_000, "--bootstrap", what, remedy)
-
-
-def width_rule(option: str, width_deg: float) -> Idle:
-    """Widths of bins that no recording has."""
-    return (not 0.1 <= width_deg <= 30.0, option, f"{width_deg} is not 0.1 to 30 degrees", "give for example 2")
-
-
-def refuse(*rows: Idle) -> None:
-    """Refuse the first of these mistakes that is made."""
-    for wrong, option, what, remedy in rows:
-        if wrong:
-            raise InputError("", option, what, remedy)

@@ -10,9 +10,9 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.analyses.checks import refuse
 from geocontact.analyses.mat.recording import Recording
 from geocontact.analyses.run_record import Record
-from geocontact.cli.idle import refuse
 from geocontact.cli.mat import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion

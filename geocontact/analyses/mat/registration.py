@@ -10,8 +10,8 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.bodies import read_surface
+from geocontact.analyses.checks import refuse
 from geocontact.analyses.run_record import Record
-from geocontact.cli.idle import refuse
 from geocontact.cli.mat import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.geometry.register.icp import icp

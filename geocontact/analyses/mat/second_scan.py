@@ -9,8 +9,8 @@ from jaxtyping import Float
 
 from geocontact.analyses import quantities
 from geocontact.analyses.bodies import read_surface
+from geocontact.analyses.checks import refuse
 from geocontact.analyses.run_record import Record
-from geocontact.cli.idle import refuse
 from geocontact.cli.mat import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames

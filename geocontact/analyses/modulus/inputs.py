@@ -10,9 +10,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses import quantities
+from geocontact.analyses.checks import bootstrap_rule, refuse
 from geocontact.analyses.modulus.free_parameters import freed
 from geocontact.analyses.run_record import Record
-from geocontact.cli.idle import bootstrap_rule, refuse
 from geocontact.cli.modulus import ModulusOptions
 from geocontact.contact.area_hertz import READINGS, Reading
 from geocontact.data.errors import InputError
