@@ -53,7 +53,7 @@ class Job(Generic[P, I, R]):
     @property
     def __signature__(self) -> Signature:
         """Names, types and defaults of the options, without what only the command line needs."""
-        return Signature([_parameter(one) for one in declared(self.options)])
+        return Signature([_parameter(one) for one in declared(self.options) if one.settable])
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
         """Read and compute; nothing is written."""
