@@ -51,7 +51,7 @@ class Job(Generic[I, R]):
     @property
     def __signature__(self) -> Signature:
         """Names, types and defaults of the options, without what only the command line needs."""
-        return Signature([_parameter(one) for one in declared(self.options)])
+        return Signature([_parameter(one) for one in declared(self.options) if one.settable])
 
     def __call__(self, *inputs: Any, **options: Any) -> R:
         """Read and compute; nothing is written. Arguments are those of `__signature__`; paths may be text."""

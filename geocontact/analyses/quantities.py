@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -129,24 +130,28 @@ def splitting_plane(text: str, unit: str) -> Plane:
     return Plane.across(axis.strip(), length(at, "`split`", unit) if at else 0.0)
 
 
-def sweep_range(text: str) -> tuple[str, float, float, float]:
+def sweep_range(text: str, option: str) -> tuple[str, float, float, float]:
     """ "flexion=0:90:1" to a name and start, stop, step [rad]; degrees are typed."""
     name, found, rest = text.partition("=")
     if not found or not name.strip() or ":" not in rest:
-        raise InputError("", "`sweep`", f"{text!r} is not a range", "write flexion=0:90:1 (degrees)")
-    return (name.strip(), *angle_range(rest, "`sweep`", "flexion=0:90:1"))
+        raise InputError("", option, f"{text!r} is not a range", "write flexion=0:90:1 (degrees)")
+    return (name.strip(), *angle_range(rest, option, "flexion=0:90:1"))
 
 
-def turn(text: str, option: str) -> tuple[Vector, float]:
-    """ "x=2" to a unit vector and an angle [rad]; degrees are typed."""
+def thickness(text: str, option: str) -> float | Literal["rays"]:
+    """ "8mm" to a length [m], mm unless a unit is written; "rays" stays."""
+    return "rays" if text.strip() == "rays" else length(text, option)
+
+
+def turn(text: str, option: str) -> tuple[str, float]:
+    """ "x=2" to a coordinate axis and an angle [rad]; degrees are typed."""
     axis, _, angle = text.partition("=")
     if axis.strip() not in ("x", "y", "z") or not angle.strip():
         raise InputError("", option, f"{text!r} is not an axis and an angle", f"write {option} x=2 (degrees)")
     value = number(angle, option, "x=2")
     if abs(value) > 45.0:
         raise InputError("", option, f"{text!r} is no small offset", "write at most 45 degrees")
-    x, y, z = (float(axis.strip() == name) for name in "xyz")
-    return (x, y, z), value * ANGLE["deg"]
+    return axis.strip(), value * ANGLE["deg"]
 
 
 def angle_range(text: str, option: str, example: str) -> tuple[float, float, float]:

@@ -55,16 +55,14 @@ def command(
         try:
             return _run(_typed(known, rest, arguments, typed))
         except InputError as error:
-            raise InputError(error.file, *map(spell, (error.place, error.what, error.remedy))) from error
+            raise respelled(error, spell) from error
 
     def _run(typed: dict[str, Any]) -> int:
         folder = typed["out"]
         given = options(**{one.name: read(one, typed[key(one)]) for one in known if key(one) in typed})
         place, _, name = (job if isinstance(job, str) else job(given)).partition(":")
         result, files = execute(getattr(import_module(place), name), given, folder, Call(typed, Terminal(), spell))
-        for sentence in result.sentences:
-            print(sentence)
-        print(f"results in {folder}: {', '.join(_shortened(files))}")
+        tell(result, folder, files)
         if after is not None:
             after(result, folder)
         return int(result.exit_code)
@@ -95,6 +93,18 @@ def speller(known: tuple[Declared, ...]) -> Callable[[str], str]:
 def argument(one: Declared) -> bool:
     """Whether it is typed without its name."""
     return one.positional and not one.spelled.keyword
+
+
+def respelled(error: InputError, spell: Callable[[str], str]) -> InputError:
+    """The same mistake in the words of the command line."""
+    return InputError(error.file, *map(spell, (error.place, error.what, error.remedy)))
+
+
+def tell(result: Result, folder: Path, files: list[str]) -> None:
+    """Say what was found and where it lies."""
+    for sentence in result.sentences:
+        print(sentence)
+    print(f"results in {folder}: {', '.join(_shortened(files))}")
 
 
 def option(one: Declared) -> str:
@@ -129,7 +139,7 @@ def _typed(known: tuple[Declared, ...], rest: str, arguments: tuple[Any, ...], t
         else:
             found[key(one)] = _default(one)
     if rest:
-        found[rest] = [*(found[rest] or ()), *left]
+        found[rest] = [*(found[rest] or ()), *left] or None
     return {**found, "out": typed["out"]}
 
 
