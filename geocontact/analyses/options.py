@@ -154,13 +154,20 @@ class Declared:
         if value is None:
             return None
         if self.several:
-            items = value if isinstance(value, (tuple, list)) else (value,)
-            return tuple(_as(get_args(self.kind)[0], item) for item in items)
+            one = get_args(self.kind)[0]
+            return tuple(_as(one, item) for item in ((value,) if self._alone(value) else value))
         if self.kind in (Path, float, str):
             return _as(self.kind, value)
         if self.choices and value not in self.choices:
             raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
         return value
+
+    def _alone(self, value: Any) -> bool:
+        """Whether a value is one of several; a pair is one where pairs are asked for."""
+        if not isinstance(value, (tuple, list)):
+            return True
+        pairs = get_origin(get_args(self.kind)[0]) is tuple
+        return pairs and len(value) > 0 and not isinstance(value[0], (tuple, list))
 
 
 @dataclass(frozen=True)

@@ -240,7 +240,7 @@ def _checked(point: tuple[float, float, float], direction: tuple[float, float, f
         raise InputError("", "`axis`", str(error), f"check {text!r}") from error
 
 
-def windows(text: str, option: str) -> list[tuple[float, float]]:
+def windows(text: str, option: str) -> tuple[tuple[float, float], ...]:
     """ "0:0.5,9:9.5" to pairs of times [s]."""
     found = []
     for part in text.split(","):
@@ -250,7 +250,7 @@ def windows(text: str, option: str) -> list[tuple[float, float]]:
         found.append((number(first, option, "0:0.5"), number(last, option, "0:0.5")))
         if found[-1][1] <= found[-1][0]:
             raise InputError("", option, f"{part!r} ends before it begins", "write for example 0:0.5")
-    return found
+    return tuple(found)
 
 
 def time_span(text: str, option: str) -> tuple[float, float]:
@@ -278,15 +278,15 @@ def turned_axes(text: str, option: str) -> Rotation:
     return Rotation.from_matrix(matrix)
 
 
-def registration(text: str) -> tuple[float, float]:
+def registration(text: str, option: str) -> tuple[float, float]:
     """ "1mm,2deg" to a length [m] and an angle [rad]."""
     parts = [part.strip() for part in text.split(",")]
     if len(parts) != 2 or not parts[1].endswith(("deg", "rad")):
-        raise InputError("", "`registration`", f"{text!r} is not a length and an angle", "write 1mm,2deg")
-    angle = number(parts[1][:-3], "`registration`", "1mm,2deg") * ANGLE[parts[1][-3:]]
-    shift = length(parts[0], "`registration`")
+        raise InputError("", option, f"{text!r} is not a length and an angle", "write 1mm,2deg")
+    angle = number(parts[1][:-3], option, "1mm,2deg") * ANGLE[parts[1][-3:]]
+    shift = length(parts[0], option)
     if shift < 0.0 or angle < 0.0:
-        raise InputError("", "`registration`", f"{text!r} is negative", "write 1mm,2deg")
+        raise InputError("", option, f"{text!r} is negative", "write 1mm,2deg")
     return shift, angle
 
 

@@ -14,6 +14,7 @@ import pytest
 from nbclient import NotebookClient
 
 import geocontact as gc
+from tests.cli.calls import call, done
 
 ROOT = Path(__file__).resolve().parents[2]
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
@@ -63,9 +64,20 @@ def test_contact_area_runs_on_the_shipped_meshes(run, tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("default")  # of the notebook machinery itself
-def test_mat_runs_on_the_shipped_recording(run):
+def test_mat_writes_what_the_command_writes(run, tmp_path):
     said = run(ROOT / "notebooks" / "mat.ipynb")
-    assert "151 frames of 16 x 8 cells" in said and "exactly" in said
+    assert "151 frames of 16 x 8 cells" in said
+    found, exact = re.findall(r"force \((.*)\) N, exactly \((.*)\) N", said)[0]
+    for one, other in zip(found.split(","), exact.split(","), strict=True):
+        assert float(one) == pytest.approx(float(other), abs=0.2)
+    given, out = ROOT / "meshes" / "mat_thigh_16x8", tmp_path / "command"
+    files = ("--layout", given / "layout.toml", "--landmarks", given / "landmarks.csv")
+    scan = ("--surface", ROOT / "meshes" / "thigh.stl", "--unit", "mm")
+    done(call("mat", given / "frames.csv", *files, *scan, "--cutoff", "0", "--out", out, folder=out))
+    tables = sorted(file.name for file in out.glob("*.csv"))
+    assert len(tables) == 4
+    for name in tables:
+        assert (tmp_path / "mat-result" / name).read_bytes() == (out / name).read_bytes(), name
 
 
 @pytest.mark.slow

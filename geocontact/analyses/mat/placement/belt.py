@@ -1,28 +1,21 @@
-"""A mat that goes once around a body: what the command says when it does not, and how well it closes when it does."""
+"""A mat that goes once around a body: what is said when it does not, and how well it closes when it does."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.run_record import Record
-from geocontact.cli.mat import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.geometry.drape.belt import NotAroundError
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.drape.mat import Mat
 
 
-def refuse_belt(o: MatOptions) -> None:
-    """Refuse a belt where nothing would make it one."""
-    if o.belt is not None and o.lay == "closest":
-        what = "does nothing beside --lay closest, which pushes a flat mat straight down"
-        raise InputError("", "--belt", what, "leave one of them out")
-
-
 def open_belt(o: MatOptions, error: NotAroundError) -> InputError:
     """The line for a belt that does not close."""
-    remedy = "check landmarks, pitch and unit; a mat with two ends, or one that overlaps itself, is no --belt"
-    return InputError("", f"--belt {o.belt}", str(error), remedy)
+    remedy = "check landmarks, pitch and unit; a mat with two ends, or one that overlaps itself, is no `belt`"
+    return InputError("", f"`belt` {o.belt}", str(error), remedy)
 
 
 def say_how_it_closes(record: Record, mat: Mat, laid: Drape, o: MatOptions) -> None:

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.run_record import Record
-from geocontact.cli.mat import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.surface import Surface
@@ -18,11 +18,11 @@ HOLLOW = -0.1
 
 
 def outwards(surface: Surface, o: MatOptions) -> Surface:
-    """The scan with its faces turned over where --inwards says that they look into the body."""
+    """The scan with its faces turned over where `inwards` says that they look into the body."""
     if not o.inwards:
         return surface
     if surface.closed:
-        raise InputError("", "--inwards", "does nothing for a closed scan: its sides are known", "leave it out")
+        raise InputError("", "`inwards`", "has no effect on a closed scan: its sides are known", "leave it out")
     return replace(surface, faces=np.ascontiguousarray(surface.faces[:, ::-1]))
 
 
@@ -32,12 +32,12 @@ def say_which_side(record: Record, surface: Surface, laid: Drape, marks: MatLand
     if o.landmarks is not None and np.linalg.matrix_rank(arms, 1e-6 * float(np.abs(arms).max())) < 2:
         record.warn(
             f"the landmarks lie on one line of the mat: they do not show which side of it faces the body, and "
-            f"--seen-from {o.seen_from} is believed"
+            f"`seen_from` {o.seen_from} is believed"
         )
     if not surface.closed and _bulge(laid) < HOLLOW:
         record.warn(
             "the scan is hollow under the mat, as its faces look: if they look into the body, every force has the "
-            "wrong sign; pass --inwards then"
+            "wrong sign; pass `inwards` then"
         )
 
 

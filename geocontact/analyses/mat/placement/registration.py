@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.bodies import read_surface
-from geocontact.analyses.checks import refuse
+from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.run_record import Record
-from geocontact.cli.mat import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.geometry.register.icp import icp
 from geocontact.geometry.register.landmarks import fit_landmarks
@@ -27,47 +25,49 @@ SCAN, BODY = ("x [m]", "y [m]", "z [m]"), ("body_x [m]", "body_y [m]", "body_z [
 EXAMPLE = "id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm]"
 
 
-def registered(
-    record: Record, scan: Surface, marks: MatLandmarks, o: MatOptions
-) -> tuple[Surface, MatLandmarks, Registration | None]:
-    """Scan and marks of the mat in the body's frame, and how well they fit; as they are without --body-landmarks."""
-    _refuse_idle(o)
+@dataclass(frozen=True, eq=False)
+class BodyModel:
+    """A body model that the scan is brought to: landmarks of both [m], and the body's surface for a fit by shape."""
+
+    names: tuple[str, ...]
+    on_scan: Float[np.ndarray, "n 3"]
+    on_body: Float[np.ndarray, "n 3"]
+    surface: Surface | None
+
+
+def read_body_model(record: Record, o: MatOptions) -> BodyModel | None:
+    """Landmarks and, where the fit is by shape, the surface; None where results stay in the scan's frame."""
     if o.body_landmarks is None:
-        return scan, marks, None
+        return None
     names, on_scan, on_body = _pairs(o.body_landmarks)
-    record.add_input("--body-landmarks", o.body_landmarks, landmarks=len(names))
+    record.add_input("`body_landmarks`", o.body_landmarks, landmarks=len(names))
+    body = None if o.body is None else read_surface(record, "body", o.body, o.body_unit or o.unit, None)
+    return BodyModel(names, on_scan, on_body, body)
+
+
+def registered(
+    record: Record, scan: Surface, marks: MatLandmarks, model: BodyModel | None, o: MatOptions
+) -> tuple[Surface, MatLandmarks, Registration | None]:
+    """Scan and marks of the mat in the body's frame, and how well they fit; as they are without a body."""
+    if model is None:
+        return scan, marks, None
     try:
-        guard = compare_landmarks(on_scan, on_body)
-        found = fit_landmarks(on_scan, on_body, names=names)
+        guard = compare_landmarks(model.on_scan, model.on_body)
+        found = fit_landmarks(model.on_scan, model.on_body, names=model.names)
         if guard.warning:
             record.warn(guard.warning)
         _tell(record, "landmarks", found)
-        if o.icp:
-            engine, found = _by_shape(scan, _body(record, o), found, o)
+        if model.surface is not None:
+            engine, found = _by_shape(scan, model.surface, found, o)
             _tell(record, "shape", found, engine=engine)
             if not found.converged:
                 record.warn("the registration by shape did not settle; look at registration.csv")
     except InputError:
         raise
     except ValueError as error:
-        raise InputError(o.body_landmarks, "", str(error), "check landmarks, units and --body") from error
+        raise InputError(o.body_landmarks or "", "", str(error), "check landmarks, units and `body`") from error
     moved = Surface(found.pose.apply(scan.vertices), scan.faces, scan.name)
     return moved, replace(marks, point=found.pose.apply(marks.point)), found
-
-
-def _refuse_idle(o: MatOptions) -> None:
-    """Refuse options of a registration that is not made."""
-    none = o.body_landmarks is None
-    refuse(
-        (o.icp_engine is not None and not o.icp, "--icp-engine", "does nothing without --icp",
-         "give --icp, or leave it out"),
-        (none and o.body is not None, "--body", "needs landmarks to begin with", "give --body-landmarks"),
-        (none and o.icp, "--icp", "needs landmarks to begin with", "give --body-landmarks"),
-        (not none and o.body is not None and not o.icp, "--body", "does nothing without --icp",
-         "give --icp, or leave it out"),
-        (not none and o.body_unit is not None and o.body is None, "--body-unit", "does nothing without --body",
-         "leave it out"),
-    )  # fmt: skip
 
 
 def _by_shape(scan: Surface, body: Surface, start: Registration, o: MatOptions) -> tuple[str, Registration]:
@@ -80,26 +80,10 @@ def _by_shape(scan: Surface, body: Surface, start: Registration, o: MatOptions) 
             engine, found = "open3d", open3d_icp(scan, body, start.pose)
         except ImportError as error:
             if o.icp_engine == "open3d":
-                raise InputError("", "--icp-engine", str(error), "or leave it out") from error
+                raise InputError("", "`icp_engine`", str(error), "or leave it out") from error
             engine = "own"
     found = found or icp(scan, body, start.pose)
     return engine, replace(found, covariance=shape_covariance(scan, body, found.pose, start=start.covariance))
-
-
-def registration_table(found: Registration) -> pd.DataFrame:
-    """The residual map: the points of the scan that were compared, in the body's frame."""
-    return pd.DataFrame(
-        {
-            **{f"{axis} [mm]": found.points[:, k] * 1e3 for k, axis in enumerate("xyz")},
-            "residual [mm]": found.residual * 1e3,
-        }
-    )
-
-
-def _body(record: Record, o: MatOptions) -> Surface:
-    if o.body is None:
-        raise InputError("", "--icp", "has no body to fit the scan to", "give --body")
-    return read_surface(record, "body", o.body, o.body_unit or o.unit, None)
 
 
 def _pairs(path: Path) -> tuple[tuple[str, ...], Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:

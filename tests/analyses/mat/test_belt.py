@@ -1,21 +1,23 @@
-"""`geocontact mat --belt`: a synthetic mat that goes once around a body and meets itself."""
+"""A synthetic mat that goes once around a body and meets itself."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-import pandas as pd
 import pytest
 from scipy.integrate import trapezoid
 
+from geocontact.analyses.mat.page import mat_page
+from geocontact.analyses.mat.result import MatResult
 from meshes.segments import TORSO
-from tests.cli.calls import MESHES, Call, call, done, written
+from tests.analyses.mat.samples import FORCE, MOMENT, called, frames, refusal
+from tests.cli.calls import MESHES, written
 
 ROUND, WIDE = 32, 6
 WIDTH = 15.0  # mm, of a cell across the belt
 LEVEL = -40.0  # mm, height of the belt's middle
-STILL = ("--cutoff", "0")
 
 
 def ring(y: float) -> tuple[np.ndarray, float]:
@@ -45,54 +47,47 @@ def marks(folder: Path, way: str) -> Path:
     return written(folder / "marks.csv", "\n".join(["id, row, column, x [mm], y [mm], z [mm]", *rows]) + "\n")
 
 
-def belt(
-    folder: Path, pressure: np.ndarray, way: str = "columns", longer: float = 1.0, options: tuple[str, ...] = ()
-) -> Call:
+def belt(folder: Path, pressure: np.ndarray, way: str = "columns", longer: float = 1.0, **options: Any) -> MatResult:
     """A belt of ROUND x WIDE cells whose cells share the girth (`longer` times), with `pressure` [kPa] over them."""
-    folder.mkdir(exist_ok=True)
     pitch = longer * ring(LEVEL)[1] / ROUND
     shape, pitches = ((WIDE, ROUND), (WIDTH, pitch)) if way == "columns" else ((ROUND, WIDE), (pitch, WIDTH))
-    names = [f"r{r}c{c}" for r in range(shape[0]) for c in range(shape[1])]
-    rows = [",".join(f"{v:.10g}" for v in (0.02 * k, *pressure.ravel())) for k in range(3)]
-    frames = written(folder / "frames.csv", "\n".join([",".join(["time [s]", *names]), *rows]) + "\n")
     layout = f'rows = {shape[0]}\ncolumns = {shape[1]}\npitch_mm = [{pitches[0]!r}, {pitches[1]!r}]\nunit = "kPa"\n'
-    return call(
-        "mat", frames, "--layout", written(folder / "layout.toml", layout + 'order = "row"\n'), "--surface",
-        MESHES / "torso.stl", "--unit", "mm", "--landmarks", marks(folder, way), "--out", folder / "out",
-        "--seen-from", "outside" if way == "columns" else "body", *STILL, *options, folder=folder / "out",
-    )  # fmt: skip
-
-
-def first(result: Call) -> pd.Series:
-    return pd.read_csv(result.folder / "wrench.csv", comment="#").iloc[0]
+    return called(
+        frames(folder, np.repeat(pressure.reshape(1, *shape), 3, axis=0)),
+        layout=written(folder / "layout.toml", layout + 'order = "row"\n'),
+        surface=MESHES / "torso.stl",
+        landmarks=marks(folder, way),
+        seen_from="outside" if way == "columns" else "body",
+        **{"belt": way, **options},
+    )
 
 
 @pytest.mark.parametrize("way", ["columns", "rows"])
 def test_a_belt_under_uniform_pressure_pushes_along_the_body_only(tmp_path: Path, way: str) -> None:
     """p over a band is what closes it: p times the difference of the sections at its edges, along y; nothing else."""
-    result = done(belt(tmp_path, np.full((WIDE, ROUND), 10.0), way, options=("--belt", way)))
-    told = result.record()["results"]
+    result = belt(tmp_path, np.full((WIDE, ROUND), 10.0), way)
+    told, length = result.record.results, ring(LEVEL)[1]
     assert told["belt"]["around"] == way
-    assert told["belt"]["way_around_mm"] == pytest.approx(ring(LEVEL)[1], rel=5e-3)
+    assert told["belt"]["way_around_mm"] == pytest.approx(length, rel=5e-3)
     assert told["mat"]["uncovered_cells"] == [] and told["mat"]["folded_cells"] == []
     assert told["load"]["interface_normal"] is None
-    ours = first(result)
-    pressing = 10e3 * ROUND * WIDE * WIDTH * ring(LEVEL)[1] / ROUND * 1e-6
+    ours = result.table().iloc[0]
+    pressing = 10e3 * WIDE * WIDTH * length * 1e-6
     assert ours["normal [N]"] == pytest.approx(pressing, rel=1e-9)
     low, high = (section(LEVEL + s * WIDE / 2 * WIDTH) for s in (-1.0, 1.0))
-    along = 10e3 * 1e-6 * (high - low)
-    assert ours["fy [N]"] == pytest.approx(along, rel=0.05)
-    assert np.hypot(ours["fx [N]"], ours["fz [N]"]) < 1e-3 * pressing
-    assert np.linalg.norm(ours[["mx [N m]", "my [N m]", "mz [N m]"]].to_numpy(float)) < 3e-4 * pressing
-    page = (result.folder / "report.html").read_text(encoding="utf-8")
-    assert "perpendicular)" not in page, "a belt has no side that it looks to"
+    force = ours[FORCE].to_numpy(float)
+    assert force[1] == pytest.approx(10e3 * 1e-6 * (high - low), rel=0.05)
+    assert np.hypot(force[0], force[2]) < 1e-3 * pressing
+    assert np.linalg.norm(ours[MOMENT].to_numpy(float)) < 3e-4 * pressing
+    headline = dict(mat_page(result, np.arange(3), b"<svg/>").headline)
+    assert headline["Largest force"] == f"{pressing:.0f} N at 0.00 s", "a belt has no side that it looks to"
 
 
 def test_the_seam_is_no_gap(tmp_path: Path) -> None:
     """A cell at either side of the seam, both in front, where the normal is x."""
     pressure = np.zeros((WIDE, ROUND))
     pressure[:, [0, -1]] = 20.0
-    ours = first(done(belt(tmp_path, pressure, options=("--belt", "columns"))))
+    ours = belt(tmp_path, pressure).table().iloc[0]
     assert ours["fx [N]"] == pytest.approx(-ours["normal [N]"], rel=0.02)
     assert abs(ours["fz [N]"]) < 0.01 * ours["normal [N]"]
     assert ours["cop_z [mm]"] == pytest.approx(0.0, abs=1.5)
@@ -101,15 +96,11 @@ def test_the_seam_is_no_gap(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("longer", "options", "said"),
     [
-        (0.85, ("--belt", "columns"), "too short"),
-        (1.18, ("--belt", "columns"), "too long"),
-        (1.0, ("--belt", "columns", "--lay", "closest"), "--belt: does nothing beside --lay closest"),
+        (0.85, {}, "too short"),
+        (1.18, {}, "too long"),
+        (1.0, {"lay": "closest"}, "`belt`: has no effect with `lay` closest"),
     ],
 )
-def test_a_belt_that_cannot_be_one_is_one_line(
-    tmp_path: Path, longer: float, options: tuple[str, ...], said: str
-) -> None:
-    result = belt(tmp_path, np.full((WIDE, ROUND), 10.0), longer=longer, options=options)
-    assert result.code == 2, result.err
-    assert len(result.complaints) == 1 and said in result.complaints[0], result.err
-    assert not result.folder.exists()
+def test_a_belt_that_cannot_be_one_is_refused(tmp_path: Path, longer: float, options: dict, said: str) -> None:
+    with refusal(said):
+        belt(tmp_path, np.full((WIDE, ROUND), 10.0), longer=longer, **options)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses import quantities
 from geocontact.analyses.bodies import read_surface
-from geocontact.analyses.checks import refuse
+from geocontact.analyses.mat.options import MatOptions
+from geocontact.analyses.quantities import centre
 from geocontact.analyses.run_record import Record
-from geocontact.cli.mat import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.geodesics import Geodesics
@@ -21,48 +20,46 @@ from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.scale_guard import compare_boxes
 from geocontact.geometry.register.unguided import same_place, unguided
 from geocontact.geometry.surface import Surface
-from geocontact.io.recordings.mat_landmarks import MatLandmarks, read_mat_landmarks
+from geocontact.io.recordings.mat_landmarks import MatLandmarks
 from geocontact.io.text.units import LENGTH
 
 FITS = 0.12  # of a side's length, by which the region may be longer or shorter than the mat
 OVERLAP = 0.5  # of the second scan that lies on the first
 
 
-def refuse_idle_scan(o: MatOptions) -> None:
-    """Refuse none and two of the ways to say where the mat lies, and what belongs to the other."""
-    refuse(
-        (o.landmarks is None and o.scan_with_mat is None, "--landmarks", "is missing: nothing says where the mat lies",
-         "give --landmarks, or a second scan --scan-with-mat"),
-        (o.landmarks is not None and o.scan_with_mat is not None, "--scan-with-mat",
-         "beside --landmarks says twice where the mat lies", "give one of them"),
-        (o.scan_with_mat is None and o.first_corner is not None, "--first-corner",
-         "does nothing without --scan-with-mat", "leave it out"),
-        (o.scan_with_mat is None and o.mat_edge is not None, "--mat-edge", "does nothing without --scan-with-mat",
-         "leave it out"),
-    )  # fmt: skip
+@dataclass(frozen=True, eq=False)
+class SecondScan:
+    """The scan with the mat on, and a point near the mat's corner at its first cell [m], where one is named."""
+
+    surface: Surface
+    corner: Float[np.ndarray, " 3"] | None
 
 
-def mat_marks(record: Record, surface: Surface, frames: PressureFrames, o: MatOptions) -> MatLandmarks:
-    """Where places of the mat lie on the scan, in its frame."""
-    if o.landmarks is not None:
-        marks = read_mat_landmarks(o.landmarks, frames.rows, frames.columns)
-        record.add_input("--landmarks", o.landmarks, landmarks=len(marks.name))
-        return marks
-    path = Path(str(o.scan_with_mat))
-    second = read_surface(record, "scan with the mat", path, o.unit, None)
-    edge = 0.0 if o.mat_edge is None else quantities.length(o.mat_edge, "--mat-edge")
+def read_second_scan(record: Record, o: MatOptions) -> SecondScan | None:
+    """The scan with the mat on; None where there is none."""
+    if o.scan_with_mat is None:
+        return None
+    surface = read_surface(record, "scan with the mat", o.scan_with_mat, o.unit, None)
+    corner = None if o.first_corner is None else np.array(centre(o.first_corner, o.unit, "`first_corner`"))
+    return SecondScan(surface, corner)
+
+
+def marks_found(
+    record: Record, scan: Surface, second: SecondScan, frames: PressureFrames, o: MatOptions
+) -> MatLandmarks:
+    """Where the mat's corners lie on the scan, in its frame."""
     try:
-        compare_boxes(second.vertices, surface.vertices, ("scan with the mat", "scan"))
-        found = unguided(second, surface)
+        compare_boxes(second.surface.vertices, scan.vertices, ("scan with the mat", "scan"))
+        found = unguided(second.surface, scan)
         if found.overlap < OVERLAP:
-            raise ValueError(f"only {found.overlap:.0%} of it lies on {surface.name}")
-        raised = scan_difference(same_place(second, found), surface)
-        outline = rectangle_on(Geodesics(surface), raised.outline, raised.length, edge)
+            raise ValueError(f"only {found.overlap:.0%} of it lies on {scan.name}")
+        raised = scan_difference(same_place(second.surface, found), scan)
+        outline = rectangle_on(Geodesics(scan), raised.outline, raised.length, o.mat_edge or 0.0)
     except ValueError as error:
-        remedy = "check that both scans are of the same body, or give --landmarks"
-        raise InputError(path, "", str(error), remedy) from error
+        remedy = "check that both scans are of the same body, or give `landmarks`"
+        raise InputError(o.scan_with_mat or "", "", str(error), remedy) from error
     _tell(record, found, raised, outline, frames)
-    first = _first(outline, _candidates(outline, frames, o), o)
+    first = _first(outline, _candidates(outline, frames, o), second.corner, o)
     hand = 1 if o.seen_from == "outside" else -1
     rows, columns = float(frames.rows), float(frames.columns)
     order = [first, (first + hand) % 4, (first - hand) % 4, (first + 2) % 4]
@@ -103,23 +100,22 @@ def _candidates(outline: Rectangle, frames: PressureFrames, o: MatOptions) -> li
         a, b = (outline.sides[k] + outline.sides[k + 2] for k in (0, 1))
         seen = f"{500.0 * max(a, b):.0f} × {500.0 * min(a, b):.0f}"
         mat = f"{1e3 * max(down, across):.0f} × {1e3 * min(down, across):.0f}"
-        remedy = "check the pitch; --mat-edge takes off a border without cells"
+        remedy = "check the pitch; `mat_edge` takes off a border without cells"
         what = f"the region that stands off is {seen} mm, the mat {mat}"
-        raise InputError(Path(str(o.scan_with_mat)), "", what, remedy)
+        raise InputError(o.scan_with_mat or "", "", what, remedy)
     return [int(k) for k in np.flatnonzero(fits)]
 
 
-def _first(outline: Rectangle, candidates: list[int], o: MatOptions) -> int:
+def _first(outline: Rectangle, candidates: list[int], given: Float[np.ndarray, " 3"] | None, o: MatOptions) -> int:
     """The corner of the first cell."""
     named = " or ".join(_text(outline.corners[k] / LENGTH[o.unit]) for k in candidates)
-    if o.first_corner is None:
+    if given is None:
         what = f"the outline does not tell which corner is that of the first cell; it may be {named} {o.unit}"
-        raise InputError("", "--first-corner", what, "name the one, e.g. --first-corner x,y,z")
-    given = np.array(quantities.centre(o.first_corner, o.unit, "--first-corner"))
+        raise InputError("", "`first_corner`", what, "name the one, e.g. `first_corner` x,y,z")
     nearest = int(np.argmin(np.linalg.norm(outline.corners - given, axis=1)))
     if nearest not in candidates:
         what = f"the corner nearest to {o.first_corner} cannot be that of the first cell, which is {named} {o.unit}"
-        raise InputError("", "--first-corner", what, "check the corner and --seen-from")
+        raise InputError("", "`first_corner`", what, "check the corner and `seen_from`")
     return nearest
 
 
