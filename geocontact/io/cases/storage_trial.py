@@ -20,7 +20,7 @@ from geocontact.data.motion import Signals
 from geocontact.io.cases.trial_table import TrialTable
 from geocontact.io.text.columns import resolve
 from geocontact.io.text.csv_text import Column
-from geocontact.io.text.tables import Table, listed, read_table
+from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import si_unit, split_header
 
 STORAGE = (".mot", ".sto")
@@ -83,7 +83,7 @@ def read_storage_trial(path: Path, columns: Sequence[StorageColumn]) -> TrialTab
     return TrialTable(table.file, Signals(table.time, values, names, units), channels)
 
 
-def _values(table: Table, channel: Column, label: str) -> Float[np.ndarray, " t"]:
+def _values(table: TextTable, channel: Column, label: str) -> Float[np.ndarray, " t"]:
     said = table.angles.unit
     if channel.si == "rad" and said not in (None, channel.unit):
         what = f"angles are in {said} by the header, [columns] has {channel.name} in {channel.unit}"

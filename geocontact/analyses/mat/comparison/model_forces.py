@@ -36,7 +36,7 @@ class ModelForces:
     """A table of forces over time, and what its first lines say of point and frame."""
 
     file: Path
-    table: Table
+    table: TextTable
     head: WrenchHead
 
 
