@@ -9,10 +9,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.analyses.gap.diagnose.curves import HeldOut, held_out
-from geocontact.analyses.gap.diagnose.figures import axis_units, gap_figures, ranking
+from geocontact.analyses.gap.diagnose.figures import axis_units, gap_figures
 from geocontact.analyses.gap.diagnose.page import gap_page
-from geocontact.analyses.gap.diagnose.words import percent, states, verdict_sentences
+from geocontact.analyses.gap.diagnose.words import states, verdict_sentences
+from geocontact.analyses.gap.words import percent
 from geocontact.data.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cell import Cell
@@ -21,21 +21,20 @@ from geocontact.view.page.content import Curves, Page, Picture, Table, Words
 from geocontact.view.page.write import page_html
 from tests.cli.gap_cases import diagnosed_elbow
 
-Told = tuple[GapCase, Findings, tuple[HeldOut, ...]]
+Told = tuple[GapCase, Findings]
 
 
 @pytest.fixture(scope="module")
 def told() -> Told:
     """Diagnosis of a damped elbow."""
-    case, findings = diagnosed_elbow()
-    return case, findings, held_out(findings)
+    result = diagnosed_elbow()
+    return result.case, result.findings
 
 
 @pytest.fixture(scope="module")
 def page(told: Told) -> Page:
     """Its page."""
-    case, findings, trials = told
-    return gap_page(case, findings, trials, gap_figures(findings, trials), (), ("a reservation",))
+    return gap_page(*told, gap_figures(told[1]), (), ("a reservation",))
 
 
 def table(page: Page, title: str) -> dict[str, tuple[str, ...]]:
@@ -62,7 +61,7 @@ def test_curves_are_measured_base_and_with_the_effect_of_each_held_out_trial(tol
     panels = [s for s in page.sections if isinstance(s, Curves)]
     titles = [f"force, held-out trial {name}" for name in ("t03", "t04")]
     assert [p.title for p in panels] == [f"{t}{w}" for t in titles for w in ("", ": measured − predicted")]
-    for panel, off, trial in zip(panels[::2], panels[1::2], told[2], strict=True):
+    for panel, off, trial in zip(panels[::2], panels[1::2], told[1].held_out, strict=True):
         assert [c.name for c in off.curves] == ["base model", "with damping"]
         for residual, curve in zip(off.curves, panel.curves[1:], strict=True):
             np.testing.assert_allclose(residual.values, panel.curves[0].values - curve.values, atol=1e-9)
@@ -88,7 +87,7 @@ def test_tables_hold_the_numbers_of_the_answer(told: Told, page: Page) -> None:
 
 def test_the_ranking_gives_each_single_answer_its_probability_once(told: Told) -> None:
     d = told[1].diagnosis
-    rows = ranking(told[1])
+    rows = told[1].ranking
     assert [row.gain for row in rows] == sorted((row.gain for row in rows), reverse=True)
     told_ones = {row.effects: row.probability for row in rows if row.probability is not None}
     assert len(told_ones) == sum(row.probability is not None for row in rows)
@@ -116,7 +115,7 @@ HOSTILE = '<script>alert("1")</script>'
 
 
 def test_hostile_names_stay_text(told: Told) -> None:
-    case, findings, trials = told
+    case, findings = told
     d = findings.diagnosis
     spoilt = replace(
         d,
@@ -125,9 +124,9 @@ def test_hostile_names_stay_text(told: Told) -> None:
         remarks=(HOSTILE,),
         faults=(DataErrorFound("unit_error", HOSTILE, 2.0, (HOSTILE,)),),
     )
-    shown = tuple(replace(trial, name=HOSTILE) for trial in trials)
-    there = replace(findings, diagnosis=spoilt)
-    html = page_html(gap_page(case, there, shown, gap_figures(there, shown), (), (HOSTILE,)))
+    shown = tuple(replace(trial, name=HOSTILE) for trial in findings.held_out)
+    there = replace(findings, diagnosis=spoilt, held_out=shown)
+    html = page_html(gap_page(case, there, gap_figures(there), (), (HOSTILE,)))
     assert "<script>alert" not in html and "&lt;script&gt;alert" in html
     pictures = [base64.b64decode(text) for text in re.findall(r"svg\+xml;base64,([^\"]+)", html)]
     assert not any(b"<script" in picture for picture in pictures)
