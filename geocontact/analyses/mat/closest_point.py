@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.mat.placement.placed import Placed, mat_and_marks
+from geocontact.analyses.mat.placed import Placed, mat_and_marks
 from geocontact.analyses.run_record import Record
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.cells import Drape

@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.mat.motion import Travel
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.mat.placement.placed import Placed, mat_and_marks
+from geocontact.analyses.mat.placed import Placed, mat_and_marks
 from geocontact.analyses.mat.read import MatInputs
 from geocontact.analyses.mat.recording import Recording
 from geocontact.analyses.mat.segments import cells_of

@@ -7,7 +7,7 @@ from geocontact.analyses.mat.comparison.agreement import compared
 from geocontact.analyses.mat.loads import loads
 from geocontact.analyses.mat.motion import followed
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.mat.placement.placed import placed
+from geocontact.analyses.mat.placed import placed
 from geocontact.analyses.mat.read import MatInputs
 from geocontact.analyses.mat.recording import made_ready
 from geocontact.analyses.mat.result import MatResult

@@ -78,6 +78,6 @@ def test_a_mark_that_is_far_off_is_refused_beside_one_that_hangs_over_the_edge(
         found = lay(*given)
         return replace(found, misses=np.array([np.nan, 0.2, *found.misses[2:]]))
 
-    monkeypatch.setattr("geocontact.analyses.mat.placement.placed.lay", laid)
+    monkeypatch.setattr("geocontact.analyses.mat.placed.lay", laid)
     with refusal("landmark L2 is missed by 200 mm"):
         mat(shells, "outwards")
