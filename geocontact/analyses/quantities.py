@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -65,6 +67,18 @@ def finite(value: float, option: str) -> float:
     return value
 
 
+def named_numbers(texts: Iterable[str], option: str) -> dict[str, float]:
+    """ "damping.b=25", "damping.c=1" to numbers by name; in SI as they are."""
+    found = {}
+    for text in texts:
+        name, _, value = text.partition("=")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            raise InputError("", option, f"{value!r} is no number", f"write {name}=1.5") from None
+    return found
+
+
 def friction(text: str, option: str) -> tuple[float, float]:
     """ "0.9,0.7" to a static and a kinetic coefficient."""
     parts = text.split(",")
@@ -116,24 +130,28 @@ def splitting_plane(text: str, unit: str) -> Plane:
     return Plane.across(axis.strip(), length(at, "`split`", unit) if at else 0.0)
 
 
-def sweep_range(text: str) -> tuple[str, float, float, float]:
+def sweep_range(text: str, option: str) -> tuple[str, float, float, float]:
     """ "flexion=0:90:1" to a name and start, stop, step [rad]; degrees are typed."""
     name, found, rest = text.partition("=")
     if not found or not name.strip() or ":" not in rest:
-        raise InputError("", "`sweep`", f"{text!r} is not a range", "write flexion=0:90:1 (degrees)")
-    return (name.strip(), *angle_range(rest, "`sweep`", "flexion=0:90:1"))
+        raise InputError("", option, f"{text!r} is not a range", "write flexion=0:90:1 (degrees)")
+    return (name.strip(), *angle_range(rest, option, "flexion=0:90:1"))
 
 
-def turn(text: str, option: str) -> tuple[Vector, float]:
-    """ "x=2" to a unit vector and an angle [rad]; degrees are typed."""
+def thickness(text: str, option: str) -> float | Literal["rays"]:
+    """ "8mm" to a length [m], mm unless a unit is written; "rays" stays."""
+    return "rays" if text.strip() == "rays" else length(text, option)
+
+
+def turn(text: str, option: str) -> tuple[str, float]:
+    """ "x=2" to a coordinate axis and an angle [rad]; degrees are typed."""
     axis, _, angle = text.partition("=")
     if axis.strip() not in ("x", "y", "z") or not angle.strip():
         raise InputError("", option, f"{text!r} is not an axis and an angle", f"write {option} x=2 (degrees)")
     value = number(angle, option, "x=2")
     if abs(value) > 45.0:
         raise InputError("", option, f"{text!r} is no small offset", "write at most 45 degrees")
-    x, y, z = (float(axis.strip() == name) for name in "xyz")
-    return (x, y, z), value * ANGLE["deg"]
+    return axis.strip(), value * ANGLE["deg"]
 
 
 def angle_range(text: str, option: str, example: str) -> tuple[float, float, float]:
@@ -309,3 +327,31 @@ def length_pair(text: str, option: str) -> tuple[float, float]:
     if len(parts) != 2:
         raise InputError("", option, f"{text!r} is not two lengths", "write for example 5,-3")
     return length(parts[0], option), length(parts[1], option)
+
+
+FREE_UNITS = {"threshold": LENGTH["mm"], "lag": 1.0, "adduction": ANGLE["deg"], "slope": 1.0}
+"""SI units per unit in which the bounds of a free number are typed."""
+
+
+def free_numbers(text: str, option: str) -> dict[str, tuple[float, float] | None]:
+    """ "threshold=1:6,lag" to bounds in SI by name, None where none are given."""
+    found: dict[str, tuple[float, float] | None] = {}
+    for part in text.split(","):
+        name, _, bounds = (piece.strip() for piece in part.partition("="))
+        if name not in FREE_UNITS or name in found:
+            what = f"{part.strip()!r} is none of {', '.join(FREE_UNITS)}, or is named twice"
+            raise InputError("", option, what, "write threshold,lag=-0.05:0.05")
+        found[name] = _bounds(bounds, option, FREE_UNITS[name]) if bounds else None
+    return found
+
+
+def _bounds(text: str, option: str, unit: float) -> tuple[float, float]:
+    low, colon, high = text.partition(":")
+    if not colon:
+        raise InputError("", option, f"{text!r} is not lower:upper", "write threshold=1:6")
+    return number(low, option, "lag=-0.05:0.05") * unit, number(high, option, "lag=-0.05:0.05") * unit
+
+
+def ratios(text: str, option: str) -> tuple[float, ...]:
+    """ "0.25,0.46" to numbers."""
+    return tuple(number(part, option, "0.25,0.46") for part in text.split(","))

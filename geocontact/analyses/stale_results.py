@@ -22,7 +22,7 @@ def digest(file: Path) -> str:
 
 def written(folder: Path, others: Iterable[Path]) -> dict[str, str]:
     """Files of one run in and below `folder` with their SHA-256, but not those of the runs in `others` below it."""
-    apart = {place for place in others if place != folder}
+    apart = {place for place in others if folder in place.parents}
     files = sorted(file for file in folder.rglob("*") if file.is_file() and not apart & set(file.parents))
     return {file.relative_to(folder).as_posix(): digest(file) for file in files if file.name != RUN}
 

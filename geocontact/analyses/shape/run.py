@@ -9,13 +9,13 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses import quantities
+from geocontact.analyses.checks import refuse
 from geocontact.analyses.progress import preparing
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shape.patch import NEEDS, Patch, axis_given, patch_given, sagittal_about
 from geocontact.analyses.shape.write import Fitting, describe, write_results
 from geocontact.cli.fit import FitOptions
-from geocontact.cli.idle import refuse
 from geocontact.data.errors import InputError
 from geocontact.geometry.fit.catalogue import SHAPES
 from geocontact.geometry.fit.circle import fit_cylinder_along

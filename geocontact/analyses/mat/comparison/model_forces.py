@@ -13,7 +13,7 @@ from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
-from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.tables import TextTable, read_table
 from geocontact.io.text.units import si_unit
 from geocontact.io.text.wrench_head import WrenchHead, read_wrench_head
 
@@ -36,7 +36,7 @@ class ModelForces:
     """A table of forces over time, and what its first lines say of point and frame."""
 
     file: Path
-    table: Table
+    table: TextTable
     head: WrenchHead
 
 

@@ -15,7 +15,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.geodesics import Geodesics
 from geocontact.geometry.drape.rectangle import Rectangle, rectangle_on
-from geocontact.geometry.drape.standing_off import StandingOff, standing_off
+from geocontact.geometry.drape.scan_difference import ScanDifference, scan_difference
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.scale_guard import compare_boxes
 from geocontact.geometry.register.unguided import same_place, unguided
@@ -53,7 +53,7 @@ def marks_found(
         found = unguided(second.surface, scan)
         if found.overlap < OVERLAP:
             raise ValueError(f"only {found.overlap:.0%} of it lies on {scan.name}")
-        raised = standing_off(same_place(second.surface, found), scan)
+        raised = scan_difference(same_place(second.surface, found), scan)
         outline = rectangle_on(Geodesics(scan), raised.outline, raised.length, o.mat_edge or 0.0)
     except ValueError as error:
         remedy = "check that both scans are of the same body, or give `landmarks`"
@@ -68,7 +68,9 @@ def marks_found(
     return MatLandmarks(names, place, outline.corners[order])
 
 
-def _tell(record: Record, found: Registration, raised: StandingOff, outline: Rectangle, frames: PressureFrames) -> None:
+def _tell(
+    record: Record, found: Registration, raised: ScanDifference, outline: Rectangle, frames: PressureFrames
+) -> None:
     record.results["second scan"] = {
         "rms_mm": found.rms * 1e3,
         "overlap": found.overlap,

@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.checks import refuse, width_rule
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.misalignment import parameters as elbow_numbers
 from geocontact.analyses.misalignment.figures import CONSTRAINT, comparison_figure
@@ -24,7 +25,6 @@ from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.law import NAMES
 from geocontact.axis_misalignment.synthetic import ideal
 from geocontact.cli.elbow_compare import ElbowCompareOptions
-from geocontact.cli.idle import refuse, width_rule
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement, agreement

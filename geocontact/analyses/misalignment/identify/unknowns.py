@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from geocontact.analyses import quantities
+from geocontact.analyses.checks import bootstrap_rule, refuse, width_rule
 from geocontact.analyses.misalignment import parameters as elbow_numbers
 from geocontact.analyses.misalignment.parameters import EXAMPLE, PER_SI, TYPED
 from geocontact.axis_misalignment.law import ABSENT, LENGTHS, NAMES, UNITS
 from geocontact.axis_misalignment.least_squares import Prior
 from geocontact.cli.elbow_fit import ElbowFitOptions
-from geocontact.cli.idle import bootstrap_rule, refuse, width_rule
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
 

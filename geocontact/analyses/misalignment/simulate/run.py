@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.checks import refuse
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.misalignment import parameters as elbow_numbers
 from geocontact.analyses.misalignment.displacement_surfaces import surfaces
@@ -22,7 +23,6 @@ from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.explicit import Offsets, require_no_pole, require_reach
 from geocontact.axis_misalignment.synthetic import PAPER, Design, ideal, synthetic
 from geocontact.cli.elbow_simulate import SimulateOptions
-from geocontact.cli.idle import refuse
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.elbow_recording import BETA, MOST_BENT, STRAIGHTEST, read_elbow_recording
