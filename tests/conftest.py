@@ -27,9 +27,9 @@ hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "local")
 
 
 def checked_modules() -> Iterator[str]:
-    """Modules of the package without its kernels; only leaves, because the hook takes prefixes.
+    """Modules of the package without its kernels, and without options, which take text for paths and coerce it.
 
-    Options of analyses are left out: they take what is given and make of it what they declare.
+    Only leaves, because the hook takes prefixes.
     """
     for file in sorted((ROOT / "geocontact").rglob("*.py")):
         module = ".".join(file.relative_to(ROOT).with_suffix("").parts)

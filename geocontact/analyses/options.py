@@ -119,6 +119,8 @@ class Declared:
         Whether it may be None.
     words
         What the docstring of the options says of it.
+    settable
+        Whether it may be given; else it is what the class says.
     """
 
     name: str
@@ -130,6 +132,7 @@ class Declared:
     spelled: Spelled
     rules: tuple[Requires | Excludes | Needs, ...]
     words: str
+    settable: bool = True
 
     @property
     def required(self) -> bool:
@@ -151,13 +154,20 @@ class Declared:
         if value is None:
             return None
         if self.several:
-            items = value if isinstance(value, (tuple, list)) else (value,)
-            return tuple(_as(get_args(self.kind)[0], item) for item in items)
+            one = get_args(self.kind)[0]
+            return tuple(_as(one, item) for item in ((value,) if self._alone(value) else value))
         if self.kind in (Path, float, str):
             return _as(self.kind, value)
         if self.choices and value not in self.choices:
             raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
         return value
+
+    def _alone(self, value: Any) -> bool:
+        """Whether a value is one of several; a pair is one where pairs are asked for."""
+        if not isinstance(value, (tuple, list)):
+            return True
+        pairs = get_origin(get_args(self.kind)[0]) is tuple
+        return pairs and len(value) > 0 and not isinstance(value[0], (tuple, list))
 
 
 @dataclass(frozen=True)
@@ -223,7 +233,9 @@ def declared(options: type[Options]) -> tuple[Declared, ...]:
 @cache
 def _all(options: Any) -> tuple[Declared, ...]:
     hints = get_type_hints(options, include_extras=True)
-    words = documented(options.__doc__ or "")
+    words: dict[str, str] = {}
+    for base in reversed(options.__mro__):
+        words |= documented(base.__doc__ or "")
     return tuple(_declared(each, hints[each.name], words.get(each.name, "")) for each in fields(options))
 
 
@@ -240,6 +252,7 @@ def _declared(each: Field[Any], hint: Any, words: str) -> Declared:
         next((mark for mark in marks if isinstance(mark, Spelled)), Spelled()),
         tuple(mark for mark in marks if isinstance(mark, (Requires, Excludes, Needs))),
         words,
+        each.init,
     )
 
 

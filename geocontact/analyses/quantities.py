@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -65,6 +67,18 @@ def finite(value: float, option: str) -> float:
     return value
 
 
+def named_numbers(texts: Iterable[str], option: str) -> dict[str, float]:
+    """ "damping.b=25", "damping.c=1" to numbers by name; in SI as they are."""
+    found = {}
+    for text in texts:
+        name, _, value = text.partition("=")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            raise InputError("", option, f"{value!r} is no number", f"write {name}=1.5") from None
+    return found
+
+
 def friction(text: str, option: str) -> tuple[float, float]:
     """ "0.9,0.7" to a static and a kinetic coefficient."""
     parts = text.split(",")
@@ -116,24 +130,28 @@ def splitting_plane(text: str, unit: str) -> Plane:
     return Plane.across(axis.strip(), length(at, "`split`", unit) if at else 0.0)
 
 
-def sweep_range(text: str) -> tuple[str, float, float, float]:
+def sweep_range(text: str, option: str) -> tuple[str, float, float, float]:
     """ "flexion=0:90:1" to a name and start, stop, step [rad]; degrees are typed."""
     name, found, rest = text.partition("=")
     if not found or not name.strip() or ":" not in rest:
-        raise InputError("", "`sweep`", f"{text!r} is not a range", "write flexion=0:90:1 (degrees)")
-    return (name.strip(), *angle_range(rest, "`sweep`", "flexion=0:90:1"))
+        raise InputError("", option, f"{text!r} is not a range", "write flexion=0:90:1 (degrees)")
+    return (name.strip(), *angle_range(rest, option, "flexion=0:90:1"))
 
 
-def turn(text: str, option: str) -> tuple[Vector, float]:
-    """ "x=2" to a unit vector and an angle [rad]; degrees are typed."""
+def thickness(text: str, option: str) -> float | Literal["rays"]:
+    """ "8mm" to a length [m], mm unless a unit is written; "rays" stays."""
+    return "rays" if text.strip() == "rays" else length(text, option)
+
+
+def turn(text: str, option: str) -> tuple[str, float]:
+    """ "x=2" to a coordinate axis and an angle [rad]; degrees are typed."""
     axis, _, angle = text.partition("=")
     if axis.strip() not in ("x", "y", "z") or not angle.strip():
         raise InputError("", option, f"{text!r} is not an axis and an angle", f"write {option} x=2 (degrees)")
     value = number(angle, option, "x=2")
     if abs(value) > 45.0:
         raise InputError("", option, f"{text!r} is no small offset", "write at most 45 degrees")
-    x, y, z = (float(axis.strip() == name) for name in "xyz")
-    return (x, y, z), value * ANGLE["deg"]
+    return axis.strip(), value * ANGLE["deg"]
 
 
 def angle_range(text: str, option: str, example: str) -> tuple[float, float, float]:
@@ -227,7 +245,7 @@ def _checked(point: tuple[float, float, float], direction: tuple[float, float, f
         raise InputError("", "`axis`", str(error), f"check {text!r}") from error
 
 
-def windows(text: str, option: str) -> list[tuple[float, float]]:
+def windows(text: str, option: str) -> tuple[tuple[float, float], ...]:
     """ "0:0.5,9:9.5" to pairs of times [s]."""
     found = []
     for part in text.split(","):
@@ -237,7 +255,7 @@ def windows(text: str, option: str) -> list[tuple[float, float]]:
         found.append((number(first, option, "0:0.5"), number(last, option, "0:0.5")))
         if found[-1][1] <= found[-1][0]:
             raise InputError("", option, f"{part!r} ends before it begins", "write for example 0:0.5")
-    return found
+    return tuple(found)
 
 
 def time_span(text: str, option: str) -> tuple[float, float]:
@@ -265,15 +283,15 @@ def turned_axes(text: str, option: str) -> Rotation:
     return Rotation.from_matrix(matrix)
 
 
-def registration(text: str) -> tuple[float, float]:
+def registration(text: str, option: str) -> tuple[float, float]:
     """ "1mm,2deg" to a length [m] and an angle [rad]."""
     parts = [part.strip() for part in text.split(",")]
     if len(parts) != 2 or not parts[1].endswith(("deg", "rad")):
-        raise InputError("", "`registration`", f"{text!r} is not a length and an angle", "write 1mm,2deg")
-    angle = number(parts[1][:-3], "`registration`", "1mm,2deg") * ANGLE[parts[1][-3:]]
-    shift = length(parts[0], "`registration`")
+        raise InputError("", option, f"{text!r} is not a length and an angle", "write 1mm,2deg")
+    angle = number(parts[1][:-3], option, "1mm,2deg") * ANGLE[parts[1][-3:]]
+    shift = length(parts[0], option)
     if shift < 0.0 or angle < 0.0:
-        raise InputError("", "`registration`", f"{text!r} is negative", "write 1mm,2deg")
+        raise InputError("", option, f"{text!r} is negative", "write 1mm,2deg")
     return shift, angle
 
 

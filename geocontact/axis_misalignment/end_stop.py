@@ -96,8 +96,8 @@ def curve_of(data: Binned) -> Curve:
     bins = len(data.visits.edges) - 1
     count = np.bincount(cells.place, cells.count, bins)
     there = count > 0.0
-    columns = [np.bincount(cells.place, cells.count * cells.means[:, k], bins)[there] / count[there]
-               for k in (BETA, FORCE, DISPLACEMENT)]  # fmt: skip
+    wanted = (cells.means[:, k] for k in (BETA, FORCE, DISPLACEMENT))
+    columns = [np.bincount(cells.place, cells.count * means, bins)[there] / count[there] for means in wanted]
     return Curve(*columns)
 
 
@@ -125,8 +125,8 @@ def _stop(curve: Curve, side: str, still: Bool[np.ndarray, " b"], level: float, 
     stands = float(np.median(np.abs(curve.joint[run] - position))) <= STANDS * float(np.ptp(curve.joint))
     if len(run) < FEWEST or abs(most) < BUILT_UP * spread or not stands:
         return None
-    return EndStop(side, position, float(curve.beta[run[0]]), float(curve.beta[run[-1]]),
-                   _leaves(curve, run, position), most)  # fmt: skip
+    first, last = float(curve.beta[run[0]]), float(curve.beta[run[-1]])
+    return EndStop(side, position, first, last, _leaves(curve, run, position), most)
 
 
 def _leaves(curve: Curve, run: np.ndarray, position: float) -> float:
@@ -165,8 +165,8 @@ def slope_over(
     Bins over which the joint slides count; NaN where there are fewer than three.
     """
     free = stroke.curve
-    pairs = [(j, int(k)) for j in np.flatnonzero(stroke.slides)
-             for k in np.flatnonzero(np.abs(beta - free.beta[j]) < 0.5 * width)[:1]]  # fmt: skip
+    near = {j: np.flatnonzero(np.abs(beta - free.beta[j]) < 0.5 * width) for j in np.flatnonzero(stroke.slides)}
+    pairs = [(j, int(places[0])) for j, places in near.items() if len(places)]
     if len(pairs) < FEWEST:
         return float("nan"), len(pairs)
     moved = free.joint[[j for j, _ in pairs]]

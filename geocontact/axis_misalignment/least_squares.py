@@ -103,9 +103,9 @@ class Problem:
 
     def held(self, name: str, value: float) -> Problem:
         """The same problem with one number known; its prior stays, as a constant that no step changes."""
-        fixed = [replace(p, start=value, lower=value, upper=value, fixed=True) if p.name == name else p
-                 for p in self.parameters]  # fmt: skip
-        return replace(self, parameters=tuple(fixed), priors={n: p for n, p in self.priors.items() if n != name})
+        known = replace(self.parameters[NAMES.index(name)], start=value, lower=value, upper=value, fixed=True)
+        parameters = tuple(known if p.name == name else p for p in self.parameters)
+        return replace(self, parameters=parameters, priors={n: p for n, p in self.priors.items() if n != name})
 
     def measuring(self, force: Float[np.ndarray, " n"]) -> Problem:
         """The same problem with other mean forces."""
@@ -172,20 +172,13 @@ class Estimate:
         """Force of each cell [N]."""
         return self.problem.law.force(self.theta)
 
-    @property
-    def on_bound(self) -> tuple[str, ...]:
-        """Free numbers that ended on a bound."""
-        pairs = zip(self.problem.free, self.values, strict=True)
-        bounds = [(self.problem.parameters[k], v) for k, v in pairs]
-        return tuple(p.name for p, v in bounds if v <= p.lower or v >= p.upper)
-
 
 def problem_of(
     data: Binned, parameters: Sequence[Parameter], priors: Mapping[str, Prior], scale: Scale | None = None
 ) -> Problem:
     """What the bins of some trials ask."""
-    return Problem(data.cells.means[:, FORCE], law_at(data.cells.means), np.sqrt(data.information),
-                   tuple(parameters), priors, scale)  # fmt: skip
+    means, weight = data.cells.means, np.sqrt(data.information)
+    return Problem(means[:, FORCE], law_at(means), weight, tuple(parameters), priors, scale)
 
 
 def law_at(means: Float[np.ndarray, "n 5"]) -> ElbowLaw:
@@ -196,8 +189,9 @@ def law_at(means: Float[np.ndarray, "n 5"]) -> ElbowLaw:
 def estimated(problem: Problem, starts: int = STARTS) -> Estimate:
     """The best of the searches from the parameters' own start and `starts` more, spread over the bounds."""
     names = problem.names
-    begins = [np.array([start.get(n, problem.parameters[NAMES.index(n)].start) for n in names])
-              for start in spread_starts(problem.parameters, starts)]  # fmt: skip
+    own = {n: problem.parameters[NAMES.index(n)].start for n in names}
+    spread = spread_starts(problem.parameters, starts)
+    begins = [np.array([start.get(n, own[n]) for n in names]) for start in spread]
     return best_from(problem, begins)
 
 

@@ -18,10 +18,11 @@ from geocontact.cli.show import Terminal
 from geocontact.data.errors import InputError
 
 OUT = "Folder for the results."
+MOST_FILES = 20  # that are listed at the end, those in sub-folders among them
 
 
 def command(
-    job: str,
+    job: str | Callable[[Options], str],
     options: type[Options],
     words: str,
     *,
@@ -34,7 +35,8 @@ def command(
     Parameters
     ----------
     job
-        Where the analysis is, "geocontact.analyses.cop.job:centre_of_pressure"; imported when it runs.
+        Where the analysis is, "geocontact.analyses.cop.job:centre_of_pressure", or where it is for options that are
+        given; imported when it runs.
     options
         Its options.
     words
@@ -53,24 +55,29 @@ def command(
         try:
             return _run(_typed(known, rest, arguments, typed))
         except InputError as error:
-            raise InputError(error.file, *map(spell, (error.place, error.what, error.remedy))) from error
+            raise respelled(error, spell) from error
 
     def _run(typed: dict[str, Any]) -> int:
         folder = typed["out"]
         given = options(**{one.name: read(one, typed[key(one)]) for one in known if key(one) in typed})
-        place, _, name = job.partition(":")
+        place, _, name = (job if isinstance(job, str) else job(given)).partition(":")
         result, files = execute(getattr(import_module(place), name), given, folder, Call(typed, Terminal(), spell))
-        for sentence in result.sentences:
-            print(sentence)
-        print(f"results in {folder}: {', '.join(files)}")
+        tell(result, folder, files)
         if after is not None:
             after(result, folder)
-        return 0 if result.accepted else 1
+        return int(result.exit_code)
 
     run.__doc__ = spell(words)
     run.__name__ = options.__name__
     run.__signature__ = _signature(known, rest, spell, out)  # type: ignore[attr-defined]
     return run
+
+
+def _shortened(files: list[str]) -> list[str]:
+    """Names of files as they are, but sub-folders as a whole where there are many files in them."""
+    if len(files) <= MOST_FILES:
+        return files
+    return sorted({name if "/" not in name else f"{name.partition('/')[0]}/…" for name in files})
 
 
 def speller(known: tuple[Declared, ...]) -> Callable[[str], str]:
@@ -83,6 +90,23 @@ def speller(known: tuple[Declared, ...]) -> Callable[[str], str]:
     return spelled
 
 
+def argument(one: Declared) -> bool:
+    """Whether it is typed without its name."""
+    return one.positional and not one.spelled.keyword
+
+
+def respelled(error: InputError, spell: Callable[[str], str]) -> InputError:
+    """The same mistake in the words of the command line."""
+    return InputError(error.file, *map(spell, (error.place, error.what, error.remedy)))
+
+
+def tell(result: Result, folder: Path, files: list[str]) -> None:
+    """Say what was found and where it lies."""
+    for sentence in result.sentences:
+        print(sentence)
+    print(f"results in {folder}: {', '.join(_shortened(files))}")
+
+
 def option(one: Declared) -> str:
     """Its name on the command line, without the dashes."""
     return one.spelled.name or one.name.replace("_", "-")
@@ -91,11 +115,6 @@ def option(one: Declared) -> str:
 def key(one: Declared) -> str:
     """Its name in `run.json`."""
     return one.spelled.key or one.name
-
-
-def argument(one: Declared) -> bool:
-    """Whether it is typed without its name."""
-    return one.positional and not one.spelled.keyword
 
 
 def read(one: Declared, value: Any) -> Any:
@@ -120,7 +139,7 @@ def _typed(known: tuple[Declared, ...], rest: str, arguments: tuple[Any, ...], t
         else:
             found[key(one)] = _default(one)
     if rest:
-        found[rest] = [*(found[rest] or ()), *left]
+        found[rest] = [*(found[rest] or ()), *left] or None
     return {**found, "out": typed["out"]}
 
 

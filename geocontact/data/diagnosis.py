@@ -96,7 +96,7 @@ class Estimate:
 
 
 @dataclass(frozen=True)
-class FaultFound:
+class DataErrorFound:
     """A discrete mistake in the data: which, on which channel, in which trials; factor 1 where it is not one."""
 
     effect: str
@@ -149,7 +149,7 @@ class Diagnosis:
     parameters: Mapping[str, Estimate]
     seconds: float
     version: str
-    faults: tuple[FaultFound, ...] = ()
+    faults: tuple[DataErrorFound, ...] = ()
     remarks: tuple[str, ...] = field(default=())
     next_experiment: NextExperiment | None = None
 

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import PchipInterpolator
 
-from geocontact.contact.area_hertz import Patch, Reading
+from geocontact.contact.area_hertz import PatchGeometry, Reading
 from geocontact.data.tilted_areas import TiltedAreas
 
 MODULUS, THRESHOLD, LAG, ADDUCTION, SLOPE = "modulus", "threshold", "lag", "adduction", "slope"
@@ -76,7 +76,7 @@ class AreaEvolution:
 
     def per_modulus(self, reading: Reading, threshold: float) -> Float[np.ndarray, " t"]:
         """Force over E* at each frame [m^2]."""
-        patch = Patch(self.radius, self.length, threshold)
+        patch = PatchGeometry(self.radius, self.length, threshold)
         return np.asarray(reading.force(self.within(threshold), patch, 1.0), float)
 
 

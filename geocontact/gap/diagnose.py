@@ -9,9 +9,11 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Estimate, FaultFound, Where
+from geocontact.data.diagnosis import CellsHeld, ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cell import Cell
+from geocontact.data.held_out import HeldOut
+from geocontact.data.ranked import Ranked
 from geocontact.data.surface_gap import SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
@@ -21,10 +23,13 @@ from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.identifiability.non_identifiable import absorbed
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
-from geocontact.gap.reduction.error_reduction import shrinkage
+from geocontact.gap.reduction.error_reduction import shrinkage, shrinkage_of
+from geocontact.gap.reduction.held_out import held_out
 from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
+from geocontact.gap.reduction.raw_input_errors import errors_as_measured
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import base_contender
+from geocontact.gap.selection.ranking import ranking
 from geocontact.gap.selection.verdict import SURE
 
 Z95 = 1.959964
@@ -35,13 +40,25 @@ TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that 
 class Findings:
     """A diagnosis with all that it rests on, for figures and further questions.
 
-    `trials` tells how much better each is predicted from all others with what was named; none where nothing was.
-    `surface` tells where on a mat the gaps lie of channels that have one, none where there are no cells.
+    Parameters
+    ----------
+    cells
+        The gap map.
+    held_out
+        Held-out trials measured, by the base model, and with what was named.
+    ranking
+        Every model that was tried, by its gain.
+    trials
+        How much better each is predicted from all others with what was named; none where nothing was.
+    surface
+        Where on a mat the gaps lie of channels that have one; none where there are no cells.
     """
 
     diagnosis: Diagnosis
     attribution: Attribution
     cells: tuple[Cell, ...]
+    held_out: tuple[HeldOut, ...]
+    ranking: tuple[Ranked, ...]
     trials: tuple[TrialGain, ...] = ()
     surface: tuple[SurfaceGap, ...] = ()
 
@@ -79,9 +96,10 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
     at("where it misses, and how far that shrinks")
     cells = gap_map(found.clean, found.base.judged)
     as_came = cells if found.fault is None else gap_map(problem, base_contender(problem).judged)
+    errors = errors_as_measured(problem, found.clean, chosen, found.fault)
     gap = {
         name: ChannelGap(s.rmse_before, s.rmse_after, s.floor, s.reduction, (s.low, s.high), s.unexplained)
-        for name, s in shrinkage(problem, found.clean, chosen, named, found.fault).items()
+        for name, s in shrinkage_of(errors, problem, chosen, named, found.fault).items()
     }
     stages = {one.name: one.stage for one in offered}
     stage = stages.get(said.effects[0], "") if said.effects else ""
@@ -118,7 +136,8 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
         next_experiment=then,
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
-    return Findings(diagnosis, found, cells, trials, surface)
+    curves, models = held_out(problem, errors, named), ranking(found, said.probabilities)
+    return Findings(diagnosis, found, cells, curves, models, trials, surface)
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:
@@ -153,8 +172,8 @@ def estimates(judged: Judged) -> dict[str, Estimate]:
     return found
 
 
-def _faults(found: Attribution) -> tuple[FaultFound, ...]:
+def _faults(found: Attribution) -> tuple[DataErrorFound, ...]:
     if found.fault is None:
         return ()
     one = found.fault.candidate
-    return (FaultFound(one.name, one.channel, one.factor, found.fault.trials),)
+    return (DataErrorFound(one.name, one.channel, one.factor, found.fault.trials),)

@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 
 from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
 from geocontact.geometry.kernels.binary import Binary
-from geocontact.geometry.kernels.tangle import pierced
+from geocontact.geometry.kernels.self_intersection import pierced
 
 if TYPE_CHECKING:
     from geocontact.geometry.surface import Surface
@@ -61,11 +61,11 @@ def _is_boundary(surface: Surface, members: Int[np.ndarray, " k"]) -> bool:
     largest = members[np.argsort(-surface.face_area[members], kind="stable")[:WITNESSES]]
     middle = surface.corners[largest].mean(axis=1)
     step = 0.05 * np.sqrt(surface.face_area[largest])[:, None] * surface.face_normal[largest]
-    front, back = winding_sides(surface, middle + step), winding_sides(surface, middle - step)
+    front, back = winding_signs(surface, middle + step), winding_signs(surface, middle - step)
     return bool(2 * np.count_nonzero((front == 1) & (back == -1)) > len(largest))
 
 
-def winding_sides(surface: Surface, local: Float[np.ndarray, "n 3"]) -> Int8[np.ndarray, " n"]:
+def winding_signs(surface: Surface, local: Float[np.ndarray, "n 3"]) -> Int8[np.ndarray, " n"]:
     """Side of each point (about the surface's centre) by winding number: 1 outside, -1 inside, 0 undecided."""
     if len(local) == 0:
         return np.zeros(0, np.int8)
@@ -98,11 +98,11 @@ def disagreement(surface: Surface) -> float:
     spheres = chunk_spheres(probes, limits)
     distance, side, _, _ = signed_distances(surface.tree, probes, limits, spheres, True)
     clear = distance > 1e-7 * np.linalg.norm(box[3:] - box[:3])
-    differs = (side != 0) & (side != winding_sides(surface, probes)) & clear
+    differs = (side != 0) & (side != winding_signs(surface, probes)) & clear
     return float(differs.mean())
 
 
-def resolve_sides(
+def resolve_inside_outside(
     surface: Surface, local: Float[np.ndarray, "n 3"], side: Int8[np.ndarray, " n"], distance: Float[np.ndarray, " n"]
 ) -> tuple[Int8[np.ndarray, " n"], int]:
     """Sides with doubts settled by winding number, and how many points off the surface stayed undecided.
@@ -118,7 +118,7 @@ def resolve_sides(
     if not ask.any():
         return side, 0
     side = side.copy()
-    side[ask] = winding_sides(surface, local[ask])
+    side[ask] = winding_signs(surface, local[ask])
     undecided = side == 0
     side[undecided] = 1
     return side, int(np.count_nonzero(undecided & (distance > SINGLE * np.linalg.norm(root[3:] - root[:3]))))

@@ -92,10 +92,10 @@ def area(
 @contextmanager
 def unpictured() -> Iterator[None]:
     """Neither figure nor page are made."""
-    places = ("area_results.draw_areas", "area_results.write_report", "pressure_results.save_both")
+    places = ("write.draw_areas", "write.write_report", "pressure_write.save_both")
     with ExitStack() as stack:
         for place in places:
-            stack.enter_context(mock.patch(f"geocontact.cli.{place}", return_value=b""))
+            stack.enter_context(mock.patch(f"geocontact.analyses.area.{place}", return_value=b""))
         yield
 
 

@@ -31,16 +31,23 @@ FIT = {
 @contextmanager
 def unpictured() -> Iterator[None]:
     """Neither figures nor pages are made; most of the time goes into them, and few tests look at them."""
-    places = (
-        "elbow_simulation.surface_figure", "elbow_simulation.save_both", "elbow_simulation.write_simulation_report",
-        "elbow_fit_results.save_both", "elbow_fit_results.force_figure", "elbow_fit_results.told_figure",
-        "elbow_fit_results.residual_figure", "elbow_fit_results.conditions_figure",
-        "elbow_fit_results.write_fit_report", "elbow_comparison.save_both", "elbow_comparison.comparison_figure",
-        "elbow_comparison.write_comparison_report",
-    )  # fmt: skip
+    places = {
+        "simulate.run": ("surface_figure", "save_both", "write_simulation_report"),
+        "identify.write": (
+            "save_both",
+            "force_figure",
+            "told_figure",
+            "residual_figure",
+            "conditions_figure",
+            "write_fit_report",
+        ),
+        "compare.run": ("save_both", "comparison_figure", "write_comparison_report"),
+    }
     with ExitStack() as stack:
-        for place in places:
-            stack.enter_context(mock.patch(f"geocontact.cli.{place}", return_value=b""))
+        for place, names in places.items():
+            for name in names:
+                whole = f"geocontact.analyses.misalignment.{place}.{name}"
+                stack.enter_context(mock.patch(whole, return_value=b""))
         yield
 
 

@@ -11,7 +11,7 @@ import pytest
 from cyclopts import App
 
 ROOT = Path(__file__).resolve().parents[2]
-HEAVY = {"casadi", "dask", "distributed", "ezc3d", "matplotlib", "open3d", "opensim", "pyvista", "trimesh", "vtk"}
+HEAVY = {"casadi", "ezc3d", "matplotlib", "open3d", "opensim", "pyvista", "trimesh", "vtk"}
 NUMERIC = {"fcl", "igl", "numba", "pandas", "scipy"}
 
 

@@ -127,7 +127,7 @@ class Problem:
 
     def _variation(self, model: Refit, levels: Levels) -> Float[np.ndarray, " q"]:
         found = variation(self._products(self.calibration_layouts, model, levels), self.usual)
-        return np.asarray(np.minimum(found.sd, MOST_VARIATION * self.usual))
+        return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
     def _products(self, layouts: Sequence[Layout], model: Refit, levels: Levels) -> list[Products]:
         products = []
@@ -140,7 +140,7 @@ class Problem:
     def seen_variation(self, model: Refit, levels: Levels) -> Float[np.ndarray, " q"]:
         """How much all trials do differ, little believed beforehand, around parameters that were fitted to all."""
         found = variation(self._products(self.layouts, model, levels), self.usual, BARELY, spent=1.0)
-        return np.asarray(np.minimum(found.sd, MOST_VARIATION * self.usual))
+        return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
     def fitting(self, noise: Noise, model: Refit) -> list[Weighing]:
         """Whitening of the calibration trials."""

@@ -183,11 +183,18 @@ class _Sums:
         mean = self.sums.sum(axis=(0, 1)) / np.maximum(count, 1.0)
         return [
             Cell(
-                self.channel, self.axis, float(self.edges[b]), float(self.edges[b + 1]), float(mean[b]),
-                float(share[b]), float(p_values[b]), (float(low[b]), float(high[b])), floor,
+                self.channel,
+                self.axis,
+                float(self.edges[b]),
+                float(self.edges[b + 1]),
+                float(mean[b]),
+                float(share[b]),
+                float(p_values[b]),
+                (float(low[b]), float(high[b])),
+                floor,
             )
             for b in np.flatnonzero(count)
-        ]  # fmt: skip
+        ]
 
 
 def systematic(sums: Float[np.ndarray, "i k b"], counts: Float[np.ndarray, "i k b"]) -> Float[np.ndarray, " b"]:

@@ -75,9 +75,15 @@ def shrinkage(
     fault
         The mistake. Calibration trials that have it while others have not tell nothing of what stays on others.
     """
+    return shrinkage_of(errors_as_measured(problem, clean, after, fault), problem, after, named, fault)
+
+
+def shrinkage_of(
+    errors: Errors, problem: Problem, after: Judged, named: bool, fault: Fault | None
+) -> dict[str, Shrinkage]:
+    """Of every channel, from its errors; see `shrinkage`."""
     from scipy.stats import t
 
-    errors = errors_as_measured(problem, clean, after, fault)
     count, present = len(problem.calibration.trials), problem.recorded.present
     student = float(t.ppf(0.975, max(errors.told_by - 1, 1)))  # a spread that is known from as few trials
     heard = np.zeros(len(problem.system.outputs))

@@ -2,7 +2,7 @@
 
 It knows numpy, scipy, numba, pandas and `geocontact.data`, nothing else of the package: an import contract says so.
 Base models are written a second time from their definition, trajectories are continuous functions of time, and every
-effect follows another equation than the candidate that is to find it (`catalogue.TABLE` puts them side by side).
+effect follows another equation than the candidate that is to find it (each plan states both).
 """
 
 from geocontact.gap_benchmark.synthetic.cases import plant

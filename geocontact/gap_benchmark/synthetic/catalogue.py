@@ -53,9 +53,6 @@ PLANS: tuple[Plan, ...] = (
     CROSSTALK,
 )
 
-TABLE: tuple[tuple[str, str, str], ...] = tuple((one.name, one.planted, one.candidate) for one in PLANS)
-"""Name, equation planted, equation of the candidate: no two are alike."""
-
 SWALLOWED = {
     "elbow": (
         "series_compliance",

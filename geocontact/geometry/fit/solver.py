@@ -33,7 +33,7 @@ Same = TypeVar("Same")
 
 
 @runtime_checkable
-class Model(Protocol):
+class ShapeModel(Protocol):
     """A shape in coordinates of its own, with the names of its parameters and which of them are lengths."""
 
     names: ClassVar[tuple[str, ...]]
@@ -57,7 +57,7 @@ class Model(Protocol):
         ...
 
 
-M = TypeVar("M", bound=Model)
+M = TypeVar("M", bound=ShapeModel)
 Loss = Literal["linear", "cauchy", "biweight"]
 
 

@@ -101,8 +101,8 @@ def between_neighbours(v: Visits, channel: int) -> list[Pair]:
     pairs = [(k, k + 1) for k in groups if min(len(groups[k]), len(groups.get(k + 1, ()))) >= FEWEST]
     tests = [mannwhitneyu(groups[a], groups[b]) for a, b in pairs]
     holm = _holm(np.array([float(test.pvalue) for test in tests]))
-    return [Pair(pair, float(test.statistic), float(test.pvalue), float(p))
-            for pair, test, p in zip(pairs, tests, holm, strict=True)]  # fmt: skip
+    found = zip(pairs, tests, holm, strict=True)
+    return [Pair(pair, float(test.statistic), float(test.pvalue), float(p)) for pair, test, p in found]
 
 
 def _holm(p: Float[np.ndarray, " m"]) -> Float[np.ndarray, " m"]:

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-SHORTEST = 1e-6  # of a step; correlation times below this are no correlation
-
 
 @dataclass(frozen=True)
 class Noise:

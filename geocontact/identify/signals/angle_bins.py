@@ -91,9 +91,9 @@ def visits(
         step = float(np.median(np.diff(time)))
         enough = np.bincount(place, minlength=bins) * step >= LEAST_SECONDS
         kept = enough[there % bins]
-        means = sums[kept] / count[there[kept], None]
-        parts.append((np.full(kept.sum(), trial), first + there[kept] // bins, there[kept] % bins,
-                      count[there[kept]].astype(float), means))  # fmt: skip
+        cell = there[kept]
+        means = sums[kept] / count[cell, None]
+        parts.append((np.full(len(cell), trial), first + cell // bins, cell % bins, count[cell].astype(float), means))
         first += int(number[-1]) + 1
     trial_of, stretch_of, place_of, count_of, means_of = (np.concatenate(p) for p in zip(*parts, strict=True))
     return Visits(edges, trial_of, stretch_of, place_of, count_of, means_of)
