@@ -36,13 +36,15 @@ def require_stroke(ends: tuple[float, float] | None) -> None:
         raise InputError("", "`stroke`", "its upper end is below the lower one", "give the lower end first")
 
 
-def require_at_least_0(value: float | None, option: str) -> None:
+def require_at_least_0(value: float | int | None, option: str) -> None:
     """Refuse a value that is negative or not finite."""
     if value is not None and not 0.0 <= value < math.inf:
         raise InputError("", option, f"{value:g} is not 0 or more", "give for example 0.5")
 
 
-def require_within(value: float | None, option: str, ends: tuple[float, float], usual: float) -> None:
+def require_within(
+    value: float | int | None, option: str, ends: tuple[float | int, float | int], usual: float | int
+) -> None:
     """Refuse a value that is not between two ends."""
     if value is not None and not ends[0] <= value <= ends[1]:
         raise InputError("", option, f"{value:g} is not {ends[0]:g} to {ends[1]:g}", f"give {usual:g}")
