@@ -31,21 +31,22 @@ class Surfaces:
     def table(self) -> pd.DataFrame:
         """One row per angle and offset."""
         offset, angle = (grid.ravel() for grid in np.meshgrid(self.offset, self.angle, indexing="ij"))
-        return pd.DataFrame({
+        columns = {
             "beta [deg]": np.degrees(angle),
             "offset [mm]": offset * 1e3,
             "d_tot over x [mm]": self.over_x.ravel() * 1e3,
             "d_tot over y [mm]": self.over_y.ravel() * 1e3,
             "d_lin over x [mm]": self.linear_over_x.ravel() * 1e3,
             "d_lin over y [mm]": self.linear_over_y.ravel() * 1e3,
-        })  # fmt: skip
+        }
+        return pd.DataFrame(columns)
 
 
 def surfaces(l: float, z: float) -> Surfaces:
     """Surfaces of a link and an offset of the attachment [m], offsets of either sign."""
     offset = SHARE * l * np.linspace(-1.0, 1.0, STEPS)
-    over_x, over_y = ([_row(Offsets(l, z, *pair)) for pair in pairs]
-                      for pairs in ([(o, 0.0) for o in offset], [(0.0, o) for o in offset]))  # fmt: skip
+    over_x = [_row(Offsets(l, z, float(o), 0.0)) for o in offset]
+    over_y = [_row(Offsets(l, z, 0.0, float(o))) for o in offset]
     totals = [np.array([total for total, _ in rows]) for rows in (over_x, over_y)]
     linear = [np.array([lin for _, lin in rows]) for rows in (over_x, over_y)]
     return Surfaces(l, z, ANGLES, offset, *totals, *linear)

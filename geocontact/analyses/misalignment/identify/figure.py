@@ -1,33 +1,28 @@
-"""Figures of the elbow: displacement surfaces, forces over the angle, what data tell, residuals, both conditions."""
+"""Figures of an identification: forces over the angle, what data tell, residuals, both conditions."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.misalignment.displacement_surfaces import Surfaces
+from geocontact.analyses.misalignment.labels import ANGLE, CONSTRAINT
 from geocontact.axis_misalignment.end_stop import Curve, Stroke
 from geocontact.axis_misalignment.uncertainty import Direction
 from geocontact.identify.intervals.profile_likelihood import Profile
-from geocontact.view.curves.quantity import FORCE, Quantity
+from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.residuals import residual_histogram, residual_quantiles
-from geocontact.view.curves.style import BLACK, DOUBLE, GREY, LINES, MARKERS, PALETTE, empty, in_style, legend, panels
-from geocontact.view.curves.text import plain
+from geocontact.view.curves.style import BLACK, DOUBLE, GREY, LINES, MARKERS, PALETTE, in_style, legend, panels
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.figure import Figure
 
 Entries = list[tuple["Artist | tuple[Artist, ...]", str]]
-ANGLE = "exoskeleton angle β [°]"
-CONSTRAINT = Quantity("constraint force", "N")
 STANDARD = Quantity("over its SD", "–")
-LEVELS = 13
-STRIPES = 31  # of a surface, each way
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,35 +42,6 @@ class Over:
     force: Float[np.ndarray, " n"]
     curve_beta: Float[np.ndarray, " m"]
     curve_force: Float[np.ndarray, " m"]
-
-
-@in_style
-def surface_figure(s: Surfaces) -> Figure:
-    """Draw d_tot over angle and x (left) and over angle and y (right), the other offset being 0.
-
-    As surfaces in space above, and as maps with lines of equal d_tot below, where values can be read off.
-    """
-    figure = empty(DOUBLE, 0.14)
-    degrees, offset = np.degrees(s.angle), s.offset * 1e3
-    most = float(max(np.abs(s.over_x).max(), np.abs(s.over_y).max())) * 1e3
-    colours: dict[str, Any] = {"cmap": "RdBu_r", "vmin": -most, "vmax": most, "rasterized": True}
-    maps = []
-    for column, (values, name, other) in enumerate(((s.over_x * 1e3, "x", "y"), (s.over_y * 1e3, "y", "x"))):
-        space: Any = figure.add_subplot(2, 2, 1 + column, projection="3d")
-        space.plot_surface(*np.meshgrid(degrees, offset), values, rcount=STRIPES, ccount=STRIPES, lw=0.1, **colours)
-        space.set_zlabel("d_tot [mm]")
-        panel = figure.add_subplot(2, 2, 3 + column)
-        shown = panel.pcolormesh(degrees, offset, values, shading="gouraud", **colours)
-        lines = panel.contour(degrees, offset, values, levels=LEVELS, colors=BLACK, linewidths=0.5)
-        panel.clabel(lines, fontsize=6.0, fmt="%g")
-        for axes in (space, panel):
-            axes.set_ylabel(f"offset {name} [mm]")
-        space.set_xlabel("β [°]")
-        panel.set_xlabel(ANGLE)
-        space.set_title(f"{other} = 0, l = {s.l * 1e3:g} mm, z = {s.z * 1e3:g} mm", fontsize=7.0)
-        maps.append(panel)
-    figure.colorbar(shown, ax=maps, label="displacement d_tot [mm]")
-    return figure
 
 
 @in_style
@@ -201,28 +167,4 @@ def conditions_figure(locked: Curve, stroke: Stroke, locked_boxes: Boxes, free_b
                        textcoords="offset points", fontsize=7.0)  # fmt: skip
     below.set_xlabel(ANGLE)
     below.set_ylabel("displacement of the joint [mm]")
-    return figure
-
-
-@in_style
-def comparison_figure(
-    names: Sequence[str],
-    beta: Sequence[Float[np.ndarray, " _"]],
-    measured: Sequence[Float[np.ndarray, " _"]],
-    model: Sequence[Float[np.ndarray, " _"]],
-    quantity: Quantity = FORCE,
-) -> Figure:
-    """Draw one channel over the angle in bins, a colour per trial: measured as marks, the model as lines."""
-    figure, (axes,) = panels(1, 1, DOUBLE, 0.08)
-    entries: Entries = []
-    for k, (name, b, m, s) in enumerate(zip(names, beta, measured, model, strict=True)):
-        colour = PALETTE[k % len(PALETTE)]
-        dots = axes.plot(np.degrees(b), quantity.shown(m), MARKERS[k % len(MARKERS)], color=colour, markersize=2.5)[0]
-        line = axes.plot(np.degrees(b), quantity.shown(s), color=colour, ls=LINES[k % len(LINES)])[0]
-        if k < len(PALETTE):
-            entries.append(((dots, line), plain(name)))
-    axes.axhline(0.0, color=GREY, lw=0.6)
-    axes.set_xlabel(ANGLE)
-    axes.set_ylabel(quantity.label)
-    legend(axes, entries)
     return figure
