@@ -19,7 +19,7 @@ from geocontact.axis_misalignment.bins import BETA, FORCE, PRESSURE, RATE, Binne
 from geocontact.axis_misalignment.law import NAMES, SCALED, ElbowLaw
 from geocontact.axis_misalignment.scale import Scale
 from geocontact.data.parameter import Parameter
-from geocontact.identify.optimise.levenberg_marquardt import Search, levenberg_marquardt
+from geocontact.identify.optimise.levenberg_marquardt import LevenbergMarquardtResult, levenberg_marquardt
 from geocontact.identify.optimise.quasi_newton import spread_starts
 
 STARTS = 8
@@ -116,7 +116,7 @@ class Problem:
         priors = {n: Prior(float(rng.normal(p.mean, p.sd)), p.sd) for n, p in self.priors.items()}
         return replace(self, force=force, priors=priors, scale=None if self.scale is None else self.scale.drawn(rng))
 
-    def searched(self, start: Float[np.ndarray, " p"]) -> Search:
+    def searched(self, start: Float[np.ndarray, " p"]) -> LevenbergMarquardtResult:
         """Least squares from one start."""
         free = [self.parameters[k] for k in self.free]
         lower, upper = np.array([p.lower for p in free]), np.array([p.upper for p in free])

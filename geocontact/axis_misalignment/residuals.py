@@ -18,7 +18,7 @@ from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.identify.intervals.bin_tests import DRAWS, Normality, lilliefors
 from geocontact.identify.noise.autocorrelation import spread
 from geocontact.identify.noise.bin_noise import mean_covariance
-from geocontact.identify.signals.angle_bins import places
+from geocontact.identify.signals.angle_bins import bin_numbers
 
 
 def residual_by_bin(data: Binned, e: Estimate) -> tuple[Float[np.ndarray, " b"], Float[np.ndarray, " b"]]:
@@ -78,7 +78,7 @@ def _noise_left(
     noise = np.empty((count, len(cells.count)))
     for trial, r in enumerate(recordings):
         mine = cells.trial == trial
-        all_bins = mean_covariance(r.time, places(r.beta, data.visits.edges), bins, float(data.noise.tau[0]))
+        all_bins = mean_covariance(r.time, bin_numbers(r.beta, data.visits.edges), bins, float(data.noise.tau[0]))
         reached = cells.place[mine]
         value, vector = np.linalg.eigh(all_bins[np.ix_(reached, reached)])
         noise[:, mine] = rng.standard_normal((count, len(value))) @ (vector * np.sqrt(np.maximum(value, 0.0))).T

@@ -22,7 +22,7 @@ from geocontact.gap.selection.verdict import (
     standing,
     with_mistake,
 )
-from geocontact.identify.noise.noise_levels import Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
 
@@ -34,7 +34,7 @@ SHARE = 0.6
 def contender(nats: float, *labels: str, **values: float) -> Contender:
     """A model that gains so much, on calibration trials as much as on the others; effects where they set out."""
     one = np.ones(1)
-    noise = Noise(Levels(one, one[None], one[None], one), one, 0.0, ())
+    noise = Noise(NoiseLevels(one, one[None], one[None], one), one, 0.0, ())
     offered = tuple(OFFERED[label] for label in labels)
     there = {p.name: p.start for one in offered for p in one.parameters} | values
     model = Refit(SYSTEM, {**SYSTEM.start, **there}, [], [], np.zeros(10), np.zeros((10, 3)))

@@ -9,7 +9,7 @@ from geocontact.gap.case.whitening import LOUDER, SENSOR_LOUDER, Weighing, usual
 from geocontact.gap.selection.evidence import log_evidence
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.input_noise import Instant
-from geocontact.identify.noise.noise_levels import Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 from geocontact.systems.catalogue import system_of
@@ -18,10 +18,10 @@ from tests.gap.cases import elbow_case
 SPECTRUM = NoiseSpectrum.after(LowPass(6.0, 0.05), lambda frequency: 2.0 * np.pi * frequency)
 
 
-def parts(rng: np.random.Generator) -> tuple[Layout, Levels, np.ndarray]:
+def parts(rng: np.random.Generator) -> tuple[Layout, NoiseLevels, np.ndarray]:
     time = 0.05 * np.arange(60)
     still = np.zeros((60, 1, 1))
-    levels = Levels(np.array([0.4]), np.array([[0.6]]), np.array([[0.2]]), np.array([1.0]))
+    levels = NoiseLevels(np.array([0.4]), np.array([[0.6]]), np.array([[0.2]]), np.array([1.0]))
     return (
         Layout.of(time, np.ones((60, 1), bool), Instant(time, still, still, (SPECTRUM,))),
         levels,

@@ -13,7 +13,7 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.identify.optimise.bounded_gauss_newton import Found, least
+from geocontact.identify.optimise.bounded_gauss_newton import GaussNewtonResult, least
 
 STEP = 1e-5  # of a parameter's magnitude, for differences
 ENOUGH = 0.01  # nats that a search does not go on for
@@ -202,7 +202,7 @@ class Search:
         """Parameters by name."""
         return {p.name: float(v) for p, v in zip(self.parameters, z * self.scale, strict=True)}
 
-    def from_start(self, start: Mapping[str, float], rounds: int, useful: float = np.inf) -> Found:
+    def from_start(self, start: Mapping[str, float], rounds: int, useful: float = np.inf) -> GaussNewtonResult:
         """The least cost near a start, from the parameters' own where it says nothing."""
 
         def residual(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:

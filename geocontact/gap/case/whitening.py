@@ -17,7 +17,7 @@ from geocontact.data.trial import Trial
 from geocontact.gap.inputs.responses import responses
 from geocontact.identify.noise.covariance import Layout, Whitener
 from geocontact.identify.noise.input_noise import InputNoise, Instant
-from geocontact.identify.noise.noise_levels import Beliefs, Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
@@ -126,7 +126,7 @@ def usual_levels(
     rough: Float[np.ndarray, " c"],
     seen: Mapping[str, float],
     most: Mapping[str, float],
-) -> Beliefs:
+) -> NoisePriors:
     """What is believed of the noise before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
@@ -154,7 +154,7 @@ def usual_levels(
     loudest = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
     loudest = np.maximum(loudest, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs])
     inputs = np.minimum(inputs, loudest)
-    return Beliefs(Levels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, loudest)
+    return NoisePriors(NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, loudest)
 
 
 def layouts_of(

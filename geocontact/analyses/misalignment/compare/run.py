@@ -28,7 +28,7 @@ from geocontact.cli.idle import refuse, width_rule
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement, agreement
-from geocontact.identify.signals.angle_bins import edges_over, visits
+from geocontact.identify.signals.angle_bins import angle_bins, edges_over
 from geocontact.identify.signals.even_times import at_times, even_times
 from geocontact.io.text.results import write_table
 from geocontact.view.curves.quantity import Quantity
@@ -193,7 +193,7 @@ def _binned(pairs: Sequence[Pair], width_deg: float) -> tuple[list[Curve], list[
         there = np.isfinite(p.measured)
         edges = edges_over([p.beta[there]], float(np.radians(width_deg)))
         values = np.column_stack([p.beta, p.measured, p.model])[there]
-        means = visits([p.time[there]], [values], edges, np.inf).cells().means
+        means = angle_bins([p.time[there]], [values], edges, np.inf).cells().means
         for column, row in zip(columns, means.T, strict=True):
             column.append(row)
     return columns

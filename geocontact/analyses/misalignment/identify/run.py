@@ -41,7 +41,7 @@ from geocontact.axis_misalignment.uncertainty import (
 from geocontact.cli.elbow_fit import ElbowFitOptions
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.identify.intervals.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours
+from geocontact.identify.intervals.bin_tests import BinPair, BinTest, Normality, between_bins, between_neighbours
 from geocontact.identify.intervals.profile_likelihood import Profile
 from geocontact.io.recordings.elbow_recording import DISPLACEMENT
 from geocontact.io.recordings.elbow_recording import FORCE as FORCE_CHANNEL
@@ -98,7 +98,7 @@ class Fitted:
     line_r2: Float[np.ndarray, " m"]
     held: Sequence[Held]
     bins_differ: BinTest | None
-    neighbours: Sequence[Pair]
+    neighbours: Sequence[BinPair]
     normality: Normality
     excess: Excess
     r2: float
@@ -115,7 +115,7 @@ class Free:
     stiffness: Stiffness | None
     scale: Scale | None
     bins_differ: BinTest | None
-    neighbours: Sequence[Pair]
+    neighbours: Sequence[BinPair]
     rotary_free: bool
 
 

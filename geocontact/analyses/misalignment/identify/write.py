@@ -35,8 +35,8 @@ from geocontact.axis_misalignment.least_squares import r_squared
 from geocontact.axis_misalignment.residuals import residual_by_bin, standard_residuals
 from geocontact.cli.elbow_fit import ElbowFitOptions
 from geocontact.data.elbow_recording import ElbowRecording
-from geocontact.identify.intervals.bin_tests import LEVEL, BinTest, Pair
-from geocontact.identify.signals.angle_bins import places
+from geocontact.identify.intervals.bin_tests import LEVEL, BinPair, BinTest
+from geocontact.identify.signals.angle_bins import bin_numbers
 from geocontact.io.text.results import write_table
 from geocontact.view.page.tables import frame_table, inputs_table
 
@@ -179,7 +179,7 @@ def _free_joint(found: Fitted, free: Free) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _tested(test: BinTest | None, pairs: Sequence[Pair], boxes: Binned) -> dict[str, Any] | None:
+def _tested(test: BinTest | None, pairs: Sequence[BinPair], boxes: Binned) -> dict[str, Any] | None:
     if test is None:
         return None
     middle = np.degrees(boxes.centres)
@@ -195,7 +195,7 @@ def _tested(test: BinTest | None, pairs: Sequence[Pair], boxes: Binned) -> dict[
 def spread_table(recordings: Sequence[ElbowRecording], data: Binned) -> pd.DataFrame:
     """Samples of all trials by bin: counts, mean, SD, quantiles; empty where nothing was recorded."""
     edges = data.visits.edges
-    place = np.concatenate([places(r.beta, edges) for r in recordings])
+    place = np.concatenate([bin_numbers(r.beta, edges) for r in recordings])
     force = np.concatenate([r.force for r in recordings])
     order = np.argsort(place, kind="stable")
     groups = np.split(force[order], np.searchsorted(place[order], np.arange(1, len(edges) - 1)))

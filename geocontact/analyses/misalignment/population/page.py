@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.misalignment.design.page import MODEL
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.identify.intervals.quantile_intervals import Estimate
+from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
 from geocontact.view.page.write import write_page
 
@@ -34,7 +34,7 @@ def write_population_report(
     path: Path,
     title: str,
     levels: Float[np.ndarray, " k"],
-    exceedance: Sequence[Estimate],
+    exceedance: Sequence[IntervalEstimate],
     limit: float,
     drawing: bytes,
     tables: Sequence[Table],

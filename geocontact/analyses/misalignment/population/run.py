@@ -20,7 +20,7 @@ from geocontact.axis_misalignment.planar_joint import FATES, SOUND, STEP
 from geocontact.axis_misalignment.population import QUANTITIES, Exposure, peak_forces
 from geocontact.cli.elbow_population import PopulationOptions
 from geocontact.data.errors import InputError
-from geocontact.identify.intervals.quantile_intervals import Estimate, probability, quantile
+from geocontact.identify.intervals.quantile_intervals import IntervalEstimate, probability, quantile
 from geocontact.identify.intervals.sampling import Factor, Normal, People, Sampling, Uniform, root
 from geocontact.identify.intervals.sobol_indices import Indices, RankRegression, rank_regression, variance_shares
 from geocontact.io.recordings.population import PopulationFile, read_population
@@ -50,10 +50,10 @@ class Drawn:
     people: Float[np.ndarray, "n 5"]
     peak: Float[np.ndarray, " n"]
     fate: Int[np.ndarray, " n"]
-    quantiles: dict[float, Estimate]
-    beyond: Estimate
+    quantiles: dict[float, IntervalEstimate]
+    beyond: IntervalEstimate
     levels: Float[np.ndarray, " k"]
-    exceedance: list[Estimate]
+    exceedance: list[IntervalEstimate]
     varying: tuple[str, ...]
     regression: RankRegression
     indices: Indices | None
@@ -187,5 +187,5 @@ def _tell(record: Record, d: Drawn) -> None:
     record.say(f"{rate} samples per second of one core; grid of angles: error below {max(d.grid_error, 1e-9):.1e} N")
 
 
-def _said(e: Estimate) -> str:
+def _said(e: IntervalEstimate) -> str:
     return f"{e.value:.3f} N ({e.lower:.3f} … {e.upper:.3f})" if math.isfinite(e.value) else "infinite"

@@ -19,7 +19,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.planar_joint import FOLD, LOST, POLE
 from geocontact.axis_misalignment.population import QUANTITIES
 from geocontact.cli.elbow_population import PopulationOptions
-from geocontact.identify.intervals.quantile_intervals import Estimate
+from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
 from geocontact.io.text.results import write_table
 from geocontact.view.page.content import Table
 from geocontact.view.page.tables import inputs_table
@@ -71,7 +71,7 @@ def describe(d: Drawn) -> dict[str, Any]:
     return told
 
 
-def _estimate(one: Estimate) -> dict[str, float]:
+def _estimate(one: IntervalEstimate) -> dict[str, float]:
     return {"value": one.value, "lower": one.lower, "upper": one.upper}
 
 
