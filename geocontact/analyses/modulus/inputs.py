@@ -17,7 +17,7 @@ from geocontact.cli.modulus import ModulusOptions
 from geocontact.contact.area_hertz import READINGS, Reading
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
-from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, SLOPE, AreaEvolution, AreaForce
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, SLOPE, AreaForce, ThresholdAreas
 from geocontact.elastic_modulus.both_sides import end_to_end
 from geocontact.io.recordings.area_table import FEWEST, AreaTable, read_area_table
 from geocontact.io.recordings.force_curves import SIDES, ForceCurves, read_force_curves
@@ -41,7 +41,7 @@ class Inputs:
 
     table: AreaTable
     forces: ForceCurves
-    evolutions: Mapping[str, AreaEvolution]
+    evolutions: Mapping[str, ThresholdAreas]
     reading: Reading
     lag: float
     sides: tuple[str, ...]
@@ -101,7 +101,7 @@ def inputs_given(record: Record, o: ModulusOptions) -> Inputs:
     radii = _radii(record, o, table, flexion, sides)
     length = float("nan") if o.length_mm is None else o.length_mm * 1e-3
     evolutions = {
-        s: AreaEvolution(table.time, table.thresholds, table.areas[s], radii[s], length, table.tilted.get(s), flexion)
+        s: ThresholdAreas(table.time, table.thresholds, table.areas[s], radii[s], length, table.tilted.get(s), flexion)
         for s in sides
     }
     reading = next(each for each in READINGS if each.name == o.reading)

@@ -12,7 +12,7 @@ from geocontact.analyses.modulus.inputs import BOTH, FLEXION, HALVES, Inputs
 from geocontact.analyses.run_record import Record
 from geocontact.cli.modulus import ModulusOptions
 from geocontact.data.errors import InputError
-from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, THRESHOLD, AreaEvolution
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, THRESHOLD, ThresholdAreas
 from geocontact.elastic_modulus.identify import Identification, agreement
 from geocontact.io.recordings.area_table import FEWEST, AreaTable, read_area_table
 from geocontact.io.recordings.force_curves import SIDES, ForceCurves, read_force_curves
@@ -89,7 +89,7 @@ def _predicted(
     if turned and (tilts is None or not tilts.offsets[0] <= values[ADDUCTION] <= tilts.offsets[-1]):
         what = f"has no areas around the adduction offset of {np.degrees(values[ADDUCTION]):.2f} degrees"
         raise InputError(table.file, "", what, "compute them with --adduction as for the trial used")
-    evolution = AreaEvolution(table.time, known, table.areas[side], radius, each.model.evolution.length, tilts)
+    evolution = ThresholdAreas(table.time, known, table.areas[side], radius, each.model.evolution.length, tilts)
     evolution = evolution.with_offsets(turned)
     level = float(known[near[0]]) if len(near) else threshold
     predicted = each.modulus * evolution.per_modulus(each.model.reading, level)

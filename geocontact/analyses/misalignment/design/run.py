@@ -16,10 +16,10 @@ from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.compensation import Compensation
 from geocontact.axis_misalignment.design import (
     Boundary,
+    DesignTask,
+    NeededStroke,
     OffsetMap,
     Sensitivity,
-    Stroke,
-    Task,
     boundary,
     force_band,
     needed_stroke,
@@ -40,7 +40,7 @@ SHOWN = math.radians(1.0)
 class Designed:
     """Everything found for one exoskeleton; lengths in m, angles in rad, forces in N."""
 
-    task: Task
+    task: DesignTask
     offset: tuple[float, float]
     uncertainty: float
     ends: Float[np.ndarray, " 2"]
@@ -48,7 +48,7 @@ class Designed:
     map: OffsetMap
     axes: tuple[Float[np.ndarray, " a"], Float[np.ndarray, " b"]]
     boundary: Boundary
-    stroke: Stroke
+    stroke: NeededStroke
     sensitivities: list[Sensitivity]
     beta: Float[np.ndarray, " m"]
     force: Float[np.ndarray, " m"]
@@ -96,11 +96,11 @@ def _designed(record: Record, o: DesignOptions) -> Designed:
     )  # fmt: skip
 
 
-def _task(record: Record, o: DesignOptions) -> Task:
+def _task(record: Record, o: DesignOptions) -> DesignTask:
     start, stop = quantities.angle_span(o.range, "--range")
     if not math.isfinite(o.z_mm):
         raise InputError("", "--z-mm", f"{o.z_mm:g} is not a finite number", "give mm")
-    return Task(
+    return DesignTask(
         link(o.l_mm), o.z_mm / MM, start, stop, above_zero(o.limit, "--limit", "N"),
         Compensation(above_zero(o.k, "--k", "N/m"), *stroke(o.stroke_mm)), drift(record, o.drift, (start, stop)),
     )  # fmt: skip

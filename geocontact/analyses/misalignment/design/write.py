@@ -16,7 +16,7 @@ from geocontact.analyses.misalignment.design.page import write_design_report
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.compensation import Compensation, needed_ends
-from geocontact.axis_misalignment.design import Stroke
+from geocontact.axis_misalignment.design import NeededStroke
 from geocontact.axis_misalignment.planar_joint import FOLD, LOST, POLE, SOUND
 from geocontact.cli.elbow_design import DesignOptions
 from geocontact.io.text.results import write_table
@@ -160,7 +160,7 @@ def force_table(d: Designed) -> pd.DataFrame:
     })  # fmt: skip
 
 
-def stroke_words(c: Compensation, needed: Stroke) -> str:
+def stroke_words(c: Compensation, needed: NeededStroke) -> str:
     """What the stroke ends would have to be, and by how much those given miss it."""
     if needed.length == 0.0:
         said = (

@@ -16,19 +16,25 @@ from geocontact.analyses.misalignment.recordings import MIRRORED, recordings, re
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
-from geocontact.axis_misalignment.end_stop import Stiffness, Stroke, curve_of, stiffness_by_displacement, stroke_of
+from geocontact.axis_misalignment.end_stop import (
+    RecordedStroke,
+    Stiffness,
+    bin_means,
+    recorded_stroke,
+    stiffness_by_displacement,
+)
 from geocontact.axis_misalignment.explicit import require_no_pole, require_reach
 from geocontact.axis_misalignment.law import LENGTHS, SCALED, offsets_of
 from geocontact.axis_misalignment.least_squares import (
-    Estimate,
-    Problem,
+    ElbowFit,
+    ElbowProblem,
     estimated,
     law_at,
     problem_of,
     r_squared,
 )
 from geocontact.axis_misalignment.residuals import Excess, excess, normality
-from geocontact.axis_misalignment.scale import Scale, scale_of
+from geocontact.axis_misalignment.scale import DisplacementScale, displacement_scale
 from geocontact.axis_misalignment.uncertainty import (
     Direction,
     along_the_scale,
@@ -86,7 +92,7 @@ class Fitted:
     recordings: Sequence[ElbowRecording]
     data: Binned
     boxes: Binned
-    estimate: Estimate
+    estimate: ElbowFit
     profiles: Mapping[str, Profile]
     drawn: Mapping[str, tuple[float, float]]
     link_held: Mapping[str, Profile]
@@ -111,9 +117,9 @@ class Free:
 
     recordings: Sequence[ElbowRecording]
     boxes: Binned
-    stroke: Stroke
+    stroke: RecordedStroke
     stiffness: Stiffness | None
-    scale: Scale | None
+    scale: DisplacementScale | None
     bins_differ: BinTest | None
     neighbours: Sequence[BinPair]
     rotary_free: bool
@@ -168,7 +174,7 @@ def _held_out(record: Record, o: ElbowFitOptions) -> list[ElbowRecording]:
     return found
 
 
-def _scaled_by(record: Record, problem: Problem, free: Free) -> Problem:
+def _scaled_by(record: Record, problem: ElbowProblem, free: Free) -> ElbowProblem:
     """The problem with the free joint's displacement beside it; as it was where that has no standard error."""
     if free.scale is None:
         record.warn("the free joint's displacement sets no scale without a standard error, which takes two free trials")
@@ -184,7 +190,7 @@ def _scaled_by(record: Record, problem: Problem, free: Free) -> Problem:
 def _fitted(
     locked: Sequence[ElbowRecording],
     data: Binned,
-    e: Estimate,
+    e: ElbowFit,
     apart: Sequence[ElbowRecording],
     o: ElbowFitOptions,
 ) -> Fitted:
@@ -232,7 +238,7 @@ def _fitted(
     )
 
 
-def _refuse_beyond(e: Estimate) -> None:
+def _refuse_beyond(e: ElbowFit) -> None:
     """A fit that ended where the model has a pole or folds."""
     offsets = offsets_of(e.theta)
     try:
@@ -242,13 +248,13 @@ def _refuse_beyond(e: Estimate) -> None:
         raise InputError("", "", f"the best numbers are beyond the model: {error}", "narrow --bounds") from error
 
 
-def _mirrored(e: Estimate, measured: Float[np.ndarray, " n"]) -> float:
+def _mirrored(e: ElbowFit, measured: Float[np.ndarray, " n"]) -> float:
     """R² that the same model reaches on the force turned over."""
     turned = estimated(e.problem.measuring(-e.problem.force))
     return r_squared(-measured, turned.predicted)
 
 
-def _each_left_out(data: Binned, e: Estimate) -> list[Held]:
+def _each_left_out(data: Binned, e: ElbowFit) -> list[Held]:
     """Each trial in turn, predicted by what the others give."""
     if len(data.names) < 2:
         return []
@@ -260,7 +266,7 @@ def _each_left_out(data: Binned, e: Estimate) -> list[Held]:
     return found
 
 
-def _apart(data: Binned, e: Estimate, apart: Sequence[ElbowRecording], o: ElbowFitOptions) -> list[Held]:
+def _apart(data: Binned, e: ElbowFit, apart: Sequence[ElbowRecording], o: ElbowFitOptions) -> list[Held]:
     """Recordings of their own."""
     width = float(np.radians(o.bin_deg))
     found = []
@@ -289,17 +295,17 @@ def _free(record: Record, o: ElbowFitOptions, locked: Binned) -> Free:
     width = float(np.radians(o.bin_deg))
     data = binned(free, width)
     require_bins(record, paths, data)
-    stroke = stroke_of(curve_of(data))
+    stroke = recorded_stroke(bin_means(data))
     if stroke is None:
         raise InputError(paths[0], "", "the compensation joint slides over fewer than three bins", "was it free?")
-    each = [curve_of(locked.only(trial)) for trial in range(len(locked.names))]
+    each = [bin_means(locked.only(trial)) for trial in range(len(locked.names))]
     stiffness = None if o.rotary_free else stiffness_by_displacement(each, stroke, width)
     if stiffness is not None and stiffness.value + AGAINST * np.nan_to_num(stiffness.error) < 0.0:
         what = f"displacement and locked force run against each other ({stiffness.value:.4g} N/m)"
         raise InputError(paths[0], "", what, "one of them has its sign turned: --map displacement=-… or force=-…")
     boxes = binned(free, float(np.radians(o.box_deg)))
-    scale = scale_of(
-        [curve_of(data.only(trial)) for trial in range(len(data.names))], stroke, width, rotary_free=o.rotary_free
+    scale = displacement_scale(
+        [bin_means(data.only(trial)) for trial in range(len(data.names))], stroke, width, rotary_free=o.rotary_free
     )
     return Free(
         free, boxes, stroke, stiffness, scale, between_bins(boxes.visits, FORCE),

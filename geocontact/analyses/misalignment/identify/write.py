@@ -29,7 +29,7 @@ from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import Binned
-from geocontact.axis_misalignment.end_stop import curve_of
+from geocontact.axis_misalignment.end_stop import bin_means
 from geocontact.axis_misalignment.law import LENGTHS, NAMES
 from geocontact.axis_misalignment.least_squares import r_squared
 from geocontact.axis_misalignment.residuals import residual_by_bin, standard_residuals
@@ -68,7 +68,7 @@ def write_results(record: Record, found: Fitted, free: Free | None, o: ElbowFitO
     ]  # fmt: skip
     if free is not None:
         free_boxes = _boxes(tables["boxes_free"], free.boxes)
-        figure = conditions_figure(curve_of(found.data), free.stroke, locked_boxes, free_boxes)
+        figure = conditions_figure(bin_means(found.data), free.stroke, locked_boxes, free_boxes)
         drawing = save_both(figure, folder, "conditions")
         drawings.append(("Joint locked and free", CONDITIONS, drawing))
     shown = [
@@ -260,7 +260,7 @@ def held_table(found: Fitted) -> pd.DataFrame:
 
 def condition_table(found: Fitted, free: Free) -> pd.DataFrame:
     """Bin means with the joint locked and free."""
-    locked, curve = curve_of(found.data), free.stroke.curve
+    locked, curve = bin_means(found.data), free.stroke.curve
     one = pd.DataFrame({"beta [deg]": np.degrees(locked.beta).round(6), "place": _places(locked.beta, found.data),
                         "locked [N]": locked.force})  # fmt: skip
     other = pd.DataFrame({"place": _places(curve.beta, found.data), "free beta [deg]": np.degrees(curve.beta),
