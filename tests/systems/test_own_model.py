@@ -33,7 +33,7 @@ from types import SimpleNamespace
 from geocontact.chain.candidate import Candidate, Effect
 from geocontact.chain.single_deflection import SingleDeflection
 from geocontact.data.parameter import Parameter
-from geocontact.systems import elastic_joint
+from geocontact.systems.elastic_joint import model
 from geocontact.systems.base import Base
 
 def squared(angle, numbers):
@@ -46,7 +46,7 @@ def offer(system):
     return (Candidate("extra", "", "load", (extra,), link, {"extra.torque": 0.0}),)
 
 def build(parameters, constants, tables):
-    joint = elastic_joint.build(parameters, {}, tables)
+    joint = model.build(parameters, {}, tables)
     extra = Effect("extra", "load", ("mine",), offer, "this test")
     geometry = SingleDeflection("angle", squared)
     return replace(joint, name="mine", constants=dict(constants), geometry=geometry, own=(extra,))

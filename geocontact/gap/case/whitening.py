@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.differentiated_inputs import Movement, rate_of_waves
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs, rate_of_waves
 from geocontact.chain.links import Modifier
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -112,7 +112,9 @@ def sensitivity(
 
 
 def _bumped(system: System, kind: str, row: int, by: float) -> System:
-    def change(movement: Movement, _: Movement, __: Mapping[str, float]) -> Movement:
+    def change(
+        movement: DifferentiatedInputs, _: DifferentiatedInputs, __: Mapping[str, float]
+    ) -> DifferentiatedInputs:
         moved = getattr(movement, kind).copy()
         moved[row] += by
         return replace(movement, **{kind: moved})
