@@ -85,7 +85,7 @@ def _simulated(folder: str, effect: str, nats: float, seed: int, place: int) -> 
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.case.admission import admitted
     from geocontact.gap.case.problem import problem_of
-    from geocontact.gap.identifiability.signatures import ground_of
+    from geocontact.gap.identifiability.signatures import base_state_of
     from geocontact.gap.selection.model_comparison import base_contender
     from geocontact.systems.catalogue import system_of
 
@@ -96,7 +96,7 @@ def _simulated(folder: str, effect: str, nats: float, seed: int, place: int) -> 
     key = int(np.random.SeedSequence(seed, spawn_key=(place,)).generate_state(1)[0])
     if effect == NOTHING:
         return case_of(case, problem, base.noise, problem.system, base.model.values, key)
-    ground = ground_of(problem, base.noise, base.model.values)
+    ground = base_state_of(problem, base.noise, base.model.values)
     sized = [at_nats(ground, one, nats) for one in candidates(problem.system) if one.name == effect and one.parameters]
     seen = [one for one in sized if one.visible > BESIDES * nats]
     if not seen:

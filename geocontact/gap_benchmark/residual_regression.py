@@ -26,7 +26,7 @@ from jaxtyping import Float
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.refit import Measured, Weigh, at
+from geocontact.gap.case.refit import Measured, Whiten, at
 
 VERY_STRONG = 10.0
 """Advantage of BIC that an answer needs over nothing, and a second effect over the first alone."""
@@ -95,7 +95,7 @@ def residual_regression(problem: Problem, candidates: Sequence[Candidate], *, aw
     """
     noise = problem.weighed(problem.plain)
     count = len(problem.calibration.trials)
-    weighings: Sequence[Weigh] = problem.fitting(noise, problem.plain) if aware else noise.whiteners[:count]
+    weighings: Sequence[Whiten] = problem.fitting(noise, problem.plain) if aware else noise.whiteners[:count]
     base = at(problem.system, problem.calibration, None, problem.plain.values).residuals
     held_out = at(problem.system, problem.evaluation, None, problem.plain.values).residuals
     left = np.concatenate([w(r[..., None])[:, 0] for w, r in zip(weighings, base, strict=True)])
@@ -107,7 +107,7 @@ def residual_regression(problem: Problem, candidates: Sequence[Candidate], *, aw
 def signatures(
     problem: Problem,
     candidates: Sequence[Candidate],
-    weighings: Sequence[Weigh],
+    weighings: Sequence[Whiten],
     base: Sequence[np.ndarray],
     held_out: Sequence[np.ndarray],
 ) -> list[Signature]:
@@ -153,7 +153,7 @@ def _range(one: Candidate, start: Mapping[str, float]) -> tuple[float, float]:
     return min(ends[0], 0.0), max(ends[1], 0.0)
 
 
-def _library(problem: Problem, weighings: Sequence[Weigh]) -> Float[np.ndarray, "n f"]:
+def _library(problem: Problem, weighings: Sequence[Whiten]) -> Float[np.ndarray, "n f"]:
     """Orthonormal columns that span monomials of inputs, rates and time, in every channel, whitened."""
     inputs, channels = problem.system.inputs, len(problem.system.outputs)
     movements = [recorded(trial.signals, inputs) for trial in problem.calibration.trials]

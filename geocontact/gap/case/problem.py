@@ -11,7 +11,7 @@ from jaxtyping import Float
 from geocontact.chain.system import FAR, System
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.case.refit import NO_VALUE, Measured, Refit, at, free, refit
-from geocontact.gap.case.whitening import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
+from geocontact.gap.case.whitening import Share, Whitening, layouts_of, sensitivity, usual_levels, varies_by
 from geocontact.gap.inputs.denoise import Filters, Left, denoised, left, loudest, seen_noise, shaken
 from geocontact.gap.inputs.filter_cutoff import filters_of, likely_noise
 from geocontact.gap.inputs.spectrum import switches
@@ -142,15 +142,15 @@ class Problem:
         found = variation(self._products(self.layouts, model, levels), self.usual, BARELY, spent=1.0)
         return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
-    def fitting(self, noise: Noise, model: Refit) -> list[Weighing]:
+    def fitting(self, noise: Noise, model: Refit) -> list[Whitening]:
         """Whitening of the calibration trials."""
-        return self.weighings(noise, model)[: len(self.calibration.trials)]
+        return self.whitenings(noise, model)[: len(self.calibration.trials)]
 
-    def weighings(self, noise: Noise, model: Refit) -> list[Weighing]:
+    def whitenings(self, noise: Noise, model: Refit) -> list[Whitening]:
         """Whitening of the trials that a model was evaluated on: all of them, or those of the calibration."""
         count = len(self.usual)
         return [
-            Weighing.of(whitener, jacobian[..., :count] * noise.varies)
+            Whitening.of(whitener, jacobian[..., :count] * noise.varies)
             for whitener, jacobian in zip(noise.whiteners, model.jacobian, strict=False)
         ]
 

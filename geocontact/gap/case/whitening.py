@@ -39,7 +39,7 @@ LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
 
 
 @dataclass(frozen=True)
-class Weighing:
+class Whitening:
     """Whitening of one trial: v → (I + B Q Bᵀ)^(-1/2) W v.
 
     Parameters
@@ -58,7 +58,7 @@ class Weighing:
     log_scale: float
 
     @classmethod
-    def of(cls, whitener: Whitener, varied: Float[np.ndarray, "t c q"]) -> Weighing:
+    def of(cls, whitener: Whitener, varied: Float[np.ndarray, "t c q"]) -> Whitening:
         """From the whitener and derivatives with respect to what varies, times its standard deviation."""
         if varied.shape[-1] == 0:
             return cls(whitener, np.zeros((sum(map(len, whitener.rows)), 0)), np.zeros(0), whitener.log_scale)
@@ -79,7 +79,7 @@ def varies_by(parameter: Parameter, value: float) -> float:
     return ANGLE_VARIES if parameter.unit == "rad" else SHARE_VARIES * abs(value)
 
 
-def heard(
+def propagated_input_noise(
     system: System, trial: Trial, values: Mapping[str, float], passed: Mapping[str, LowPass], left: Mapping[str, Share]
 ) -> InputNoise:
     """What noise of a trial's inputs makes of the outputs that a model predicts.
@@ -167,8 +167,8 @@ def layouts_of(
     passed: Mapping[str, LowPass],
     left: Mapping[str, Share],
 ) -> list[Layout]:
-    """One per trial, inputs' noise (see `heard`) seen through the model at `values`."""
+    """One per trial, inputs' noise (see `propagated_input_noise`) seen through the model at `values`."""
     return [
-        Layout.of(t.time, there, heard(system, t, values, passed, left))
+        Layout.of(t.time, there, propagated_input_noise(system, t, values, passed, left))
         for t, there in zip(trials, present, strict=True)
     ]

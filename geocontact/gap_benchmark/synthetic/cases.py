@@ -86,7 +86,7 @@ class Found:
     words: str = "nothing is left out"
     hooks: Hooks = BASE
     sights: Mapping[str, Sight] | None = None
-    fault: Fault = NO_FAULT
+    data_error: Fault = NO_FAULT
     faulty: frozenset[int] = frozenset()
     details: Mapping[str, str | float] | None = None
 
@@ -138,13 +138,18 @@ def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: floa
         raise NotFoundError(f"{found.words}: how visible it is cannot be told")
     fine = fine_enough(scene, stage.trials[0].path, found.hooks)
     gaps = lost_rows if rng.random() < 0.2 else None
-    faults = [found.fault if i in found.faulty else NO_FAULT for i in range(learn + hold)]
+    faults = [found.data_error if i in found.faulty else NO_FAULT for i in range(learn + hold)]
     paths = [one.path for one in stage.trials] + [scene.later(rng, i) for i in range(hold)]
     recordings = [record(scene, p, rng, found.hooks, f, fine, gaps) for p, f in zip(paths, faults, strict=True)]
     share = sum(f is not NO_FAULT for f in faults[learn:]) / hold
     fresh = [
         record(
-            scene, scene.later(rng, i), rng, found.hooks, found.fault if (i + 0.5) / FRESH < share else NO_FAULT, fine
+            scene,
+            scene.later(rng, i),
+            rng,
+            found.hooks,
+            found.data_error if (i + 0.5) / FRESH < share else NO_FAULT,
+            fine,
         )
         for i in range(FRESH)
     ]

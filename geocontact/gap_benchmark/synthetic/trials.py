@@ -69,7 +69,7 @@ class Recording:
     outputs: Float[np.ndarray, "c s"]
     duration: float
     phase: float
-    fault: Fault = field(default=NO_FAULT)
+    data_error: Fault = field(default=NO_FAULT)
     setting: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -152,8 +152,8 @@ def as_measured(recording: Recording) -> Course:
 
 def predicted(scene: Scene, recording: Recording, hooks: Hooks, fine: int) -> Outputs:
     """What the true simulator at its nominal parameters makes of the recorded inputs."""
-    mended = recording.fault.mended(scene, recording.inputs)
+    mended = recording.data_error.mended(scene, recording.inputs)
     path = through(recording.time, mended, recording.duration, recording.phase, recording.setting)
     count = int(recording.rows[-1]) + 1
     outputs = truth(scene, path, count, scene.theta, hooks, fine)[:, recording.rows]
-    return recording.fault.outputs(scene, outputs)
+    return recording.data_error.outputs(scene, outputs)

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap.diagnose import Findings
-from geocontact.gap.reduction.raw_input_errors import errors_as_measured
+from geocontact.gap.reduction.raw_input_errors import raw_input_errors
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ def held_out(findings: Findings) -> tuple[HeldOut, ...]:
     """Every held-out trial, with the predictions that the errors of the diagnosis are of."""
     found = findings.attribution
     named = bool(findings.diagnosis.effects) or findings.diagnosis.verdict == "unresolved"
-    residuals = errors_as_measured(found.problem, found.clean, found.answer.chosen.judged, found.fault)
+    residuals = raw_input_errors(found.problem, found.clean, found.answer.chosen.judged, found.data_error)
     first = len(found.problem.calibration.trials)
     trials = []
     for k in range(first, len(found.problem.recorded.trials)):

@@ -11,7 +11,7 @@ import numpy as np
 from geocontact.analyses.gap.discriminability.words import size_words
 from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.gap.identifiability.detectability import Detectability
-from geocontact.gap.identifiability.discriminability import Confusion
+from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.gap.identifiability.separability import table
 from geocontact.gap.identifiability.signatures import reach_of, rest_of
 from geocontact.view.curves.diagnosis.detectability import Seen, detectability_figure
@@ -36,7 +36,7 @@ LIMITS = (
 )
 
 
-def confusion_figures(found: Confusion) -> dict[str, Figure]:
+def confusion_figures(found: Discriminability) -> dict[str, Figure]:
     """Matrix and bars, by the name of their files."""
     labels, matrix = table(found.separations)
     return {
@@ -56,7 +56,7 @@ def _seen(one: Detectability) -> Seen:
 def write_confusion_report(
     path: Path,
     title: str,
-    found: Confusion,
+    found: Discriminability,
     sentences: Sequence[str],
     drawings: Mapping[str, bytes],
     provenance: Sequence[Table] = (),
@@ -99,7 +99,7 @@ def write_confusion_report(
     return write_page(page, path)
 
 
-def _sizes(found: Confusion) -> Table:
+def _sizes(found: Discriminability) -> Table:
     rows = [
         (
             one.candidate.label, one.candidate.parameters[0].name,

@@ -24,7 +24,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
 from geocontact.data.version import VERSION
 from geocontact.gap.identifiability.detectability import POWER, Detectability
-from geocontact.gap.identifiability.discriminability import Confusion, confuse, known, offered
+from geocontact.gap.identifiability.discriminability import Discriminability, discriminability, known, offered
 from geocontact.gap.identifiability.separability import APART, table
 from geocontact.gap.identifiability.signatures import rest_of
 from geocontact.io.cases.gap_case import read_gap_case
@@ -47,7 +47,7 @@ def confused(folder: Path, o: ConfuseOptions) -> int:
         add_inputs(record, folder, case)
         names = asked(o.effects, system)
         with progress("effects", 2 * len(offered(system, names))) as step:
-            found = confuse(case, system, names, o.nats, step)
+            found = discriminability(case, system, names, o.nats, step)
         sentences = confusion_sentences(found)
         _write(record, case, found, sentences, o, draft)
         record.write(draft)
@@ -76,7 +76,7 @@ def asked(text: str | None, system: System) -> tuple[str, ...]:
 
 
 def _write(
-    record: Record, case: GapCase, found: Confusion, sentences: list[str], o: ConfuseOptions, folder: Path
+    record: Record, case: GapCase, found: Discriminability, sentences: list[str], o: ConfuseOptions, folder: Path
 ) -> None:
     text = json.dumps(plain(answer(case, found, o.nats)), indent=2, ensure_ascii=False, allow_nan=False)
     (folder / "confuse.json").write_text(text + "\n", encoding="utf-8")
@@ -93,7 +93,7 @@ def _write(
     write_confusion_report(folder / "report.html", case.name, found, sentences, drawings, tables, record.warnings)
 
 
-def answer(case: GapCase, found: Confusion, nats: float) -> dict[str, Any]:
+def answer(case: GapCase, found: Discriminability, nats: float) -> dict[str, Any]:
     """confuse.json, SI units."""
     labels, matrix = table(found.separations)
     said = found.found.answer
@@ -130,7 +130,7 @@ def _seen(one: Detectability) -> dict[str, Any]:
     }
 
 
-def separability_table(found: Confusion) -> pd.DataFrame:
+def separability_table(found: Discriminability) -> pd.DataFrame:
     """A row per pair: who is there, at which amplitude, who is fitted instead, what that leaves, how it was found."""
     own = {one.candidate.label: one for one in found.effects}
     rows = [
@@ -149,7 +149,7 @@ def separability_table(found: Confusion) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def detectability_table(found: Confusion) -> pd.DataFrame:
+def detectability_table(found: Discriminability) -> pd.DataFrame:
     """A row per effect: the smallest amplitude that is seen, empty where none is, and what is visible of it there."""
     rows = [
         {

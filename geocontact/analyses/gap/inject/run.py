@@ -26,7 +26,7 @@ from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.problem import problem_of
-from geocontact.gap.inject import Planted, chosen, plant
+from geocontact.gap.inject import Injected, chosen, inject
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import write_trials
 from geocontact.systems.catalogue import system_of
@@ -65,7 +65,7 @@ def planted(folder: Path, o: PlantOptions) -> int:
     return 0
 
 
-def _planted(case: GapCase, o: PlantOptions) -> tuple[Candidate, Planted]:
+def _planted(case: GapCase, o: PlantOptions) -> tuple[Candidate, Injected]:
     system = system_of(case)
     with threadpool_limits(limits=1):
         case = admitted(case, system)
@@ -75,7 +75,7 @@ def _planted(case: GapCase, o: PlantOptions) -> tuple[Candidate, Planted]:
         except ValueError as error:
             raise InputError("", "--effect", str(error), "see docs/reference/gap_effects.md") from error
         trials = _trials(case, one, o)
-        return one, plant(case, problem, one, _values(one, o), o.size, trials)
+        return one, inject(case, problem, one, _values(one, o), o.size, trials)
 
 
 def _values(one: Candidate, o: PlantOptions) -> Mapping[str, float]:
@@ -116,7 +116,7 @@ def _copied(folder: Path, home: Path, case: GapCase, record: Record) -> None:
         record.warn("cells of mats are left as they were: they do not show the effect")
 
 
-def _said(one: Candidate, made: Planted, d: Diagnosis) -> dict[str, object]:
+def _said(one: Candidate, made: Injected, d: Diagnosis) -> dict[str, object]:
     return {
         "effect": one.name,
         "variant": one.variant,
@@ -135,7 +135,7 @@ def _imitated(name: str, size: float, absorbed: Sequence[str]) -> bool:
     return name in absorbed and not size > IMITATED
 
 
-def _tell(record: Record, one: Candidate, made: Planted, d: Diagnosis, o: PlantOptions) -> None:
+def _tell(record: Record, one: Candidate, made: Injected, d: Diagnosis, o: PlantOptions) -> None:
     values = ", ".join(f"{p.name} = {made.values[p.name]:.4g} {p.unit}" for p in one.parameters)
     gap = "" if np.isnan(made.size) else f"; it makes a gap of {made.size:.2g} times the noise floor"
     record.say(f"planted {one.label}{f' ({values})' if values else ''}{gap}")
