@@ -7,8 +7,8 @@ from functools import cache
 
 import pytest
 
-from geocontact.cli import show
 from geocontact.analyses.area import run as area_analysis
+from geocontact.cli import show
 from tests.cli.calls import Call, area, done, gait
 
 

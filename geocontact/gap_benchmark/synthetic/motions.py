@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import CubicSpline
 
-from geocontact.gap_benchmark.synthetic.course import Course, Path, through
+from geocontact.gap_benchmark.synthetic.course import InputCourse, Path, through
 from geocontact.gap_benchmark.synthetic.systems.foot.model import Sole
 
 Rng = np.random.Generator
@@ -46,14 +46,14 @@ def sines(rng: Rng, style: ElbowStyle, phase: float) -> Path:
     middle = style.middle + rng.normal(0.0, 0.03)
     chirp = 0.8 / style.duration if style.kind == "sweep" else 0.0
 
-    def along(time: Float[np.ndarray, " t"]) -> Course:
+    def along(time: Float[np.ndarray, " t"]) -> InputCourse:
         warped, speed = time * (1.0 + 0.5 * chirp * time), 1.0 + chirp * time
         angle = omega[:, None] * warped + offset[:, None]
         turn = omega[:, None] * speed
         position = middle + size @ np.sin(angle)
         rate = size @ (np.cos(angle) * turn)
         acceleration = size @ (-np.sin(angle) * turn**2 + np.cos(angle) * omega[:, None] * chirp)
-        return Course(time, position[None], rate[None], acceleration[None], style.duration, phase)
+        return InputCourse(time, position[None], rate[None], acceleration[None], style.duration, phase)
 
     return along
 
@@ -70,14 +70,14 @@ def reaches(rng: Rng, style: ElbowStyle, phase: float) -> Path:
         places += [places[-1], target]
     begin, end = np.array(times), np.array(places)
 
-    def along(time: Float[np.ndarray, " t"]) -> Course:
+    def along(time: Float[np.ndarray, " t"]) -> InputCourse:
         leg = np.clip(np.searchsorted(begin, time, side="right") - 1, 0, len(begin) - 2)
         span, size = begin[leg + 1] - begin[leg], end[leg + 1] - end[leg]
         u = (time - begin[leg]) / span
         position = end[leg] + size * u**3 * (10.0 - 15.0 * u + 6.0 * u * u)
         rate = size / span * 30.0 * u * u * (1.0 - u) ** 2
         acceleration = size / span**2 * 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u)
-        return Course(time, position[None], rate[None], acceleration[None], style.duration, phase)
+        return InputCourse(time, position[None], rate[None], acceleration[None], style.duration, phase)
 
     return along
 

@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.misalignment.labels import CONSTRAINT
 from geocontact.identify.signals.agreement import Agreement
-from geocontact.identify.signals.angle_bins import edges_over, visits
+from geocontact.identify.signals.angle_bins import angle_bins, edges_over
 from geocontact.view.curves.quantity import Quantity
 
 QUANTITIES = {"force": CONSTRAINT, "displacement": Quantity("displacement of the joint", "mm", 1e3)}
@@ -33,4 +33,4 @@ class Pair:
         there = np.isfinite(self.measured)
         edges = edges_over([self.beta[there]], width)
         values = np.column_stack([self.beta, self.measured, self.model])[there]
-        return np.asarray(visits([self.time[there]], [values], edges, np.inf).cells().means)
+        return np.asarray(angle_bins([self.time[there]], [values], edges, np.inf).cells().means)

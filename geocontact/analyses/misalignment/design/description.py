@@ -11,7 +11,7 @@ from geocontact.analyses.misalignment.design.designed import Designed
 from geocontact.analyses.misalignment.design.tables import sensitivity_table
 from geocontact.analyses.misalignment.planar_words import STATES, WITHOUT_FORCE, rounded
 from geocontact.axis_misalignment.compensation import Compensation
-from geocontact.axis_misalignment.design import Stroke
+from geocontact.axis_misalignment.design import NeededStroke
 
 MM = 1e3
 
@@ -79,7 +79,7 @@ def _stroke(d: Designed) -> dict[str, Any]:
     }
 
 
-def stroke_words(c: Compensation, needed: Stroke) -> str:
+def stroke_words(c: Compensation, needed: NeededStroke) -> str:
     """What the stroke ends would have to be, and by how much those given miss it."""
     lower, upper = f"{needed.lower * MM:.2f} mm", f"{needed.upper * MM:.2f} mm"
     if needed.length == 0.0:

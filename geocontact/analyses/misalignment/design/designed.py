@@ -13,10 +13,10 @@ from geocontact.axis_misalignment.axis_drift import AxisDrift
 from geocontact.axis_misalignment.compensation import Compensation
 from geocontact.axis_misalignment.design import (
     Boundary,
+    DesignTask,
+    NeededStroke,
     OffsetMap,
     Sensitivity,
-    Stroke,
-    Task,
     boundary,
     force_band,
     needed_stroke,
@@ -49,7 +49,7 @@ class Designed:
         Force over the angle at the offsets, its least and its largest value within the uncertainty.
     """
 
-    task: Task
+    task: DesignTask
     offset: tuple[float, float]
     uncertainty: float
     ends: Float[np.ndarray, " 2"]
@@ -57,7 +57,7 @@ class Designed:
     map: OffsetMap
     axes: tuple[Float[np.ndarray, " a"], Float[np.ndarray, " b"]]
     boundary: Boundary
-    stroke: Stroke
+    stroke: NeededStroke
     sensitivities: list[Sensitivity]
     beta: Float[np.ndarray, " m"]
     force: Float[np.ndarray, " m"]
@@ -67,7 +67,7 @@ class Designed:
 def designed(drift: AxisDrift, o: DesignOptions) -> Designed:
     """Map, boundary, stroke and sensitivities; InputError where the offsets have no force."""
     locked = (0.0, 0.0)
-    task = Task(o.l, o.z, *o.range, o.limit, Compensation(o.k, *(o.stroke or locked)), drift)
+    task = DesignTask(o.l, o.z, *o.range, o.limit, Compensation(o.k, *(o.stroke or locked)), drift)
     across = _across(o)
     axes = o.offset[0] + across, o.offset[1] + across
     try:

@@ -17,7 +17,7 @@ from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.end_stop import EndStop
 from geocontact.axis_misalignment.law import LENGTHS
 from geocontact.axis_misalignment.uncertainty import Direction
-from geocontact.identify.intervals.bin_tests import BinTest, Pair
+from geocontact.identify.intervals.bin_tests import BinPair, BinTest
 
 
 def described(found: Fitted, free: Free | None) -> dict[str, Any]:
@@ -105,7 +105,7 @@ def _stop(stop: EndStop, stiffness: float | None) -> dict[str, Any]:
     }
 
 
-def _tested(test: BinTest | None, pairs: Sequence[Pair], boxes: Binned) -> dict[str, Any] | None:
+def _tested(test: BinTest | None, pairs: Sequence[BinPair], boxes: Binned) -> dict[str, Any] | None:
     if test is None:
         return None
     middle = np.degrees(boxes.centres)

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.misalignment.labels import ANGLE, CONSTRAINT
-from geocontact.axis_misalignment.end_stop import Curve, Stroke
+from geocontact.axis_misalignment.end_stop import BinMeans, RecordedStroke
 from geocontact.axis_misalignment.uncertainty import Direction
 from geocontact.identify.intervals.profile_likelihood import Profile
 from geocontact.view.curves.quantity import Quantity
@@ -140,7 +140,7 @@ def _boxed(panel: Any, boxes: Boxes, shift: float, share: float, colour: str) ->
 
 
 @in_style
-def conditions_figure(locked: Curve, stroke: Stroke, locked_boxes: Boxes, free_boxes: Boxes) -> Figure:
+def conditions_figure(locked: BinMeans, stroke: RecordedStroke, locked_boxes: Boxes, free_boxes: Boxes) -> Figure:
     """Draw over the angle, with the joint locked and free: mean force (a), displacement of the free joint (b), the
     samples' spread in wider bins on one axis (c).
     """

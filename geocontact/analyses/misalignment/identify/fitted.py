@@ -14,12 +14,12 @@ from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
 from geocontact.axis_misalignment.explicit import require_no_pole, require_reach
 from geocontact.axis_misalignment.law import SCALED, offsets_of
-from geocontact.axis_misalignment.least_squares import Estimate, estimated, r_squared
+from geocontact.axis_misalignment.least_squares import ElbowFit, estimated, r_squared
 from geocontact.axis_misalignment.residuals import Excess, excess, normality, residual_by_bin, standard_residuals
 from geocontact.axis_misalignment.uncertainty import Direction, along_the_scale, direction
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.identify.intervals.bin_tests import BinTest, Normality, Pair, between_bins, between_neighbours
+from geocontact.identify.intervals.bin_tests import BinPair, BinTest, Normality, between_bins, between_neighbours
 
 FACTORS = np.geomspace(0.5, 2.0, 41)
 
@@ -87,7 +87,7 @@ class Fitted:
     recordings: Sequence[ElbowRecording]
     data: Binned
     boxes: Binned
-    estimate: Estimate
+    estimate: ElbowFit
     intervals: tuple[Interval, ...]
     stretches: int
     all_directions: Direction
@@ -95,14 +95,14 @@ class Fitted:
     line: ScaleLine
     held: Sequence[Held]
     bins_differ: BinTest | None
-    neighbours: Sequence[Pair]
+    neighbours: Sequence[BinPair]
     residuals: Residuals
     r2: float
     mirrored_r2: float
 
 
 def fitted(
-    locked: Sequence[ElbowRecording], data: Binned, e: Estimate, apart: Sequence[ElbowRecording], o: IdentifyOptions
+    locked: Sequence[ElbowRecording], data: Binned, e: ElbowFit, apart: Sequence[ElbowRecording], o: IdentifyOptions
 ) -> Fitted:
     """Intervals, directions, tests and predictions of an estimate; InputError where it is beyond the model."""
     _refuse_beyond(e)
@@ -128,7 +128,7 @@ def fitted(
     )
 
 
-def _refuse_beyond(e: Estimate) -> None:
+def _refuse_beyond(e: ElbowFit) -> None:
     """A fit that ended where the model has a pole or folds."""
     offsets = offsets_of(e.theta)
     try:
@@ -138,7 +138,7 @@ def _refuse_beyond(e: Estimate) -> None:
         raise InputError("", "", f"the best numbers are beyond the model: {error}", "narrow `bounds`") from error
 
 
-def _line(e: Estimate, measured: Float[np.ndarray, " n"]) -> ScaleLine:
+def _line(e: ElbowFit, measured: Float[np.ndarray, " n"]) -> ScaleLine:
     rows = along_the_scale(e, FACTORS)
     alone = np.tile(e.theta, (len(rows), 1))
     alone[:, 0] = rows[:, 0]
@@ -148,12 +148,12 @@ def _line(e: Estimate, measured: Float[np.ndarray, " n"]) -> ScaleLine:
     return ScaleLine(rows, r2, alone_r2)
 
 
-def _residuals(locked: Sequence[ElbowRecording], data: Binned, e: Estimate) -> Residuals:
+def _residuals(locked: Sequence[ElbowRecording], data: Binned, e: ElbowFit) -> Residuals:
     beta, off = residual_by_bin(data, e)
     return Residuals(beta, off, standard_residuals(data, e), normality(locked, data, e), excess(locked, data, e))
 
 
-def _mirrored(e: Estimate, measured: Float[np.ndarray, " n"]) -> float:
+def _mirrored(e: ElbowFit, measured: Float[np.ndarray, " n"]) -> float:
     """R² that the same model reaches on the force turned over."""
     turned = estimated(e.problem.measuring(-e.problem.force))
     return r_squared(-measured, turned.predicted)

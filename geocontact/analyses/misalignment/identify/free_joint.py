@@ -11,12 +11,18 @@ from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.identify.reached_bins import require_bins
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
-from geocontact.axis_misalignment.end_stop import Stiffness, Stroke, curve_of, stiffness_by_displacement, stroke_of
-from geocontact.axis_misalignment.least_squares import Estimate
-from geocontact.axis_misalignment.scale import Scale, scale_of
+from geocontact.axis_misalignment.end_stop import (
+    RecordedStroke,
+    Stiffness,
+    bin_means,
+    recorded_stroke,
+    stiffness_by_displacement,
+)
+from geocontact.axis_misalignment.least_squares import ElbowFit
+from geocontact.axis_misalignment.scale import DisplacementScale, displacement_scale
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
-from geocontact.identify.intervals.bin_tests import BinTest, Pair, between_bins, between_neighbours
+from geocontact.identify.intervals.bin_tests import BinPair, BinTest, between_bins, between_neighbours
 
 AGAINST = 3.0  # standard errors below 0 from which a stiffness is a turned sign
 
@@ -37,11 +43,11 @@ class Free:
 
     recordings: Sequence[ElbowRecording]
     boxes: Binned
-    stroke: Stroke
+    stroke: RecordedStroke
     stiffness: Stiffness | None
-    scale: Scale | None
+    scale: DisplacementScale | None
     bins_differ: BinTest | None
-    neighbours: Sequence[Pair]
+    neighbours: Sequence[BinPair]
     rotary_free: bool
 
 
@@ -51,33 +57,33 @@ def free_joint(record: Record, o: IdentifyOptions, recordings: Sequence[ElbowRec
         return None
     data = binned(recordings, o.bin)
     require_bins(record, o.unlocked, data)
-    stroke = stroke_of(curve_of(data))
+    stroke = recorded_stroke(bin_means(data))
     if stroke is None:
         what = "the compensation joint slides over fewer than three bins"
         raise InputError(o.unlocked[0], "", what, "was it free?")
     boxes = binned(recordings, o.box)
-    trials = [curve_of(data.only(trial)) for trial in range(len(data.names))]
+    trials = [bin_means(data.only(trial)) for trial in range(len(data.names))]
     return Free(
         recordings=recordings,
         boxes=boxes,
         stroke=stroke,
         stiffness=None if o.rotary_free else _stiffness(o, locked, stroke),
-        scale=scale_of(trials, stroke, o.bin, rotary_free=o.rotary_free),
+        scale=displacement_scale(trials, stroke, o.bin, rotary_free=o.rotary_free),
         bins_differ=between_bins(boxes.visits, FORCE),
         neighbours=between_neighbours(boxes.visits, FORCE),
         rotary_free=o.rotary_free,
     )
 
 
-def stroke_stiffness(e: Estimate, free: Free) -> float | None:
+def stroke_stiffness(e: ElbowFit, free: Free) -> float | None:
     """k that says how much stroke is wanting [N/m]: by displacement, else as fitted; None where the scale is free."""
     if free.stiffness is not None and free.stiffness.value > 0.0:
         return free.stiffness.value
     return None if e.problem.scale_free else e.named["k"]
 
 
-def _stiffness(o: IdentifyOptions, locked: Binned, stroke: Stroke) -> Stiffness | None:
-    each = [curve_of(locked.only(trial)) for trial in range(len(locked.names))]
+def _stiffness(o: IdentifyOptions, locked: Binned, stroke: RecordedStroke) -> Stiffness | None:
+    each = [bin_means(locked.only(trial)) for trial in range(len(locked.names))]
     found = stiffness_by_displacement(each, stroke, o.bin)
     if found is not None and found.value + AGAINST * np.nan_to_num(found.error) < 0.0:
         what = f"displacement and locked force run against each other ({found.value:.4g} N/m)"

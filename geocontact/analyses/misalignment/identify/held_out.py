@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.misalignment.identify.reached_bins import MIRRORED
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
-from geocontact.axis_misalignment.least_squares import Estimate, law_at, problem_of, r_squared
+from geocontact.axis_misalignment.least_squares import ElbowFit, law_at, problem_of, r_squared
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
 
@@ -26,7 +26,7 @@ class Held:
     bins: int
 
 
-def each_left_out(data: Binned, e: Estimate) -> list[Held]:
+def each_left_out(data: Binned, e: ElbowFit) -> list[Held]:
     """Each trial in turn, predicted by what the others give."""
     if len(data.names) < 2:
         return []
@@ -39,7 +39,7 @@ def each_left_out(data: Binned, e: Estimate) -> list[Held]:
 
 
 def predicted(
-    paths: Sequence[Path], recordings: Sequence[ElbowRecording], data: Binned, e: Estimate, width: float
+    paths: Sequence[Path], recordings: Sequence[ElbowRecording], data: Binned, e: ElbowFit, width: float
 ) -> list[Held]:
     """Recordings of their own, in bins of `width` [rad]; InputError for one whose force mirrors what is predicted."""
     found = []

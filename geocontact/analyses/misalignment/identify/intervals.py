@@ -9,7 +9,7 @@ import numpy as np
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.law import LENGTHS, SCALED
-from geocontact.axis_misalignment.least_squares import Estimate
+from geocontact.axis_misalignment.least_squares import ElbowFit
 from geocontact.axis_misalignment.uncertainty import covariance, profiled, wild_bootstrap, with_link_held
 from geocontact.identify.intervals.profile_likelihood import Profile
 
@@ -92,7 +92,7 @@ class Interval:
         return f"{' '.join(filter(None, (f'{self.value:.4g}', self.unit)))} (95 % {self.ends})"
 
 
-def intervals(data: Binned, e: Estimate, replicates: int) -> tuple[Interval, ...]:
+def intervals(data: Binned, e: ElbowFit, replicates: int) -> tuple[Interval, ...]:
     """Of each free number; where nothing sets the scale, of k l, x/l, y/l, z/l in place of k and the lengths.
 
     `replicates` of the bootstrap are drawn, none for 0.
@@ -112,7 +112,7 @@ def intervals(data: Binned, e: Estimate, replicates: int) -> tuple[Interval, ...
     )
 
 
-def _drawn(data: Binned, e: Estimate, replicates: int) -> dict[str, tuple[float, float]]:
+def _drawn(data: Binned, e: ElbowFit, replicates: int) -> dict[str, tuple[float, float]]:
     """Ends of the bootstrap's 95 % by free number; empty without one."""
     if not replicates:
         return {}

@@ -26,7 +26,7 @@ from geocontact.analyses.misalignment.identify.page import write_fit_report
 from geocontact.analyses.misalignment.identify.tables import QUANTILE_COLUMNS, tables_of
 from geocontact.analyses.result import Result
 from geocontact.axis_misalignment.bins import Binned
-from geocontact.axis_misalignment.end_stop import curve_of
+from geocontact.axis_misalignment.end_stop import bin_means
 from geocontact.io.text.results import write_table
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ class IdentifyResult(Result):
             return residual_figure(r.beta, r.off, r.standard, f"Lilliefors {r.normality.shown}")
         if name == "conditions" and self.free is not None:
             boxes = self._boxes("boxes", f.boxes), self._boxes("boxes_free", self.free.boxes)
-            return conditions_figure(curve_of(f.data), self.free.stroke, *boxes)
+            return conditions_figure(bin_means(f.data), self.free.stroke, *boxes)
         raise KeyError(f"no figure {name!r}; there are {', '.join(self.figures)}")
 
     def write_files(self, folder: Path) -> None:

@@ -15,7 +15,7 @@ from geocontact.analyses.misalignment.identify.result import IdentifyResult
 from geocontact.analyses.misalignment.identify.sentences import say
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import binned
-from geocontact.axis_misalignment.least_squares import Prior, Problem, estimated, problem_of
+from geocontact.axis_misalignment.least_squares import ElbowProblem, Prior, estimated, problem_of
 
 
 def run(recorded: Recorded, o: IdentifyOptions, record: Record) -> IdentifyResult:
@@ -35,7 +35,7 @@ def run(recorded: Recorded, o: IdentifyOptions, record: Record) -> IdentifyResul
     return IdentifyResult(record=record, options=o, fit=found, free=free, summary=summary)
 
 
-def _scaled_by(record: Record, problem: Problem, free: Free) -> Problem:
+def _scaled_by(record: Record, problem: ElbowProblem, free: Free) -> ElbowProblem:
     """The problem with the free joint's displacement beside it; as it was where that has no standard error."""
     if free.scale is None:
         record.warn("the free joint's displacement sets no scale without a standard error, which takes two free trials")

@@ -14,10 +14,10 @@ from geocontact.analyses.misalignment.identify.free_joint import Free
 from geocontact.analyses.misalignment.identify.intervals import Interval
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.bins import Binned
-from geocontact.axis_misalignment.end_stop import curve_of
+from geocontact.axis_misalignment.end_stop import bin_means
 from geocontact.axis_misalignment.law import NAMES
 from geocontact.data.elbow_recording import ElbowRecording
-from geocontact.identify.signals.angle_bins import places
+from geocontact.identify.signals.angle_bins import bin_numbers
 
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 QUANTILE_COLUMNS = tuple(f"{share:.0%} [N]" for share in QUANTILES)
@@ -41,7 +41,7 @@ def tables_of(found: Fitted, free: Free | None) -> dict[str, pd.DataFrame]:
 def spread_table(recordings: Sequence[ElbowRecording], data: Binned) -> pd.DataFrame:
     """Samples of all trials by bin: counts, mean, SD, quantiles; empty where nothing was recorded."""
     edges = data.visits.edges
-    place = np.concatenate([places(r.beta, edges) for r in recordings])
+    place = np.concatenate([bin_numbers(r.beta, edges) for r in recordings])
     force = np.concatenate([r.force for r in recordings])
     order = np.argsort(place, kind="stable")
     groups = np.split(force[order], np.searchsorted(place[order], np.arange(1, len(edges) - 1)))
@@ -118,7 +118,7 @@ def held_table(found: Fitted) -> pd.DataFrame:
 
 def condition_table(found: Fitted, free: Free) -> pd.DataFrame:
     """Bin means with the joint locked and free."""
-    locked, curve = curve_of(found.data), free.stroke.curve
+    locked, curve = bin_means(found.data), free.stroke.curve
     one = pd.DataFrame(
         {
             "beta [deg]": np.degrees(locked.beta).round(6),

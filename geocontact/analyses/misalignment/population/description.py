@@ -8,7 +8,7 @@ from typing import Any
 from geocontact.analyses.misalignment.planar_words import STATES, WITHOUT_FORCE, rounded
 from geocontact.analyses.misalignment.population.drawn import Drawn
 from geocontact.analyses.misalignment.population.tables import influence_table
-from geocontact.identify.intervals.quantile_intervals import Estimate
+from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
 
 
 def described(d: Drawn) -> dict[str, Any]:
@@ -30,5 +30,5 @@ def described(d: Drawn) -> dict[str, Any]:
     return told
 
 
-def _estimate(one: Estimate) -> dict[str, float]:
+def _estimate(one: IntervalEstimate) -> dict[str, float]:
     return {"value": one.value, "lower": one.lower, "upper": one.upper}

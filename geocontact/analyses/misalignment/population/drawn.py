@@ -14,7 +14,7 @@ from geocontact.axis_misalignment.axis_drift import AxisDrift
 from geocontact.axis_misalignment.planar_joint import SOUND, STEP
 from geocontact.axis_misalignment.population import QUANTITIES, Exposure, peak_forces
 from geocontact.data.errors import InputError
-from geocontact.identify.intervals.quantile_intervals import Estimate, probability, quantile
+from geocontact.identify.intervals.quantile_intervals import IntervalEstimate, probability, quantile
 from geocontact.identify.intervals.sampling import Sampling
 from geocontact.identify.intervals.sobol_indices import Indices, RankRegression, rank_regression, variance_shares
 
@@ -59,10 +59,10 @@ class Drawn:
     people: Float[np.ndarray, "n 5"]
     peak: Float[np.ndarray, " n"]
     fate: Int[np.ndarray, " n"]
-    quantiles: dict[float, Estimate]
-    beyond: Estimate
+    quantiles: dict[float, IntervalEstimate]
+    beyond: IntervalEstimate
     levels: Float[np.ndarray, " k"]
-    exceedance: list[Estimate]
+    exceedance: list[IntervalEstimate]
     varying: tuple[str, ...]
     regression: RankRegression
     indices: Indices | None

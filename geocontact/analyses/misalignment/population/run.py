@@ -14,7 +14,7 @@ from geocontact.analyses.misalignment.population.result import PopulationResult
 from geocontact.analyses.misalignment.population.tables import SHOWN
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.planar_joint import FATES
-from geocontact.identify.intervals.quantile_intervals import Estimate
+from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
 
 
 def run(population: Population, o: PopulationOptions, record: Record) -> PopulationResult:
@@ -49,5 +49,5 @@ def _say(record: Record, d: Drawn) -> None:
     record.say(f"{d.rate} samples per second of one core; grid of angles: error below {max(d.grid_error, 1e-9):.1e} N")
 
 
-def _said(e: Estimate) -> str:
+def _said(e: IntervalEstimate) -> str:
     return f"{e.value:.3f} N ({e.lower:.3f} … {e.upper:.3f})" if math.isfinite(e.value) else "infinite"

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Values
 
 Numbers = Mapping[str, float]
 
 
 @dataclass(frozen=True)
-class Place:
+class Site:
     """One of several interfaces: its name, the output and the input angle that are its own, by row."""
 
     name: str
@@ -24,7 +24,7 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Body:
+class SyntheticSystem:
     """A base model written a second time from its definition, with its hooks.
 
     Parameters
@@ -54,14 +54,14 @@ class Body:
         Outputs as a laboratory has them: NaN where nothing is measured.
     """
 
-    respond: Callable[[Course, Numbers, Hooks], Outputs]
-    base_model: Callable[[Course, Numbers], Callable[[Values], Values]]
-    motion: Callable[[Course, Numbers], tuple[Values, Values]]
+    respond: Callable[[InputCourse, Numbers, Hooks], Outputs]
+    base_model: Callable[[InputCourse, Numbers], Callable[[Values], Values]]
+    motion: Callable[[InputCourse, Numbers], tuple[Values, Values]]
     loads: tuple[int, ...] = (0,)
     normal: tuple[int, ...] = (0,)
-    places: tuple[Place, ...] = ()
+    places: tuple[Site, ...] = ()
     spare: tuple[str, ...] = ()
     patchy: tuple[int, ...] = ()
-    passed_on: Callable[[Course, Numbers, int, Values], Values] | None = None
+    passed_on: Callable[[InputCourse, Numbers, int, Values], Values] | None = None
     fine: int = 10
     recorded: Callable[[Float[np.ndarray, "c t"]], Float[np.ndarray, "c t"]] = np.asarray

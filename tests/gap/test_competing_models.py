@@ -9,13 +9,13 @@ import pytest
 
 from geocontact.chain.system import System
 from geocontact.gap.case.refit import Measured, derivatives, free
-from geocontact.gap.experiment.competing_models import Hypothesis, Recording, Rows, kept
+from geocontact.gap.experiment.competing_models import Hypothesis, Rows, SimulatedTrials, remaining_nats
 from tests.systems.examples import example
 
 SIGMA = 20.0  # N
 
 
-def weigh(columns: np.ndarray) -> np.ndarray:
+def whiten(columns: np.ndarray) -> np.ndarray:
     return np.asarray(columns.reshape(-1, columns.shape[-1]) / SIGMA)
 
 
@@ -39,27 +39,27 @@ def imitator(system: System, known: Measured) -> Hypothesis:
 
 
 def straight(one: Hypothesis, known: Measured) -> Rows:
-    white = weigh(known.residuals(one.system, one.values)[0][..., None])[:, 0]
-    return Rows(white, weigh(derivatives(one.system, known, one.values)[0]) * one.spread)
+    white = whiten(known.residuals(one.system, one.values)[0][..., None])[:, 0]
+    return Rows(white, whiten(derivatives(one.system, known, one.values)[0]) * one.spread)
 
 
 def test_a_straight_imitator_leaves_what_first_order_says() -> None:
     system = wider(example("knee")[0], 8e7)
     old, new = truth(system, 1.3)
     one = imitator(system, old)
-    recordings = [Recording(system, old, [weigh]), Recording(system, new, [weigh], 3)]
+    recordings = [SimulatedTrials(system, old, [whiten]), SimulatedTrials(system, new, [whiten], 3)]
     expected = straight(one, old).with_(straight(one, new), 3).nats
-    assert kept(one, recordings) == pytest.approx(expected, rel=1e-3)
-    assert kept(one, recordings[:1]) == pytest.approx(straight(one, old).nats, rel=1e-3)
-    assert kept(one, recordings) > 2.0 * kept(one, recordings[:1])
+    assert remaining_nats(one, recordings) == pytest.approx(expected, rel=1e-3)
+    assert remaining_nats(one, recordings[:1]) == pytest.approx(straight(one, old).nats, rel=1e-3)
+    assert remaining_nats(one, recordings) > 2.0 * remaining_nats(one, recordings[:1])
 
 
 def test_bounds_hold_an_imitator_back() -> None:
     system = example("knee")[0]
     held = wider(system, 1.02 * free(system)[0].start)
     old, _ = truth(system, 1.3)
-    plenty = kept(imitator(wider(system, 8e7), old), [Recording(system, old, [weigh])])
-    assert kept(imitator(held, old), [Recording(held, old, [weigh])]) > 2.0 * plenty
+    plenty = remaining_nats(imitator(wider(system, 8e7), old), [SimulatedTrials(system, old, [whiten])])
+    assert remaining_nats(imitator(held, old), [SimulatedTrials(held, old, [whiten])]) > 2.0 * plenty
 
 
 def test_a_bent_imitator_is_followed_beyond_its_first_step() -> None:
@@ -68,8 +68,8 @@ def test_a_bent_imitator_is_followed_beyond_its_first_step() -> None:
     known = {name: 1.6 * value for name, value in system.start.items()}
     measured = Measured(tuple(trials), tuple(system.simulate(t, known) for t in trials), np.ones(3))
     one = imitator(system, measured)
-    first = sum(0.5 * float((weigh(r[..., None]) ** 2).sum()) for r in measured.residuals(system, one.values))
-    left = kept(one, [Recording(system, measured, [weigh] * len(trials))])
+    first = sum(0.5 * float((whiten(r[..., None]) ** 2).sum()) for r in measured.residuals(system, one.values))
+    left = remaining_nats(one, [SimulatedTrials(system, measured, [whiten] * len(trials))])
     believed = 0.5 * sum(
         ((known[p.name] - one.values[p.name]) / s) ** 2 for p, s in zip(free(system), one.spread, strict=True)
     )

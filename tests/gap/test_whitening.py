@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.gap.case.whitening import LOUDER, SENSOR_LOUDER, Weighing, usual_levels
+from geocontact.gap.case.whitening import LOUDER, SENSOR_LOUDER, Whitening, usual_levels
 from geocontact.gap.selection.evidence import log_evidence
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.input_noise import Instant
-from geocontact.identify.noise.noise_levels import Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 from geocontact.systems.catalogue import system_of
@@ -18,10 +18,10 @@ from tests.gap.cases import elbow_case
 SPECTRUM = NoiseSpectrum.after(LowPass(6.0, 0.05), lambda frequency: 2.0 * np.pi * frequency)
 
 
-def parts(rng: np.random.Generator) -> tuple[Layout, Levels, np.ndarray]:
+def parts(rng: np.random.Generator) -> tuple[Layout, NoiseLevels, np.ndarray]:
     time = 0.05 * np.arange(60)
     still = np.zeros((60, 1, 1))
-    levels = Levels(np.array([0.4]), np.array([[0.6]]), np.array([[0.2]]), np.array([1.0]))
+    levels = NoiseLevels(np.array([0.4]), np.array([[0.6]]), np.array([[0.2]]), np.array([1.0]))
     return (
         Layout.of(time, np.ones((60, 1), bool), Instant(time, still, still, (SPECTRUM,))),
         levels,
@@ -32,18 +32,18 @@ def parts(rng: np.random.Generator) -> tuple[Layout, Levels, np.ndarray]:
 def test_weighing_is_the_inverse_root_of_the_whole_covariance() -> None:
     rng = np.random.default_rng(0)
     layout, levels, varied = parts(rng)
-    weighing = Weighing.of(layout.whitener(levels), varied)
+    whitening = Whitening.of(layout.whitener(levels), varied)
     dense = layout.blocks[0].covariance(levels) + varied[:, 0] @ varied[:, 0].T
     r = rng.standard_normal((60, 1, 1))
-    white = weighing(r)[:, 0]
+    white = whitening(r)[:, 0]
     assert white @ white == pytest.approx(float(r[:, 0, 0] @ np.linalg.solve(dense, r[:, 0, 0])))
-    assert weighing.log_scale == pytest.approx(0.5 * np.linalg.slogdet(dense)[1])
+    assert whitening.log_scale == pytest.approx(0.5 * np.linalg.slogdet(dense)[1])
 
 
 def test_without_variation_it_is_the_whitener() -> None:
     layout, levels, _ = parts(np.random.default_rng(1))
-    weighing = Weighing.of(layout.whitener(levels), np.zeros((60, 1, 0)))
-    assert weighing.log_scale == layout.whitener(levels).log_scale
+    whitening = Whitening.of(layout.whitener(levels), np.zeros((60, 1, 0)))
+    assert whitening.log_scale == layout.whitener(levels).log_scale
 
 
 def test_evidence_is_that_of_the_dense_normal_distribution() -> None:

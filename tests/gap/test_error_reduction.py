@@ -10,8 +10,8 @@ import pytest
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.problem import Problem, problem_of
 from geocontact.gap.case.whitening import sensitivity
-from geocontact.gap.reduction.error_reduction import WIDE, between, shrinkage
-from geocontact.gap.reduction.raw_input_errors import directions, errors_as_measured, passed_on
+from geocontact.gap.reduction.error_reduction import WIDE, between, error_reduction
+from geocontact.gap.reduction.raw_input_errors import directions, passed_on, raw_input_errors
 from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.model_comparison import base_contender, singles
 from geocontact.systems.catalogue import system_of
@@ -71,17 +71,17 @@ def test_what_an_effect_does_otherwise_is_part_of_the_best_fit() -> None:
     case = elbow_case(seed=3, change=lambda _, time, force: force + 0.008 * time**2)
     problem = problem_of(case, system_of(case))
     found = named(problem, "sensor_drift")
-    columns = [j.shape[-1] + b.shape[-1] for j, b in zip(found.model.jacobian, found.bends, strict=True)]
-    assert [d.shape[-1] for d in directions(found)] == columns and found.bends[0].shape[-1] > 0
-    straight = [b[..., :0] for b in found.bends]
-    plain = replace(found, bends=straight, whitened_bends=found.whitened_bends[:, :0])
-    bent_left, plain_left = (errors_as_measured(problem, problem, each, None).left[0][0] for each in (found, plain))
+    columns = [j.shape[-1] + b.shape[-1] for j, b in zip(found.model.jacobian, found.discrepancy_basis, strict=True)]
+    assert [d.shape[-1] for d in directions(found)] == columns and found.discrepancy_basis[0].shape[-1] > 0
+    straight = [b[..., :0] for b in found.discrepancy_basis]
+    plain = replace(found, discrepancy_basis=straight, whitened_basis=found.whitened_basis[:, :0])
+    bent_left, plain_left = (raw_input_errors(problem, problem, each, None).left[0][0] for each in (found, plain))
     assert bent_left < 0.9 * plain_left
 
 
 def test_a_reduction_is_stated_with_its_interval(problem: Problem) -> None:
-    found = shrinkage(problem, problem, named(problem, "damping"), True)["force"]
+    found = error_reduction(problem, problem, named(problem, "damping"), True)["force"]
     assert 0.0 < found.low < found.reduction < found.high < 1.0
     assert found.reduction == pytest.approx(1.0 - found.rmse_after / found.rmse_before, abs=0.15)
-    nothing = shrinkage(problem, problem, base_contender(problem).judged, False)["force"]
+    nothing = error_reduction(problem, problem, base_contender(problem).judged, False)["force"]
     assert (nothing.low, nothing.reduction, nothing.high) == (0.0, 0.0, 0.0)

@@ -8,7 +8,7 @@ from scipy.stats import goodness_of_fit, norm
 
 from geocontact.identify.intervals.bin_tests import DRAWS, between_bins, between_neighbours, lilliefors
 from geocontact.identify.noise.bin_noise import mean_covariance
-from geocontact.identify.signals.angle_bins import Visits, edges_over, visits
+from geocontact.identify.signals.angle_bins import AngleBins, angle_bins, edges_over
 
 
 def recording(seed: int = 0, seconds: float = 60.0) -> tuple[np.ndarray, np.ndarray]:
@@ -35,7 +35,7 @@ def test_edges_end_where_the_recordings_do() -> None:
 def test_means_are_those_of_the_samples_bin_by_bin() -> None:
     time, values = recording()
     edges = edges_over([values[:, 0]], np.radians(5.0))
-    v = visits([time], [values], edges, 7.0)
+    v = angle_bins([time], [values], edges, 7.0)
     cells = v.cells()
     place = np.digitize(values[:, 0], edges) - 1
     assert cells.count.sum() == v.count.sum() == len(time)
@@ -49,14 +49,14 @@ def test_a_bin_that_was_hardly_touched_is_not_reached() -> None:
     angle = np.where(time < 5.0, 0.1, 0.5)
     angle[300] = 0.3
     values = np.column_stack([angle, angle])
-    v = visits([time], [values], edges_over([angle], 0.1), np.inf)
+    v = angle_bins([time], [values], edges_over([angle], 0.1), np.inf)
     assert sorted(np.round(v.means[:, 0], 9)) == [0.1, 0.5]
 
 
 def test_trials_keep_stretches_of_their_own() -> None:
     pairs = [recording(k, 20.0) for k in range(3)]
     edges = edges_over([values[:, 0] for _, values in pairs], 0.1)
-    v = visits([t for t, _ in pairs], [c for _, c in pairs], edges, 5.0)
+    v = angle_bins([t for t, _ in pairs], [c for _, c in pairs], edges, 5.0)
     owners = [set(v.trial[v.stretch == s]) for s in np.unique(v.stretch)]
     assert len(owners) == 12 and all(len(owner) == 1 for owner in owners)
 
@@ -71,7 +71,7 @@ def test_noise_that_remembers_is_not_taken_for_a_difference() -> None:
     place = np.digitize(values[:, 0], edges) - 1
     for _ in range(60):
         values[:, 1] = remembered(len(time), 0.98, rng)
-        test = between_bins(visits([time], [values], edges, 5.0), 1)
+        test = between_bins(angle_bins([time], [values], edges, 5.0), 1)
         assert test is not None and test.counted < test.samples / 20
         found.append(test.p < 0.05)
         naive.append(kruskal(*[values[place == k, 1] for k in np.unique(place)]).pvalue < 0.05)
@@ -81,9 +81,9 @@ def test_noise_that_remembers_is_not_taken_for_a_difference() -> None:
 def test_a_force_that_follows_the_angle_is_a_difference() -> None:
     time, values = recording()
     values[:, 1] += 3.0 * values[:, 0]
-    test = between_bins(visits([time], [values], edges_over([values[:, 0]], 0.2), 5.0), 1)
+    test = between_bins(angle_bins([time], [values], edges_over([values[:, 0]], 0.2), 5.0), 1)
     assert test is not None and test.p < 1e-6
-    lone = visits([time], [np.ones((len(time), 2))], np.array([0.9, 1.1]), 5.0)
+    lone = angle_bins([time], [np.ones((len(time), 2))], np.array([0.9, 1.1]), 5.0)
     assert between_bins(lone, 1) is None
 
 
@@ -120,7 +120,7 @@ def test_neighbouring_bins_are_told_apart_where_they_differ_only() -> None:
     rng = np.random.default_rng(5)
     place = np.repeat(np.arange(5), 12)
     values = rng.normal(size=60) + 4.0 * (place >= 2)
-    v = Visits(np.arange(6.0), np.zeros(60, int), np.arange(60), place, np.full(60, 20.0), values[:, None])
+    v = AngleBins(np.arange(6.0), np.zeros(60, int), np.arange(60), place, np.full(60, 20.0), values[:, None])
     found = between_neighbours(v, 0)
     assert [pair.places for pair in found] == [(0, 1), (1, 2), (2, 3), (3, 4)]
     assert [pair.p_holm < 0.05 for pair in found] == [False, True, False, False]
@@ -132,5 +132,5 @@ def test_neighbouring_bins_are_told_apart_where_they_differ_only() -> None:
     by_hand[last] = max(by_hand[third], p[last])
     np.testing.assert_allclose([pair.p_holm for pair in found], [min(by_hand[k], 1.0) for k in range(4)])
     gap = place != 2
-    apart = Visits(v.edges, v.trial[gap], v.stretch[gap], place[gap], v.count[gap], v.means[gap])
+    apart = AngleBins(v.edges, v.trial[gap], v.stretch[gap], place[gap], v.count[gap], v.means[gap])
     assert [pair.places for pair in between_neighbours(apart, 0)] == [(0, 1), (3, 4)]

@@ -35,9 +35,9 @@ def found(wrong: tuple[str, ...]) -> tuple[str, tuple[str, ...], int]:
     case = many_trials()
     calibration = tuple(in_millinewtons(t) if t.name in wrong else t for t in case.calibration)
     problem = problem_of(replace(case, calibration=calibration), system_of(case))
-    fault = faults.fault_of(problem, candidates(problem.system))
-    assert fault is not None
-    return fault.candidate.label, fault.trials, len(faults._subsets(problem))
+    data_error = faults.data_error_of(problem, candidates(problem.system))
+    assert data_error is not None
+    return data_error.candidate.label, data_error.trials, len(faults._subsets(problem))
 
 
 @pytest.mark.parametrize("wrong", [("t02",), ("t01", "ut03"), ("t01", "t02", "ut01", "ut02", "ut03")])

@@ -7,7 +7,14 @@ import pytest
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.problem import Problem, problem_of
 from geocontact.gap.experiment.proposal import first_of
-from geocontact.gap.identifiability.non_identifiable import UNSEEN, VISIBLE, Visibility, absorbed, mistakes, shown
+from geocontact.gap.identifiability.non_identifiable import (
+    UNSEEN,
+    VISIBLE,
+    Visibility,
+    mistakes,
+    non_identifiable,
+    shown,
+)
 from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
@@ -21,7 +28,7 @@ def elbow() -> Problem:
 
 def listed() -> list[str]:
     problem = elbow()
-    return [each.name for each in absorbed(problem, candidates(problem.system), ("preload",))]
+    return [each.name for each in non_identifiable(problem, candidates(problem.system), ("preload",))]
 
 
 def of_one(label: str) -> list[Visibility]:
@@ -33,7 +40,7 @@ def of_one(label: str) -> list[Visibility]:
 def at_the_seat() -> list[str]:
     case = drawn(Lot("sit_to_stand", "none", 20261135, 1)).case
     problem = problem_of(case, system_of(case))
-    return [each.name for each in absorbed(problem, candidates(problem.system), ())]
+    return [each.name for each in non_identifiable(problem, candidates(problem.system), ())]
 
 
 def test_effects_and_mistakes_are_listed_the_best_hidden_first(elsewhere: Elsewhere) -> None:

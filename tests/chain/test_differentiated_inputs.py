@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from geocontact.chain import differentiated_inputs as module
-from geocontact.chain.differentiated_inputs import movement, rate_of_waves, recorded
+from geocontact.chain.differentiated_inputs import differentiated_inputs, rate_of_waves, recorded
 from geocontact.data.motion import Signals
 
 
-def of(time: np.ndarray, values: np.ndarray) -> module.Movement:
-    return movement(time, ("a",), values[None])
+def of(time: np.ndarray, values: np.ndarray) -> module.DifferentiatedInputs:
+    return differentiated_inputs(time, ("a",), values[None])
 
 
 @pytest.mark.parametrize("step", [0.002, 0.005, 0.02, 0.035, 0.04, 0.3])

@@ -8,7 +8,7 @@ import pytest
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.problem import Problem, problem_of
-from geocontact.gap.inject import chosen, plant, visible
+from geocontact.gap.inject import chosen, inject, visible
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import elbow_case
@@ -24,14 +24,14 @@ def sizes(label: str, wanted: float) -> tuple[float, float, dict[str, float]]:
     """Size that was said, the gap that a refit of the base leaves on trials without noise, and the values."""
     case, problem = made_ready()
     one = chosen(candidates(problem.system), label)
-    made = plant(case, problem, one, {}, wanted)
+    made = inject(case, problem, one, {}, wanted)
     return made.size, visible(problem, one.apply(problem.system), made.values), dict(made.values)
 
 
 def changes(label: str, values: dict[str, float]) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Of every trial: time, force before, force with the effect."""
     case, problem = made_ready()
-    made = plant(case, problem, chosen(candidates(problem.system), label), values, 1.0).case
+    made = inject(case, problem, chosen(candidates(problem.system), label), values, 1.0).case
     pairs = zip((*case.calibration, *case.evaluation), (*made.calibration, *made.evaluation), strict=True)
     return [(a.time, a.column("force"), b.column("force")) for a, b in pairs]
 
@@ -105,7 +105,7 @@ def foot_changes(
 ) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Of every trial: time, the three outputs before, the outputs with the effect."""
     case, problem = foot_made_ready(hole)
-    made = plant(case, problem, chosen(candidates(problem.system), label), values, 1.0).case
+    made = inject(case, problem, chosen(candidates(problem.system), label), values, 1.0).case
     pairs = zip((*case.calibration, *case.evaluation), (*made.calibration, *made.evaluation), strict=True)
     names = problem.system.outputs
     return [(a.time, *(np.column_stack([t.column(n) for n in names]) for t in (a, b))) for a, b in pairs]
@@ -147,7 +147,7 @@ def test_samples_that_a_model_does_not_have_stay_as_measured(elsewhere: Elsewher
 def test_a_mistake_is_made_in_the_trials_that_are_named() -> None:
     case, problem = made_ready()
     one = chosen(candidates(problem.system), "sign_flip.beta")
-    made = plant(case, problem, one, {}, 1.0, frozenset({"t02"})).case
+    made = inject(case, problem, one, {}, 1.0, frozenset({"t02"})).case
     for a, b in zip((*case.calibration, *case.evaluation), (*made.calibration, *made.evaluation), strict=True):
         np.testing.assert_array_equal(b.column("beta"), -a.column("beta") if a.name == "t02" else a.column("beta"))
         np.testing.assert_array_equal(b.column("force"), a.column("force"))

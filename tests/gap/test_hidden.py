@@ -8,7 +8,7 @@ import pytest
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.problem import problem_of
 from geocontact.gap.case.refit import refit
-from geocontact.gap.data_errors.gross import fault_of
+from geocontact.gap.data_errors.gross import data_error_of
 from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
 from geocontact.gap.selection.evidence import by_smoothing
 from geocontact.gap.selection.model_comparison import base_contender, finished
@@ -23,7 +23,7 @@ def exchanged_sides() -> tuple[tuple[str, ...], bool, list[str]]:
     planted = drawn(Lot("knee", "fault", 20261133, 3))
     problem = problem_of(planted.case, system_of(planted.case))
     offered = candidates(problem.system)
-    gross = fault_of(problem, offered) is not None
+    gross = data_error_of(problem, offered) is not None
     hidden = hidden_mistakes(problem, base_contender(problem).judged, offered)
     return planted.label.effects, gross, [one.label for one in hidden]
 
@@ -52,8 +52,8 @@ def judged_both_ways() -> tuple[float, float, float]:
     fitting = problem.fitting(base.judged.noise, problem.plain)
     model = refit(one.apply(problem.system), problem.calibration, fitting, one.starts)
     alone = finished(problem, (one,), model, base.judged.noise)
-    weighings = problem.weighings(alone.judged.noise, alone.judged.model)
-    owed = float(by_smoothing(problem, alone.judged.model, weighings).sum())
+    whitenings = problem.whitenings(alone.judged.noise, alone.judged.model)
+    owed = float(by_smoothing(problem, alone.judged.model, whitenings).sum())
     samples = sum(len(t) for t in (*case.calibration, *case.evaluation))
     clean = base_contender(problem_of(right, problem.system)).judged
     expected = clean.nats + samples * float(np.log(pound)) - owed

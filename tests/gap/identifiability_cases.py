@@ -21,9 +21,9 @@ from geocontact.gap.case.problem import problem_of
 from geocontact.gap.experiment.menu import menu
 from geocontact.gap.experiment.proposal import TELLS, first_of, next_experiment
 from geocontact.gap.identifiability.detectability import SURE, detectabilities, power
-from geocontact.gap.identifiability.non_identifiable import absorbed
-from geocontact.gap.identifiability.separability import classes, imitator_of, refitted, separation, separations
-from geocontact.gap.identifiability.signatures import Ground, at_nats, ground_of, own_slopes, sized
+from geocontact.gap.identifiability.non_identifiable import non_identifiable
+from geocontact.gap.identifiability.separability import classes, confounder_of, refitted, separation, separations
+from geocontact.gap.identifiability.signatures import BaseState, at_nats, base_state_of, own_slopes, sized
 from geocontact.gap.selection.model_comparison import base_contender, singles
 from geocontact.gap.selection.verdict import Answer
 from geocontact.systems.catalogue import system_of
@@ -63,12 +63,12 @@ def thigh_case() -> GapCase:
     return GapCase("c", "sit_to_stand", tuple(trials[:2]), tuple(trials[2:]), parameters, fixed, {"thigh_force": 0.3})
 
 
-def stood(case: GapCase) -> tuple[Ground, dict[str, Candidate]]:
+def stood(case: GapCase) -> tuple[BaseState, dict[str, Candidate]]:
     """Ground of a case without an effect, and its candidates by label."""
     problem = problem_of(case, system_of(case))
     base = base_contender(problem).judged
     known = {one.label: one for one in candidates(problem.system) if one.parameters}
-    return ground_of(problem, base.noise, base.model.values), known
+    return base_state_of(problem, base.noise, base.model.values), known
 
 
 def swallowed_shares() -> dict[str, float]:
@@ -99,7 +99,7 @@ def straight_and_refitted() -> list[tuple[str, str, float, float]]:
     """Separations that were found to first order, and what a bounded refit makes of the same."""
     ground, known = stood(elbow_case(seed=1))
     labels = ("damping", "relaxation", "filter_lag", "preload", "motion_offset.beta", "time_shift")
-    others = [imitator_of(ground, known[label]) for label in labels]
+    others = [confounder_of(ground, known[label]) for label in labels]
     found = []
     for one in (known[label] for label in labels[:3]):
         effect = at_nats(ground, one, 20.0)
@@ -167,7 +167,7 @@ def proposed(effects: Mapping[str, float] | None, times: float = TELLS) -> NextE
     else:
         rivals, said = [], Answer("no_gap", (), {}, (), base)
     found = Attribution(problem, None, problem, base, tuple(rivals), {}, (), (), said)
-    names = [each.name for each in absorbed(problem, known, ())]
+    names = [each.name for each in non_identifiable(problem, known, ())]
     with patch("geocontact.gap.experiment.proposal.TELLS", times):
         return next_experiment(found, first_of(known, names))
 
