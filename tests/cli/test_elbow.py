@@ -168,6 +168,7 @@ def test_the_page_and_its_figures(fitted: Call) -> None:
     assert fitted.record()["results"]["elbow"] == told(fitted)
 
 
+@pytest.mark.slow
 def test_without_anything_known_the_options_that_would_help_are_named(tmp_path: Path, made: Path) -> None:
     result = done(elbow("fit", tmp_path, *locked(made), "--bootstrap", 0))
     words = "know l, z or k (--known), give a prior (--prior), or record the free joint's displacement (--unlocked)"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -16,10 +17,15 @@ FILES = {"population.json", "quantiles.csv", "exceedance.csv", "influence.csv", 
 FILES |= {"report.html", "run.json"}
 
 
-def population(folder: Path, *options: object, samples: int = 5000, picture: bool = False, **changes: str) -> Call:
+USUAL = {"--range": "0:120deg", "--limit": 0.006, "--samples": 5000}
+
+
+def population(
+    folder: Path, options: Mapping[str, object] | None = None, *flags: str, picture: bool = False, **changes: str
+) -> Call:
     """The command for people of whom one offset differs, or others."""
-    given = ("--range=0:120deg", "--limit=0.006", f"--samples={samples}")
-    return elbow("population", folder / "out", described(folder, **changes), *given, *options, picture=picture)
+    given = [f"{name}={value}" for name, value in {**USUAL, **(options or {})}.items()]
+    return elbow("population", folder / "out", described(folder, **changes), *given, *flags, picture=picture)
 
 
 def test_a_population_with_its_figure_and_page(tmp_path: Path) -> None:
@@ -34,7 +40,7 @@ def test_a_population_with_its_figure_and_page(tmp_path: Path) -> None:
 
 
 def test_python_draws_as_the_command_does(tmp_path: Path) -> None:
-    typed = done(population(tmp_path, "--keep", "--seed=3", "--stroke-mm=-0.01:0.02")).folder
+    typed = done(population(tmp_path, {"--seed": 3, "--stroke-mm": "-0.01:0.02"}, "--keep")).folder
     file, span = tmp_path / "people.toml", gc.deg(0, 120)
     stroke = gc.mm(-0.01, 0.02)
     result = gc.misalignment.population(file, range=span, limit=6e-3, samples=5000, seed=3, keep=True, stroke=stroke)
@@ -46,26 +52,26 @@ def test_python_draws_as_the_command_does(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "changes", "said"),
     [
-        ([], {"y": ""}, "no [y]"),
-        ([], {"w": "value = 1"}, "[w]"),
-        ([], {"y": 'unit = "mm"\nvalue = 3'}, "the same for everybody"),
-        ([], {"y": 'unit = "N"\nvalue = 3'}, "unit is 'N'"),
-        ([], {"y": 'unit = "mm"\nvalue = 3\nnormal = { mean = 0, sd = 1 }'}, "told in 2 ways"),
-        ([], {"y": 'unit = "mm"\nnormal = { mean = 0 }'}, "sd is missing"),
-        ([], {"y": 'unit = "mm"\nnormal = { mean = 0, sd = 0 }'}, "sd is not above 0"),
-        ([], {"y": 'unit = "mm"\nnormal = { mean = 0, sd = 1, most = 2 }'}, "'most' is not known"),
-        ([], {"y": 'unit = "mm"\nuniform = { lower = 2, upper = 1 }'}, "upper is not above lower"),
-        ([], {"k": 'unit = "N/m"\nuniform = { lower = -1, upper = 200 }'}, "samples of k are not above 0"),
-        ([], {"correlation": "x_y = 0.4"}, "x is told by value"),
-        ([], {"correlation": "y_y = 0.4"}, "no pair"),
-        ([], {"y": 'table = "nowhere.csv"'}, "nowhere.csv"),
-        (["--samples=10"], {}, "--samples: 10 is not 100 to 2e+07"),
-        (["--seed=-1"], {}, "--seed: -1 is not 0 or more"),
-        (["--range=0:120"], {}, "--range: '0:120' is not a range of angles with its unit"),
+        ({}, {"y": ""}, "no [y]"),
+        ({}, {"w": "value = 1"}, "[w]"),
+        ({}, {"y": 'unit = "mm"\nvalue = 3'}, "the same for everybody"),
+        ({}, {"y": 'unit = "N"\nvalue = 3'}, "unit is 'N'"),
+        ({}, {"y": 'unit = "mm"\nvalue = 3\nnormal = { mean = 0, sd = 1 }'}, "told in 2 ways"),
+        ({}, {"y": 'unit = "mm"\nnormal = { mean = 0 }'}, "sd is missing"),
+        ({}, {"y": 'unit = "mm"\nnormal = { mean = 0, sd = 0 }'}, "sd is not above 0"),
+        ({}, {"y": 'unit = "mm"\nnormal = { mean = 0, sd = 1, most = 2 }'}, "'most' is not known"),
+        ({}, {"y": 'unit = "mm"\nuniform = { lower = 2, upper = 1 }'}, "upper is not above lower"),
+        ({}, {"k": 'unit = "N/m"\nuniform = { lower = -1, upper = 200 }'}, "samples of k are not above 0"),
+        ({}, {"correlation": "x_y = 0.4"}, "x is told by value"),
+        ({}, {"correlation": "y_y = 0.4"}, "no pair"),
+        ({}, {"y": 'table = "nowhere.csv"'}, "nowhere.csv"),
+        ({"--samples": 10}, {}, "--samples: 10 is not 100 to 20000000"),
+        ({"--seed": -1}, {}, "--seed: -1 is not 0 or more"),
+        ({"--range": "0:120"}, {}, "--range: '0:120' is not a range of angles with its unit"),
     ],
 )
-def test_refused_in_one_line(tmp_path: Path, options: list[str], changes: dict[str, str], said: str) -> None:
-    result = population(tmp_path, *options, **changes)
+def test_refused_in_one_line(tmp_path: Path, options: dict[str, object], changes: dict[str, str], said: str) -> None:
+    result = population(tmp_path, options, **changes)
     assert result.code == 2
     (line,) = result.complaints
     assert said in line and not (tmp_path / "out").exists()

@@ -47,7 +47,7 @@ def require_within(
 ) -> None:
     """Refuse a value that is not between two ends."""
     if value is not None and not ends[0] <= value <= ends[1]:
-        raise InputError("", option, f"{value:g} is not {ends[0]:g} to {ends[1]:g}", f"give {usual:g}")
+        raise InputError("", option, f"{value:g} is not {ends[0]:g} to {ends[1]:.10g}", f"give {usual:g}")
 
 
 def require_above_0(value: float, option: str, unit: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -161,6 +162,9 @@ def test_a_stiffness_that_follows_the_pressure_is_told_about_the_recordings_mean
     there = 222.43 * (1.0 + 0.01 * (centre - 35.0))  # the stiffness was given at 35 mmHg
     assert result.numbers["k"] == pytest.approx(there, rel=0.01)
     assert result.numbers["s"] == pytest.approx(0.01 / gc.mmHg(1) * 222.43 / there, rel=0.02)
+    (tmp_path / "elbow.json").write_text(json.dumps(result.summary))
+    beside = quietly(gc.misalignment.compare, *locked(folder), fit=tmp_path / "elbow.json").table()
+    np.testing.assert_allclose(beside["rmse"], 0.01, rtol=0.5)
 
 
 @pytest.mark.slow
