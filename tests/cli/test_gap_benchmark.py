@@ -150,7 +150,10 @@ def test_lots_are_the_seeds_own() -> None:
         (("--jobs", 0), "0 is less than one process"),
         (("--again", "-1"), "-1 is less than none"),
         (("--seed", "-1"), "-1 is negative"),
-        (("--journal", "cases.jsonl"), "would go on with other cases; give --seed too"),
+        (
+            ("--journal", "cases.jsonl"),
+            "--seed: is missing with --journal; it would go on with other cases",
+        ),
         (("--system", "hip"), "hip"),
     ],
 )
