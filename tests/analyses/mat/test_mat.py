@@ -79,6 +79,18 @@ def test_moments_refer_to_the_point_and_the_frame_has_its_name(tmp_path: Path) -
     assert result.loads.wrench.frame == "thigh"
 
 
+@pytest.mark.parametrize(("touched", "area", "mean"), [(1e3, 1200.0, 6.5e3), (5e3, 600.0, 10e3)])
+def test_area_and_mean_pressure_are_those_of_touched_cells(
+    tmp_path: Path, touched: float, area: float, mean: float
+) -> None:
+    pressure = uniform(30, 10.0)
+    pressure[:, :2] = 3.0
+    result = flat(tmp_path, pressure, touched=touched, segment=("all=x > 0",))
+    for table in (result.table(), result.table("segments")):
+        np.testing.assert_allclose(table["area [mm^2]"], area, rtol=1e-9)
+        np.testing.assert_allclose(table["mean [Pa]"], mean, rtol=1e-9)
+
+
 def test_segments_share_the_force(tmp_path: Path) -> None:
     parts = flat(tmp_path, uniform(), segment=("near=x < 40", "far=x > 40")).table("segments")
     force = {name: group["normal [N]"].iloc[0] for name, group in parts.groupby("segment")}
