@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact import gap
+import geocontact.gap
 from geocontact.analyses.gap.benchmark import run as gap_benchmark_run
 from geocontact.analyses.gap.benchmark.case import ANSWERERS, Task, Worked, alike, failed, renamed, worked
 from geocontact.analyses.gap.benchmark.content import constants_of_all
@@ -24,7 +24,7 @@ SEED = 20
 
 
 def test_every_constant_of_the_theory_page_is_recorded() -> None:
-    recorded = constants_of_all(gap)
+    recorded = constants_of_all(geocontact.gap)
     ours = {f"{module}.{name}".removeprefix("gap."): float(value) for module, name, value in ROWS if "gap." in module}
     assert len(ours) > 20 and {name: recorded.get(name) for name in ours} == ours
 
