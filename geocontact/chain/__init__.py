@@ -1,1 +1,62 @@
-"""What a system is made of: motion, geometry, law, balance, sensor; and what it means to add an effect to one."""
+"""What a system is made of: motion, geometry, law, balance, sensor; and what it means to add an effect to one.
+
+`gc.chain.System(...)` and its parts, for a base model of one's own: docs/how-to/own_model.md.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from geocontact.chain.candidate import Candidate, Effect
+    from geocontact.chain.contact_law import CONTACT_LAW
+    from geocontact.chain.interface_law import INTERFACE_LAW
+    from geocontact.chain.law_parameters import Slots
+    from geocontact.chain.links import Balance, Geometry, Law, Modifier, Motion, Places, Sensor
+    from geocontact.chain.magnitudes import Scale
+    from geocontact.chain.single_deflection import SingleDeflection
+    from geocontact.chain.system import System
+
+_PLACES = {
+    "Candidate": "candidate",
+    "Effect": "candidate",
+    "CONTACT_LAW": "contact_law",
+    "INTERFACE_LAW": "interface_law",
+    "Slots": "law_parameters",
+    "Balance": "links",
+    "Geometry": "links",
+    "Law": "links",
+    "Modifier": "links",
+    "Motion": "links",
+    "Places": "links",
+    "Sensor": "links",
+    "Scale": "magnitudes",
+    "SingleDeflection": "single_deflection",
+    "System": "system",
+}
+
+__all__ = [
+    "CONTACT_LAW",
+    "INTERFACE_LAW",
+    "Balance",
+    "Candidate",
+    "Effect",
+    "Geometry",
+    "Law",
+    "Modifier",
+    "Motion",
+    "Places",
+    "Scale",
+    "Sensor",
+    "SingleDeflection",
+    "Slots",
+    "System",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import the part that is asked for."""
+    if name in _PLACES:
+        return getattr(import_module(f"geocontact.chain.{_PLACES[name]}"), name)
+    raise AttributeError(f"module 'geocontact.chain' has no attribute {name!r}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,7 +30,6 @@ from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.reduction.raw_input_errors import raw_input_errors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import base_contender
-from geocontact.gap.selection.ranking import ranking
 from geocontact.gap.selection.verdict import SURE
 
 Z95 = 1.959964
@@ -138,6 +138,21 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     curves, models = held_out(problem, errors, named), ranking(found, said.probabilities)
     return Findings(diagnosis, found, cells, curves, models, trials, surface)
+
+
+def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ranked, ...]:
+    """Every model that was tried, the base, and the surrogate of anything unknown; the largest gain first."""
+    zero, unknown = found.base.judged, found.remaining["none"]
+    rows = [
+        Ranked("none", "none", 0.0, 0.0, probabilities.get("none", 0.0)),
+        Ranked("unknown", "unknown", unknown.nats, unknown.calibration, probabilities.get("unknown", 0.0)),
+    ]
+    for one in sorted(found.contenders, key=lambda c: -c.nats):
+        gain, calibration = one.nats - zero.nats, one.judged.calibration - zero.calibration
+        first = len(one.names) == 1 and not any(row.effects == one.names[0] for row in rows)
+        probability = probabilities.get(one.names[0], 0.0) if first else None
+        rows.append(Ranked(one.label, " + ".join(one.names), gain, calibration, probability))
+    return tuple(sorted(rows, key=lambda row: -row.gain))
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import pytest
-from geocontact.analyses.gap.benchmark.job import benchmark
 
 import geocontact as gc
+from geocontact.analyses.gap.benchmark.job import benchmark
 from geocontact.analyses.job import Job
 from geocontact.analyses.options import (
     Declared,

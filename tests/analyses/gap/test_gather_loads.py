@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,10 +10,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import geocontact as gc
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.loads.centre_in_foot import centre_in_foot
 from geocontact.systems.catalogue import system_of
-from tests.cli.calls import call, done, written
+from tests.cli.calls import written
 
 TIME = np.linspace(1.0, 1.8, 81)
 BELT, GROUND = 1.2, -0.0075  # m/s, m
@@ -100,8 +102,11 @@ def plan(folder: Path, text: str, name: str = "gather.toml") -> Path:
 
 def test_a_plate_gives_what_the_model_predicts_in_the_foots_frame(foot: Path, tmp_path: Path) -> None:
     """Round trip: forces and centre as simulated, sent through a laboratory with a belt and a plate's own height."""
-    done(call("gap", "gather", plan(foot, FOOT + PLATES), "--out", tmp_path / "case"))
-    trial = read_gap_case(tmp_path / "case").calibration[0]
+    result = gc.gather(plan(foot, FOOT + PLATES))
+    trial = read_gap_case(result.write(tmp_path / "case")).calibration[0]
+    pd.testing.assert_series_equal(
+        result.table()["cop_x [m]"], pd.Series(result.case.calibration[0].column("cop_x"), name="cop_x [m]")
+    )
     said = np.loadtxt(foot / "said.csv")
     loaded = said[:, 1] >= 20.0
     assert 20 < loaded.sum() < len(TIME)
@@ -144,8 +149,7 @@ def knee(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_knee_gets_areas_and_forces_of_its_sides(knee: Path, tmp_path: Path) -> None:
     """Linear courses are met exactly; forces end before the trial does."""
-    done(call("gap", "gather", plan(knee, KNEE + SIDES), "--out", tmp_path / "case"))
-    trial = read_gap_case(tmp_path / "case").calibration[0]
+    trial = read_gap_case(gc.gather(plan(knee, KNEE + SIDES)).write(tmp_path / "case")).calibration[0]
     np.testing.assert_allclose(trial.column("area_medial"), 120e-6 * TIME, rtol=1e-8)
     np.testing.assert_allclose(trial.column("area_lateral"), 80e-6 * TIME, rtol=1e-8)
     inside = TIME <= 1.7
@@ -170,8 +174,8 @@ def test_a_knee_gets_areas_and_forces_of_its_sides(knee: Path, tmp_path: Path) -
         ("knee", lambda t: t.replace('"t02.csv"', '"full.csv"'), "has a column 'area_medial' already; strike it"),
     ],
 )
-def test_what_cannot_be_gathered_is_one_line(
-    foot: Path, knee: Path, tmp_path: Path, what: str, change: Callable[[str], str], message: str
+def test_what_cannot_be_gathered_is_refused(
+    foot: Path, knee: Path, what: str, change: Callable[[str], str], message: str
 ) -> None:
     folder, text = (foot, FOOT + PLATES) if what == "foot" else (knee, KNEE + SIDES)
     table = pd.read_csv(folder / "t02.csv")
@@ -181,7 +185,5 @@ def test_what_cannot_be_gathered_is_one_line(
     if what == "knee":
         areas = pd.read_csv(folder / "area.csv")
         areas.drop(columns="area_fixed_medial [mm^2]").to_csv(folder / "whole.csv", index=False)
-    made = call("gap", "gather", plan(folder, change(text), "wrong.toml"), "--out", tmp_path / "case")
-    assert made.code == 2 and len(made.err.splitlines()) == 1
-    assert message in made.err
-    assert not (tmp_path / "case").exists()
+    with pytest.raises(gc.InputError, match=re.escape(message)):
+        gc.gather(plan(folder, change(text), "wrong.toml"))
