@@ -132,13 +132,13 @@ def _typed(known: tuple[Declared, ...], rest: str, arguments: tuple[Any, ...], t
     left = list(arguments)
     for one in known:
         if argument(one):
-            found[key(one)] = [left.pop(0) for _ in range(len(left))] if one.several else left.pop(0)
+            found[key(one)] = tuple(left.pop(0) for _ in range(len(left))) if one.several else left.pop(0)
         elif one.name in typed:
             found[key(one)] = typed[one.name]
         else:
             found[key(one)] = _default(one)
     if rest:
-        found[rest] = [*(found[rest] or ()), *left] or None
+        found[rest] = (*(found[rest] or ()), *left) or None
     return {**found, "out": typed["out"]}
 
 

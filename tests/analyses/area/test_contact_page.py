@@ -7,7 +7,8 @@ import pytest
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.area import page as contact_page
-from geocontact.analyses.area.page import Told, write_report
+from geocontact.analyses.area.page import write_report
+from geocontact.analyses.area.page_sections import Told
 from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement

@@ -1,41 +1,33 @@
-"""What `geocontact area` writes: the table's columns and rows, run.json, the figure; the folder they appear in."""
+"""What `geocontact area` writes: files, run.json, exit codes, the folder; numbers are tested in tests/analyses/area."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import os
-import tomllib
 from importlib.metadata import version
 from pathlib import Path
 from unittest import mock
 
-import numpy as np
 import pytest
 
 from geocontact import __version__
 from geocontact.cli.main import main
 from tests.cli.calls import (
     FEMUR,
-    FRAMES,
     INSERT,
-    MESHES,
     PLATE,
     SPHERE,
     Call,
     area,
-    corners,
     done,
     gait,
     inventory,
     poses,
     shifted,
-    stl,
     written,
 )
-from tests.contract import COLUMNS, FILES, SPLIT
-
-THRESHOLDS = [0.1, 1.0, 4.0]
+from tests.contract import COLUMNS, FILES
 
 
 @pytest.fixture(scope="module")
@@ -60,108 +52,39 @@ def test_page_names_the_inputs_and_not_where_they_lay(knee: Call) -> None:
     assert str(knee.folder.parent) not in page and str(FEMUR.parent) not in page
 
 
-def test_columns_are_those_of_the_contract_in_their_order(knee: Call) -> None:
-    assert list(knee.table().columns)[: len(COLUMNS) + 2] == COLUMNS + SPLIT
+@pytest.mark.parametrize("style", ["repeated option", "shell glob", "quoted pattern"])
+def test_several_motions_have_a_folder_each(tmp_path: Path, style: str) -> None:
+    first, second = (poses(tmp_path, (0, y, 0), name=f"slow {name}.csv") for y, name in ((20, "walk"), (21, "run")))
+    given = {
+        "repeated option": ["--motion", first, "--motion", second],
+        "shell glob": ["--motion", second, first],
+        "quoted pattern": ["--motion", tmp_path / "slow*.csv"],
+    }
+    result = done(area(tmp_path / "out", *given[style], moving=SPHERE, fixed=PLATE))
+    motions = {"slow walk": first, "slow run": second}
+    files = {f"{name}/{file}" for name in motions for file in ("area.csv", "run.json")}
+    assert set(inventory(result.folder)) == {"run.json", *motions, *files}
+    for name, file in motions.items():
+        alone = done(area(tmp_path / name, moving=SPHERE, fixed=PLATE, motion=file))
+        assert result.bytes(f"{name}/area.csv") == alone.bytes()
 
 
-def test_columns_without_a_split_have_no_sides(tmp_path: Path) -> None:
-    columns = list(done(area(tmp_path / "out", motion=gait(tmp_path, [0]))).table().columns)
-    assert columns[: len(COLUMNS)] == COLUMNS and not {*SPLIT} & {*columns}
+def test_beyond_the_tolerance_is_exit_1_and_the_results_are_kept(tmp_path: Path) -> None:
+    motion = poses(tmp_path, (0, 20, 0))
+    measured = written(tmp_path / "measured.csv", "time [s],area_fixed [mm^2]\n0,500\n")
+    given = ("--compare", measured, "--tolerance", "1%")
+    result = area(tmp_path / "out", *given, moving=SPHERE, fixed=PLATE, motion=motion)
+    assert (result.code, result.complaints) == (1, []), result.err
+    assert set(inventory(result.folder)) == {"area.csv", "comparison.csv", "run.json"}
+    assert "beyond the tolerance of 1.00%" in result.out
 
 
-def test_frames_are_outer_and_thresholds_inner(knee: Call) -> None:
-    table = knee.table()
-    assert list(table["threshold [mm]"]) == THRESHOLDS * len(FRAMES)
-    assert list(table["time [s]"]) == [k / 100 for k in FRAMES for _ in THRESHOLDS]
-
-
-def test_areas_equal_the_reference_of_the_shipped_pair(tmp_path: Path) -> None:
-    """meshes/manifest.toml: areas of these very triangles, converged with libigl distances."""
-    manifest = tomllib.loads((MESHES / "manifest.toml").read_text(encoding="utf-8"))
-    pair = next(p for p in manifest["pair"] if (p["fixed"], p["moving"]) == (INSERT.name, FEMUR.name))
-    pose = next(p for p in pair["pose"] if "frame" in p)
-    known = [a for a in pose["area"] if a["surface"] == "triangulated"]
-    levels = ",".join(str(a["threshold_mm"]) for a in known)
-    table = done(area(tmp_path / "out", "--threshold", levels, motion=gait(tmp_path, [pose["frame"]]))).table()
-    for side in ("fixed", "moving"):
-        np.testing.assert_allclose(table[f"area_{side} [mm^2]"], [a[f"area_{side}_mm2"] for a in known], rtol=1e-3)
-    lowest, highest = pose["min_distance_mm"]
-    assert lowest - 1e-3 <= table["min_distance [mm]"][0] <= highest + 1e-6
-
-
-def test_medial_and_lateral_add_up(knee: Call) -> None:
-    table = knee.table()
-    np.testing.assert_allclose(table[SPLIT].sum(axis=1), table["area_fixed [mm^2]"], rtol=1e-9)
-    assert (table[SPLIT].to_numpy()[2::3] > 500.0).all(), "both condyles carry at 4 mm"
-
-
-def test_bounds_enclose_the_area_and_areas_grow_with_the_threshold(knee: Call) -> None:
-    table = knee.table()
-    assert (table["area_fixed_lower [mm^2]"] <= table["area_fixed [mm^2]"]).all()
-    assert (table["area_fixed [mm^2]"] <= table["area_fixed_upper [mm^2]"]).all()
-    assert (np.diff(table["area_fixed [mm^2]"].to_numpy().reshape(-1, 3), axis=1) > 0).all()
-
-
-def test_penetration_and_distance_belong_together(knee: Call) -> None:
-    """Both bodies closed: FIXED's depth is at most the overlap, and separation is the same at every threshold."""
-    table = knee.table()
-    assert (table.groupby("time [s]")[["min_distance [mm]", "max_penetration_fixed [mm]"]].nunique() == 1).all(
-        axis=None
-    )
-    assert (table["max_penetration_fixed [mm]"] >= 0.0).all()
-    assert (table["max_penetration_fixed [mm]"] <= np.maximum(0.0, -table["min_distance [mm]"]) + 1e-9).all()
-
-
-def test_centroid_is_empty_where_the_area_is_zero(tmp_path: Path) -> None:
-    """A sphere 1 mm above a plate: nothing within 0.5 mm, at 4 mm a disc under the centre."""
-    table = done(
-        area(tmp_path / "out", "--threshold", "0.5,4", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (3, 21, -2)))
-    ).table()
+def test_empty_cells_stand_for_what_is_not_there(tmp_path: Path) -> None:
+    """A sphere 1 mm above a plate: nothing within 0.5 mm, so no centroid."""
+    done(area(tmp_path / "out", "--threshold", "0.5", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (3, 21, -2))))
     cells = (tmp_path / "out/area.csv").read_text(encoding="utf-8").splitlines()[1].split(",")
     first = COLUMNS.index("centroid_x [mm]")
     assert cells[2:4] == ["0", "0"] and cells[first : first + 3] == ["", "", ""]
-    np.testing.assert_allclose(
-        table[["centroid_x [mm]", "centroid_y [mm]", "centroid_z [mm]"]].loc[1], [3, 0, -2], atol=0.02
-    )
-
-
-def test_nothing_in_contact_is_a_result(tmp_path: Path) -> None:
-    """10 mm apart in the only frame: zero areas, a distance, and a picture all the same."""
-    result = done(area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (0, 30, 0)), picture=True))
-    table = result.table()
-    assert table["area_fixed [mm^2]"][0] == table["area_moving [mm^2]"][0] == table["area_fixed_upper [mm^2]"][0] == 0.0
-    assert table["min_distance [mm]"][0] == pytest.approx(10.0, abs=0.02)
-    assert (result.folder / "area.png").stat().st_size > 10_000
-
-
-def opened(folder: Path, mesh: Path, direction: int) -> Path:
-    """The mesh without the face that lies farthest out along z, in `direction`: away from any contact here."""
-    points = corners(mesh)
-    away = np.argmax(direction * points[:, :, 2].mean(axis=1))
-    return written(folder / f"open_{mesh.name}", stl(np.delete(points, away, axis=0)))
-
-
-@pytest.mark.parametrize(
-    ("moving_open", "fixed_open", "word"),
-    [(False, False, "both"), (False, True, "fixed"), (True, False, "moving"), (True, True, "none")],
-)
-def test_signed_says_which_areas_are_signed(tmp_path: Path, moving_open: bool, fixed_open: bool, word: str) -> None:
-    """area_fixed is signed when MOVING is closed; an unsigned area misses what lies deeper than the threshold."""
-    moving = opened(tmp_path, SPHERE, 1) if moving_open else SPHERE
-    fixed = opened(tmp_path, PLATE, 1) if fixed_open else PLATE
-    result = area(
-        tmp_path / "out", "--threshold", "0.1", moving=moving, fixed=fixed, motion=poses(tmp_path, (0, 19.5, 0))
-    )
-    table = done(result).table()
-    assert list(table["signed"]) == [word]
-    disc, ring = (np.pi * ((20 + t) ** 2 - 19.5**2) for t in (0.1, -0.1))
-    expected = disc - ring if moving_open else disc
-    assert table["area_fixed [mm^2]"][0] == pytest.approx(expected, rel=0.06), (
-        "facets of the sphere cost a few per cent"
-    )
-    assert np.isnan(table["max_penetration_fixed [mm]"][0]) == moving_open
-    assert table["min_distance [mm]"][0] == pytest.approx(0.0 if word == "none" else -0.5, abs=0.02)
-    assert len(result.warnings) == moving_open + fixed_open
 
 
 def test_record_makes_the_result_reproducible(knee: Call) -> None:
@@ -239,7 +162,7 @@ def test_a_failing_run_leaves_everything_as_it_was(
     before = inventory(out.parent)
     moving = SPHERE if picture else tmp_path / "no.stl"
     if picture:
-        monkeypatch.setattr("geocontact.analyses.area.write.draw_areas", mock.Mock(**picture))
+        monkeypatch.setattr("geocontact.analyses.area.write.area_figure", mock.Mock(**picture))
     result = area(out, moving=moving, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0)), picture=True)
     assert (result.code, len(result.complaints)) == (code, 1), result.err
     assert all(part in result.err for part in said), result.err
