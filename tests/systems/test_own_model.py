@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Effect
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
@@ -34,7 +35,8 @@ MODEL = """
 from dataclasses import replace
 from types import SimpleNamespace
 
-from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Effect
 from geocontact.chain.single_deflection import SingleDeflection
 from geocontact.data.parameter import Parameter
 from geocontact.systems.elastic_joint import model

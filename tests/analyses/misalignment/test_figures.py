@@ -7,7 +7,7 @@ import numpy as np
 from geocontact.analyses.misalignment.identify.figure import Boxes, conditions_figure, told_figure
 from geocontact.analyses.misalignment.simulate.displacement_surfaces import surfaces
 from geocontact.analyses.misalignment.simulate.figure import surface_figure
-from geocontact.axis_misalignment.end_stop import Curve, Stroke
+from geocontact.axis_misalignment.end_stop import BinMeans, RecordedStroke
 from geocontact.axis_misalignment.uncertainty import Direction
 from geocontact.identify.intervals.profile_likelihood import Profile
 
@@ -22,8 +22,8 @@ def test_surfaces_stand_in_space_and_say_which_offset_is_0() -> None:
 def test_boxes_of_both_conditions_share_an_axis() -> None:
     beta = np.radians([15.0, 25.0, 35.0])
     rows = np.array([[0.0, 1.0, 2.0, 3.0, 4.0]] * 3)
-    curve = Curve(beta, np.array([1.0, 2.0, 3.0]), np.zeros(3))
-    stroke = Stroke(curve, (), 0.0, 1.0, np.ones(3, bool))
+    curve = BinMeans(beta, np.array([1.0, 2.0, 3.0]), np.zeros(3))
+    stroke = RecordedStroke(curve, (), 0.0, 1.0, np.ones(3, bool))
     both = [Boxes(beta, rows + shift, np.radians(10.0)) for shift in (0.0, 5.0)]
     spread = conditions_figure(curve, stroke, *both).axes[2]
     boxes = [line.get_xydata() for line in spread.get_lines() if len(line.get_xydata()) == 5]
