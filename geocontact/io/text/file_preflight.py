@@ -1,4 +1,4 @@
-"""Before a mesh file is parsed: is it a regular, readable, non-empty file, and what does it look like."""
+"""Before a file is parsed: is it a regular, readable, non-empty file, and what does it look like."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from geocontact.data.errors import InputError
-from geocontact.io.mesh import limits
+
+MAX_BYTES = 4 * 2**30
+"""Largest file that is read [bytes]."""
 
 _LOOKS = (
     (rb"\x1f\x8b", "a gzip archive", "unpack it first"),
@@ -31,15 +33,15 @@ UNKNOWN = ("something else", "export the surface again")
 
 
 def read_bytes(path: str | PathLike[str]) -> bytes:
-    """Content of a regular, non-empty file of at most `limits.MAX_BYTES`; nothing else is opened, so nothing hangs."""
+    """Content of a regular, non-empty file of at most `MAX_BYTES`; nothing else is opened, so nothing hangs."""
     shown = fspath(path)
     try:
         status = Path(path).stat()
         if not stat.S_ISREG(status.st_mode):
             kind = "a folder" if stat.S_ISDIR(status.st_mode) else "not a regular file"
             raise InputError(shown, "", f"is {kind}", "name a file")
-        if status.st_size > limits.MAX_BYTES:
-            what = f"{status.st_size} bytes, more than the {limits.MAX_BYTES} that are read"
+        if status.st_size > MAX_BYTES:
+            what = f"{status.st_size} bytes, more than the {MAX_BYTES} that are read"
             raise InputError(shown, "", what, "decimate the mesh first")
         with Path(path).open("rb") as stream:
             data = stream.read(status.st_size + 1)
