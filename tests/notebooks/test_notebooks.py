@@ -82,15 +82,26 @@ def test_mat_writes_what_the_command_writes(run, tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("default")  # of the notebook machinery itself
-def test_elbow_shows_the_line_and_finds_the_numbers_that_were_planted(run):
+def test_elbow_shows_the_line_and_finds_what_the_command_finds(run, tmp_path):
     said = run(ROOT / "notebooks" / "elbow.ipynb")
     assert "d_lin 153 mm, d_tot 109 mm" in said
-    assert re.search(r"direction told least: \[-1\. +1\. +1\. +1\. +1\.\]", said)
+    assert "direction told least: [-1.0, 1.0, 1.0, 1.0, 1.0]" in said
     low, high = map(float, re.findall(r"R² along the line ([\d.]+) to ([\d.]+)", said)[0])
     assert low == high > 0.98
-    leaves = float(re.findall(r"slides from (\d+)°", said)[0])
+    leaves = float(re.findall(r"slides from (\d+)°", said)[-1])
     assert 60.0 <= leaves <= 68.0
     assert 190.0 < float(re.findall(r"k by displacement (\d+) N/m", said)[0]) < 255.0
+    lengths = [float(value) for value in re.findall(r"locked, stroke ([\d.]+) mm", said)]
+    assert [value / lengths[1] for value in lengths] == pytest.approx([0.8, 1.0, 1.25], abs=0.01)
+    trials, out = tmp_path / "elbow-trials", tmp_path / "command"
+    locked, free = (sorted(trials.glob(f"{kind}_*.csv")) for kind in ("locked", "free"))
+    unlocked = [part for file in free for part in ("--unlocked", file)]
+    options = ("--held-out", locked[5], "--known", "l=169,z=127", "--bootstrap", 100, *unlocked, "--out", out)
+    done(call("elbow", "fit", *locked[:5], *options, folder=out))
+    tables = sorted(file.name for file in out.glob("*.csv"))
+    assert len(tables) == 7
+    for name in (*tables, "elbow.json"):
+        assert (tmp_path / "elbow-result" / name).read_bytes() == (out / name).read_bytes(), name
 
 
 @pytest.mark.slow
