@@ -9,29 +9,30 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from geocontact.chain.candidate import Candidate, Effect
+    from geocontact.chain.candidate import Candidate
     from geocontact.chain.contact_law import CONTACT_LAW
+    from geocontact.chain.effect import Effect
     from geocontact.chain.interface_law import INTERFACE_LAW
-    from geocontact.chain.law_parameters import Slots
-    from geocontact.chain.links import Balance, Geometry, Law, Modifier, Motion, Places, Sensor
-    from geocontact.chain.magnitudes import Scale
+    from geocontact.chain.law_parameters import LawParameters
+    from geocontact.chain.links import Balance, ContactSites, Geometry, Law, Modifier, Motion, Sensor
+    from geocontact.chain.magnitudes import Magnitudes
     from geocontact.chain.single_deflection import SingleDeflection
     from geocontact.chain.system import System
 
 _PLACES = {
     "Candidate": "candidate",
-    "Effect": "candidate",
+    "Effect": "effect",
     "CONTACT_LAW": "contact_law",
     "INTERFACE_LAW": "interface_law",
-    "Slots": "law_parameters",
+    "LawParameters": "law_parameters",
     "Balance": "links",
     "Geometry": "links",
     "Law": "links",
     "Modifier": "links",
     "Motion": "links",
-    "Places": "links",
+    "ContactSites": "links",
     "Sensor": "links",
-    "Scale": "magnitudes",
+    "Magnitudes": "magnitudes",
     "SingleDeflection": "single_deflection",
     "System": "system",
 }
@@ -41,16 +42,16 @@ __all__ = [
     "INTERFACE_LAW",
     "Balance",
     "Candidate",
+    "ContactSites",
     "Effect",
     "Geometry",
     "Law",
+    "LawParameters",
+    "Magnitudes",
     "Modifier",
     "Motion",
-    "Places",
-    "Scale",
     "Sensor",
     "SingleDeflection",
-    "Slots",
     "System",
 ]
 

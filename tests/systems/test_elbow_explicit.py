@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from geocontact.analyses.misalignment.displacement_surfaces import surfaces
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from geocontact.analyses.misalignment.displacement_surfaces import surfaces
 from geocontact.axis_misalignment.compensation import taken_up
 from geocontact.axis_misalignment.deflection import ELBOW_GEOMETRY
 from geocontact.axis_misalignment.explicit import Offsets, constraint_force, displacement, pole_angles

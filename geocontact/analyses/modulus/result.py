@@ -58,6 +58,11 @@ class ModulusResult(Result):
         """Model, measured force, estimates and intervals of each side."""
         return self.found.sides
 
+    @property
+    def not_identifiable(self) -> list[str]:
+        """What the data cannot tell, a sentence each."""
+        return self.found.not_identifiable()
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`modulus`, `curves`, `sensitivity`, and `prediction` of a trial that was not used."""
         f = self.found
@@ -86,5 +91,4 @@ class ModulusResult(Result):
         provenance = [inputs_table(self.record.inputs), options_table(self.record)]
         tables = [moduli(self.found), told_apart(self.found), sensitivity, *provenance]
         title = f"E* from {self.options.area[0].name} and {self.options.force.name}"
-        lost, warnings = self.found.not_identifiable(), self.warnings
-        write_modulus_report(file, title, self.found.curves(), figure, tables, lost, warnings)
+        write_modulus_report(file, title, self.found.curves(), figure, tables, self.not_identifiable, self.warnings)

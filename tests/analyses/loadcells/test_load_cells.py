@@ -124,7 +124,7 @@ def styles(folder: Path) -> LoadcellResult:
     rows = [f"{s},{s},{a},{a + PERIOD}" for s in ("normal", "bouncy") for a in (0.2, 1.3, 2.4)]
     table = folder / "cycles.csv"
     table.write_text("\n".join(["style, recording, start [s], end [s]", *rows]) + "\n", encoding="utf-8")
-    return load_cells(files, unit="N", cycles=str(table))
+    return load_cells(files, unit="N", cycles=table)
 
 
 def test_root_mean_square_between_synthetic_styles(tmp_path: Path) -> None:
@@ -156,7 +156,7 @@ def test_more_styles_than_a_figure_tells_apart_are_said_and_kept(tmp_path: Path)
     table = tmp_path / "cycles.csv"
     table.write_text("\n".join(["style, recording, start [s], end [s]", *rows]) + "\n", encoding="utf-8")
     with pytest.warns(InputWarning, match="7 styles are more than a figure tells apart"):
-        result = load_cells(recorded(tmp_path), unit="N", cycles=str(table))
+        result = load_cells(recorded(tmp_path), unit="N", cycles=table)
     assert result.table("ensemble")["style"].nunique() == 7
     assert len(result.figure().axes) == 2, "cells and compartments over time stand in for the mean"
 

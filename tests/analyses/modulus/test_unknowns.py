@@ -67,7 +67,7 @@ def test_slope_of_the_radius(tmp_path: Path) -> None:
     result = modulus(areas(tmp_path), bent(tmp_path, FLEXION), free={"slope": None}, **motion, **KNOWN)
     assert result.sides["total"].profiles["slope"].best == pytest.approx(-0.25, abs=1e-4)
     assert result.modulus == pytest.approx(TRUE, rel=1e-4)
-    assert any("only how it changes with flexion" in line for line in result.found.not_identifiable())
+    assert any("only how it changes with flexion" in line for line in result.not_identifiable)
 
 
 @pytest.mark.slow
@@ -76,7 +76,7 @@ def test_slope_of_a_knee_that_stays_bent_is_not_identifiable(tmp_path: Path) -> 
     with pytest.warns(InputWarning) as said:
         result = modulus(areas(tmp_path), bent(tmp_path, FLEXION), free={"slope": None}, **motion, **KNOWN)
     assert "slope" not in describe(result.found)["identifiable"]
-    assert any("slope is not identifiable" in line for line in result.found.not_identifiable())
+    assert any("slope is not identifiable" in line for line in result.not_identifiable)
     assert any("E*, slope are one number" in str(each.message) for each in said)
 
 
