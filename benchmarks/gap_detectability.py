@@ -64,8 +64,8 @@ def statements(source: str, place: int, options: argparse.Namespace) -> Iterator
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.case.admission import admitted
     from geocontact.gap.case.problem import problem_of
-    from geocontact.gap.identifiability.detectability import detectabilities, power, rivals_of
-    from geocontact.gap.identifiability.signatures import ground_of, reach_of, rest_of, sized
+    from geocontact.gap.identifiability.detectability import competitors_of, detectabilities, power
+    from geocontact.gap.identifiability.signatures import base_state_of, reach_of, rest_of, sized
     from geocontact.gap.selection.model_comparison import base_contender
     from geocontact.systems.catalogue import system_of
 
@@ -73,7 +73,7 @@ def statements(source: str, place: int, options: argparse.Namespace) -> Iterator
     case = admitted(case, system_of(case))
     problem = problem_of(case, system_of(case))
     base = base_contender(problem).judged
-    ground = ground_of(problem, base.noise, base.model.values)
+    ground = base_state_of(problem, base.noise, base.model.values)
     known = [one for one in candidates(problem.system) if one.parameters]
     able = [name for name in EFFECTS if any(one.name == name for one in known)]
     names = [able[(place + k) % len(able)] for k in range(min(options.most, len(able)))]
@@ -83,7 +83,7 @@ def statements(source: str, place: int, options: argparse.Namespace) -> Iterator
         return [one for one in candidates(system) if source not in options.narrow or one.name in names]
 
     offered = [one for one in offer(problem.system) if one.parameters]
-    rivals = rivals_of(ground, offered)
+    rivals = competitors_of(ground, offered)
     for told in detectabilities(ground, offered, asked):
         one = told.candidate
         if told.smallest is None:

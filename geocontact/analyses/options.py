@@ -27,7 +27,8 @@ class Typed:
     si
         SI unit, "-" for none.
     read
-        Function of `analyses.quantities` that takes the text and the option's name and gives the value in SI.
+        Function of `analyses.quantities` that takes the text and the option's name and gives the value in SI; as
+        "misalignment.parameters:numbers" of another module of the analyses.
     hint
         What the help of the command line says of units.
     kind
@@ -158,6 +159,8 @@ class Declared:
             return tuple(_as(one, item) for item in ((value,) if self._alone(value) else value))
         if self.kind in (Path, float, str):
             return _as(self.kind, value)
+        if isinstance(value, str) and Path in get_args(self.kind):
+            return Path(value)
         if self.choices and value not in self.choices:
             raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
         return value
@@ -265,7 +268,7 @@ def _taken_apart(hint: Any) -> tuple[Any, list[Any], bool]:
             hint, *own = get_args(hint)
             marks += own
         elif get_origin(hint) in (Union, UnionType) and NoneType in get_args(hint):
-            hint = next(each for each in get_args(hint) if each is not NoneType)
+            hint = Union[tuple(each for each in get_args(hint) if each is not NoneType)]  # noqa: UP007
             optional = True
         else:
             return hint, marks, optional

@@ -21,7 +21,7 @@ BUILT_UP = 3.0  # standard deviations of the force while the joint slides
 
 
 @dataclass(frozen=True, eq=False)
-class Curve:
+class BinMeans:
     """Means over all trials of a bin: angle [rad], force [N], displacement of the joint [m]."""
 
     beta: Float[np.ndarray, " b"]
@@ -56,13 +56,13 @@ class EndStop:
 
 
 @dataclass(frozen=True, eq=False)
-class Stroke:
+class RecordedStroke:
     """What the joint does over the angle: its stands, and the level and spread of the force while it slides [N].
 
     `slides` says for each bin whether the joint is at neither extreme of its displacement.
     """
 
-    curve: Curve
+    curve: BinMeans
     stops: tuple[EndStop, ...]
     level: float
     spread: float
@@ -90,7 +90,7 @@ class Stiffness:
     bins: float
 
 
-def curve_of(data: Binned) -> Curve:
+def bin_means(data: Binned) -> BinMeans:
     """Means over all trials, bin by bin, of the bins that were reached."""
     cells = data.cells
     bins = len(data.visits.edges) - 1
@@ -98,10 +98,10 @@ def curve_of(data: Binned) -> Curve:
     there = count > 0.0
     wanted = (cells.means[:, k] for k in (BETA, FORCE, DISPLACEMENT))
     columns = [np.bincount(cells.place, cells.count * means, bins)[there] / count[there] for means in wanted]
-    return Curve(*columns)
+    return BinMeans(*columns)
 
 
-def stroke_of(curve: Curve) -> Stroke | None:
+def recorded_stroke(curve: BinMeans) -> RecordedStroke | None:
     """Stands and free range of the joint; None where it slides over fewer than three bins."""
     low, high = float(curve.joint.min()), float(curve.joint.max())
     near = STILL * (high - low)
@@ -112,10 +112,10 @@ def stroke_of(curve: Curve) -> Stroke | None:
     level = float(np.median(curve.force[slides]))
     spread = float(curve.force[slides].std())
     stops = [stop for side, still in at.items() if (stop := _stop(curve, side, still, level, spread)) is not None]
-    return Stroke(curve, tuple(stops), level, spread, slides)
+    return RecordedStroke(curve, tuple(stops), level, spread, slides)
 
 
-def _stop(curve: Curve, side: str, still: Bool[np.ndarray, " b"], level: float, spread: float) -> EndStop | None:
+def _stop(curve: BinMeans, side: str, still: Bool[np.ndarray, " b"], level: float, spread: float) -> EndStop | None:
     """The longest stand at one extreme, where force builds up in it."""
     runs = np.split(np.arange(len(still)), np.flatnonzero(np.diff(still.astype(int))) + 1)
     run = max((r for r in runs if still[r[0]]), key=len)
@@ -129,7 +129,7 @@ def _stop(curve: Curve, side: str, still: Bool[np.ndarray, " b"], level: float, 
     return EndStop(side, position, first, last, _leaves(curve, run, position), most)
 
 
-def _leaves(curve: Curve, run: np.ndarray, position: float) -> float:
+def _leaves(curve: BinMeans, run: np.ndarray, position: float) -> float:
     """Angle at which the straight line through the first two bins off the stand meets it [rad]; its end without."""
     last = len(curve.beta) - 1
     way = 1 if run[-1] < last else -1
@@ -143,7 +143,7 @@ def _leaves(curve: Curve, run: np.ndarray, position: float) -> float:
     return min(max(float(met), low), high)
 
 
-def stiffness_by_displacement(locked: Sequence[Curve], stroke: Stroke, width: float) -> Stiffness | None:
+def stiffness_by_displacement(locked: Sequence[BinMeans], stroke: RecordedStroke, width: float) -> Stiffness | None:
     """k from the locked force of each trial and the free displacement at the same angles.
 
     None where no trial has three bins in common with the free range; `width` is that of a bin [rad].
@@ -158,7 +158,7 @@ def stiffness_by_displacement(locked: Sequence[Curve], stroke: Stroke, width: fl
 
 
 def slope_over(
-    beta: Float[np.ndarray, " b"], values: Float[np.ndarray, " b"], stroke: Stroke, width: float
+    beta: Float[np.ndarray, " b"], values: Float[np.ndarray, " b"], stroke: RecordedStroke, width: float
 ) -> tuple[float, int]:
     """Least-squares slope of one trial's bin means over the free displacement at the same angles, and of how many bins.
 

@@ -121,9 +121,8 @@ def read(one: Declared, value: Any) -> Any:
     """What was typed, in SI."""
     if one.typed is None or value is None:
         return value
-    from geocontact.analyses import quantities
-
-    function = getattr(quantities, one.typed.read)
+    place, _, name = one.typed.read.rpartition(":")
+    function = getattr(import_module(f"geocontact.analyses.{place or 'quantities'}"), name)
     return function(value, f"`{one.name}`")
 
 
@@ -133,13 +132,13 @@ def _typed(known: tuple[Declared, ...], rest: str, arguments: tuple[Any, ...], t
     left = list(arguments)
     for one in known:
         if argument(one):
-            found[key(one)] = [left.pop(0) for _ in range(len(left))] if one.several else left.pop(0)
+            found[key(one)] = tuple(left.pop(0) for _ in range(len(left))) if one.several else left.pop(0)
         elif one.name in typed:
             found[key(one)] = typed[one.name]
         else:
             found[key(one)] = _default(one)
     if rest:
-        found[rest] = [*(found[rest] or ()), *left] or None
+        found[rest] = (*(found[rest] or ()), *left) or None
     return {**found, "out": typed["out"]}
 
 
@@ -172,7 +171,7 @@ def _positional(one: Declared, spell: Callable[[str], str]) -> list[inspect.Para
     if not one.required:
         return [many]
     first = _parameter(one.name.removesuffix("s"), inspect.Parameter.POSITIONAL_ONLY, Path, told)
-    more = Parameter(help="Further ones: one sub-folder each.")
+    more = Parameter(help="Further ones.")
     return [first, many.replace(name=f"more_{one.name}", annotation=Annotated[Path, more])]
 
 

@@ -19,7 +19,7 @@ of adduction that is added to the recorded pose [rad], and the share by which R 
 
 
 @dataclass(frozen=True, eq=False)
-class AreaEvolution:
+class ThresholdAreas:
     """Area of one compartment, or of all, over time and threshold.
 
     Parameters
@@ -48,7 +48,7 @@ class AreaEvolution:
     tilts: TiltedAreas | None = None
     flexion: Float[np.ndarray, " t"] | None = None
 
-    def with_offsets(self, values: Mapping[str, float]) -> AreaEvolution:
+    def with_offsets(self, values: Mapping[str, float]) -> ThresholdAreas:
         """The evolution at an adduction offset, and R (1 + slope flexion) for R, as far as `values` name them."""
         given = self
         if ADDUCTION in values:
@@ -96,7 +96,7 @@ class AreaForce:
         Used unless it is a free parameter [m].
     """
 
-    evolution: AreaEvolution
+    evolution: ThresholdAreas
     reading: Reading
     frames: Float[np.ndarray, " n"]
     taken: float

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,16 +21,15 @@ from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.refit import free
 from geocontact.gap.experiment.proposal import first_of, next_experiment
-from geocontact.gap.identifiability.non_identifiable import absorbed
+from geocontact.gap.identifiability.non_identifiable import non_identifiable
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
-from geocontact.gap.reduction.error_reduction import shrinkage, shrinkage_of
+from geocontact.gap.reduction.error_reduction import error_reduction, error_reduction_of
 from geocontact.gap.reduction.held_out import held_out
 from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
-from geocontact.gap.reduction.raw_input_errors import errors_as_measured
+from geocontact.gap.reduction.raw_input_errors import raw_input_errors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import base_contender
-from geocontact.gap.selection.ranking import ranking
 from geocontact.gap.selection.verdict import SURE
 
 Z95 = 1.959964
@@ -90,28 +90,28 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
     chosen = said.chosen.judged
     offered = candidates(found.clean.system)
     at("what would be invisible")
-    hidden = absorbed(found.clean, offered, said.effects)
+    hidden = non_identifiable(found.clean, offered, said.effects)
     at("the experiment to run next")
     then = next_experiment(found, first_of(offered, [each.name for each in hidden]))
     at("where it misses, and how far that shrinks")
     cells = gap_map(found.clean, found.base.judged)
-    as_came = cells if found.fault is None else gap_map(problem, base_contender(problem).judged)
-    errors = errors_as_measured(problem, found.clean, chosen, found.fault)
+    as_came = cells if found.data_error is None else gap_map(problem, base_contender(problem).judged)
+    errors = raw_input_errors(problem, found.clean, chosen, found.data_error)
     gap = {
         name: ChannelGap(s.rmse_before, s.rmse_after, s.floor, s.reduction, (s.low, s.high), s.unexplained)
-        for name, s in shrinkage_of(errors, problem, chosen, named, found.fault).items()
+        for name, s in error_reduction_of(errors, problem, chosen, named, found.data_error).items()
     }
     stages = {one.name: one.stage for one in offered}
     stage = stages.get(said.effects[0], "") if said.effects else ""
     after = chosen if named else None
-    surface = () if said.verdict == "no_gap" else on_surface(problem, after, found.fault, case.cells)
+    surface = () if said.verdict == "no_gap" else on_surface(problem, after, found.data_error, case.cells)
     held = {one.channel: CellsHeld(one.holding, len(one.ids), *one.held, one.p_value) for one in surface}
     where = (
         ()
         if said.verdict == "no_gap"
         else tuple(
             Where(w.channel, w.phase, w.share, w.p_value, stage, held.get(w.channel))
-            for w in windows(problem, found.clean, found.base.judged, after, found.fault, as_came)
+            for w in windows(problem, found.clean, found.base.judged, after, found.data_error, as_came)
         )
     )
     diagnosis = Diagnosis(
@@ -140,13 +140,28 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
     return Findings(diagnosis, found, cells, curves, models, trials, surface)
 
 
+def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ranked, ...]:
+    """Every model that was tried, the base, and the surrogate of anything unknown; the largest gain first."""
+    zero, unknown = found.base.judged, found.remaining["none"]
+    rows = [
+        Ranked("none", "none", 0.0, 0.0, probabilities.get("none", 0.0)),
+        Ranked("unknown", "unknown", unknown.nats, unknown.calibration, probabilities.get("unknown", 0.0)),
+    ]
+    for one in sorted(found.contenders, key=lambda c: -c.nats):
+        gain, calibration = one.nats - zero.nats, one.judged.calibration - zero.calibration
+        first = len(one.names) == 1 and not any(row.effects == one.names[0] for row in rows)
+        probability = probabilities.get(one.names[0], 0.0) if first else None
+        rows.append(Ranked(one.label, " + ".join(one.names), gain, calibration, probability))
+    return tuple(sorted(rows, key=lambda row: -row.gain))
+
+
 def nearest(found: Attribution) -> tuple[str, ...]:
     """In words what the model that gains most would do, where nothing was named although it gains something."""
     best = max(found.contenders, key=lambda one: one.nats, default=found.base)
     gain = best.nats - found.base.nats
     if gain < SURE:
         return ()
-    shrunk = shrinkage(found.problem, found.clean, best.judged, True, found.fault)
+    shrunk = error_reduction(found.problem, found.clean, best.judged, True, found.data_error)
     parts = ", ".join(f"{100.0 * s.reduction:.0f} % of the error of {name}" for name, s in shrunk.items())
     only = ", with an amplitude on the bound of what is physical" if best.cut_short else ""
     return (f"nearest of the known effects: {best.label}, which gains {gain:.0f} nats and would remove {parts}{only}",)
@@ -173,7 +188,7 @@ def estimates(judged: Judged) -> dict[str, Estimate]:
 
 
 def _faults(found: Attribution) -> tuple[DataErrorFound, ...]:
-    if found.fault is None:
+    if found.data_error is None:
         return ()
-    one = found.fault.candidate
-    return (DataErrorFound(one.name, one.channel, one.factor, found.fault.trials),)
+    one = found.data_error.candidate
+    return (DataErrorFound(one.name, one.channel, one.factor, found.data_error.trials),)

@@ -23,7 +23,7 @@ LEFT = 0.1
 ROUNDS = 15
 
 
-def imitation(
+def confounding(
     system: System, trials: Sequence[IdealTrial], candidates: Sequence[Candidate], rough: Mapping[str, float]
 ) -> tuple[float, str]:
     """Share of the visible energy that the best candidate leaves, and its label; 1 and "" where none helps.

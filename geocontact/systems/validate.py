@@ -11,7 +11,7 @@ LONGEST = 300
 """Characters that are told of an error in somebody's code."""
 
 
-def tried(system: System, case: GapCase) -> System:
+def validated(system: System, case: GapCase) -> System:
     """The same system, after every trial was found to have its channels in its units, and was simulated once."""
     for trial in (*case.calibration, *case.evaluation):
         _require_channels(system, trial, case)

@@ -29,7 +29,9 @@ def test_the_case_its_diagnosis_and_the_answer_are_written(tmp_path: Path) -> No
     inner = json.loads((out / "diagnosis" / "run.json").read_text("utf-8"))
     assert inner["options"] == {"case": str(out / "case"), "out": str(out / "diagnosis"), "bare": False}
     assert all(Path(entry["file"]).is_file() for entry in inner["inputs"])
-    assert said.out.startswith("planted damping (damping.b = 12.5 N s/m, damping.exponent = 1 -); it makes a gap of 2 times")
+    assert said.out.startswith(
+        "planted damping (damping.b = 12.5 N s/m, damping.exponent = 1 -); it makes a gap of 2 times"
+    )
 
 
 @pytest.mark.parametrize(

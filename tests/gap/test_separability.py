@@ -7,7 +7,7 @@ import pytest
 
 from geocontact.gap.identifiability.separability import Separation, classes, table
 from tests.elsewhere import Elsewhere
-from tests.gap.told import (
+from tests.gap.identifiability_cases import (
     lag_against_delay,
     nats_asked_for,
     same_things,

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Effect
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
@@ -24,7 +25,7 @@ from geocontact.io.cases.program import program
 from geocontact.systems.base import Base
 from geocontact.systems.catalogue import SYSTEMS, system_of
 from geocontact.systems.elastic_joint import model as elastic_joint
-from geocontact.systems.external.python_model import own_base
+from geocontact.systems.external.python_model import python_base
 from geocontact.systems.external.simulator import PythonSimulator, Run
 from geocontact.systems.knee import full_chain
 from tests.systems.examples import elbow, foot, joint
@@ -34,10 +35,11 @@ MODEL = """
 from dataclasses import replace
 from types import SimpleNamespace
 
-from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Effect
 from geocontact.chain.single_deflection import SingleDeflection
 from geocontact.data.parameter import Parameter
-from geocontact.systems.elastic_joint import model as elastic_joint
+from geocontact.systems.elastic_joint import model
 from geocontact.systems.base import Base
 
 def squared(angle, numbers):
@@ -50,7 +52,7 @@ def offer(system):
     return (Candidate("extra", "", "load", (extra,), link, {"extra.torque": 0.0}),)
 
 def build(parameters, constants, tables):
-    joint = elastic_joint.build(parameters, {}, tables)
+    joint = model.build(parameters, {}, tables)
     extra = Effect("extra", "load", ("mine",), offer, "this test")
     geometry = SingleDeflection("angle", squared)
     return replace(joint, name="mine", constants=dict(constants), geometry=geometry, own=(extra,))
@@ -124,7 +126,7 @@ def test_a_model_of_the_package_is_one_like_any_other() -> None:
     ],
 )
 def test_a_case_may_name_a_model_of_the_package_as_before_it_moved(former: str, expected: Base) -> None:
-    assert own_base(case(former)) is expected
+    assert python_base(case(former)) is expected
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.modulus.read import BOTH, HALVES, Inputs, OtherTrial
 from geocontact.data.errors import InputError
-from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, THRESHOLD, AreaEvolution
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, THRESHOLD, ThresholdAreas
 from geocontact.elastic_modulus.identify import Identification, agreement
 from geocontact.io.recordings.area_table import FEWEST, AreaTable
 
@@ -78,7 +78,7 @@ def _level(table: AreaTable, each: Identification) -> float:
     return float(known[near[0]]) if len(near) else threshold
 
 
-def _evolution(table: AreaTable, side: str, each: Identification) -> AreaEvolution:
+def _evolution(table: AreaTable, side: str, each: Identification) -> ThresholdAreas:
     """Areas of one side at the offset that was identified."""
     radius = np.full(len(table.time), float(each.model.evolution.radius[0]))
     tilts = table.tilted.get(side)
@@ -86,7 +86,7 @@ def _evolution(table: AreaTable, side: str, each: Identification) -> AreaEvoluti
     if turned and (tilts is None or not tilts.offsets[0] <= turned[ADDUCTION] <= tilts.offsets[-1]):
         what = f"has no areas around the adduction offset of {np.degrees(turned[ADDUCTION]):.2f} degrees"
         raise InputError(table.file, "", what, "compute them with `adduction` as for the trial used")
-    evolution = AreaEvolution(
+    evolution = ThresholdAreas(
         table.time, table.thresholds, table.areas[side], radius, each.model.evolution.length, tilts
     )
     return evolution.with_offsets(turned)

@@ -13,7 +13,7 @@ from geocontact.analyses.modulus.options import ModulusOptions
 from geocontact.analyses.run_record import Record
 from geocontact.contact.area_hertz import READINGS, Reading
 from geocontact.data.errors import InputError
-from geocontact.elastic_modulus.area_force import ADDUCTION, AreaEvolution
+from geocontact.elastic_modulus.area_force import ADDUCTION, ThresholdAreas
 from geocontact.io.recordings.area_table import AreaTable, read_area_over_force, read_area_table
 from geocontact.io.recordings.force_curves import SIDES, ForceCurves, read_force_curves
 from geocontact.io.recordings.radius_profile import RadiusProfile, read_radius_profile
@@ -46,7 +46,7 @@ class Inputs:
 
     table: AreaTable
     forces: ForceCurves
-    evolutions: Mapping[str, AreaEvolution]
+    evolutions: Mapping[str, ThresholdAreas]
     reading: Reading
     lag: float
     sides: tuple[str, ...]
@@ -86,7 +86,7 @@ def _forces(
 
 def _evolutions(
     record: Record, o: ModulusOptions, table: AreaTable, forces: ForceCurves, source: tuple[float, str]
-) -> dict[str, AreaEvolution]:
+) -> dict[str, ThresholdAreas]:
     """Areas of every side that has forces, with the radius at each frame."""
     sides = [side for side in ORDER if side in table.areas and side in forces.forces]
     if not sides:
@@ -96,7 +96,7 @@ def _evolutions(
     radii = _radii(record, o, table, flexion, sides)
     length = float("nan") if o.length is None else o.length
     return {
-        s: AreaEvolution(table.time, table.thresholds, table.areas[s], radii[s], length, table.tilted.get(s), flexion)
+        s: ThresholdAreas(table.time, table.thresholds, table.areas[s], radii[s], length, table.tilted.get(s), flexion)
         for s in sides
     }
 

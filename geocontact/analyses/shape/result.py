@@ -84,7 +84,8 @@ class ShapeResult(Result):
             write_table(self.table("profile"), folder, self.options.parquet, "profile")
         drawings = {name: save_both(figure, folder, name) for name, figure in self._figures().items()}
         if self.options.paraview:
-            write_fit_vtp(folder / "fit.vtp", f.patch.surface, f.residual, f.patch.faces, f"geocontact {VERSION}")
+            s = f.patch.surface
+            write_fit_vtp(folder / "fit.vtp", s.vertices, s.faces, f.residual, f.patch.faces, f"geocontact {VERSION}")
         self._write_report(folder / "report.html", drawings)
 
     def write_page(self, file: Path) -> None:

@@ -11,12 +11,12 @@ from jaxtyping import Float
 from geocontact.chain.system import FAR, System
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.case.refit import NO_VALUE, Measured, Refit, at, free, refit
-from geocontact.gap.case.whitening import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
+from geocontact.gap.case.whitening import Share, Whitening, layouts_of, sensitivity, usual_levels, varies_by
 from geocontact.gap.inputs.denoise import Filters, Left, denoised, left, loudest, seen_noise, shaken
 from geocontact.gap.inputs.filter_cutoff import filters_of, likely_noise
 from geocontact.gap.inputs.spectrum import switches
 from geocontact.identify.noise.covariance import Layout, Whitener
-from geocontact.identify.noise.noise_levels import Beliefs, Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_search import most_likely
 from geocontact.identify.noise.trial_variation import Products, variation
 
@@ -66,7 +66,7 @@ class Problem:
     evaluation: Measured
     recorded: Measured
     layouts: tuple[Layout, ...]
-    beliefs: Beliefs
+    beliefs: NoisePriors
     usual: Float[np.ndarray, " q"]
     plain: Refit
     floor: Float[np.ndarray, " c"]
@@ -122,14 +122,14 @@ class Problem:
         x = self.beliefs.point(levels)
         return Noise(levels, np.minimum(noise.varies, self.usual), 0.5 * float(x @ x), self._whiteners(levels))
 
-    def _whiteners(self, levels: Levels) -> tuple[Whitener, ...]:
+    def _whiteners(self, levels: NoiseLevels) -> tuple[Whitener, ...]:
         return tuple(layout.whitener(levels) for layout in self.layouts)
 
-    def _variation(self, model: Refit, levels: Levels) -> Float[np.ndarray, " q"]:
+    def _variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
         found = variation(self._products(self.calibration_layouts, model, levels), self.usual)
         return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
-    def _products(self, layouts: Sequence[Layout], model: Refit, levels: Levels) -> list[Products]:
+    def _products(self, layouts: Sequence[Layout], model: Refit, levels: NoiseLevels) -> list[Products]:
         products = []
         for layout, residual, jacobian in zip(layouts, model.residuals, model.jacobian, strict=False):
             whitener = layout.whitener(levels)
@@ -137,20 +137,20 @@ class Problem:
             products.append(Products.of(whitener(residual[..., None])[:, 0], design))
         return products
 
-    def seen_variation(self, model: Refit, levels: Levels) -> Float[np.ndarray, " q"]:
+    def seen_variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
         """How much all trials do differ, little believed beforehand, around parameters that were fitted to all."""
         found = variation(self._products(self.layouts, model, levels), self.usual, BARELY, spent=1.0)
         return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
-    def fitting(self, noise: Noise, model: Refit) -> list[Weighing]:
+    def fitting(self, noise: Noise, model: Refit) -> list[Whitening]:
         """Whitening of the calibration trials."""
-        return self.weighings(noise, model)[: len(self.calibration.trials)]
+        return self.whitenings(noise, model)[: len(self.calibration.trials)]
 
-    def weighings(self, noise: Noise, model: Refit) -> list[Weighing]:
+    def whitenings(self, noise: Noise, model: Refit) -> list[Whitening]:
         """Whitening of the trials that a model was evaluated on: all of them, or those of the calibration."""
         count = len(self.usual)
         return [
-            Weighing.of(whitener, jacobian[..., :count] * noise.varies)
+            Whitening.of(whitener, jacobian[..., :count] * noise.varies)
             for whitener, jacobian in zip(noise.whiteners, model.jacobian, strict=False)
         ]
 
@@ -162,7 +162,7 @@ class Noise:
     `whiteners` are what these levels make of the layouts of all trials.
     """
 
-    levels: Levels
+    levels: NoiseLevels
     varies: Float[np.ndarray, " q"]
     surprise: float
     whiteners: tuple[Whitener, ...]
@@ -344,7 +344,7 @@ def floor_of(problem: Problem, noise: Noise, model: Refit) -> Float[np.ndarray, 
     return np.sqrt(squares / np.maximum(counts, 1))
 
 
-def noise_variance(layout: Layout, levels: Levels) -> Float[np.ndarray, "t c"]:
+def noise_variance(layout: Layout, levels: NoiseLevels) -> Float[np.ndarray, "t c"]:
     """Variance of sensor noise and input noise at every sample; 0 where nothing was measured."""
     total = np.zeros(layout.shape[0] * layout.shape[1])
     for block in layout.blocks:

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.differentiated_inputs import Movement, rate_of_waves
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs, rate_of_waves
 from geocontact.chain.links import Modifier
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -17,7 +17,7 @@ from geocontact.data.trial import Trial
 from geocontact.gap.inputs.responses import responses
 from geocontact.identify.noise.covariance import Layout, Whitener
 from geocontact.identify.noise.input_noise import InputNoise, Instant
-from geocontact.identify.noise.noise_levels import Beliefs, Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
@@ -39,7 +39,7 @@ LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
 
 
 @dataclass(frozen=True)
-class Weighing:
+class Whitening:
     """Whitening of one trial: v → (I + B Q Bᵀ)^(-1/2) W v.
 
     Parameters
@@ -58,7 +58,7 @@ class Weighing:
     log_scale: float
 
     @classmethod
-    def of(cls, whitener: Whitener, varied: Float[np.ndarray, "t c q"]) -> Weighing:
+    def of(cls, whitener: Whitener, varied: Float[np.ndarray, "t c q"]) -> Whitening:
         """From the whitener and derivatives with respect to what varies, times its standard deviation."""
         if varied.shape[-1] == 0:
             return cls(whitener, np.zeros((sum(map(len, whitener.rows)), 0)), np.zeros(0), whitener.log_scale)
@@ -79,7 +79,7 @@ def varies_by(parameter: Parameter, value: float) -> float:
     return ANGLE_VARIES if parameter.unit == "rad" else SHARE_VARIES * abs(value)
 
 
-def heard(
+def propagated_input_noise(
     system: System, trial: Trial, values: Mapping[str, float], passed: Mapping[str, LowPass], left: Mapping[str, Share]
 ) -> InputNoise:
     """What noise of a trial's inputs makes of the outputs that a model predicts.
@@ -112,7 +112,9 @@ def sensitivity(
 
 
 def _bumped(system: System, kind: str, row: int, by: float) -> System:
-    def change(movement: Movement, _: Movement, __: Mapping[str, float]) -> Movement:
+    def change(
+        movement: DifferentiatedInputs, _: DifferentiatedInputs, __: Mapping[str, float]
+    ) -> DifferentiatedInputs:
         moved = getattr(movement, kind).copy()
         moved[row] += by
         return replace(movement, **{kind: moved})
@@ -126,7 +128,7 @@ def usual_levels(
     rough: Float[np.ndarray, " c"],
     seen: Mapping[str, float],
     most: Mapping[str, float],
-) -> Beliefs:
+) -> NoisePriors:
     """What is believed of the noise before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
@@ -154,7 +156,7 @@ def usual_levels(
     loudest = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
     loudest = np.maximum(loudest, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs])
     inputs = np.minimum(inputs, loudest)
-    return Beliefs(Levels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, loudest)
+    return NoisePriors(NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, loudest)
 
 
 def layouts_of(
@@ -165,8 +167,8 @@ def layouts_of(
     passed: Mapping[str, LowPass],
     left: Mapping[str, Share],
 ) -> list[Layout]:
-    """One per trial, inputs' noise (see `heard`) seen through the model at `values`."""
+    """One per trial, inputs' noise (see `propagated_input_noise`) seen through the model at `values`."""
     return [
-        Layout.of(t.time, there, heard(system, t, values, passed, left))
+        Layout.of(t.time, there, propagated_input_noise(system, t, values, passed, left))
         for t, there in zip(trials, present, strict=True)
     ]

@@ -4,7 +4,7 @@ Where A is true and B is fitted instead, B leaves
 
     ½ rᵀ (I + D S² Dᵀ)⁻¹ r,   r = A's prediction minus B's, whitened, D B's derivatives, S their prior spread
 
-to first order. B may do better than that by going further than derivatives reach; `kept` fits it to what A predicts,
+to first order. B may do better than that by going further than derivatives reach; `remaining_nats` fits it to what A predicts,
 within bounds, its prior around where it started: min ½ |r(φ)|² + ½ |(φ - φ₀)/S|².
 """
 
@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
-from geocontact.gap.case.refit import Measured, Search, Weigh
+from geocontact.gap.case.refit import Measured, RefitSearch, Whiten
 from geocontact.gap.selection.evidence import prior_spread
 
 ROUNDS = 20  # of a refit
@@ -44,7 +44,7 @@ class Hypothesis:
 
 
 @dataclass(frozen=True)
-class Pair:
+class ModelPair:
     """Somebody who is true, and somebody who is fitted instead."""
 
     true: Hypothesis
@@ -73,20 +73,20 @@ class Rows:
 
 
 @dataclass(frozen=True)
-class Recording:
+class SimulatedTrials:
     """Trials without noise that the true model would give, and the imitator as it is in them; each so many times."""
 
     imitator: System
     measured: Measured
-    weighings: Sequence[Weigh]
+    whitenings: Sequence[Whiten]
     times: int = 1
 
 
-def kept(imitator: Hypothesis, recordings: Sequence[Recording]) -> float:
+def remaining_nats(imitator: Hypothesis, recordings: Sequence[SimulatedTrials]) -> float:
     """What an imitator leaves where it is refitted to these recordings together, within bounds [nats]."""
     from scipy.optimize import least_squares
 
-    searches = [Search(one.imitator, one.measured, one.weighings) for one in recordings]
+    searches = [RefitSearch(one.imitator, one.measured, one.whitenings) for one in recordings]
     roots = [float(np.sqrt(one.times)) for one in recordings]
     first = searches[0]
     start = np.array([imitator.values[p.name] for p in first.parameters]) / first.scale
@@ -94,9 +94,9 @@ def kept(imitator: Hypothesis, recordings: Sequence[Recording]) -> float:
 
     def whitened(parts: list[list[Float[np.ndarray, "_ c p"]]]) -> Float[np.ndarray, "n p"]:
         rows = [
-            root * weigh(part)
+            root * whiten(part)
             for root, one, own in zip(roots, recordings, parts, strict=True)
-            for weigh, part in zip(one.weighings, own, strict=True)
+            for whiten, part in zip(one.whitenings, own, strict=True)
         ]
         return np.concatenate(rows)
 

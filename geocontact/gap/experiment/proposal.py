@@ -19,8 +19,8 @@ from geocontact.data.diagnosis import NextExperiment
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, derivatives
-from geocontact.gap.case.whitening import Weighing, heard
-from geocontact.gap.experiment.competing_models import Hypothesis, Pair, Recording, Rows, kept
+from geocontact.gap.case.whitening import Whitening, propagated_input_noise
+from geocontact.gap.experiment.competing_models import Hypothesis, ModelPair, Rows, SimulatedTrials, remaining_nats
 from geocontact.gap.experiment.menu import Experiment, menu
 from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.model_comparison import Contender
@@ -39,7 +39,7 @@ class Proposal:
 
     said: NextExperiment
     experiment: Experiment
-    pairs: tuple[Pair, ...]
+    pairs: tuple[ModelPair, ...]
     lead: Judged
 
 
@@ -65,20 +65,20 @@ def proposed(found: Attribution, swallowed: Sequence[Candidate] = ()) -> Proposa
     swallowed
         Candidates that the base parameters swallow, asked about where nothing was found.
     """
-    rivals = _rivals(found)
+    rivals = _competing_models(found)
     problem = found.clean
     if len(rivals) > 1:
         known = [_fitted(one) for one in rivals]
-        pairs = [Pair(a, b) for a in known for b in known if a is not b]
+        pairs = [ModelPair(a, b) for a in known for b in known if a is not b]
         return _telling(found, problem, rivals[0].judged, pairs)
     if found.answer.verdict == "no_gap" and swallowed:
         base = _fitted(found.base)
-        pairs = [Pair(_swallowed(problem, found.base.judged, one), base) for one in swallowed]
+        pairs = [ModelPair(_confounded(problem, found.base.judged, one), base) for one in swallowed]
         return _unveiling(problem, found.base.judged, pairs)
     return None
 
 
-def _rivals(found: Attribution) -> list[Contender]:
+def _competing_models(found: Attribution) -> list[Contender]:
     """The best model of each answer still in question, what is named first; mistakes in the data are no rivals."""
     said = found.answer
     rivals = [said.chosen] if said.chosen.candidates and said.verdict != "unknown" else []
@@ -97,7 +97,7 @@ def _fitted(one: Contender) -> Hypothesis:
     return Hypothesis("+".join(one.names), model.system, model.values, model.residuals, model.jacobian)
 
 
-def _swallowed(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
+def _confounded(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
     """An effect where a search for it sets out, on top of the fitted base."""
     system, values = one.apply(problem.system), {**base.model.values, **one.starts[0]}
     residuals = [
@@ -107,7 +107,7 @@ def _swallowed(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
     return Hypothesis(one.name, system, values, residuals, base.model.jacobian)
 
 
-def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Pair]) -> Proposal | None:
+def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[ModelPair]) -> Proposal | None:
     """The most promising change that raises the smallest separation enough once rivals are refitted."""
     before = [_old(problem, lead, pair) for pair in pairs]
     least = min(rows.nats for rows in before)
@@ -118,7 +118,7 @@ def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Pai
     ]
     promising = sorted((each for each in promised if each[0] > needed), key=lambda each: -each[0])
     for _, one in promising[:CHECKED]:
-        left = min(_kept(problem, lead, one, pair) for pair in pairs)
+        left = min(_remaining(problem, lead, one, pair) for pair in pairs)
         if left > needed:
             names = [
                 name for name in found.answer.ambiguity if any(name in pair.true.name.split("+") for pair in pairs)
@@ -128,7 +128,7 @@ def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Pai
     return None
 
 
-def _kept(problem: Problem, lead: Judged, one: Rehearsed, pair: Pair) -> float:
+def _remaining(problem: Problem, lead: Judged, one: Rehearsed, pair: ModelPair) -> float:
     """What an imitator leaves of the truth where it is refitted to old trials and to new ones [nats]."""
     old = (problem.calibration, problem.evaluation)
     outputs = [each for measured in old for each in measured.outputs]
@@ -140,16 +140,16 @@ def _kept(problem: Problem, lead: Judged, one: Rehearsed, pair: Pair) -> float:
     moved = one.experiment
     truth = np.where(one.present, moved.staged(pair.true.system).simulate(moved.trial, pair.true.values), np.nan)
     new = Measured((moved.trial,), (truth,), problem.calibration.rough)
-    return kept(
+    return remaining_nats(
         pair.imitator,
         [
-            Recording(pair.imitator.system, known, problem.weighings(lead.noise, lead.model)),
-            Recording(moved.staged(pair.imitator.system), new, [one.weigh], TRIALS),
+            SimulatedTrials(pair.imitator.system, known, problem.whitenings(lead.noise, lead.model)),
+            SimulatedTrials(moved.staged(pair.imitator.system), new, [one.whiten], TRIALS),
         ],
     )
 
 
-def _unveiling(problem: Problem, base: Judged, pairs: list[Pair]) -> Proposal | None:
+def _unveiling(problem: Problem, base: Judged, pairs: list[ModelPair]) -> Proposal | None:
     """The change that makes most effects visible that were swallowed, and of several the one that shows them best."""
     before = [_old(problem, base, pair) for pair in pairs]
     best: tuple[int, float, Experiment, list[str]] | None = None
@@ -172,14 +172,14 @@ def _said(one: Experiment, names: Sequence[str], gain: float) -> NextExperiment:
     return NextExperiment(tuple(names), f"record {TRIALS} trials: {one.words}", float(f"{gain:.3g}"))
 
 
-def _old(problem: Problem, lead: Judged, pair: Pair) -> Rows:
+def _old(problem: Problem, lead: Judged, pair: ModelPair) -> Rows:
     """A pair on the trials that exist, under the noise of the model that leads."""
-    weighings = problem.weighings(lead.noise, lead.model)
+    whitenings = problem.whitenings(lead.noise, lead.model)
     columns = [
         np.concatenate([(b - a)[..., None], j * pair.imitator.spread], axis=-1)
         for a, b, j in zip(pair.true.residuals, pair.imitator.residuals, pair.imitator.jacobian, strict=True)
     ]
-    white = np.concatenate([w(part) for w, part in zip(weighings, columns, strict=True)])
+    white = np.concatenate([w(part) for w, part in zip(whitenings, columns, strict=True)])
     return Rows(white[:, 0], white[:, 1:])
 
 
@@ -188,18 +188,18 @@ class Rehearsed:
     """One trial of an experiment as models predict it: its weighing, where it has values, and every pair on it."""
 
     experiment: Experiment
-    weigh: Weighing
+    whiten: Whitening
     present: np.ndarray
     rows: list[Rows]
 
 
-def _new(problem: Problem, lead: Judged, pairs: list[Pair]) -> list[Rehearsed]:
+def _new(problem: Problem, lead: Judged, pairs: list[ModelPair]) -> list[Rehearsed]:
     """Every pair on one trial of every change."""
     changes = menu(problem.system, problem.calibration.trials)
     return [_rehearsed(problem, lead, one, pairs) for one in changes]
 
 
-def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[Pair]) -> Rehearsed:
+def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[ModelPair]) -> Rehearsed:
     trial, rough = one.trial, problem.calibration.rough
     hypotheses = {id(each): each for pair in pairs for each in (pair.true, pair.imitator)}
     predicted = {key: one.staged(each.system).simulate(trial, each.values) for key, each in hypotheses.items()}
@@ -211,12 +211,12 @@ def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[Pair
     }
     staged = one.staged(problem.system)
     base = {name: lead.model.values[name] for name in problem.plain.values}
-    layout = Layout.of(trial.time, present, heard(staged, trial, base, problem.passed, problem.left))
+    layout = Layout.of(trial.time, present, propagated_input_noise(staged, trial, base, problem.passed, problem.left))
     varied = derivatives(staged, zero, base)[0] * lead.noise.varies
-    weigh = Weighing.of(layout.whitener(lead.noise.levels), varied)
+    whiten = Whitening.of(layout.whitener(lead.noise.levels), varied)
     found = []
     for pair in pairs:
         off = np.where(present, predicted[id(pair.true)] - predicted[id(pair.imitator)], 0.0)
-        white = weigh(np.concatenate([off[..., None], slopes[id(pair.imitator)] * pair.imitator.spread], axis=-1))
+        white = whiten(np.concatenate([off[..., None], slopes[id(pair.imitator)] * pair.imitator.spread], axis=-1))
         found.append(Rows(white[:, 0], white[:, 1:]))
-    return Rehearsed(one, weigh, present, found)
+    return Rehearsed(one, whiten, present, found)

@@ -26,7 +26,7 @@ from geocontact.chain.candidate import Candidate
 from geocontact.gap.case.refit import magnitude
 from geocontact.gap.identifiability.signatures import (
     ADDS,
-    Ground,
+    BaseState,
     Sized,
     at_nats,
     orthonormal,
@@ -87,10 +87,13 @@ class Gainer:
 
 
 def detectabilities(
-    ground: Ground, candidates: Sequence[Candidate], asked: Sequence[Candidate], step: Callable[[], None] = lambda: None
+    ground: BaseState,
+    candidates: Sequence[Candidate],
+    asked: Sequence[Candidate],
+    step: Callable[[], None] = lambda: None,
 ) -> tuple[Detectability, ...]:
     """Of those asked about, all of which and `candidates` may gain; `step` is called after each."""
-    variants, rivals = Counter(one.name for one in candidates if one.parameters), rivals_of(ground, candidates)
+    variants, rivals = Counter(one.name for one in candidates if one.parameters), competitors_of(ground, candidates)
     found = []
     for one in asked:
         found.append(detectability(ground, one, rivals, variants[one.name]))
@@ -98,7 +101,7 @@ def detectabilities(
     return tuple(found)
 
 
-def rivals_of(ground: Ground, candidates: Sequence[Candidate]) -> dict[str, list[Gainer]]:
+def competitors_of(ground: BaseState, candidates: Sequence[Candidate]) -> dict[str, list[Gainer]]:
     """Every candidate with a parameter where it starts from, by label."""
     known = [one for one in candidates if one.parameters]
     variants = Counter(one.name for one in known)
@@ -106,7 +109,7 @@ def rivals_of(ground: Ground, candidates: Sequence[Candidate]) -> dict[str, list
 
 
 def detectability(
-    ground: Ground, candidate: Candidate, rivals: dict[str, list[Gainer]], variants: int
+    ground: BaseState, candidate: Candidate, rivals: dict[str, list[Gainer]], variants: int
 ) -> Detectability:
     """Of one candidate; `rivals` are all that may gain, by label."""
     faint, clear = (at_nats(ground, candidate, nats) for nats in (FAINTEST, CLEAR))
@@ -136,13 +139,13 @@ def _share(one: Sized) -> float:
     return max((one.amplitude - rest) / reach_of(one.candidate, start), 1e-9)
 
 
-def _at_share(ground: Ground, candidate: Candidate, share: float) -> Sized:
+def _at_share(ground: BaseState, candidate: Candidate, share: float) -> Sized:
     start, first = candidate.starts[0], candidate.parameters[0].name
     value = rest_of(candidate) + share * reach_of(candidate, start)
     return sized(ground, candidate, {**start, first: value})
 
 
-def power(ground: Ground, one: Sized, others: Sequence[Gainer], variants: int) -> float:
+def power(ground: BaseState, one: Sized, others: Sequence[Gainer], variants: int) -> float:
     """Share of repetitions in which effects outweigh "none" where this effect is there."""
     moved = ground.moved(one.candidate.apply(ground.system), {**ground.values, **one.values})
     own = _gainer(ground, one.candidate, one.values, moved, variants, present=True)
@@ -180,7 +183,7 @@ def _independent(gainers: Sequence[Gainer]) -> Float[np.ndarray, "n k"]:
     return orthonormal(np.hstack([part for one in gainers for part in (one.directions, one.calibration)]))
 
 
-def _starting(ground: Ground, candidate: Candidate, variants: int) -> list[Gainer]:
+def _starting(ground: BaseState, candidate: Candidate, variants: int) -> list[Gainer]:
     """A rival, at every start that it offers."""
     system = candidate.apply(ground.system)
     return [
@@ -190,7 +193,7 @@ def _starting(ground: Ground, candidate: Candidate, variants: int) -> list[Gaine
 
 
 def _gainer(
-    ground: Ground,
+    ground: BaseState,
     candidate: Candidate,
     values: Mapping[str, float],
     moved: Float[np.ndarray, " n"],
@@ -224,7 +227,7 @@ def _gainer(
     )
 
 
-def _calibration_share(ground: Ground, moved: Float[np.ndarray, " n"]) -> float:
+def _calibration_share(ground: BaseState, moved: Float[np.ndarray, " n"]) -> float:
     """Part, in the calibration rows, of what is left of a change once the base is refitted to these."""
     inside = slice(0, ground.fitted_rows)
     size = np.linalg.norm(ground.slopes[inside], axis=0)

@@ -20,7 +20,7 @@ from jaxtyping import Float
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.gap.case.refit import free, refit
-from geocontact.gap.identifiability.signatures import Ground, Sized, orthonormal, own_slopes
+from geocontact.gap.identifiability.signatures import BaseState, Sized, orthonormal, own_slopes
 
 APART = 5.0  # nats from which two effects count as told apart
 FAR = 25.0  # nats from which a first-order figure is not checked
@@ -51,7 +51,7 @@ class Separation:
 
 
 @dataclass(frozen=True)
-class Imitator:
+class Confounder:
     """A model that tries to look like others: where it may start from, and the directions that it has there.
 
     `slopes` and `directions` are those of all its parameters, the base's first.
@@ -64,12 +64,12 @@ class Imitator:
     directions: tuple[Float[np.ndarray, "n k"], ...]
 
 
-def base_alone(ground: Ground) -> Imitator:
+def base_alone(ground: BaseState) -> Confounder:
     """The base model, which can only be refitted."""
-    return Imitator(NONE, ground.system, (ground.values,), (ground.slopes,), (ground.base,))
+    return Confounder(NONE, ground.system, (ground.values,), (ground.slopes,), (ground.base,))
 
 
-def imitator_of(ground: Ground, candidate: Candidate) -> Imitator:
+def confounder_of(ground: BaseState, candidate: Candidate) -> Confounder:
     """The base model with a candidate, at every start that this offers."""
     system = candidate.apply(ground.system)
     starts = tuple({**ground.values, **start} for start in candidate.starts)
@@ -77,14 +77,14 @@ def imitator_of(ground: Ground, candidate: Candidate) -> Imitator:
         np.hstack([ground.slopes, own_slopes(ground, candidate, start, ground.moved(system, start))])
         for start in starts
     )
-    return Imitator(candidate.label, system, starts, slopes, tuple(orthonormal(each) for each in slopes))
+    return Confounder(candidate.label, system, starts, slopes, tuple(orthonormal(each) for each in slopes))
 
 
 def separations(
-    ground: Ground, effects: Sequence[Sized], step: Callable[[], None] = lambda: None
+    ground: BaseState, effects: Sequence[Sized], step: Callable[[], None] = lambda: None
 ) -> tuple[Separation, ...]:
     """Every effect against the base model and against every other; `step` is called after each effect."""
-    imitators = [base_alone(ground), *(imitator_of(ground, one.candidate) for one in effects)]
+    imitators = [base_alone(ground), *(confounder_of(ground, one.candidate) for one in effects)]
     found = []
     for one in effects:
         target = ground.moved(one.candidate.apply(ground.system), {**ground.values, **one.values})
@@ -93,8 +93,8 @@ def separations(
     return tuple(found)
 
 
-def separation(ground: Ground, one: Sized, target: Float[np.ndarray, " n"], other: Imitator) -> Separation:
-    """What `other` leaves of `target`, which is what the effect does, `Ground.moved`."""
+def separation(ground: BaseState, one: Sized, target: Float[np.ndarray, " n"], other: Confounder) -> Separation:
+    """What `other` leaves of `target`, which is what the effect does, `BaseState.moved`."""
     names = one.candidate.label, other.label
     if names[0] == names[1]:
         return Separation(*names, 0.0, "itself")
@@ -110,7 +110,7 @@ def separation(ground: Ground, one: Sized, target: Float[np.ndarray, " n"], othe
 
 
 def _straight(
-    ground: Ground, target: Float[np.ndarray, " n"], other: Imitator, which: int
+    ground: BaseState, target: Float[np.ndarray, " n"], other: Confounder, which: int
 ) -> tuple[dict[str, float], float]:
     """Where one straight step to the target leads, within bounds, and what it leaves of the target there [nats]."""
     start, columns = other.starts[which], other.slopes[which]
@@ -124,7 +124,7 @@ def _straight(
     return values, 0.5 * float(off @ off)
 
 
-def refitted(ground: Ground, one: Sized, other: Imitator, start: Mapping[str, float]) -> float:
+def refitted(ground: BaseState, one: Sized, other: Confounder, start: Mapping[str, float]) -> float:
     """What a bounded least-squares fit of `other` leaves of trials that have the effect and no noise [nats]."""
     there = one.candidate.apply(ground.system)
     full = {**ground.values, **one.values}
@@ -133,7 +133,7 @@ def refitted(ground: Ground, one: Sized, other: Imitator, start: Mapping[str, fl
         for t, o in zip(ground.measured.trials, ground.measured.outputs, strict=True)
     ]
     measured = replace(ground.measured, outputs=tuple(outputs))
-    return refit(other.system, measured, ground.weighings, [start, *other.starts], REFITTED).cost
+    return refit(other.system, measured, ground.whitenings, [start, *other.starts], REFITTED).cost
 
 
 def classes(found: Sequence[Separation], least: float = APART) -> tuple[tuple[str, ...], ...]:

@@ -27,7 +27,7 @@ from geocontact.data.cell_channels import CellChannels
 from geocontact.data.surface_gap import SurfaceGap
 from geocontact.data.trial import Trial
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.data_errors.gross import Fault
+from geocontact.gap.data_errors.gross import DataError
 from geocontact.gap.localise.gap_map import BLOCKS, FLIPS, HOLDS, missed, smoothed
 from geocontact.gap.selection.evidence import Judged
 
@@ -40,7 +40,7 @@ Seen = list[tuple[Float[np.ndarray, "_ n"], Float[np.ndarray, " _"]]]
 
 
 def on_surface(
-    problem: Problem, after: Judged | None, fault: Fault | None, cells: Mapping[str, CellChannels]
+    problem: Problem, after: Judged | None, data_error: DataError | None, cells: Mapping[str, CellChannels]
 ) -> tuple[SurfaceGap, ...]:
     """Every site whose cells show the gap of its channel, where trials on both sides have cells.
 
@@ -48,12 +48,12 @@ def on_surface(
     ----------
     problem
         The case as it came.
-    after, fault
+    after, data_error
         As for `locate.windows`.
     cells
         By site.
     """
-    gaps = missed(problem, after, fault)
+    gaps = missed(problem, after, data_error)
     found = []
     for site, own in cells.items():
         one = _site(problem, site, own, gaps, after is not None)

@@ -6,10 +6,10 @@ import numpy as np
 
 from geocontact.data.held_out import HeldOut
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.reduction.raw_input_errors import Errors
+from geocontact.gap.reduction.raw_input_errors import RawInputErrors
 
 
-def held_out(problem: Problem, errors: Errors, named: bool) -> tuple[HeldOut, ...]:
+def held_out(problem: Problem, errors: RawInputErrors, named: bool) -> tuple[HeldOut, ...]:
     """Every held-out trial of the case as it came, by name; without predictions of the answer where nothing is named.
 
     Parameters

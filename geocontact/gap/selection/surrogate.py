@@ -74,12 +74,12 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
     price = float(np.log(len(made) * (2 + RENEWED)))
 
     def under(one: Judged) -> Surrogate:
-        weighings = problem.weighings(one.noise, one.model)
-        unbent = _without(one.whitened_bends)
+        whitenings = problem.whitenings(one.noise, one.model)
+        unbent = _without(one.whitened_basis)
         known, residual = unbent(one.model.whitened_jacobian * spread), unbent(one.model.whitened[:, None])[:, 0]
         best = Surrogate("", 0.0, 0.0, 0.0, tuple(np.zeros_like(each) for each in one.model.residuals))
         for name, features in made:
-            white = unbent(np.concatenate([w(part) for w, part in zip(weighings, features, strict=True)]))
+            white = unbent(np.concatenate([w(part) for w, part in zip(whitenings, features, strict=True)]))
             found = chosen(residual, white, known, one.fitted_rows, price)
             if found.gain - found.price > best.nats:
                 shift = spread * found.shift
@@ -90,14 +90,14 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
                 best = Surrogate(name, found.gain, found.calibration, found.price, predicted)
         return best
 
-    quiet = judged_as(problem, judged.model, problem.quieter(judged.noise), judged.bends)
+    quiet = judged_as(problem, judged.model, problem.quieter(judged.noise), judged.discrepancy_basis)
     found = [(judged, under(judged)), (quiet, under(quiet))]
     for _ in range(RENEWED):
         if not found[-1][1].family:
             break
         left = [a - b for a, b in zip(judged.model.residuals, found[-1][1].predicted, strict=True)]
         noise = problem.weighed(replace(judged.model, residuals=left), quiet.noise)
-        other = judged_as(problem, judged.model, noise, judged.bends)
+        other = judged_as(problem, judged.model, noise, judged.discrepancy_basis)
         found.append((other, under(other)))
     bare = max((one for one, _ in found), key=lambda one: one.nats)  # better noise alone is no gain of the stand-in
     gained = [
@@ -111,11 +111,13 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
     return max(gained, key=lambda each: each.nats)
 
 
-def _without(bends: Float[np.ndarray, "n m"]) -> Callable[[Float[np.ndarray, "n k"]], Float[np.ndarray, "n k"]]:
+def _without(
+    discrepancy_basis: Float[np.ndarray, "n m"],
+) -> Callable[[Float[np.ndarray, "n k"]], Float[np.ndarray, "n k"]]:
     """v → (I + B Bᵀ)^(-1/2) v: what the bends of an effect may explain weighs less."""
-    if not bends.shape[1]:
+    if not discrepancy_basis.shape[1]:
         return lambda values: values
-    left, singular, _ = np.linalg.svd(bends, full_matrices=False)
+    left, singular, _ = np.linalg.svd(discrepancy_basis, full_matrices=False)
     gains = 1.0 - 1.0 / np.sqrt(1.0 + singular**2)
     return lambda values: values - left @ (gains[:, None] * (left.T @ values))
 

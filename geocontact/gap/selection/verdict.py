@@ -58,7 +58,7 @@ def gain_of(one: Contender, over: Contender, share: float) -> float:
 
 
 @dataclass(frozen=True)
-class Standing:
+class Ranking:
     """Who is weighed, and what each gains over the base, its choice paid for [nats], by label.
 
     `best` gains most, less than nothing perhaps; the base where nobody is weighed.
@@ -79,9 +79,9 @@ class Standing:
         return self.best if self.gains.get(self.best.label, 0.0) > 0.0 else self.base
 
 
-def standing(
+def ranking(
     base: Contender, contenders: Sequence[Contender], shares: Mapping[str, float], variants: Mapping[str, int]
-) -> Standing:
+) -> Ranking:
     """What the contenders gain; a pair is weighed where it adds enough to the best single.
 
     Who has no evidence that is a number is not weighed.
@@ -108,10 +108,10 @@ def standing(
     pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]
     living = (*single, *pairs)
     gains = {c.label: over_base[c.label] - (needed if len(c.candidates) == 2 else 0.0) for c in living}
-    return Standing(base, living, gains)
+    return Ranking(base, living, gains)
 
 
-def answer(held: Standing, unnamed: float, strange: float, rest: float) -> Answer:
+def answer(held: Ranking, unnamed: float, strange: float, rest: float) -> Answer:
     """The verdict; FloatingPointError where what is given is not a number.
 
     Parameters

@@ -5,7 +5,7 @@ Base models are written a second time from their definition, trajectories are co
 effect follows another equation than the candidate that is to find it (each plan states both).
 """
 
-from geocontact.gap_benchmark.synthetic.cases import plant
-from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, Planted
+from geocontact.gap_benchmark.synthetic.cases import synthetic_case
+from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, SyntheticCase
 
-__all__ = ["KINDS", "Kind", "Label", "Planted", "plant"]
+__all__ = ["KINDS", "Kind", "Label", "SyntheticCase", "synthetic_case"]

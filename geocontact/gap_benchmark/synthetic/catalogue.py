@@ -53,7 +53,7 @@ PLANS: tuple[Plan, ...] = (
     CROSSTALK,
 )
 
-SWALLOWED = {
+CONFOUNDED = {
     "elbow": (
         "series_compliance",
         "preload",
@@ -70,7 +70,7 @@ SWALLOWED = {
 }
 """Effects that base parameters imitate nearly, if they are of a plain form."""
 
-NO_GAP = {"elbow": SWALLOWED["elbow"], "sit_to_stand": ("sensor_gain",)}
+NO_GAP = {"elbow": CONFOUNDED["elbow"], "sit_to_stand": ("sensor_gain",)}
 """Those that leave no visible gap of their own kind at all: never planted as a single one or in a pair."""
 
 

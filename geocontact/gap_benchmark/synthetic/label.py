@@ -69,7 +69,7 @@ class Label:
 
 
 @dataclass(frozen=True)
-class Planted:
+class SyntheticCase:
     """A synthetic case, the truth about it, and its calibration trials without noise."""
 
     case: GapCase

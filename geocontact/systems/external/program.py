@@ -8,7 +8,7 @@ from geocontact.systems.external.simulator import simulated_system
 from geocontact.systems.validate import refusal
 
 
-def command_system(case: GapCase) -> System:
+def program_system(case: GapCase) -> System:
     """The base model; InputError when the case brings no simulator."""
     own = case.simulator
     if own is None:

@@ -10,7 +10,7 @@ from pkgutil import walk_packages
 from types import ModuleType
 from typing import Any
 
-from geocontact import gap
+import geocontact.gap
 from geocontact.analyses.gap.benchmark.outcome import Outcome
 from geocontact.analyses.gap.benchmark.tables import mean
 from geocontact.analyses.run_record import Record
@@ -35,7 +35,7 @@ def content(record: Record, outcome: Outcome, when: str) -> dict[str, Any]:
             "scoring": _constants(score) | {"imitation_left": imitation.LEFT},
             "diagnosis": _constants(verdict) | _constants(attribute),
             "regression": _constants(residual_regression),
-            "gap_modules": _constants_of_all(gap),
+            "gap_modules": constants_of_all(geocontact.gap),
         },
         "figures": {
             name: {who: figures(one_score) for who, one_score in scores(one.labels, one.given).items()}
@@ -68,7 +68,7 @@ def _constants(module: ModuleType) -> dict[str, int | float]:
     return {name: v for name, v in vars(module).items() if name.isupper() and isinstance(v, int | float)}
 
 
-def _constants_of_all(package: ModuleType) -> dict[str, int | float]:
+def constants_of_all(package: ModuleType) -> dict[str, int | float]:
     """Of every module of a package, by "module.NAME" as in docs/theory/gap_diagnosis.md."""
     home = f"{package.__name__}."
     modules = [name for _, name, is_package in walk_packages(package.__path__, home) if not is_package]

@@ -7,12 +7,12 @@ from typing import Any
 from geocontact.data.gap_case import GapCase
 from geocontact.data.version import VERSION
 from geocontact.gap.identifiability.detectability import POWER, Detectability
-from geocontact.gap.identifiability.discriminability import Confusion
+from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.gap.identifiability.separability import APART, table
 from geocontact.gap.identifiability.signatures import rest_of
 
 
-def answer(case: GapCase, found: Confusion, nats: float) -> dict[str, Any]:
+def answer(case: GapCase, found: Discriminability, nats: float) -> dict[str, Any]:
     """confuse.json, SI units."""
     labels, matrix = table(found.separations)
     said = found.found.answer

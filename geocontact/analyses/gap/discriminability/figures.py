@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from geocontact.analyses.gap.discriminability.words import size_words
 from geocontact.gap.identifiability.detectability import Detectability
-from geocontact.gap.identifiability.discriminability import Confusion
+from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.gap.identifiability.separability import table
 from geocontact.gap.identifiability.signatures import reach_of, rest_of
 from geocontact.view.curves.diagnosis.detectability import Seen, detectability_figure
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def confusion_figures(found: Confusion) -> dict[str, Figure]:
+def confusion_figures(found: Discriminability) -> dict[str, Figure]:
     """Matrix and bars, by the name of their files."""
     return {
         "separability": matrix_figure(found),
@@ -24,7 +24,7 @@ def confusion_figures(found: Confusion) -> dict[str, Figure]:
     }
 
 
-def matrix_figure(found: Confusion) -> Figure:
+def matrix_figure(found: Discriminability) -> Figure:
     """Nats by which each effect is told from each."""
     labels, matrix = table(found.separations)
     return separability_figure(labels, ["none", *labels], matrix)

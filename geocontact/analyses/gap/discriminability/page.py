@@ -8,7 +8,7 @@ import numpy as np
 
 from geocontact.analyses.gap.discriminability.words import confusion_sentences
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.gap.identifiability.discriminability import Confusion
+from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.view.curves.text import number
 from geocontact.view.page.content import Page, Picture, Section, Table, Words
 
@@ -27,7 +27,7 @@ LIMITS = (
 
 def confusion_page(
     title: str,
-    found: Confusion,
+    found: Discriminability,
     drawings: Mapping[str, bytes],
     provenance: Sequence[Table] = (),
     warnings: Sequence[str] = (),
@@ -67,7 +67,7 @@ def confusion_page(
     )
 
 
-def _sizes(found: Confusion) -> Table:
+def _sizes(found: Discriminability) -> Table:
     rows = [
         (
             one.candidate.label,

@@ -19,7 +19,7 @@ from geocontact.analyses.json_file import write_json
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.result import Result
 from geocontact.data.gap_case import GapCase
-from geocontact.gap.identifiability.discriminability import Confusion
+from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.io.text.results import write_table
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
@@ -42,7 +42,7 @@ class DiscriminabilityResult(Result):
 
     options: DiscriminabilityOptions
     case: GapCase
-    found: Confusion
+    found: Discriminability
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`separability`: a row per pair of effects; `detectability`: the smallest amplitude of each."""

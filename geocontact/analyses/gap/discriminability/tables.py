@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from geocontact.gap.identifiability.discriminability import Confusion
+from geocontact.gap.identifiability.discriminability import Discriminability
 
 
-def separability_table(found: Confusion) -> pd.DataFrame:
+def separability_table(found: Discriminability) -> pd.DataFrame:
     """A row per pair: who is there, at which amplitude, who is fitted instead, what that leaves, how it was found."""
     own = {one.candidate.label: one for one in found.effects}
     rows = [
@@ -27,7 +27,7 @@ def separability_table(found: Confusion) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def detectability_table(found: Confusion) -> pd.DataFrame:
+def detectability_table(found: Discriminability) -> pd.DataFrame:
     """A row per effect: the smallest amplitude that is seen, empty where none is, and what is visible of it there."""
     rows = [
         {

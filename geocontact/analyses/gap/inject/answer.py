@@ -7,10 +7,10 @@ import math
 from geocontact.analyses.gap.inject.words import imitated
 from geocontact.chain.candidate import Candidate
 from geocontact.data.diagnosis import Diagnosis
-from geocontact.gap.inject import Planted
+from geocontact.gap.inject import Injected
 
 
-def answer(one: Candidate, made: Planted, d: Diagnosis) -> dict[str, object]:
+def answer(one: Candidate, made: Injected, d: Diagnosis) -> dict[str, object]:
     """planted.json, SI units."""
     return {
         "effect": one.name,
@@ -25,7 +25,7 @@ def answer(one: Candidate, made: Planted, d: Diagnosis) -> dict[str, object]:
     }
 
 
-def parameter_rows(one: Candidate, made: Planted, d: Diagnosis) -> list[tuple[object, ...]]:
+def parameter_rows(one: Candidate, made: Injected, d: Diagnosis) -> list[tuple[object, ...]]:
     """Name, unit, value put in, value found with its interval; NaN where the diagnosis has no such parameter."""
     rows: list[tuple[object, ...]] = []
     for p in one.parameters:

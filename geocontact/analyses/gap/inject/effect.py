@@ -14,10 +14,10 @@ from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.problem import problem_of
-from geocontact.gap.inject import Planted, chosen, plant
+from geocontact.gap.inject import Injected, chosen, inject
 
 
-def planted(given: CaseWithModel, o: InjectOptions) -> tuple[Candidate, Planted]:
+def planted(given: CaseWithModel, o: InjectOptions) -> tuple[Candidate, Injected]:
     """The case with the effect in it; InputError where the system has no such effect, parameter or trial."""
     with threadpool_limits(limits=1):
         case = admitted(given.case, given.system)
@@ -27,7 +27,7 @@ def planted(given: CaseWithModel, o: InjectOptions) -> tuple[Candidate, Planted]
         except ValueError as error:
             raise InputError("", "`effect`", str(error), "see docs/reference/gap_effects.md") from error
         trials = _trials(case, one, o)
-        return one, plant(case, problem, one, _values(one, o), o.size, trials)
+        return one, inject(case, problem, one, _values(one, o), o.size, trials)
 
 
 def _values(one: Candidate, o: InjectOptions) -> Mapping[str, float]:

@@ -17,7 +17,7 @@ from geocontact.analyses.result import Result
 from geocontact.analyses.results_folder import Scratch
 from geocontact.chain.candidate import Candidate
 from geocontact.data.diagnosis import Diagnosis
-from geocontact.gap.inject import Planted
+from geocontact.gap.inject import Injected
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -44,7 +44,7 @@ class InjectResult(Result):
 
     options: InjectOptions
     effect: Candidate
-    planted: Planted
+    planted: Injected
     diagnosed: DiagnoseResult
     scratch: Scratch
 

@@ -9,7 +9,7 @@ import numpy as np
 from geocontact.analyses.gap.words import names
 from geocontact.chain.candidate import Candidate
 from geocontact.data.diagnosis import Diagnosis
-from geocontact.gap.inject import Planted
+from geocontact.gap.inject import Injected
 
 IMITATED = 0.05  # times the noise floor that a gap of what base parameters imitate may have
 
@@ -19,7 +19,7 @@ def imitated(name: str, size: float, absorbed: Sequence[str]) -> bool:
     return name in absorbed and not size > IMITATED
 
 
-def sentences(one: Candidate, made: Planted, d: Diagnosis) -> Iterator[str]:
+def sentences(one: Candidate, made: Injected, d: Diagnosis) -> Iterator[str]:
     """The effect with its parameters, then whether the diagnosis found it."""
     values = ", ".join(f"{p.name} = {made.values[p.name]:.4g} {p.unit}" for p in one.parameters)
     gap = "" if np.isnan(made.size) else f"; it makes a gap of {made.size:.2g} times the noise floor"

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: of the wander in the channel's unit."""
     names = tuple(scale.output)
     row = int(rng.integers(len(names)))
@@ -17,7 +17,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     turns = rng.uniform(1.5, 3.0)
 
     def hooks(size: float) -> Hooks:
-        def wandered(course: Course, outputs: Outputs) -> Outputs:
+        def wandered(course: InputCourse, outputs: Outputs) -> Outputs:
             out = outputs.copy()
             angle = 2.0 * np.pi * turns * course.time / course.duration + course.phase
             out[row] += size * (np.sin(angle) + 0.5 * np.sin(1.7 * angle + 2.0 * course.phase))
