@@ -14,7 +14,7 @@ import pytest
 from nbclient import NotebookClient
 
 import geocontact as gc
-from tests.cli.calls import call, done, unpictured
+from tests.cli.calls import FEMUR, INSERT, MESHES, call, done, unpictured
 from tests.unchecked import unchecked
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -56,11 +56,16 @@ def test_kept_without_outputs_and_with_any_python(notebook):
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("default")  # of the notebook machinery itself
-def test_contact_area_runs_on_the_shipped_meshes(run, tmp_path):
+def test_contact_area_writes_what_the_command_writes(run, tmp_path):
     said = run(ROOT / "notebooks" / "contact_area.ipynb", GEOCONTACT_DATA=str(tmp_path / "none"))
-    assert "101 frames" in said and "no real data here; everything above is synthetic" in said
-    page = (tmp_path / "contact-area-result" / "report.html").read_text(encoding="utf-8")
-    assert "Synthetic knee over gait" in page
+    assert "101 frames, signed: both" in said and "no real data here; everything above is synthetic" in said
+    given = ("--unit", "mm", "--motion", MESHES / "gait.csv", "--threshold", "1,4", "--split", "z")
+    with unpictured():
+        assert call("area", FEMUR, INSERT, *given, "--out", tmp_path / "out").code == 0
+    notebook = tmp_path / "contact-area-result"
+    assert (notebook / "area.csv").read_bytes() == (tmp_path / "out/area.csv").read_bytes()
+    page = (notebook / "report.html").read_text(encoding="utf-8")
+    assert f"MOVING {FEMUR.name} on FIXED {INSERT.name}" in page
 
 
 @pytest.mark.slow
