@@ -83,13 +83,13 @@ def statements(source: str, place: int, options: argparse.Namespace) -> Iterator
         return [one for one in candidates(system) if source not in options.narrow or one.name in names]
 
     offered = [one for one in offer(problem.system) if one.parameters]
-    rivals = competitors_of(ground, offered)
+    competitors = competitors_of(ground, offered)
     for told in detectabilities(ground, offered, asked):
         one = told.candidate
         if told.smallest is None:
             continue
         rest, first = rest_of(one), one.parameters[0].name
-        others = [each for label, some in rivals.items() if label != one.label for each in some]
+        others = [each for label, some in competitors.items() if label != one.label for each in some]
         for times in options.times:
             amplitude = rest + times * (told.smallest - rest)
             if (amplitude - rest) / reach_of(one, one.starts[0]) > 1.0:

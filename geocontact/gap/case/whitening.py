@@ -153,10 +153,12 @@ def usual_levels(
     factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
     memory = np.array([2.0 * system.scale.step * sure, SLOW * sure])
     sensors = SENSOR_LOUDER * np.array([told.get(name, np.inf) for name in system.outputs])
-    loudest = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
-    loudest = np.maximum(loudest, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs])
-    inputs = np.minimum(inputs, loudest)
-    return NoisePriors(NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, loudest)
+    highest_noise = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
+    highest_noise = np.maximum(
+        highest_noise, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs]
+    )
+    inputs = np.minimum(inputs, highest_noise)
+    return NoisePriors(NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, highest_noise)
 
 
 def layouts_of(

@@ -36,7 +36,7 @@ def hidden_mistakes(problem: Problem, base: Judged, candidates: Sequence[Candida
     found = [one for one in mistakes if one.factor != 1.0 and 1.0 / MODEST <= one.factor <= MODEST]
     reversed_ = [one for one in mistakes if one.factor < 0.0 and one.channel in problem.system.inputs]
     exchanged = [one for one in mistakes if not one.channel]
-    whitenings = problem.whitenings(problem.quieter(base.noise), base.model)
+    whitenings = problem.whitenings(problem.with_lower_noise(base.noise), base.model)
     for one in (*reversed_, *exchanged):
         best = _where(problem, one, whitenings)
         found += [] if best is None else [best]

@@ -48,7 +48,7 @@ class ModelPair:
     """Somebody who is true, and somebody who is fitted instead."""
 
     true: Hypothesis
-    imitator: Hypothesis
+    confounder: Hypothesis
 
 
 @dataclass(frozen=True)
@@ -76,21 +76,21 @@ class Rows:
 class SimulatedTrials:
     """Trials without noise that the true model would give, and the imitator as it is in them; each so many times."""
 
-    imitator: System
+    confounder: System
     measured: Measured
     whitenings: Sequence[Whiten]
     times: int = 1
 
 
-def remaining_nats(imitator: Hypothesis, recordings: Sequence[SimulatedTrials]) -> float:
+def remaining_nats(confounder: Hypothesis, recordings: Sequence[SimulatedTrials]) -> float:
     """What an imitator leaves where it is refitted to these recordings together, within bounds [nats]."""
     from scipy.optimize import least_squares
 
-    searches = [RefitSearch(one.imitator, one.measured, one.whitenings) for one in recordings]
+    searches = [RefitSearch(one.confounder, one.measured, one.whitenings) for one in recordings]
     roots = [float(np.sqrt(one.times)) for one in recordings]
     first = searches[0]
-    start = np.array([imitator.values[p.name] for p in first.parameters]) / first.scale
-    believed = np.divide(first.scale, imitator.spread, out=np.zeros(len(start)), where=imitator.spread > 0.0)
+    start = np.array([confounder.values[p.name] for p in first.parameters]) / first.scale
+    believed = np.divide(first.scale, confounder.spread, out=np.zeros(len(start)), where=confounder.spread > 0.0)
 
     def whitened(parts: list[list[Float[np.ndarray, "_ c p"]]]) -> Float[np.ndarray, "n p"]:
         rows = [

@@ -43,9 +43,9 @@ class Proposal:
     lead: Judged
 
 
-def next_experiment(found: Attribution, swallowed: Sequence[Candidate] = ()) -> NextExperiment | None:
+def next_experiment(found: Attribution, confounded: Sequence[Candidate] = ()) -> NextExperiment | None:
     """The change that tells most; None where nothing is in question, or where nothing on the menu tells enough."""
-    one = proposed(found, swallowed)
+    one = proposed(found, confounded)
     return None if one is None else one.said
 
 
@@ -55,7 +55,7 @@ def first_of(offered: Sequence[Candidate], names: Sequence[str]) -> list[Candida
     return [one for some in firsts for one in some]
 
 
-def proposed(found: Attribution, swallowed: Sequence[Candidate] = ()) -> Proposal | None:
+def proposed(found: Attribution, confounded: Sequence[Candidate] = ()) -> Proposal | None:
     """The same with what it was chosen by.
 
     Parameters
@@ -65,15 +65,15 @@ def proposed(found: Attribution, swallowed: Sequence[Candidate] = ()) -> Proposa
     swallowed
         Candidates that the base parameters swallow, asked about where nothing was found.
     """
-    rivals = _competing_models(found)
+    competitors = _competing_models(found)
     problem = found.clean
-    if len(rivals) > 1:
-        known = [_fitted(one) for one in rivals]
+    if len(competitors) > 1:
+        known = [_fitted(one) for one in competitors]
         pairs = [ModelPair(a, b) for a in known for b in known if a is not b]
-        return _telling(found, problem, rivals[0].judged, pairs)
-    if found.answer.verdict == "no_gap" and swallowed:
+        return _telling(found, problem, competitors[0].judged, pairs)
+    if found.answer.verdict == "no_gap" and confounded:
         base = _fitted(found.base)
-        pairs = [ModelPair(_confounded(problem, found.base.judged, one), base) for one in swallowed]
+        pairs = [ModelPair(_confounded(problem, found.base.judged, one), base) for one in confounded]
         return _unveiling(problem, found.base.judged, pairs)
     return None
 
@@ -81,14 +81,14 @@ def proposed(found: Attribution, swallowed: Sequence[Candidate] = ()) -> Proposa
 def _competing_models(found: Attribution) -> list[Contender]:
     """The best model of each answer still in question, what is named first; mistakes in the data are no rivals."""
     said = found.answer
-    rivals = [said.chosen] if said.chosen.candidates and said.verdict != "unknown" else []
+    competitors = [said.chosen] if said.chosen.candidates and said.verdict != "unknown" else []
     for name in said.ambiguity:
-        if any(name in one.names for one in rivals):
+        if any(name in one.names for one in competitors):
             continue
         models = [c for c in found.contenders if name in c.names and len(c.names) <= max(len(said.effects), 1)]
         if models:
-            rivals.append(max(models, key=lambda c: c.judged.nats))
-    sound = [one for one in rivals if all(each.somewhere is None for each in one.candidates)]
+            competitors.append(max(models, key=lambda c: c.judged.nats))
+    sound = [one for one in competitors if all(each.somewhere is None for each in one.candidates)]
     return sound[:RIVALS]
 
 
@@ -141,10 +141,10 @@ def _remaining(problem: Problem, lead: Judged, one: Rehearsed, pair: ModelPair) 
     truth = np.where(one.present, moved.staged(pair.true.system).simulate(moved.trial, pair.true.values), np.nan)
     new = Measured((moved.trial,), (truth,), problem.calibration.rough)
     return remaining_nats(
-        pair.imitator,
+        pair.confounder,
         [
-            SimulatedTrials(pair.imitator.system, known, problem.whitenings(lead.noise, lead.model)),
-            SimulatedTrials(moved.staged(pair.imitator.system), new, [one.whiten], TRIALS),
+            SimulatedTrials(pair.confounder.system, known, problem.whitenings(lead.noise, lead.model)),
+            SimulatedTrials(moved.staged(pair.confounder.system), new, [one.whiten], TRIALS),
         ],
     )
 
@@ -176,8 +176,8 @@ def _old(problem: Problem, lead: Judged, pair: ModelPair) -> Rows:
     """A pair on the trials that exist, under the noise of the model that leads."""
     whitenings = problem.whitenings(lead.noise, lead.model)
     columns = [
-        np.concatenate([(b - a)[..., None], j * pair.imitator.spread], axis=-1)
-        for a, b, j in zip(pair.true.residuals, pair.imitator.residuals, pair.imitator.jacobian, strict=True)
+        np.concatenate([(b - a)[..., None], j * pair.confounder.spread], axis=-1)
+        for a, b, j in zip(pair.true.residuals, pair.confounder.residuals, pair.confounder.jacobian, strict=True)
     ]
     white = np.concatenate([w(part) for w, part in zip(whitenings, columns, strict=True)])
     return Rows(white[:, 0], white[:, 1:])
@@ -201,13 +201,13 @@ def _new(problem: Problem, lead: Judged, pairs: list[ModelPair]) -> list[Rehears
 
 def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[ModelPair]) -> Rehearsed:
     trial, rough = one.trial, problem.calibration.rough
-    hypotheses = {id(each): each for pair in pairs for each in (pair.true, pair.imitator)}
+    hypotheses = {id(each): each for pair in pairs for each in (pair.true, pair.confounder)}
     predicted = {key: one.staged(each.system).simulate(trial, each.values) for key, each in hypotheses.items()}
     present = np.isfinite(sum(predicted.values()))
     zero = Measured((trial,), (np.where(present, 0.0, np.nan),), rough)
     slopes = {
-        id(pair.imitator): derivatives(one.staged(pair.imitator.system), zero, pair.imitator.values)[0]
-        for pair in {id(pair.imitator): pair for pair in pairs}.values()
+        id(pair.confounder): derivatives(one.staged(pair.confounder.system), zero, pair.confounder.values)[0]
+        for pair in {id(pair.confounder): pair for pair in pairs}.values()
     }
     staged = one.staged(problem.system)
     base = {name: lead.model.values[name] for name in problem.plain.values}
@@ -216,7 +216,7 @@ def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[Mode
     whiten = Whitening.of(layout.whitener(lead.noise.levels), varied)
     found = []
     for pair in pairs:
-        off = np.where(present, predicted[id(pair.true)] - predicted[id(pair.imitator)], 0.0)
-        white = whiten(np.concatenate([off[..., None], slopes[id(pair.imitator)] * pair.imitator.spread], axis=-1))
+        off = np.where(present, predicted[id(pair.true)] - predicted[id(pair.confounder)], 0.0)
+        white = whiten(np.concatenate([off[..., None], slopes[id(pair.confounder)] * pair.confounder.spread], axis=-1))
         found.append(Rows(white[:, 0], white[:, 1:]))
     return Rehearsed(one, whiten, present, found)

@@ -93,10 +93,13 @@ def detectabilities(
     step: Callable[[], None] = lambda: None,
 ) -> tuple[Detectability, ...]:
     """Of those asked about, all of which and `candidates` may gain; `step` is called after each."""
-    variants, rivals = Counter(one.name for one in candidates if one.parameters), competitors_of(ground, candidates)
+    variants, competitors = (
+        Counter(one.name for one in candidates if one.parameters),
+        competitors_of(ground, candidates),
+    )
     found = []
     for one in asked:
-        found.append(detectability(ground, one, rivals, variants[one.name]))
+        found.append(detectability(ground, one, competitors, variants[one.name]))
         step()
     return tuple(found)
 
@@ -109,11 +112,11 @@ def competitors_of(ground: BaseState, candidates: Sequence[Candidate]) -> dict[s
 
 
 def detectability(
-    ground: BaseState, candidate: Candidate, rivals: dict[str, list[Gainer]], variants: int
+    ground: BaseState, candidate: Candidate, competitors: dict[str, list[Gainer]], variants: int
 ) -> Detectability:
     """Of one candidate; `rivals` are all that may gain, by label."""
     faint, clear = (at_nats(ground, candidate, nats) for nats in (FAINTEST, CLEAR))
-    others = [each for label, some in rivals.items() if label != candidate.label for each in some]
+    others = [each for label, some in competitors.items() if label != candidate.label for each in some]
 
     def seen(one: Sized) -> float:
         return power(ground, one, others, variants)

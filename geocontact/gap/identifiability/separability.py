@@ -45,7 +45,7 @@ class Separation:
     """
 
     true: str
-    imitator: str
+    confounder: str
     nats: float
     way: Way
 
@@ -84,11 +84,11 @@ def separations(
     ground: BaseState, effects: Sequence[Sized], step: Callable[[], None] = lambda: None
 ) -> tuple[Separation, ...]:
     """Every effect against the base model and against every other; `step` is called after each effect."""
-    imitators = [base_alone(ground), *(confounder_of(ground, one.candidate) for one in effects)]
+    confounders = [base_alone(ground), *(confounder_of(ground, one.candidate) for one in effects)]
     found = []
     for one in effects:
         target = ground.moved(one.candidate.apply(ground.system), {**ground.values, **one.values})
-        found += [separation(ground, one, target, other) for other in imitators]
+        found += [separation(ground, one, target, other) for other in confounders]
         step()
     return tuple(found)
 
@@ -160,5 +160,5 @@ def table(found: Sequence[Separation]) -> tuple[list[str], Float[np.ndarray, "e 
     columns = [NONE, *labels]
     matrix = np.full((len(labels), len(columns)), np.nan)
     for each in found:
-        matrix[labels.index(each.true), columns.index(each.imitator)] = each.nats
+        matrix[labels.index(each.true), columns.index(each.confounder)] = each.nats
     return labels, matrix

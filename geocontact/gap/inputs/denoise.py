@@ -91,7 +91,7 @@ def seen_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float | N
     return plateau(_evenly(trials, name), passed)
 
 
-def loudest(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
+def highest_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
     """Standard deviation that an input's noise cannot well exceed: that of the quietest band of its spectrum.
 
     Movement only adds to what a band holds; how little noise may hold there by chance is told by a χ² of as many values

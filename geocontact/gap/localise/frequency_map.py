@@ -35,15 +35,15 @@ def frequency_map(problem: Problem, base: Judged, residuals: list[Float[np.ndarr
     trials = problem.calibration.trials + problem.evaluation.trials
     channels = problem.system.outputs
     rng = np.random.default_rng(0)
-    loud, drawn = [], np.zeros((DRAWS, len(channels), len(BANDS) - 1 + PHASES))
+    observed, drawn = [], np.zeros((DRAWS, len(channels), len(BANDS) - 1 + PHASES))
     for trial, whitener, residual in zip(trials, base.noise.whiteners, residuals, strict=True):
         rows = np.concatenate(whitener.rows)
         without = ~np.isfinite(base.model.system.simulate(trial, base.model.values))
-        loud.append(energies(trial.time, _placed(residual.ravel()[rows], rows, without)))
+        observed.append(energies(trial.time, _placed(residual.ravel()[rows], rows, without)))
         for k in range(DRAWS):
             noise = _placed(whitener.coloured(rng.standard_normal(len(rows))), rows, without)
             drawn[k] += energies(trial.time, noise) / len(trials)
-    each = np.array(loud)
+    each = np.array(observed)
     seen = each.mean(axis=0)
     middle, spread = drawn.mean(axis=0), np.maximum(drawn.std(axis=0), 1e-300)
     largest = ((drawn - middle) / spread).max(axis=(1, 2))

@@ -94,7 +94,7 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
     to be among those that go on is not fitted to the end.
     """
     reference = base.judged.model
-    noise = problem.quieter(base.judged.noise)
+    noise = problem.with_lower_noise(base.judged.noise)
     rounds: list[dict[str, Refit]] = []
     entered = candidates
     for kept in (SECOND, FINALISTS):
@@ -131,11 +131,11 @@ def pairs(problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Ca
     than was told, the same for all, and the search for their own noise sets out from there; one linear step tells which
     to fit, and those that do not promise to be among the `PAIRS` best are not fitted to the end.
     """
-    quiet = problem.quieter(firsts[0].judged.noise)
+    low_noise = problem.with_lower_noise(firsts[0].judged.noise)
     best: dict[tuple[str, ...], tuple[tuple[Candidate, ...], Refit]] = {}
     for first in firsts:
         model = first.judged.model
-        whitenings = problem.fitting(quiet, model)
+        whitenings = problem.fitting(low_noise, model)
         for one in promising(problem, first, whitenings, candidates):
             starts = [{**model.values, **start} for start in one.starts]
             useful = to_undercut([pair for _, pair in best.values()], PAIRS)
@@ -144,7 +144,7 @@ def pairs(problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Ca
             if names not in best or both.cost < best[names][1].cost:
                 best[names] = ((*first.candidates, one), both)
     leading = sorted(best.values(), key=lambda pair: pair[1].cost)[:PAIRS]
-    done = [finished(problem, together, model, quiet) for together, model in leading]
+    done = [finished(problem, together, model, low_noise) for together, model in leading]
     return sorted(done, key=lambda c: -c.judged.nats)
 
 

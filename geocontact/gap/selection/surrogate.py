@@ -90,13 +90,13 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
                 best = Surrogate(name, found.gain, found.calibration, found.price, predicted)
         return best
 
-    quiet = judged_as(problem, judged.model, problem.quieter(judged.noise), judged.discrepancy_basis)
-    found = [(judged, under(judged)), (quiet, under(quiet))]
+    low_noise = judged_as(problem, judged.model, problem.with_lower_noise(judged.noise), judged.discrepancy_basis)
+    found = [(judged, under(judged)), (low_noise, under(low_noise))]
     for _ in range(RENEWED):
         if not found[-1][1].family:
             break
         left = [a - b for a, b in zip(judged.model.residuals, found[-1][1].predicted, strict=True)]
-        noise = problem.weighed(replace(judged.model, residuals=left), quiet.noise)
+        noise = problem.weighed(replace(judged.model, residuals=left), low_noise.noise)
         other = judged_as(problem, judged.model, noise, judged.discrepancy_basis)
         found.append((other, under(other)))
     bare = max((one for one, _ in found), key=lambda one: one.nats)  # better noise alone is no gain of the stand-in
