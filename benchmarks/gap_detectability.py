@@ -1,10 +1,11 @@
 """Do detectability statements hold? `python -m benchmarks.gap_detectability [--cases N] [--repeats N]`.
 
-Cases without an effect (planted ones, or a folder: `benchmarks.gap_sources`) are fitted; `gap.identifiability.detectability` says from
-which amplitude on the diagnosis would see an effect. Then trials are simulated at that amplitude, at half and at one
-and a half times of it, with noise, deviations of the trials and noise of the inputs as fitted, and attributed. Seen is
-an effect where the verdict is not `no_gap`. A statement is what is more probable by the predicted power, at half and at
-one and a half times; it is right where that happens. Every simulation is kept as it comes (`benchmarks.gap_rows`).
+Cases without an effect (planted ones, or a folder: `benchmarks.gap_sources`) are fitted;
+`gap.identifiability.detectability` says from which amplitude on the diagnosis would see an effect. Then trials are
+simulated at that amplitude, at half and at one and a half times of it, with noise, deviations of the trials and noise
+of the inputs as fitted, and attributed. Seen is an effect where the verdict is not `no_gap`. A statement is what is
+more probable by the predicted power, at half and at one and a half times; it is right where that happens. Every
+simulation is kept as it comes (`benchmarks.gap_rows`).
 """
 
 from __future__ import annotations

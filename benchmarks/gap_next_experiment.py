@@ -127,10 +127,7 @@ def in_question(case: Any, system: Any, pair: tuple[str, ...]) -> Any:
     near = [c for c in ranked if c.judged.nats > ranked[0].judged.nats + np.log(ALIVE)]
     names = tuple(dict.fromkeys(name for c in near for name in c.names))
     said = Answer("explained", names[:1], {}, names, ranked[0])
-    return Attribution(
-        problem=problem, data_error=None, clean=problem, base=base, contenders=tuple(ranked), remaining={}, odd=(), flat=(),
-        answer=said,
-    )  # fmt: skip
+    return Attribution(problem, None, problem, base, tuple(ranked), remaining={}, odd=(), flat=(), answer=said)
 
 
 def separated(found: Any, chosen: Any, rng: np.random.Generator, repeats: int) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""How the axis of a joint wanders with the angle: added to the offsets of a misaligned axis.
+"""How the axis of a joint drifts with the angle: added to the offsets of a misaligned axis.
 
 The drift is a piecewise polynomial over the exoskeleton's angle β or the joint's own α = β - γ: one piece for a
 polynomial, cubic pieces through the rows of a table, which is held at its ends. It is that of a point which stays with

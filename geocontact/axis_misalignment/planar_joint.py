@@ -1,6 +1,6 @@
 """A joint of one degree of freedom beside the hinge of an exoskeleton: how far its attachment is deflected.
 
-The elbow's model for any such joint (hip, knee, elbow), with offsets (x, y) that may wander with the angle. The hinge
+The elbow's model for any such joint (hip, knee, elbow), with offsets (x, y) that may drift with the angle. The hinge
 is at the origin of the plane, the limb's own point o at (x, -y) in front of it and along the straight limb, the tip of
 the link at l (sin β, cos β). The limb lies along the line from o to the tip, and
 

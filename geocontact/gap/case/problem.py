@@ -23,7 +23,7 @@ from geocontact.identify.noise.trial_variation import Products, variation
 REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own
 BARELY = 1.0  # trials that the usual variation counts as where the trials are to speak
-MEMORY = 2.0  # times its usual correlation time that quiet noise may remember
+MEMORY = 2.0  # times its usual correlation time that low noise may remember
 TAKEN_OFF = 1.25  # times what is believed of an input's noise, that is taken off it at the most
 SEED = 0  # of the noise that is added to inputs
 MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
@@ -104,7 +104,7 @@ class Problem:
         return Noise(levels, sd, surprise, self._whiteners(levels))
 
     def with_lower_noise(self, noise: Noise) -> Noise:
-        """The same noise as far as it is not louder than could be expected.
+        """The same noise as far as it is not higher than could be expected.
 
         Levels that were fitted to a model's residuals grow with what the model misses. Here outputs are no noisier than
         was told, and inputs of one unit no noisier than the best of them.

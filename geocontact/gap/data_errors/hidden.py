@@ -1,6 +1,6 @@
 """Mistakes in the data that refitted parameters may hide, so that nothing about them is gross.
 
-Base parameters swallow a force that reads 9.8 times too much, a model that is nearly even in an input hardly tells
+Base parameters reproduce a force that reads 9.8 times too much, a model that is nearly even in an input hardly tells
 its sign, and two sides that carry much the same hardly tell that they were exchanged. Such mistakes compete with the
 effects, by evidence, and one that comes near is judged where it is undone.
 """

@@ -4,8 +4,8 @@ Where A is true and B is fitted instead, B leaves
 
     ½ rᵀ (I + D S² Dᵀ)⁻¹ r,   r = A's prediction minus B's, whitened, D B's derivatives, S their prior spread
 
-to first order. B may do better than that by going further than derivatives reach; `remaining_nats` fits it to what A predicts,
-within bounds, its prior around where it started: min ½ |r(φ)|² + ½ |(φ - φ₀)/S|².
+to first order. B may do better than that by going further than derivatives reach; `remaining_nats` fits it to what A
+predicts, within bounds, its prior around where it started: min ½ |r(φ)|² + ½ |(φ - φ₀)/S|².
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class ModelPair:
 
 @dataclass(frozen=True)
 class Rows:
-    """Whitened difference of a pair on some trials, and the imitator's directions in units of their prior spread."""
+    """Whitened difference of a pair on some trials, and the confounder's directions in units of their prior spread."""
 
     moved: Float[np.ndarray, " n"]
     directions: Float[np.ndarray, "n p"]
@@ -66,7 +66,7 @@ class Rows:
 
     @property
     def nats(self) -> float:
-        """What the imitator leaves."""
+        """What the confounder leaves."""
         part = self.directions.T @ self.moved
         inner = np.eye(len(part)) + self.directions.T @ self.directions
         return 0.5 * float(self.moved @ self.moved - part @ np.linalg.solve(inner, part))
@@ -74,7 +74,7 @@ class Rows:
 
 @dataclass(frozen=True)
 class SimulatedTrials:
-    """Trials without noise that the true model would give, and the imitator as it is in them; each so many times."""
+    """Trials without noise that the true model would give, and the confounder as it is in them; each so many times."""
 
     confounder: System
     measured: Measured
@@ -83,7 +83,7 @@ class SimulatedTrials:
 
 
 def remaining_nats(confounder: Hypothesis, recordings: Sequence[SimulatedTrials]) -> float:
-    """What an imitator leaves where it is refitted to these recordings together, within bounds [nats]."""
+    """What a confounder leaves where it is refitted to these recordings together, within bounds [nats]."""
     from scipy.optimize import least_squares
 
     searches = [RefitSearch(one.confounder, one.measured, one.whitenings) for one in recordings]

@@ -1,10 +1,10 @@
 """The experiment to run next: the change to the trials that tells apart most surely what they cannot tell apart.
 
 For every change on the menu (`gap.experiment.menu`) the answers still in question are simulated on new trials, with the
-parameters that were fitted to the old ones. The least that one leaves of another (`gap.experiment.competing_models`), either way round, is
-what a change is worth: first order tells which changes promise most, and the first of these that keeps what is needed
-when rivals are refitted to old and new trials together is proposed. Where nothing was found, changes are judged by what
-they make visible of effects that base parameters swallow.
+parameters that were fitted to the old ones. The least that one leaves of another (`gap.experiment.competing_models`),
+either way round, is what a change is worth: first order tells which changes promise most, and the first of these that
+keeps what is needed when competing models are refitted to old and new trials together is proposed. Where nothing was
+found, changes are judged by what they make visible of effects that base parameters reproduce.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ TRIALS = 3  # of the new kind
 TELLS = 3.0  # times the smallest separation that a change must promise
 APART = 5.0  # nats that it must promise
 RIVALS = 3  # answers that are compared
-CHECKED = 4  # changes, the most promising ones, that are simulated with rivals refitted
+CHECKED = 4  # changes, the most promising ones, that are simulated with competing models refitted
 
 
 @dataclass(frozen=True)
@@ -62,8 +62,8 @@ def proposed(found: Attribution, confounded: Sequence[Candidate] = ()) -> Propos
     ----------
     found
         What was attributed.
-    swallowed
-        Candidates that the base parameters swallow, asked about where nothing was found.
+    confounded
+        Candidates that the base parameters reproduce, asked about where nothing was found.
     """
     competitors = _competing_models(found)
     problem = found.clean
@@ -79,7 +79,7 @@ def proposed(found: Attribution, confounded: Sequence[Candidate] = ()) -> Propos
 
 
 def _competing_models(found: Attribution) -> list[Contender]:
-    """The best model of each answer still in question, what is named first; mistakes in the data are no rivals."""
+    """The best model of each answer still in question, what is named first; mistakes in the data do not count."""
     said = found.answer
     competitors = [said.chosen] if said.chosen.candidates and said.verdict != "unknown" else []
     for name in said.ambiguity:
@@ -108,7 +108,7 @@ def _confounded(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
 
 
 def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[ModelPair]) -> Proposal | None:
-    """The most promising change that raises the smallest separation enough once rivals are refitted."""
+    """The most promising change that raises the smallest separation enough once competing models are refitted."""
     before = [_old(problem, lead, pair) for pair in pairs]
     least = min(rows.nats for rows in before)
     needed = max(TELLS * least, APART)
@@ -129,7 +129,7 @@ def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Mod
 
 
 def _remaining(problem: Problem, lead: Judged, one: Rehearsed, pair: ModelPair) -> float:
-    """What an imitator leaves of the truth where it is refitted to old trials and to new ones [nats]."""
+    """What a confounder leaves of the truth where it is refitted to old trials and to new ones [nats]."""
     old = (problem.calibration, problem.evaluation)
     outputs = [each for measured in old for each in measured.outputs]
     known = Measured(
@@ -150,7 +150,7 @@ def _remaining(problem: Problem, lead: Judged, one: Rehearsed, pair: ModelPair) 
 
 
 def _unveiling(problem: Problem, base: Judged, pairs: list[ModelPair]) -> Proposal | None:
-    """The change that makes most effects visible that were swallowed, and of several the one that shows them best."""
+    """The change that makes most effects visible that were reproduced, and of several the one that shows them best."""
     before = [_old(problem, base, pair) for pair in pairs]
     best: tuple[int, float, Experiment, list[str]] | None = None
     for one in _new(problem, base, pairs):
@@ -185,7 +185,7 @@ def _old(problem: Problem, lead: Judged, pair: ModelPair) -> Rows:
 
 @dataclass(frozen=True)
 class Rehearsed:
-    """One trial of an experiment as models predict it: its weighing, where it has values, and every pair on it."""
+    """One trial of an experiment as models predict it: its whitening, where it has values, and every pair on it."""
 
     experiment: Experiment
     whiten: Whitening

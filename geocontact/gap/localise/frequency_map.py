@@ -1,11 +1,11 @@
-"""How loud what a model misses is: in frequency bands over whole trials, and what is fast over the phase.
+"""How large what a model misses is: in frequency bands over whole trials, and what is fast over the phase.
 
 A mean over a bin does not see what swings inside it, and an energy over a whole trial hardly sees a burst. So there is
-a map of energies beside that of means (`gap.localise.gap_map`): in bands, and above `FAST` in each part of the phase. Both are
-compared with energies of noise drawn from the fitted levels; the largest over all channels, bands and phases of each
-draw makes the p-values hold for the family of all of them. Frequencies are those of the cosine transform, which has no
-jump where a trial ends that a slow residual could be taken for fast at; missing samples and uneven steps are bridged
-by straight lines, in the residual as in the noise.
+a map of energies beside that of means (`gap.localise.gap_map`): in bands, and above `FAST` in each part of the phase.
+Both are compared with energies of noise drawn from the fitted levels; the largest over all channels, bands and phases
+of each draw makes the p-values hold for the family of all of them. Frequencies are those of the cosine transform, which
+has no jump where a trial ends that a slow residual could be taken for fast at; missing samples and uneven steps are
+bridged by straight lines, in the residual as in the noise.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Synthe
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
-    """Amplitude: of the wander in the channel's unit."""
+    """Amplitude: of the drift in the channel's unit."""
     names = tuple(scale.output)
     row = int(rng.integers(len(names)))
     most = scale.output[names[row]]
