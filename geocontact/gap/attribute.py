@@ -30,7 +30,7 @@ ODD = 5.0  # nats from which an anomaly counts as something unknown
 
 Offer = Callable[[System], Sequence[Candidate]]
 Listener = Callable[[str], None]
-"""Is told what is being done, as each stage of a diagnosis begins."""
+"""Is called with what is being done, as each stage of a diagnosis begins."""
 
 
 def nobody(_: str) -> None:
@@ -163,8 +163,10 @@ def _with_clipped(
 
 def _credited(contenders: Sequence[Contender], flat: Sequence[ClippedChannel]) -> list[Contender]:
     """What a flat top tells counts for the saturation of its channel; best first."""
-    told = {one.channel: one.nats for one in flat}
-    beside = [sum((told.get(one.channel, 0.0) for one in c.candidates if one.name == CLIPPED), 0.0) for c in contenders]
+    by_channel = {one.channel: one.nats for one in flat}
+    beside = [
+        sum((by_channel.get(one.channel, 0.0) for one in c.candidates if one.name == CLIPPED), 0.0) for c in contenders
+    ]
     found = [replace(c, beside=nats) for c, nats in zip(contenders, beside, strict=True)]
     return sorted(found, key=lambda c: -c.nats)
 

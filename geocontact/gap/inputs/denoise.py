@@ -94,8 +94,8 @@ def seen_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float | N
 def highest_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
     """Standard deviation that an input's noise cannot well exceed: that of the weakest band of its spectrum.
 
-    Movement only adds to what a band holds; how little noise may hold there by chance is told by a χ² of as many values
-    as are independent under the window. Bands are those of the plateau, below the corner and below that of most
+    Movement only adds to what a band holds; how little noise may hold there by chance is given by a χ² of as many
+    values as are independent under the window. Bands are those of the plateau, below the corner and below that of most
     laboratories, of which the one that allows more counts, since the corner may have come out too high. Infinite where
     no trial is long enough.
     """

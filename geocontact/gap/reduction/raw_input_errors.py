@@ -116,8 +116,8 @@ def passed_on(
         product = [2.0 * a * (b - a) for a, b in zip(own, base, strict=True)]
         sums = [np.where(there, each, 0.0).sum(axis=0) for each, there in zip(product, held_out.present, strict=True)]
         found.append(sum(sums) / np.maximum(sum(there.sum(axis=0) for there in held_out.present), 1))
-    told = [each for each in found if np.isfinite(each).all()]
-    return np.asarray(np.mean(told, axis=0) if told else np.zeros(len(problem.system.outputs)))
+    finite = [each for each in found if np.isfinite(each).all()]
+    return np.asarray(np.mean(finite, axis=0) if finite else np.zeros(len(problem.system.outputs)))
 
 
 def observed_variation(clean: Problem, after: Judged) -> Float[np.ndarray, " q"]:

@@ -128,8 +128,8 @@ def pairs(problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Ca
     """Leading contenders with a second candidate, the best pair of each two effects, best first.
 
     Noise that was fitted to one effect explains away what the other does, so all pairs are fitted under noise no higher
-    than was told, the same for all, and the search for their own noise sets out from there; one linear step tells which
-    to fit, and those that do not promise to be among the `PAIRS` best are not fitted to the end.
+    than was stated, the same for all, and the search for their own noise sets out from there; one linear step tells
+    which to fit, and those that do not promise to be among the `PAIRS` best are not fitted to the end.
     """
     low_noise = problem.with_lower_noise(firsts[0].judged.noise)
     best: dict[tuple[str, ...], tuple[tuple[Candidate, ...], Refit]] = {}
