@@ -13,13 +13,17 @@ COMPILE := $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --gen
 TOGETHER := -rs --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope --no-loadscope-reorder
 
 .DELETE_ON_ERROR:
-.PHONY: demo test real check lint types imports oracle lock page clean
+.PHONY: demo test slow real check lint types imports oracle lock page clean
 
 demo: $(VENV)/core.stamp
 	@$(BIN)/geocontact demo
 
 test: $(VENV)/full.stamp
-	@$(BIN)/python -m pytest -m "not oracle and not real" $(TOGETHER)
+	@$(BIN)/python -m pytest -m "not slow and not oracle and not real" $(TOGETHER)
+
+# What takes longer than a few seconds: notebooks, whole diagnoses, browsers, long recordings
+slow: $(VENV)/full.stamp
+	@$(BIN)/python -m pytest -m "slow and not oracle and not real" $(TOGETHER)
 
 # Needs the real data: $GEOCONTACT_DATA, else ../shared/data
 real: $(VENV)/full.stamp

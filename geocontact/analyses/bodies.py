@@ -27,7 +27,7 @@ NOTHING: Mapping[str, Values] = MappingProxyType({})
 
 
 def read_body(record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool) -> Surface:
-    """Surface of one body in its body frame; says on stderr what about it needs care.
+    """Surface of one body in its body frame; warns of what about it needs care.
 
     `placement` is that of `read_surface`.
     """
@@ -50,11 +50,19 @@ def read_surface(
     topology = surface.topology
     span = (mesh.vertices.max(axis=0) - mesh.vertices.min(axis=0)) * 1e3
     record.add_input(
-        role, path, sha256=mesh.sha256, unit=unit, vertices=len(mesh.vertices), faces=len(mesh.faces),
-        box_mm=[round(float(length), 4) for length in span], closed=topology.closed,
-        open_edges=topology.open_edges, irregular_edges=topology.irregular_edges,
-        area_mm2=round(float(surface.face_area.sum()) * 1e6, 4), median_edge_mm=_median_edge(surface),
-    )  # fmt: skip
+        role,
+        path,
+        sha256=mesh.sha256,
+        unit=unit,
+        vertices=len(mesh.vertices),
+        faces=len(mesh.faces),
+        box_mm=[round(float(length), 4) for length in span],
+        closed=topology.closed,
+        open_edges=topology.open_edges,
+        irregular_edges=topology.irregular_edges,
+        area_mm2=round(float(surface.face_area.sum()) * 1e6, 4),
+        median_edge_mm=_median_edge(surface),
+    )
     return surface
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import MISSING, Field, dataclass, fields
 from functools import cache
+from os import PathLike, fspath
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
@@ -26,7 +27,8 @@ class Typed:
     si
         SI unit, "-" for none.
     read
-        Function of `analyses.quantities` that takes the text and the option's name and gives the value in SI.
+        Function of `analyses.quantities` that takes the text and the option's name and gives the value in SI; as
+        "misalignment.parameters:numbers" of another module of the analyses.
     hint
         What the help of the command line says of units.
     kind
@@ -55,6 +57,8 @@ class Spelled:
         A value may begin with a minus.
     each
         May be given again and again, one value each time.
+    keyword
+        An option there, although in Python it may be given by its place.
     """
 
     name: str = ""
@@ -62,6 +66,7 @@ class Spelled:
     default: Any = None
     dashed: bool = False
     each: bool = False
+    keyword: bool = False
 
 
 @dataclass(frozen=True)
@@ -115,6 +120,8 @@ class Declared:
         Whether it may be None.
     words
         What the docstring of the options says of it.
+    settable
+        Whether it may be given; else it is what the class says.
     """
 
     name: str
@@ -126,6 +133,7 @@ class Declared:
     spelled: Spelled
     rules: tuple[Requires | Excludes | Needs, ...]
     words: str
+    settable: bool = True
 
     @property
     def required(self) -> bool:
@@ -143,18 +151,26 @@ class Declared:
         return get_origin(self.kind) is tuple and get_args(self.kind)[-1] is Ellipsis
 
     def coerced(self, value: Any) -> Any:
-        """The value as the analysis takes it: paths for text, a tuple for a single value."""
+        """The value as the analysis takes it: paths for text and text for paths, a tuple for a single value."""
         if value is None:
             return None
         if self.several:
             one = get_args(self.kind)[0]
-            items = value if isinstance(value, (tuple, list)) else (value,)
-            return tuple(Path(item) if one is Path else item for item in items)
-        if self.kind is Path:
+            return tuple(_as(one, item) for item in ((value,) if self._alone(value) else value))
+        if self.kind in (Path, float, str):
+            return _as(self.kind, value)
+        if isinstance(value, str) and Path in get_args(self.kind):
             return Path(value)
         if self.choices and value not in self.choices:
             raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
         return value
+
+    def _alone(self, value: Any) -> bool:
+        """Whether a value is one of several; a pair is one where pairs are asked for."""
+        if not isinstance(value, (tuple, list)):
+            return True
+        pairs = get_origin(get_args(self.kind)[0]) is tuple
+        return pairs and len(value) > 0 and not isinstance(value[0], (tuple, list))
 
 
 @dataclass(frozen=True)
@@ -204,6 +220,13 @@ def _refuse(name: str, rule: Requires | Excludes | Needs, other: bool) -> None:
             raise InputError("", f"`{rule.other}`", f"is missing with `{name}`", rule.remedy or "give it too")
 
 
+def _as(kind: Any, value: Any) -> Any:
+    """Numbers and paths become what they are declared as, and a path is text where text is asked for."""
+    if kind in (Path, float):
+        return kind(value)
+    return fspath(value) if kind is str and isinstance(value, PathLike) else value
+
+
 def declared(options: type[Options]) -> tuple[Declared, ...]:
     """The options of a class in the order of their declaration."""
     anything: Any = options
@@ -213,7 +236,9 @@ def declared(options: type[Options]) -> tuple[Declared, ...]:
 @cache
 def _all(options: Any) -> tuple[Declared, ...]:
     hints = get_type_hints(options, include_extras=True)
-    words = documented(options.__doc__ or "")
+    words: dict[str, str] = {}
+    for base in reversed(options.__mro__):
+        words |= documented(base.__doc__ or "")
     return tuple(_declared(each, hints[each.name], words.get(each.name, "")) for each in fields(options))
 
 
@@ -230,6 +255,7 @@ def _declared(each: Field[Any], hint: Any, words: str) -> Declared:
         next((mark for mark in marks if isinstance(mark, Spelled)), Spelled()),
         tuple(mark for mark in marks if isinstance(mark, (Requires, Excludes, Needs))),
         words,
+        each.init,
     )
 
 
@@ -242,7 +268,7 @@ def _taken_apart(hint: Any) -> tuple[Any, list[Any], bool]:
             hint, *own = get_args(hint)
             marks += own
         elif get_origin(hint) in (Union, UnionType) and NoneType in get_args(hint):
-            hint = next(each for each in get_args(hint) if each is not NoneType)
+            hint = Union[tuple(each for each in get_args(hint) if each is not NoneType)]  # noqa: UP007
             optional = True
         else:
             return hint, marks, optional

@@ -48,6 +48,11 @@ class Result(ABC):
         return True
 
     @property
+    def exit_code(self) -> int:
+        """What the command ends with."""
+        return 0 if self.accepted else 1
+
+    @property
     def folders(self) -> tuple[str, ...]:
         """Sub-folders that `write` fills, each with a `run.json` of its own, as "" the folder itself."""
         return ("",)

@@ -9,16 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
+from geocontact.chain.candidate import Candidate
 from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 
-if TYPE_CHECKING:
-    from geocontact.chain.candidate import Candidate
-
-Offer = Callable[[System], "tuple[Candidate, ...]"]
+Offer = Callable[[System], tuple[Candidate, ...]]
 
 
 def placed(offer: Offer, system: System, *, together: bool) -> tuple[Candidate, ...]:

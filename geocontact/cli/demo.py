@@ -5,7 +5,11 @@ from __future__ import annotations
 from importlib.resources import files
 from pathlib import Path
 
-from geocontact.cli.area import AreaOptions, area
+from geocontact.analyses.area.options import AreaOptions
+from geocontact.analyses.job import Call, execute
+from geocontact.analyses.options import declared
+from geocontact.cli.command import speller, tell
+from geocontact.cli.show import Terminal
 from geocontact.data.errors import InputError
 
 
@@ -17,15 +21,23 @@ def demo(*, out: Path = Path("demo-result")) -> int:
     out
         Folder for the results.
     """
+    from geocontact.analyses.area.job import area  # numba and friends: not for --help
+
     meshes = sample_folder()
     print("synthetic total-knee pair, synthetic gait cycle of 101 frames; medial and lateral apart")
-    code = area(
+    options = AreaOptions(
         meshes / "femoral_component_right_medium.stl",
         meshes / "tibial_insert_right_medium.stl",
-        options=AreaOptions(motion=[str(meshes / "gait.csv")], unit="mm", out=out, threshold="1,4", split="z"),
+        unit="mm",
+        motion=(str(meshes / "gait.csv"),),
+        threshold=(1e-3, 4e-3),
+        split="z",
     )
+    typed = {**vars(options), "threshold": "1,4", "out": out}
+    result, files = execute(area, options, out, Call(typed, Terminal(), speller(declared(AreaOptions))))
+    tell(result, out, files)
     print(f"open {out / 'report.html'} in a browser (geocontact view {out}); the numbers are in {out / 'area.csv'}")
-    return code
+    return 0
 
 
 def sample_folder() -> Path:

@@ -9,7 +9,7 @@ gap = App(
     help="Where a model misses the measurement, which effect it lacks, and how far the gap shrinks with it.",
 )
 gap.command("geocontact.cli.gap_diagnose:diagnose", name="diagnose")
-gap.command("geocontact.cli.gap_confuse:confuse", name="confuse")
+gap.command("geocontact.cli.gap_discriminability:discriminability", name=("discriminability", "confuse"))
 gap.command("geocontact.cli.gap_gather:gather", name="gather")
-gap.command("geocontact.cli.gap_plant:plant", name="plant")
+gap.command("geocontact.cli.gap_inject:inject", name=("inject", "plant"))
 gap.command("geocontact.cli.gap_benchmark:benchmark", name="benchmark")

@@ -8,6 +8,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from geocontact.analyses.area.options import AreaOptions
+from geocontact.analyses.options import declared
+from geocontact.cli.command import respelled, speller
 from geocontact.data.errors import InputError
 
 PAGE = "report.html"
@@ -27,7 +30,11 @@ def view(result: Path, *, window: Annotated[bool, Parameter(negative="")] = Fals
         from geocontact.analyses.area.distance_file import read_series
         from geocontact.view.surfaces.window import show_window
 
-        show_window(read_series(result))
+        try:
+            series = read_series(result)
+        except InputError as error:
+            raise respelled(error, speller(declared(AreaOptions))) from error
+        show_window(series)
         return 0
     page = page_of(result).resolve()
     print(page)

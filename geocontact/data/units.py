@@ -30,10 +30,10 @@ class Unit:
         self.name, self.si, self.factor = name, si, factor
 
     @overload
-    def __call__(self, value: float, /) -> float: ...
+    def __call__(self, value: float | int, /) -> float: ...
     @overload
-    def __call__(self, value: float, other: float, /, *more: float) -> tuple[float, ...]: ...
-    def __call__(self, value: float, /, *more: float) -> float | tuple[float, ...]:
+    def __call__(self, value: float | int, other: float | int, /, *more: float | int) -> tuple[float, ...]: ...
+    def __call__(self, value: float | int, /, *more: float | int) -> float | tuple[float, ...]:
         """The values in SI."""
         if not more:
             return value * self.factor

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,8 @@ from geocontact.chain.system import System
 from geocontact.data.diagnosis import CellsHeld, ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cell import Cell
+from geocontact.data.held_out import HeldOut
+from geocontact.data.ranked import Ranked
 from geocontact.data.surface_gap import SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
@@ -21,8 +24,10 @@ from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
-from geocontact.gap.reduction.error_reduction import error_reduction
+from geocontact.gap.reduction.error_reduction import error_reduction, error_reduction_of
+from geocontact.gap.reduction.held_out import held_out
 from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
+from geocontact.gap.reduction.raw_input_errors import raw_input_errors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import base_contender
 from geocontact.gap.selection.verdict import SURE
@@ -35,13 +40,25 @@ TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that 
 class Findings:
     """A diagnosis with all that it rests on, for figures and further questions.
 
-    `trials` tells how much better each is predicted from all others with what was named; none where nothing was.
-    `surface` tells where on a mat the gaps lie of channels that have one, none where there are no cells.
+    Parameters
+    ----------
+    cells
+        The gap map.
+    held_out
+        Held-out trials measured, by the base model, and with what was named.
+    ranking
+        Every model that was tried, by its gain.
+    trials
+        How much better each is predicted from all others with what was named; none where nothing was.
+    surface
+        Where on a mat the gaps lie of channels that have one; none where there are no cells.
     """
 
     diagnosis: Diagnosis
     attribution: Attribution
     cells: tuple[Cell, ...]
+    held_out: tuple[HeldOut, ...]
+    ranking: tuple[Ranked, ...]
     trials: tuple[TrialGain, ...] = ()
     surface: tuple[SurfaceGap, ...] = ()
 
@@ -79,9 +96,10 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
     at("where it misses, and how far that shrinks")
     cells = gap_map(found.clean, found.base.judged)
     as_came = cells if found.data_error is None else gap_map(problem, base_contender(problem).judged)
+    errors = raw_input_errors(problem, found.clean, chosen, found.data_error)
     gap = {
         name: ChannelGap(s.rmse_before, s.rmse_after, s.floor, s.reduction, (s.low, s.high), s.unexplained)
-        for name, s in error_reduction(problem, found.clean, chosen, named, found.data_error).items()
+        for name, s in error_reduction_of(errors, problem, chosen, named, found.data_error).items()
     }
     stages = {one.name: one.stage for one in offered}
     stage = stages.get(said.effects[0], "") if said.effects else ""
@@ -118,7 +136,23 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
         next_experiment=then,
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
-    return Findings(diagnosis, found, cells, trials, surface)
+    curves, models = held_out(problem, errors, named), ranking(found, said.probabilities)
+    return Findings(diagnosis, found, cells, curves, models, trials, surface)
+
+
+def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ranked, ...]:
+    """Every model that was tried, the base, and the surrogate of anything unknown; the largest gain first."""
+    zero, unknown = found.base.judged, found.remaining["none"]
+    rows = [
+        Ranked("none", "none", 0.0, 0.0, probabilities.get("none", 0.0)),
+        Ranked("unknown", "unknown", unknown.nats, unknown.calibration, probabilities.get("unknown", 0.0)),
+    ]
+    for one in sorted(found.contenders, key=lambda c: -c.nats):
+        gain, calibration = one.nats - zero.nats, one.judged.calibration - zero.calibration
+        first = len(one.names) == 1 and not any(row.effects == one.names[0] for row in rows)
+        probability = probabilities.get(one.names[0], 0.0) if first else None
+        rows.append(Ranked(one.label, " + ".join(one.names), gain, calibration, probability))
+    return tuple(sorted(rows, key=lambda row: -row.gain))
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:

@@ -92,10 +92,9 @@ def area(
 @contextmanager
 def unpictured() -> Iterator[None]:
     """Neither figure nor page are made."""
-    places = ("area_results.draw_areas", "area_results.write_report", "pressure_results.save_both")
     with ExitStack() as stack:
-        for place in places:
-            stack.enter_context(mock.patch(f"geocontact.cli.{place}", return_value=b""))
+        for name in ("area_figure", "pressure_figure", "save_both", "write_report"):
+            stack.enter_context(mock.patch(f"geocontact.analyses.area.write.{name}", return_value=b""))
         yield
 
 

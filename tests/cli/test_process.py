@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from geocontact.cli import show
 from geocontact.analyses.area import run as area_analysis
 from geocontact.analyses.area.distance_file import DistanceMaps
+from geocontact.cli import show
 from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, ROOT, SPHERE, area, done, gait, inventory, poses, process
 from tests.contract import FILES
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from geocontact.analyses.gap.diagnose.words import proposal_words, verdict_sentences
+from geocontact.analyses.gap.diagnose.words import verdict_sentences
+from geocontact.analyses.gap.words import proposal_words
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.gap.case.problem import Noise, problem_of
 from geocontact.gap.diagnose import diagnose, estimates

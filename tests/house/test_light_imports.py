@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from cyclopts import App
 
 ROOT = Path(__file__).resolve().parents[2]
 HEAVY = {"casadi", "ezc3d", "matplotlib", "open3d", "opensim", "pyvista", "trimesh", "vtk"}
@@ -32,8 +33,24 @@ def test_help_is_light(arguments: list[str]) -> None:
     assert not loaded_by(f"from geocontact.cli.main import run; run({arguments})") & (HEAVY | NUMERIC)
 
 
-def test_help_of_the_main_job_is_light() -> None:
-    assert not loaded_by("from geocontact.cli.main import run; run(['area', '--help'])") & HEAVY
+def commands() -> list[list[str]]:
+    """Words of every command, those of groups included."""
+    from geocontact.cli.elbow import elbow
+    from geocontact.cli.gap import gap
+    from geocontact.cli.main import app
+
+    def names(of: App) -> list[str]:
+        return [name for name in of if not name.startswith("-")]
+
+    groups = {"elbow": elbow, "gap": gap}
+    single = [[name] for name in names(app) if name not in groups]
+    return [*single, *([group, name] for group, of in groups.items() for name in names(of))]
+
+
+@pytest.mark.parametrize("words", commands(), ids=" ".join)
+def test_help_of_every_command_is_light(words: list[str]) -> None:
+    """Options are declared without what computes."""
+    assert not loaded_by(f"from geocontact.cli.main import run; run({[*words, '--help']})") & (HEAVY | NUMERIC)
 
 
 def imported_at_the_top(file: Path) -> set[str]:

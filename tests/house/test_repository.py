@@ -37,8 +37,9 @@ def test_quick_start_is_two_commands() -> None:
     assert "".join(blocks).split("\n") == ["make demo", "make test", ""]
 
 
-def test_vision_is_short() -> None:
-    assert len((ROOT / "VISION.md").read_text(encoding="utf-8").splitlines()) <= 10
+@pytest.mark.parametrize(("page", "lines"), [("VISION.md", 10), ("README.md", 120)])
+def test_it_is_short(page: str, lines: int) -> None:
+    assert len((ROOT / page).read_text(encoding="utf-8").splitlines()) <= lines
 
 
 @pytest.mark.parametrize("path", PAGES, ids=named)

@@ -18,6 +18,7 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.mesh import limits
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.mesh.ply_preflight import read_header
+from geocontact.io.text import file_preflight
 
 BALL = trimesh.creation.icosphere(subdivisions=1, radius=31.4159)
 STL = BALL.export(file_type="stl")
@@ -273,7 +274,7 @@ def test_too_many_faces_are_refused(tmp_path, monkeypatch, name):
 def test_too_large_a_file_is_not_opened(tmp_path, monkeypatch):
     path = tmp_path / "ball.stl"
     path.write_bytes(STL)
-    monkeypatch.setattr(limits, "MAX_BYTES", 4083)
+    monkeypatch.setattr(file_preflight, "MAX_BYTES", 4083)
     with pytest.raises(InputError, match="4084 bytes, more than"):
         read_mesh(path, "mm")
 

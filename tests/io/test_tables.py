@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.opensim.storage_header import unit_in_text
 from geocontact.io.text.columns import angles_of, lengths, parse_map, resolve
+from geocontact.io.text.storage_header import unit_in_text
 from geocontact.io.text.tables import TextTable, read_table
 
 ROWS = "time\tknee\tknee_tx\n0.0\t10\t0.1\n0.5\t20\t0.2\n1.0\t30\t0.3\n"

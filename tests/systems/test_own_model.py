@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Effect
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
@@ -21,8 +22,12 @@ from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import EFFECTS, candidates
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.program import program
+from geocontact.systems.base import Base
 from geocontact.systems.catalogue import SYSTEMS, system_of
+from geocontact.systems.elastic_joint import model as elastic_joint
+from geocontact.systems.external.python_model import python_base
 from geocontact.systems.external.simulator import PythonSimulator, Run
+from geocontact.systems.knee import full_chain
 from tests.systems.examples import elbow, foot, joint
 from tests.systems.test_command import Spring
 
@@ -30,7 +35,8 @@ MODEL = """
 from dataclasses import replace
 from types import SimpleNamespace
 
-from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Effect
 from geocontact.chain.single_deflection import SingleDeflection
 from geocontact.data.parameter import Parameter
 from geocontact.systems.elastic_joint import model
@@ -109,6 +115,18 @@ def test_own_model_runs_and_has_its_own_effect_beside_the_others(here: Path, nam
 
 def test_a_model_of_the_package_is_one_like_any_other() -> None:
     assert system_of(case("geocontact.systems.elastic_joint.model:JOINT")).name == "elastic_joint"
+
+
+@pytest.mark.parametrize(
+    ("former", "expected"),
+    [
+        ("geocontact.systems.elastic_joint:JOINT", elastic_joint.JOINT),
+        ("geocontact.systems.knee_chain:CELLS", full_chain.CELLS),
+        ("geocontact.systems.knee_chain:SIDES", full_chain.SIDES),
+    ],
+)
+def test_a_case_may_name_a_model_of_the_package_as_before_it_moved(former: str, expected: Base) -> None:
+    assert python_base(case(former)) is expected
 
 
 @pytest.mark.parametrize(

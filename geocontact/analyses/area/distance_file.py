@@ -47,7 +47,7 @@ def read_series(result: Path) -> ContactSeries:
     """Bodies, motion and distances from the folder of a result (or the file itself)."""
     file = result / FILE if result.is_dir() else result
     if not file.is_file():
-        raise InputError(file, "", "is not there", "run the analysis again with --save-map")
+        raise InputError(file, "", "is not there", "run the analysis again with `save_map`")
     try:
         with file.open("rb") as stream, np.load(stream, allow_pickle=False) as maps:
             fixed, moving = (
@@ -64,5 +64,5 @@ def read_series(result: Path) -> ContactSeries:
                 time_unit=str(maps["time_unit"]),
             )
     except (OSError, ValueError, KeyError, EOFError, BadZipFile) as error:
-        what = f"is not what --save-map writes ({' '.join(str(error).split())})"
-        raise InputError(file, "", what, "run the analysis again with --save-map") from error
+        what = f"is not what `save_map` writes ({' '.join(str(error).split())})"
+        raise InputError(file, "", what, "run the analysis again with `save_map`") from error

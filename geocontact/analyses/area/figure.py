@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,21 +12,21 @@ from geocontact.data.motion import Course
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")  # Okabe-Ito: told apart by colour-blind readers
 
 
-def draw_areas(
+def area_figure(
     evolution: AreaEvolution,
     vertices: Float[np.ndarray, "n 3"],
     faces: Int[np.ndarray, "m 3"],
     distance: Float[np.ndarray, " n"],
     frame: int,
     title: str,
-    files: tuple[Path, ...],
     course: Course,
-) -> None:
-    """Draw and save the figure, once per file name (png, svg, pdf by ending).
+) -> Figure:
+    """Areas and separation over the motion, and FIXED in one frame.
 
     Parameters
     ----------
@@ -49,8 +48,7 @@ def draw_areas(
     _patch(panels["map"], evolution, vertices, faces, distance)
     panels["map"].set_title(f"FIXED at {_plain(course.at(frame))}, {panels['map'].get_title()}", fontsize=9)
     figure.suptitle(_plain(title), fontsize=11)
-    for file in files:
-        figure.savefig(file, dpi=150, metadata={"Date": None} if file.suffix == ".svg" else None)
+    return figure
 
 
 def _plain(text: str) -> str:
@@ -118,17 +116,20 @@ def _patch(
         )
     if not far.all():
         colours = axes.tripcolor(
-            Triangulation(x, y, seen[~far]), np.clip(shown * 1e3, -span, span), shading="gouraud", rasterized=True,
-            cmap="viridis_r", vmin=-span / 4.0, vmax=span,
-        )  # fmt: skip
+            Triangulation(x, y, seen[~far]),
+            np.clip(shown * 1e3, -span, span),
+            shading="gouraud",
+            rasterized=True,
+            cmap="viridis_r",
+            vmin=-span / 4.0,
+            vmax=span,
+        )
         signed = "signed distance [mm]" if e.signed in ("both", "fixed") else "distance [mm]"
         axes.figure.colorbar(colours, ax=axes, label=signed, shrink=0.7)
     for k, threshold in enumerate(e.thresholds):
-        level = [threshold * 1e3]
         if near.any() and shown.min() < threshold < shown.max():
-            axes.tricontour(
-                Triangulation(x, y, seen), shown * 1e3, levels=level, colors=COLOURS[k % len(COLOURS)], linewidths=1.2,
-            )  # fmt: skip
+            colour, level = COLOURS[k % len(COLOURS)], [threshold * 1e3]
+            axes.tricontour(Triangulation(x, y, seen), shown * 1e3, levels=level, colors=colour, linewidths=1.2)
     axes.set_aspect("equal")
     axes.set_xlabel(f"{'xyz'[right]} [mm]")
     axes.set_ylabel(f"{'xyz'[up]} [mm]")

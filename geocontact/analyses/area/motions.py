@@ -7,31 +7,30 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from geocontact.analyses import quantities
+from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.run_record import Record
-from geocontact.cli.area import AreaOptions
-from geocontact.cli.idle import refuse_unheeded
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.geometry.fit.cylinder import fit_cylinder
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.sweep import sweep as swept
+from geocontact.geometry.sweep import sweep
 from geocontact.io.motion.motion import read_motion
 
+DIRECTIONS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
-def motions_given(record: Record, o: AreaOptions, files: Sequence[str], moving: Surface) -> list[tuple[str, Motion]]:
+
+def motions_given(record: Record, o: AreaOptions, moving: Surface) -> list[tuple[str, Motion]]:
     """Name of the sub-folder (empty when there is one motion) and motion, with the offset of adduction asked for."""
-    motions = _motions(record, o, files, moving)
+    motions = _read(record, o) if o.sweep is None else [("", _swept(record, o, o.sweep, moving))]
     if o.adduction is None:
         return motions
-    axis, angle = quantities.turn(o.adduction, "--adduction")
-    return [(folder, motion.turned(axis, angle)) for folder, motion in motions]
+    axis, angle = o.adduction
+    return [(folder, motion.turned(DIRECTIONS[axis], angle)) for folder, motion in motions]
 
 
-def _motions(record: Record, o: AreaOptions, files: Sequence[str], moving: Surface) -> list[tuple[str, Motion]]:
-    if o.sweep is not None:
-        return [("", _swept(o.sweep, o.axis, o.unit, moving, record))]
+def _read(record: Record, o: AreaOptions) -> list[tuple[str, Motion]]:
     motions = {}
-    for path in _expanded(files):
+    for path in _expanded(o.motion or ()):
         motions[path] = read_motion(
             path,
             osim=o.osim,
@@ -42,13 +41,26 @@ def _motions(record: Record, o: AreaOptions, files: Sequence[str], moving: Surfa
             angles=o.angles,
             grood_suntay_side=o.side if o.convention else None,
         )
-    refuse_unheeded(o, motions)
+    _refuse_unheeded(o, motions)
     named = [(path.stem if len(motions) > 1 else "", path, motion) for path, motion in motions.items()]
     for folder, path, motion in named:
         record.add_input("motion", path, frames=len(motion), source=motion.source, folder=folder or ".")
     if o.osim is not None:
         record.add_input("model", o.osim, joint=o.joint)
     return [(folder, motion) for folder, _, motion in named]
+
+
+def _refuse_unheeded(o: AreaOptions, motions: dict[Path, Motion]) -> None:
+    """InputError for options of reading that had no say in any of the motions read."""
+    heeded = frozenset[str]().union(*(motion.heeded for motion in motions.values()))
+    files = ", ".join(map(str, motions))
+    for option, unread, remedy in (
+        ("convention", "knee angle is", "name its columns with `map`"),
+        ("order", "two angles to put in order are", "leave it out"),
+        ("angles", "angle is", "leave it out"),
+    ):
+        if o.given(option) and option not in heeded:
+            raise InputError("", f"`{option}`", f"has no effect here: no {unread} read from {files}", remedy)
 
 
 def _expanded(patterns: Sequence[str]) -> list[Path]:
@@ -61,22 +73,27 @@ def _expanded(patterns: Sequence[str]) -> list[Path]:
     names = [path.stem for path in paths]
     for name in names if len(names) > 1 else ():
         if name in ("", ".", "..") or name.lower() == "run.json":
-            raise InputError("", "--motion", f"a motion called {name!r} cannot name a folder", "rename its file")
+            raise InputError("", "`motion`", f"a motion called {name!r} cannot name a folder", "rename its file")
         if names.count(name) > 1:
-            raise InputError("", "--motion", f"two motions are called {name}", "their results would share a folder")
+            raise InputError("", "`motion`", f"two motions are called {name}", "their results would share a folder")
     return paths
 
 
-def _swept(text: str, axis: str | None, unit: str, moving: Surface, record: Record) -> Motion:
-    name, start, stop, step = quantities.sweep_range(text)
-    if axis is not None:
-        file = quantities.named_file(axis)
+def _swept(record: Record, o: AreaOptions, asked: tuple[str, float, float, float], moving: Surface) -> Motion:
+    name, start, stop, step = asked
+    if o.axis is not None:
+        file = quantities.named_file(o.axis)
         if file is not None:
-            record.add_input("--axis", file)
-        return swept(quantities.axis(axis, unit), start, stop, step, name)
-    fit = fit_cylinder(moving.vertices[moving.used])
-    record.warn(
-        f"no --axis: turned about the cylinder fitted to all of {moving.name}, "
-        f"radius {(fit.radius or 0.0) * 1e3:.2f} mm, rms {fit.rms * 1e3:.2f} mm"
-    )
-    return swept(fit.line, start, stop, step, name)
+            record.add_input("`axis`", file)
+        line = quantities.axis(o.axis, o.unit)
+    else:
+        fit = fit_cylinder(moving.vertices[moving.used])
+        line = fit.line
+        record.warn(
+            f"no `axis`: turned about the cylinder fitted to all of {moving.name}, "
+            f"radius {(fit.radius or 0.0) * 1e3:.2f} mm, rms {fit.rms * 1e3:.2f} mm"
+        )
+    try:
+        return sweep(line, start, stop, step, name)
+    except ValueError as error:
+        raise InputError("", "`sweep`", str(error), "give name, start, stop and step") from error

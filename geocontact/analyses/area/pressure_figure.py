@@ -77,10 +77,8 @@ def _map(axes: Axes, shown: PressureMap) -> None:
     axes.tripcolor(grey, facecolors=np.full(len(order), 0.85), cmap="Greys_r", vmin=0.0, vmax=1.0, rasterized=True)
     if loaded[order].any():
         pressed = np.isfinite(values)
-        colours = axes.tripcolor(
-            Triangulation(x, y, shown.faces[order[pressed]]), facecolors=values[pressed], cmap="inferno_r", vmin=0.0,
-            rasterized=True,
-        )  # fmt: skip
+        loaded_faces = Triangulation(x, y, shown.faces[order[pressed]])
+        colours = axes.tripcolor(loaded_faces, facecolors=values[pressed], cmap="inferno_r", vmin=0.0, rasterized=True)
         axes.figure.colorbar(colours, ax=axes, label=PRESSURE.label, shrink=0.7)
     axes.plot(shown.centre[:, right] * 1e3, shown.centre[:, up] * 1e3, color="black", lw=0.8)
     axes.set_aspect("equal")

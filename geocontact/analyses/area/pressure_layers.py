@@ -1,13 +1,12 @@
-"""The elastic layers of `geocontact area --pressure`: from options to pieces, thickness and moduli."""
+"""The elastic layers of two bodies in contact: from options to pieces, thickness and moduli."""
 
 from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses import quantities
+from geocontact.analyses.area.options import FLAT, RAYS, AreaOptions
 from geocontact.analyses.run_record import Record
-from geocontact.cli.area import AreaOptions
 from geocontact.contact.elasticity import layer_modulus
 from geocontact.data.errors import InputError
 from geocontact.geometry.contact_area.evolution import Settings
@@ -17,8 +16,6 @@ from geocontact.geometry.surface_quadrature import surface_quadrature
 from geocontact.geometry.thickness import thickness_below
 from geocontact.loads.foundation import Layer, Skin
 
-PIECE = "0.5mm"
-RAYS, FLAT = "rays", "flat"
 Faces = Bool[np.ndarray, " f"]
 
 
@@ -26,20 +23,17 @@ def layer_given(
     record: Record, fixed: Surface, faces: Faces | None, settings: Settings, o: AreaOptions, edge: float
 ) -> Layer:
     """FIXED's layer in pieces of at most `edge` [m]."""
-    modulus = _confined(o.modulus, o.poisson, "")
-    if edge <= 0.0:
-        raise InputError("", "--piece", "is not a positive length", f"write for example {PIECE}")
     try:
         pieces = surface_quadrature(fixed, edge, faces)
     except ValueError as error:
-        raise InputError("", "--piece", str(error), "give a longer edge") from error
-    thickness = _measured(record, fixed, pieces.point, pieces.normal, o.thickness, "--thickness")
+        raise InputError("", "`piece`", str(error), "give a longer edge") from error
+    thickness = _measured(record, fixed, pieces.point, pieces.normal, o.thickness, "`thickness`")
     parts: dict[str, Bool[np.ndarray, " p"]] = {}
     if settings.split is not None:
         medial = settings.split.height(pieces.point) * settings.medial_side > 0.0
         parts = {"medial": medial, "lateral": ~medial}
     height = None if o.facets == FLAT else phong_offset(fixed, corner_normals(fixed), pieces.face, pieces.point)
-    return Layer(pieces, thickness, modulus, o.foundation or "linear", parts, height)
+    return Layer(pieces, thickness, _confined(o.modulus, o.poisson), o.foundation or "linear", parts, height)
 
 
 def skin_given(record: Record, moving: Surface, o: AreaOptions) -> Skin:
@@ -47,30 +41,29 @@ def skin_given(record: Record, moving: Surface, o: AreaOptions) -> Skin:
     normals = None if o.facets == FLAT else corner_normals(moving)
     if o.modulus_moving is None:
         return Skin(normals)
-    modulus = _confined(o.modulus_moving, o.poisson_moving, "-moving")
     centres = moving.vertices[moving.faces].mean(axis=1)
-    thickness = _measured(record, moving, centres, moving.face_normal, o.thickness_moving, "--thickness-moving")
-    return Skin(normals, thickness, modulus)
+    thickness = _measured(record, moving, centres, moving.face_normal, o.thickness_moving, "`thickness_moving`")
+    return Skin(normals, thickness, _confined(o.modulus_moving, o.poisson_moving))
 
 
-def _confined(young: str | None, poisson: float | None, whose: str) -> float:
-    """Confined modulus from what was typed; option names end in `whose`."""
-    ratio = 0.0 if poisson is None else poisson
-    if not 0.0 <= ratio < 0.5:
-        raise InputError("", f"--poisson{whose}", f"{ratio:g} is not from 0 to below 0.5", "give for example 0.46")
-    return float(layer_modulus(quantities.modulus(young or "", f"--modulus{whose}"), ratio))
+def _confined(young: float | None, poisson: float | None) -> float:
+    """Confined modulus [Pa]."""
+    if young is None or poisson is None:
+        raise ValueError("an elastic layer needs Young's modulus and Poisson's ratio")
+    return float(layer_modulus(young, poisson))
 
 
 def _measured(
-    record: Record, body: Surface, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"],
-    given: str | None, option: str,
-) -> Float[np.ndarray, " n"]:  # fmt: skip
-    """Thickness of a body's layer under points on it: as given, or along rays."""
-    if given is not None and given.strip() != RAYS:
-        length = quantities.length(given, option)
-        if length <= 0.0:
-            raise InputError("", option, f"{given!r} is not a positive length", "write 8mm, or rays")
-        return np.full(len(points), length)
+    record: Record,
+    body: Surface,
+    points: Float[np.ndarray, "n 3"],
+    normals: Float[np.ndarray, "n 3"],
+    given: float | str | None,
+    option: str,
+) -> Float[np.ndarray, " n"]:
+    """Thickness of a body's layer under points on it [m]: as given, or along rays."""
+    if given is not None and given != RAYS:
+        return np.full(len(points), float(given))
     if not body.closed:
         what = f"{body.name} is open ({body.topology.why_open}): it has no thickness to measure"
         raise InputError("", option, what, "give a length, for example 8mm")

@@ -8,10 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.area.pressure import PressureEvolution
 from geocontact.data.motion import Course
 from geocontact.view.page.content import Curve, Curves, FaceMap, Picture, Readout, Row, Section, Words
 
 MM, MM2, MPA = 1e3, 1e6, 1e-6
+WORDS = (
+    "Force and largest pressure over the motion; right, the mean pressure of each face of the fixed body in the frame "
+    "with the largest force, and the way of the centre of pressure. Each place of the layer gives way by itself."
+)
 DEEPER = 0.1e-3  # m; what the words put into pressure
 
 
@@ -52,6 +57,23 @@ class Pressures:
     def heaviest(self) -> int:
         """Frame with the largest force."""
         return int(np.argmax(self.force["total"]))
+
+
+def shown_pressures(e: PressureEvolution, drawing: bytes) -> Pressures:
+    """What the page shows of pressures, with their figure."""
+    return Pressures(
+        force={side: np.array([load.pressing for load in loads]) for side, loads in e.sides.items()},
+        centre={side: np.array([load.centre for load in loads]) for side, loads in e.sides.items()},
+        peak=np.array([load.peak for load in e.loads]),
+        area=np.array([load.area for load in e.loads]),
+        maps=e.maps,
+        law=e.layer.law,
+        modulus=e.layer.modulus,
+        thickness=e.thickness,
+        other_modulus=e.skin.modulus,
+        finer=e.finer,
+        picture=Picture("Pressure", WORDS, drawing, wide=True),
+    )
 
 
 def face_map(p: Pressures, frames: Int[np.ndarray, " k"], body: int) -> FaceMap:

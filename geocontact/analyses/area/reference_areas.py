@@ -58,8 +58,13 @@ def compared(ours: pd.DataFrame, reference: pd.DataFrame, path: Path) -> pd.Data
         if len(levels) > 1:
             raise InputError(path, "", "does not say which threshold it is for", f"add a column '{THRESHOLD}'")
         reference = reference.assign(**{THRESHOLD: levels[0]})
-    rows = [_row(ours, row, name, path) for name in reference.columns if _is_area(name)
-            for _, row in reference.iterrows() if np.isfinite(row[name])]  # fmt: skip
+    rows = [
+        _row(ours, row, name, path)
+        for name in reference.columns
+        if _is_area(name)
+        for _, row in reference.iterrows()
+        if np.isfinite(row[name])
+    ]
     if not rows:
         raise InputError(path, "", "no area in it is a number", "give measured areas in mm^2")
     return pd.DataFrame(rows)
@@ -76,7 +81,7 @@ def _row(ours: pd.DataFrame, row: pd.Series, name: str, path: Path) -> dict[str,
     same = ours[np.isclose(ours[THRESHOLD], row[THRESHOLD], rtol=1e-9, atol=1e-9)]
     if same.empty:
         levels = ", ".join(f"{level:g}" for level in sorted(set(ours[THRESHOLD])))
-        raise InputError(path, "", f"threshold {row[THRESHOLD]:g} mm was not evaluated ({levels})", "see --threshold")
+        raise InputError(path, "", f"threshold {row[THRESHOLD]:g} mm was not evaluated ({levels})", "see `threshold`")
     time, value = same[TIME].to_numpy(float), same[name].to_numpy(float)
     tolerance = 1e-6 * max(1.0, float(np.abs(time).max()))
     if not time[0] - tolerance <= row[TIME] <= time[-1] + tolerance:

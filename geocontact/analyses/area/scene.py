@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
 
-from geocontact.data.evolution import AreaEvolution
-from geocontact.data.motion import Motion
+from geocontact.analyses.area.motion_result import MotionResult
+from geocontact.analyses.area.read import Bodies
 from geocontact.data.version import VERSION
-from geocontact.geometry.contact_area.maps import DistanceMaps
-from geocontact.geometry.surface import Surface
 from geocontact.view.surfaces.camera import View
 from geocontact.view.surfaces.directions import camera_directions
 from geocontact.view.surfaces.scene import ContactScene, ContactSeries, MappedBody
@@ -22,47 +18,32 @@ from geocontact.view.surfaces.vtp_series import write_vtp_series
 STILL = "still_"
 
 
-def write_paraview(
-    folder: Path,
-    moving: Surface,
-    fixed: Surface,
-    motion: Motion,
-    evolution: AreaEvolution,
-    maps: DistanceMaps,
-    pressures: Mapping[int, Float[np.ndarray, " f"]] | None = None,
-) -> None:
-    """Write the frames kept in `maps` as .vtp files with .pvd collections; `pressures` [Pa] of FIXED's faces."""
-    frames = np.asarray(maps.frames, np.int64)
-    pressure = None if pressures is None else np.array([pressures[k] for k in maps.frames])
+def write_paraview(folder: Path, bodies: Bodies, one: MotionResult) -> None:
+    """Write the frames whose distances are kept as .vtp files with .pvd collections, pressures of FIXED's faces too."""
+    kept, e, motion = one.maps.frames, one.evolution, one.motion
+    frames = np.asarray(kept, np.int64)
+    pressure = None if one.pressure is None else np.array([one.pressure.maps[k] for k in kept])
     series = ContactSeries(
         time=motion.time[frames],
         poses=motion.poses[frames],
-        fixed=MappedBody(fixed.vertices, fixed.faces, maps.fixed, pressure),
-        moving=MappedBody(moving.vertices, moving.faces, maps.moving),
-        thresholds=evolution.thresholds,
-        signed=evolution.signed,
+        fixed=MappedBody(bodies.fixed.vertices, bodies.fixed.faces, one.maps.fixed, pressure),
+        moving=MappedBody(bodies.moving.vertices, bodies.moving.faces, one.maps.moving),
+        thresholds=e.thresholds,
+        signed=e.signed,
         time_unit=motion.time_unit,
     )
     write_vtp_series(series, folder, f"geocontact {VERSION}")
 
 
-def write_stills(
-    folder: Path,
-    moving: Surface,
-    fixed: Surface,
-    motion: Motion,
-    evolution: AreaEvolution,
-    maps: DistanceMaps,
-    title: str,
-) -> list[str]:
+def write_stills(folder: Path, bodies: Bodies, one: MotionResult, title: str) -> list[str]:
     """Draw the frame with the largest area from each anatomical direction; returns what has to be said about it."""
-    k = maps.largest
+    k, evolution, motion = one.maps.largest, one.evolution, one.motion
     scene = ContactScene(
-        fixed_vertices=fixed.vertices,
-        fixed_faces=fixed.faces,
-        distance=maps.fixed_at_largest,
-        moving_vertices=motion.poses[k].apply(moving.vertices),
-        moving_faces=moving.faces,
+        fixed_vertices=bodies.fixed.vertices,
+        fixed_faces=bodies.fixed.faces,
+        distance=one.maps.fixed_at_largest,
+        moving_vertices=motion.poses[k].apply(bodies.moving.vertices),
+        moving_faces=bodies.moving.faces,
         thresholds=evolution.thresholds,
         time=float(motion.course.values[k]),
         signed=evolution.signed in ("both", "fixed"),

@@ -1,112 +1,139 @@
-"""Everything the area analysis writes for one motion."""
+"""What an area analysis writes for one motion: tables, figures, page, and what was asked for beside them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses import quantities
 from geocontact.analyses.area.distance_file import FILE, write_maps
-from geocontact.analyses.area.figure import draw_areas
+from geocontact.analyses.area.figure import area_figure
+from geocontact.analyses.area.motion_result import MotionResult
+from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.page import write_report
 from geocontact.analyses.area.pressure import PressureEvolution
-from geocontact.analyses.area.pressure_write import write_pressures
+from geocontact.analyses.area.pressure_figure import PressureMap, pressure_figure
+from geocontact.analyses.area.pressure_page import Pressures, shown_pressures
+from geocontact.analyses.area.read import Bodies
 from geocontact.analyses.area.scene import write_paraview, write_stills
+from geocontact.analyses.area.tables import tables_of
+from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.run_record import Record
-
-from geocontact.cli.area import AreaOptions
-from geocontact.data.evolution import AreaEvolution
-from geocontact.data.motion import Motion
-from geocontact.geometry.contact_area.evolution import Settings
-from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
 from geocontact.io.text.results import write_table
 from geocontact.view.page.content import Table
 from geocontact.view.page.tables import inputs_table
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 PARAVIEW = "paraview"
 """Folder of the series for ParaView."""
 
-
-@dataclass(frozen=True)
-class Analysis:
-    """One motion of two bodies and how it is to be counted."""
-
-    moving: Surface
-    fixed: Surface
-    motion: Motion
-    settings: Settings
-    options: AreaOptions
-    name: str
-
-    @property
-    def title(self) -> str:
-        """Heading of figure and page."""
-        return f"MOVING {self.moving.name} on FIXED {self.fixed.name}" + (f", {self.name}" if self.name else "")
+PRESSURE_MAPS = "pressure.npz"
 
 
-def write_results(
-    record: Record,
-    a: Analysis,
-    evolution: AreaEvolution,
-    maps: DistanceMaps,
-    comparison: pd.DataFrame | None,
-    pressure: PressureEvolution | None,
-    reservations: list[str],
-    folder: Path,
-) -> None:
-    """Table, static figure, page, and what was asked for beside them."""
+def write_motion(record: Record, o: AreaOptions, bodies: Bodies, one: MotionResult, folder: Path) -> None:
+    """Everything of one motion into its folder, which is made where it is missing."""
+    folder.mkdir(exist_ok=True)
+    for name, table in tables_of(one, o).items():
+        if name == "comparison":
+            table.to_csv(folder / "comparison.csv", index=False)
+        else:
+            write_table(table, folder, o.parquet, name)
+    save_both(figure_of(bodies, one), folder, "area")
     shown = None
-    if pressure is not None:
-        shown = write_pressures(pressure, a.fixed, a.motion, folder, a.options.parquet, a.options.save_map)
-    write_table(_with_coordinate(evolution, a.motion, a.options.adduction), folder, a.options.parquet)
-    if comparison is not None:
-        comparison.to_csv(folder / "comparison.csv", index=False)
-    if a.options.save_map:
-        write_maps(folder / FILE, a.moving, a.fixed, a.motion, evolution, maps)
-    draw_areas(
-        evolution, a.fixed.vertices, a.fixed.faces, maps.fixed_at_largest, maps.largest, a.title,
-        (folder / "area.png", folder / "area.svg"), a.motion.course,
-    )  # fmt: skip
-    if a.options.paraview:
-        pressures = None if pressure is None else dict(zip(pressure.frames, pressure.pressure, strict=True))
-        write_paraview(folder / PARAVIEW, a.moving, a.fixed, a.motion, evolution, maps, pressures)
-    if a.options.stills:
-        for note in write_stills(folder, a.moving, a.fixed, a.motion, evolution, maps, a.title):
-            record.warn(note)
-            reservations = [*reservations, note]
-    inputs = [i for i in record.inputs if i.get("folder", a.name or ".") == (a.name or ".")]
-    tables = [inputs_table(inputs), options_table(record)]
-    if comparison is not None:
-        tables.insert(0, _comparison_table(comparison))
-    write_report(
-        folder / "report.html",
-        a.moving,
-        a.fixed,
-        a.motion,
-        a.settings,
-        evolution,
-        maps,
-        a.title,
-        tables,
-        reservations,
-        shown,
+    if one.pressure is not None:
+        picture = save_both(pressure_figure_of(bodies, one, one.pressure), folder, "pressure")
+        shown = shown_pressures(one.pressure, picture)
+    _write_maps(o, bodies, one, folder)
+    notes = write_stills(folder, bodies, one, heading(bodies, one)) if o.stills else []
+    for note in notes:
+        record.warn(note)
+    _write_report(record, bodies, one, folder / "report.html", shown, notes)
+
+
+def write_page_of(record: Record, bodies: Bodies, one: MotionResult, file: Path) -> None:
+    """The page of one motion alone."""
+    shown = None
+    if one.pressure is not None:
+        shown = shown_pressures(one.pressure, drawing(pressure_figure_of(bodies, one, one.pressure)))
+    _write_report(record, bodies, one, file, shown, ())
+
+
+def heading(bodies: Bodies, one: MotionResult) -> str:
+    """Title of figures and page."""
+    return bodies.title + (f", {one.name}" if one.name else "")
+
+
+def figure_of(bodies: Bodies, one: MotionResult) -> Figure:
+    """Areas and separation over the motion, and FIXED in the frame with the largest area."""
+    fixed, maps = bodies.fixed, one.maps
+    return area_figure(
+        one.evolution,
+        fixed.vertices,
+        fixed.faces,
+        maps.fixed_at_largest,
+        maps.largest,
+        heading(bodies, one),
+        one.motion.course,
     )
 
 
-def _with_coordinate(evolution: AreaEvolution, motion: Motion, adduction: str | None) -> pd.DataFrame:
-    """The table, with the angle that a sweep prescribes and the offset of adduction that was asked for."""
-    table = evolution.table()
-    if motion.coordinate is not None:
-        name, angle = motion.coordinate
-        table[f"{name} [deg]"] = np.repeat(np.degrees(angle), len(evolution.thresholds))
-    if adduction is not None:
-        table["adduction offset [deg]"] = np.round(np.degrees(quantities.turn(adduction, "--adduction")[1]), 9)
-    return table
+def pressure_figure_of(bodies: Bodies, one: MotionResult, e: PressureEvolution) -> Figure:
+    """Force and largest pressure over the motion, and FIXED in the frame with the largest force."""
+    force = {side: np.array([load.pressing for load in loads]) for side, loads in e.sides.items()}
+    peak, centre = (np.array([getattr(load, name) for load in e.loads]) for name in ("peak", "centre"))
+    at = PressureMap(bodies.fixed.vertices, bodies.fixed.faces, e.maps[e.heaviest], centre, e.heaviest)
+    return pressure_figure(one.motion.course, force, peak, at)
+
+
+def _write_maps(o: AreaOptions, bodies: Bodies, one: MotionResult, folder: Path) -> None:
+    if o.save_map:
+        write_maps(folder / FILE, bodies.moving, bodies.fixed, one.motion, one.evolution, one.maps)
+        if one.pressure is not None:
+            _write_pressure_maps(folder / PRESSURE_MAPS, bodies.fixed, one, one.pressure)
+    if o.paraview:
+        write_paraview(folder / PARAVIEW, bodies, one)
+
+
+def _write_pressure_maps(file: Path, fixed: Surface, one: MotionResult, e: PressureEvolution) -> None:
+    np.savez_compressed(
+        file,
+        allow_pickle=False,
+        frames=np.array(e.frames),
+        time=one.motion.time[e.frames],
+        pressure=e.pressure,
+        vertices=fixed.vertices,
+        faces=fixed.faces,
+    )
+
+
+def _write_report(
+    record: Record, bodies: Bodies, one: MotionResult, file: Path, shown: Pressures | None, notes: Sequence[str]
+) -> None:
+    folder = one.name or "."
+    inputs = [each for each in record.inputs if each.get("folder", folder) == folder]
+    tables = [inputs_table(inputs), options_table(record)]
+    if one.comparison is not None:
+        tables.insert(0, _comparison_table(one.comparison))
+    write_report(
+        file,
+        bodies.moving,
+        bodies.fixed,
+        one.motion,
+        bodies.settings,
+        one.evolution,
+        one.maps,
+        heading(bodies, one),
+        tables,
+        (*one.reservations, *notes),
+        shown,
+    )
 
 
 def _comparison_table(rows: pd.DataFrame) -> Table:

@@ -75,9 +75,15 @@ def error_reduction(
     data_error
         The mistake. Calibration trials that have it while others have not tell nothing of what stays on others.
     """
+    return error_reduction_of(raw_input_errors(problem, clean, after, data_error), problem, after, named, data_error)
+
+
+def error_reduction_of(
+    errors: RawInputErrors, problem: Problem, after: Judged, named: bool, data_error: DataError | None
+) -> dict[str, ErrorReduction]:
+    """Of every channel, from its errors; see `error_reduction`."""
     from scipy.stats import t
 
-    errors = raw_input_errors(problem, clean, after, data_error)
     count, present = len(problem.calibration.trials), problem.recorded.present
     student = float(t.ppf(0.975, max(errors.told_by - 1, 1)))  # a spread that is known from as few trials
     heard = np.zeros(len(problem.system.outputs))

@@ -15,8 +15,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap.case.problem import Problem
+from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.inputs.quantisation import resolution
-from geocontact.gap.inputs.recorded_steps import measured_columns
 
 ROUND_TOP = 1.0 / (np.sqrt(2.0) - 1.0)
 NEXT = 5  # values below the extreme that it is compared with

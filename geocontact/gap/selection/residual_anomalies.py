@@ -15,8 +15,8 @@ from jaxtyping import Bool, Float
 
 from geocontact.data.trial import Trial
 from geocontact.gap.case.problem import Problem
+from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.inputs.quantisation import resolution
-from geocontact.gap.inputs.recorded_steps import measured_columns
 from geocontact.gap.inputs.spectrum import switches
 from geocontact.gap.selection.evidence import Judged, without_discrepancy
 

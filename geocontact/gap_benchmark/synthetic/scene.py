@@ -10,10 +10,10 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.data.parameter import Parameter
+from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Values
 from geocontact.gap_benchmark.synthetic.noise import Coloured
-from geocontact.gap_benchmark.synthetic.systems.body import SyntheticSystem
 
 Rng = np.random.Generator
 

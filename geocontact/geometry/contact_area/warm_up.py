@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from geocontact.geometry.contact_area.evolution import ContactPair, Settings
@@ -9,8 +11,12 @@ from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 
 
+@cache
 def warm_up() -> None:
-    """Run one small overlap, so that kernels are compiled (once on a machine) or loaded before the clock matters."""
+    """Run one small overlap, so that kernels are compiled (once on a machine) or loaded before the clock matters.
+
+    Once in a process is enough.
+    """
     vertices = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) * 1e-2
     faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     tetrahedron = Surface(vertices, faces, "tetrahedron")

@@ -12,13 +12,13 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import Mesh
-from geocontact.io.mesh.file_preflight import read_bytes
 from geocontact.io.mesh.merge import merge_coincident
 from geocontact.io.mesh.mesh_checks import check_faces, metres_per, require_finite, require_plausible
 from geocontact.io.mesh.obj import read_obj
 from geocontact.io.mesh.ply import read_ply
 from geocontact.io.mesh.stl import read_stl
 from geocontact.io.mesh.vtp import read_vtp
+from geocontact.io.text.file_preflight import read_bytes
 
 _Reader = Callable[[bytes, str], tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]]
 READERS: dict[str, _Reader] = {".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".vtp": read_vtp}

@@ -11,7 +11,7 @@ import numpy as np
 from geocontact.data.errors import InputError
 from geocontact.io.mesh.ply_preflight import Element, PlyHeader, Property, plain_header
 from geocontact.io.mesh.polygons import triangles
-from geocontact.io.mesh.text_lines import as_integers, integer, lines, require_numbers, warn_open_end
+from geocontact.io.text.text_lines import as_integers, integer, lines, require_numbers, warn_open_end
 
 _AGAIN = "the file is cut off or damaged, export or download it again"
 _AXES = ("x", "y", "z")

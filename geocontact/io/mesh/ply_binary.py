@@ -11,7 +11,7 @@ from jaxtyping import Int
 from geocontact.data.errors import InputError
 from geocontact.io.mesh.ply_preflight import Element, PlyHeader, Property, plain_header
 from geocontact.io.mesh.polygons import triangles
-from geocontact.io.mesh.text_lines import as_integers
+from geocontact.io.text.text_lines import as_integers
 
 _AGAIN = "the file is cut off or damaged, export or download it again"
 _Lists = tuple[Int[np.ndarray, " k"], Int[np.ndarray, " p"]]

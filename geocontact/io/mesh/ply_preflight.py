@@ -8,8 +8,8 @@ import numpy as np
 
 from geocontact.data.errors import InputError
 from geocontact.io.mesh import limits
-from geocontact.io.mesh.file_preflight import not_a
-from geocontact.io.mesh.text_lines import shown
+from geocontact.io.text.file_preflight import not_a
+from geocontact.io.text.text_lines import shown
 
 BYTE_ORDER = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 """numpy's sign for the byte order of each format; empty for text."""

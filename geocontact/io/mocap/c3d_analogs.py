@@ -11,7 +11,7 @@ from os import PathLike, fspath
 import numpy as np
 
 from geocontact.io.mocap.c3d_plates import Arrays, read_apart
-from geocontact.io.opensim.storage_header import AngleEvidence
+from geocontact.io.text.storage_header import AngleEvidence
 from geocontact.io.text.tables import TextTable
 
 

@@ -15,7 +15,7 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.motion import Signals
-from geocontact.io.opensim.storage_header import LONGEST_LINE, AngleEvidence, StorageHeader, read_storage_header
+from geocontact.io.text.storage_header import LONGEST_LINE, AngleEvidence, StorageHeader, read_storage_header
 from geocontact.io.text.table_rows import read_rows
 from geocontact.io.text.units import split_header
 

@@ -17,10 +17,17 @@ from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
 from geocontact.systems.base import Base
 from geocontact.systems.validate import refusal, said, validated
 
+FORMER_NAMES = {
+    "geocontact.systems.knee_chain": "geocontact.systems.knee.full_chain",
+    "geocontact.systems.elastic_joint": "geocontact.systems.elastic_joint.model",
+}
+"""Modules of the package as existing cases name them, kept for one version, and where these models are now."""
+
 
 def python_base(case: GapCase) -> Base:
     """The object that the case names; InputError when it cannot be imported or is no base model."""
     module, _, name = case.system.partition(":")
+    module = FORMER_NAMES.get(module, module)
     found = getattr(_imported(module, case), name, None)
     if found is None:
         raise refusal(case, f"module {module} has no object {name}", f"write {name} = Base(...) there")

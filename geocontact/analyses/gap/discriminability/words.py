@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geocontact.analyses.gap.diagnose.words import names, percent, proposal_words
+from geocontact.analyses.gap.words import names, percent, proposal_words
 from geocontact.gap.identifiability.detectability import POWER, Detectability
 from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.gap.identifiability.separability import APART

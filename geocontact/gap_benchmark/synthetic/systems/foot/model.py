@@ -9,10 +9,10 @@ from functools import partial
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Pull, Values, read
-from geocontact.gap_benchmark.synthetic.systems.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError
 
 INPUTS, OUTPUTS = ("x", "y", "pitch"), ("force_x", "force_y", "cop_x")

@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap_benchmark.synthetic.motions import FootStyle, foot_path
 from geocontact.gap_benchmark.synthetic.noise import corner_of
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
 from geocontact.gap_benchmark.synthetic.systems.foot import model as foot
+from geocontact.gap_benchmark.synthetic.systems.foot.motions import FootStyle, foot_path
 
 
 def sole_of(rng: Rng, *, typical: bool) -> tuple[foot.Sole, pd.DataFrame]:

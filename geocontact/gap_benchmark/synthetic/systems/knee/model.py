@@ -10,9 +10,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values, read
-from geocontact.gap_benchmark.synthetic.systems.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.systems.interface import pull
 
 SIDES = ("medial", "lateral")

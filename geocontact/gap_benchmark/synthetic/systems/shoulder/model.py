@@ -15,9 +15,9 @@ import pandas as pd
 from jaxtyping import Float, Int
 from scipy.interpolate import CubicSpline
 
+from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import InputCourse, through
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Swing, Values, read
-from geocontact.gap_benchmark.synthetic.systems.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.systems.interface import in_series, pull
 from geocontact.gap_benchmark.synthetic.systems.swing import GRAVITY, Arm, Torque, at_rest, follow, swing
 

@@ -8,9 +8,9 @@ from functools import partial
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.gap_benchmark.synthetic.body import Site, SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values, read
-from geocontact.gap_benchmark.synthetic.systems.body import Site, SyntheticSystem
 from geocontact.gap_benchmark.synthetic.systems.interface import in_series, pull
 
 SITES = ("pelvis", "thigh", "shank")

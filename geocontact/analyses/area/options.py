@@ -1,0 +1,251 @@
+"""What an area analysis may be asked for, and with it the pressures of an elastic layer."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass, field
+from pathlib import Path
+from typing import Annotated, Literal
+
+from geocontact.analyses.options import (
+    AngleUnit,
+    Excludes,
+    Expression,
+    Fraction,
+    Length,
+    Lengths,
+    MeshUnit,
+    Needs,
+    Options,
+    Pressure,
+    Requires,
+    Spelled,
+    Typed,
+)
+from geocontact.data.errors import InputError
+
+RAYS, FLAT = "rays", "flat"
+LARGEST_TURN = math.radians(45.0)  # an offset of adduction is small
+
+POSITIVE = {
+    "bounds": "number",
+    "tolerance": "number",
+    "modulus": "pressure",
+    "modulus_moving": "pressure",
+    "piece": "length",
+    "thickness": "length",
+    "thickness_moving": "length",
+}
+READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which reads no motion file")
+OF_LAYER = Requires("pressure")
+OF_SECOND = Requires("modulus_moving")
+
+Sweep = Annotated[tuple[str, float, float, float], Typed("rad", "sweep_range"), Spelled(dashed=True)]
+Turn = Annotated[tuple[str, float], Typed("rad", "turn")]
+Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness")]
+
+
+@dataclass(frozen=True)
+class AreaOptions(Options):
+    """Contact area of two rigid surfaces over a motion, with certified bounds.
+
+    Parameters
+    ----------
+    moving
+        Mesh that moves (.stl .ply .obj .vtp).
+    fixed
+        Mesh in whose frame results are given.
+    unit
+        Unit of both meshes; never guessed.
+    motion
+        Poses (.csv) or coordinates (.mot .sto); several, or a pattern in quotes: one sub-folder each.
+    threshold
+        Largest distance that counts, or several: 0.1,0.5,1,4
+    osim
+        OpenSim model whose joint turns coordinates into poses: FIXED is the parent body, MOVING the child.
+    joint
+        Name of that joint.
+    moving_body
+        parent: MOVING is the joint's parent body, or the femur of a knee convention; child unless given.
+    map
+        Columns instead of a model: rz=knee_flexion,rx=knee_adduction,ry=-knee_rotation,tx=knee_tx
+    order
+        Order of intrinsic rotations: XYZ is R = Rx Ry Rz.
+    angles
+        Unit of angles where the file does not say.
+    convention
+        grood-suntay: columns are clinical knee angles; needs `side`.
+    side
+        Side of the knee.
+    sweep
+        Instead of `motion`: turn MOVING about `axis`; name, start, stop and step, typed flexion=0:90:1 in degrees.
+    axis
+        x,y,z,dx,dy,dz (point in the mesh unit), a file of these, or a fit.json; else the cylinder fitted to MOVING.
+    place_moving
+        Where the mesh sits in its body: a file with a 4x4 matrix, or model.osim:body.
+    place_fixed
+        The same for FIXED.
+    adduction
+        Turn MOVING in every frame about this axis of FIXED, through MOVING's origin: axis and angle, typed x=2 or x=-2
+        (degrees).
+    assume_closed
+        Treat a surface as closed although its edges do not show it.
+    split
+        x, y or z (or z=1.5): medial and lateral parts of FIXED apart.
+    medial
+        Side of the splitting plane that is medial; - unless given.
+    region
+        Faces of FIXED that count: "ny>0.25" in x y z nx ny nz (mesh unit), or a file of face numbers.
+    region_moving
+        The same for MOVING.
+    rule
+        How area is counted; the crude rules are for comparing with papers.
+    bounds
+        Refine until (upper - lower) / upper is below: 0.02 or 2%; 10% unless given.
+    compare
+        Table of your own measured areas; the result is not accepted (exit 1) beyond the tolerance.
+    tolerance
+        Largest relative difference from the areas compared; 2% unless given.
+    save_map
+        Also write the distance of every vertex in every frame (distances.npz).
+    paraview
+        Also write both bodies with their distances over time for ParaView (folder paraview).
+    stills
+        Also write 3-D pictures of the frame with the largest area (still_superior.png and others).
+    pressure
+        Also press MOVING, rigid unless `modulus_moving`, into FIXED as an elastic layer: pressures and forces.
+    modulus
+        Young's modulus of FIXED for `pressure`: 500MPa.
+    poisson
+        Poisson's ratio of FIXED for `pressure`, below 0.5.
+    thickness
+        Of FIXED's layer: a length such as 8mm, or rays (measured along the normal, which is the default).
+    foundation
+        linear or logarithmic (finite strain); linear unless given.
+    facets
+        smooth: triangles stand for a smooth surface through their corners; flat: as they are. smooth unless given.
+    modulus_moving
+        Young's modulus of MOVING, which then is an elastic layer as well; rigid unless given.
+    poisson_moving
+        Its Poisson's ratio, below 0.5.
+    thickness_moving
+        Of its layer: a length such as 3mm, or rays.
+    piece
+        Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
+    parquet
+        Also write the tables as .parquet.
+    workers
+        Threads; all cores by default. Results do not depend on it.
+    """
+
+    moving: Path
+    fixed: Path
+    _: KW_ONLY
+    unit: MeshUnit
+    motion: tuple[str, ...] | None = None
+    threshold: Annotated[Lengths, Spelled(default="4")] = (4e-3,)
+    osim: Annotated[Path | None, READS_NO_FILE] = None
+    joint: Annotated[str | None, READS_NO_FILE] = None
+    moving_body: Annotated[Literal["child", "parent"] | None, Spelled("moving"), READS_NO_FILE] = None
+    map: Annotated[
+        Expression | None, READS_NO_FILE, Excludes("osim", "with `osim` names the columns twice", "give one")
+    ] = None
+    order: Annotated[
+        str | None,
+        READS_NO_FILE,
+        Excludes("osim", "has no effect with `osim`: the joint gives the order"),
+        Excludes("convention", "has no effect with `convention`, which gives the order"),
+    ] = None
+    angles: Annotated[AngleUnit | None, READS_NO_FILE] = None
+    convention: Annotated[
+        Literal["grood-suntay"] | None,
+        READS_NO_FILE,
+        Excludes("osim", "has no effect with `osim`: the joint says what its coordinates are", "give one"),
+        Needs("side", "give right or left"),
+    ] = None
+    side: Annotated[Literal["right", "left"] | None, READS_NO_FILE, Requires("convention")] = None
+    sweep: Sweep | None = None
+    axis: Annotated[Expression | None, Requires("sweep")] = None
+    place_moving: str | None = None
+    place_fixed: str | None = None
+    adduction: Turn | None = None
+    assume_closed: Literal["moving", "fixed", "both"] | None = None
+    split: str | None = None
+    medial: Annotated[Literal["-", "+"] | None, Spelled(dashed=True), Requires("split")] = None
+    region: Expression | None = None
+    region_moving: Expression | None = None
+    rule: Literal["refined", "clip", "all-vertices", "any-vertex", "centroid"] = "refined"
+    bounds: Fraction | None = None
+    compare: Path | None = None
+    tolerance: Annotated[Fraction | None, Requires("compare", "give your measured areas too, or leave it out")] = None
+    save_map: bool = False
+    paraview: bool = False
+    stills: bool = False
+    pressure: Annotated[
+        bool, Needs("modulus", "give for example 500MPa"), Needs("poisson", "give for example 0.46")
+    ] = False
+    modulus: Annotated[Pressure | None, OF_LAYER] = None
+    poisson: Annotated[float | None, OF_LAYER] = None
+    thickness: Annotated[Thickness | None, OF_LAYER] = None
+    foundation: Annotated[Literal["linear", "logarithmic"] | None, OF_LAYER] = None
+    facets: Annotated[Literal["smooth", "flat"] | None, OF_LAYER] = None
+    modulus_moving: Annotated[Pressure | None, OF_LAYER, Needs("poisson_moving", "give for example 0.46")] = None
+    poisson_moving: Annotated[float | None, OF_SECOND] = None
+    thickness_moving: Annotated[Thickness | None, OF_SECOND] = None
+    piece: Annotated[Length | None, OF_LAYER] = None
+    parquet: bool = False
+    workers: int | None = None
+
+    def refuse_impossible(self) -> None:
+        """Motions that are none or two, and numbers that cannot be."""
+        if (self.sweep is None) == (not self.motion):
+            raise InputError("", "`motion`", "give either `motion` or `sweep`", "exactly one of them is needed")
+        if self.moving_body is not None and self.osim is None and self.convention is None:
+            what = f"{self.moving_body} needs a joint or a knee convention"
+            raise InputError("", "`moving_body`", what, "swap the two meshes, or give `osim` and `joint`")
+        if self.workers is not None and self.workers < 1:
+            raise InputError("", "`workers`", f"{self.workers} is less than one thread", "give 1 or more")
+        self._refuse_thresholds()
+        for name, kind in POSITIVE.items():
+            value = getattr(self, name)
+            if value is not None and value != RAYS and not (math.isfinite(value) and value > 0.0):
+                raise InputError("", f"`{name}`", f"{value:g} is not a positive {kind}", "give more than 0")
+        for name in ("poisson", "poisson_moving"):
+            value = getattr(self, name)
+            if value is not None and not 0.0 <= value < 0.5:
+                raise InputError("", f"`{name}`", f"{value:g} is not from 0 to below 0.5", "give for example 0.46")
+        if self.adduction is not None and not _small(*self.adduction):
+            what = f"{self.adduction} is no small turn about x, y or z"
+            raise InputError("", "`adduction`", what, "give an axis and at most 45 degrees")
+
+    def _refuse_thresholds(self) -> None:
+        values = self.threshold
+        if not values or not all(math.isfinite(value) and value >= 0.0 for value in values):
+            raise InputError("", "`threshold`", f"{values} is not a distance of 0 or more", "give for example 4 mm")
+        if len(set(values)) < len(values):
+            raise InputError("", "`threshold`", f"{values} names a threshold twice", "give each once")
+
+
+def _small(axis: str, angle: float) -> bool:
+    return axis in ("x", "y", "z") and abs(angle) <= LARGEST_TURN + 1e-12
+
+
+@dataclass(frozen=True, kw_only=True)
+class PressureOptions(AreaOptions):
+    """Pressures and forces of a body that is pressed into the elastic layer of another one over a motion.
+
+    The same analysis as `area` with its pressures asked for; all other options are those of `area`.
+
+    Parameters
+    ----------
+    pressure
+        Always so.
+    modulus
+        Young's modulus of FIXED.
+    poisson
+        Poisson's ratio of FIXED, below 0.5.
+    """
+
+    pressure: Annotated[bool, Needs("modulus"), Needs("poisson")] = field(default=True, init=False)
+    modulus: Annotated[Pressure, OF_LAYER] = field()
+    poisson: Annotated[float, OF_LAYER] = field()

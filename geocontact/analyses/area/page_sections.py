@@ -1,0 +1,161 @@
+"""What a contact page shows of areas: the scene, the numbers of a frame, curves, and what the threshold matters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from geocontact.analyses.area.pressure_page import Pressures, face_map
+from geocontact.data.evolution import MM, MM2, AreaEvolution
+from geocontact.data.motion import Motion
+from geocontact.geometry.contact_area.evolution import Settings
+from geocontact.geometry.contact_area.maps import DistanceMaps
+from geocontact.geometry.contact_area.rules import CLIP, REFINED
+from geocontact.geometry.surface import Surface
+from geocontact.view.page.content import Body, Curve, Curves, Row, Scene, Strip
+from geocontact.view.surfaces.directions import camera_directions
+
+TICK = 0.5e-3  # m; the colours end at a round number
+READ = (
+    ("certainly at least", "area_fixed_lower [mm^2]", 2),
+    ("certainly at most", "area_fixed_upper [mm^2]", 2),
+    ("medial part", "area_fixed_medial [mm^2]", 2),
+    ("lateral part", "area_fixed_lateral [mm^2]", 2),
+    ("area of the moving body", "area_moving [mm^2]", 2),
+    ("smallest distance", "min_distance [mm]", 3),
+    ("penetration of the fixed body", "max_penetration_fixed [mm]", 3),
+    ("centroid x", "centroid_x [mm]", 2),
+    ("centroid y", "centroid_y [mm]", 2),
+    ("centroid z", "centroid_z [mm]", 2),
+)
+"""Label, column and digits of what the page reads out in each frame, after the area of FIXED."""
+
+
+@dataclass(frozen=True, eq=False)
+class Told:
+    """What a page tells: an analysis, and which of the frames kept in `maps` are shown (`kept`, places in there)."""
+
+    moving: Surface
+    fixed: Surface
+    motion: Motion
+    settings: Settings
+    evolution: AreaEvolution
+    maps: DistanceMaps
+    kept: Int[np.ndarray, " k"]
+    pressures: Pressures | None = None
+
+    @property
+    def frames(self) -> Int[np.ndarray, " k"]:
+        """Numbers of the frames shown."""
+        return np.asarray(np.asarray(self.maps.frames, np.int64)[self.kept])
+
+    @property
+    def main(self) -> int:
+        """Place of the largest threshold, which the page is about."""
+        return int(np.argmax(self.evolution.thresholds))
+
+    @property
+    def crude(self) -> bool:
+        """Whether areas were counted by a rule that does not cut triangles."""
+        return self.settings.rule not in (REFINED, CLIP)
+
+
+def in_mm(evolution: AreaEvolution, k: int) -> str:
+    """A threshold as the page shows it."""
+    return f"{evolution.thresholds[k] * MM:g} mm"
+
+
+def scene(told: Told) -> Scene:
+    """Both bodies with their distances, and the pressures where there are some."""
+    e, kept = told.evolution, told.kept
+    farthest = max((*e.thresholds, *e.sensitivity_thresholds, TICK))
+    deepest = min(-0.25 * max(e.thresholds), float(e.min_distance.min()), -TICK)
+    signed = {"fixed": e.signed in ("both", "fixed"), "moving": e.signed in ("both", "moving")}
+    unsigned = 0.0 if min(e.thresholds) > 0.0 else -TICK
+    return Scene(
+        bodies=(
+            Body(
+                told.fixed.name,
+                told.fixed.vertices,
+                told.fixed.faces,
+                signed=signed["fixed"],
+                distance=_counted(told.maps.fixed[kept], told.fixed, told.settings.fixed_faces),
+            ),
+            Body(
+                told.moving.name,
+                told.moving.vertices,
+                told.moving.faces,
+                told.motion.poses[told.frames],
+                signed=signed["moving"],
+                distance=_counted(told.maps.moving[kept], told.moving, told.settings.moving_faces),
+            ),
+        ),
+        thresholds=e.thresholds,
+        span=(unsigned if e.signed == "none" else float(-np.ceil(-deepest / TICK) * TICK), farthest),
+        value_name="distance to the other body" if e.signed == "none" else "signed distance to the other body",
+        directions=camera_directions(np.asarray(e.split_normal) * e.medial_side),
+        maps=() if told.pressures is None else (face_map(told.pressures, told.frames, 0),),
+    )
+
+
+def _counted(
+    distance: Float[np.ndarray, "t n"], body: Surface, faces: Bool[np.ndarray, " f"] | None
+) -> Float[np.ndarray, "t n"]:
+    """Distances with vertices of no counted face taken as far away, so that only what counts is coloured."""
+    if faces is None:
+        return distance
+    counts = np.zeros(len(body.vertices), bool)
+    counts[body.faces[faces]] = True
+    return np.where(counts, distance, np.inf)
+
+
+def rows(told: Told) -> list[Row]:
+    """The table's row of each frame, rounded to what a reader can use."""
+    e = told.evolution
+    columns = e.table().iloc[told.frames * len(e.thresholds) + told.main]
+    found = []
+    area = ("area of the fixed body" + (f", {told.settings.rule}" if told.crude else ""), "area_fixed [mm^2]", 2)
+    for label, column, digits in (area, *READ):
+        if column in columns:
+            unit = column[column.index("[") + 1 : -1].replace("^2", "²")
+            texts = ["–" if np.isnan(value) else f"{value:.{digits}f}" for value in columns[column]]
+            found.append(Row(label, unit, texts))
+    return found
+
+
+def curves(e: AreaEvolution, frames: Int[np.ndarray, " k"], main: int) -> list[Curves]:
+    """Areas with their bounds, and the smallest distance."""
+
+    def within(k: int) -> Curve:
+        side = e.fixed
+        name = f"fixed body, {in_mm(e, k)}"
+        return Curve(name, side.area[frames, k] * MM2, side.lower[frames, k] * MM2, side.upper[frames, k] * MM2)
+
+    areas = [within(main)]
+    if e.medial_side:
+        areas += [
+            Curve(f"medial, {in_mm(e, main)}", e.medial[frames, main] * MM2),
+            Curve(f"lateral, {in_mm(e, main)}", e.lateral[frames, main] * MM2),
+        ]
+    areas += [within(k) for k in range(len(e.thresholds)) if k != main]
+    distance = [Curve("smallest distance", e.min_distance[frames] * MM)]
+    return [Curves("Contact area", "mm²", areas), Curves("Smallest distance (negative: overlap)", "mm", distance)]
+
+
+def strip(told: Told) -> Strip:
+    """Area against threshold in each frame."""
+    e = told.evolution
+    order = np.argsort(e.sensitivity_thresholds)
+    thresholds = np.asarray(e.sensitivity_thresholds)[order]
+    values = e.sensitivity[np.ix_(told.frames, order)] * MM2
+    if not told.crude:  # the refined area is the better number, where there is one
+        values[:, np.isclose(thresholds, e.thresholds[told.main])] = e.fixed.area[told.frames, told.main, None] * MM2
+    return Strip(
+        title="How much the threshold matters (fixed body, triangles cut)",
+        thresholds=thresholds * MM,
+        values=values,
+        unit="mm²",
+        current=e.thresholds[told.main] * MM,
+    )

@@ -1,0 +1,84 @@
+"""What an area analysis rests on: two bodies, what of them counts, motions and measured areas, as the options say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from geocontact.analyses import quantities
+from geocontact.analyses.area.motions import motions_given
+from geocontact.analyses.area.options import AreaOptions
+from geocontact.analyses.area.reference_areas import Reference, read_reference
+from geocontact.analyses.bodies import chosen_faces, read_body
+from geocontact.analyses.run_record import Record
+from geocontact.data.motion import Motion
+from geocontact.geometry.contact_area.area import Refinement
+from geocontact.geometry.contact_area.evolution import Settings
+from geocontact.geometry.plane import Plane
+from geocontact.geometry.surface import Surface
+from geocontact.view.surfaces.vtp_series import require_pyvista
+
+BRIEF, PATIENT = 40_000, 1_000_000  # triangles divided per area, without and with bounds asked for
+TOLERANCE = 0.02
+SENSITIVITY = np.linspace(0.0, 1.5, 13)  # shares of the largest threshold at which the page shows the area as well
+ZERO_REACH = 1e-3  # m; what these shares are of where the threshold is zero
+
+
+@dataclass(frozen=True, eq=False)
+class Bodies:
+    """Two bodies, how their contact is counted, and how one moves in the frame of the other.
+
+    Parameters
+    ----------
+    moving, fixed
+        The bodies, each in its own frame [m].
+    settings
+        What counts as contact, and how it is counted.
+    motions
+        Name of the sub-folder, empty when there is one motion, and poses of MOVING in FIXED.
+    reference
+        Measured areas to compare with; None without.
+    """
+
+    moving: Surface
+    fixed: Surface
+    settings: Settings
+    motions: tuple[tuple[str, Motion], ...]
+    reference: Reference | None
+
+    @property
+    def title(self) -> str:
+        """Heading of figures and pages."""
+        return f"MOVING {self.moving.name} on FIXED {self.fixed.name}"
+
+
+def read(o: AreaOptions, record: Record) -> Bodies:
+    """Everything the options name."""
+    if o.paraview:
+        require_pyvista()
+    split = None if o.split is None else quantities.splitting_plane(o.split, o.unit)
+    reference = None
+    if o.compare is not None:
+        table = read_reference(o.compare)
+        reference = Reference(o.compare, table, TOLERANCE if o.tolerance is None else o.tolerance)
+        record.add_input("`compare`", o.compare)
+    closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
+    moving = read_body(record, "moving", o.moving, o.unit, o.place_moving, closed["moving"])
+    fixed = read_body(record, "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
+    settings = _settings(record, o, split, moving, fixed)
+    return Bodies(moving, fixed, settings, tuple(motions_given(record, o, moving)), reference)
+
+
+def _settings(record: Record, o: AreaOptions, split: Plane | None, moving: Surface, fixed: Surface) -> Settings:
+    refinement = Refinement(pieces=BRIEF) if o.bounds is None else Refinement(bounds=o.bounds, pieces=PATIENT)
+    return Settings(
+        thresholds=o.threshold,
+        rule=o.rule,
+        refinement=refinement,
+        fixed_faces=chosen_faces(record, "`region`", o.region, fixed, o.unit),
+        moving_faces=chosen_faces(record, "`region_moving`", o.region_moving, moving, o.unit),
+        split=split,
+        medial_side=1 if o.medial == "+" else -1,
+        sensitivity=tuple((max(o.threshold) or ZERO_REACH) * SENSITIVITY),
+    )
