@@ -9,6 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 from unittest import mock
 
+import numpy as np
 import pytest
 
 from geocontact import __version__
@@ -20,11 +21,13 @@ from tests.cli.calls import (
     SPHERE,
     Call,
     area,
+    corners,
     done,
     gait,
     inventory,
     poses,
     shifted,
+    stl,
     written,
 )
 from tests.contract import COLUMNS, FILES
@@ -77,6 +80,29 @@ def test_beyond_the_tolerance_is_exit_1_and_the_results_are_kept(tmp_path: Path)
     assert (result.code, result.complaints) == (1, []), result.err
     assert set(inventory(result.folder)) == {"area.csv", "comparison.csv", "run.json"}
     assert "beyond the tolerance of 1.00%" in result.out
+
+
+def test_reservations_are_lines_on_stderr_and_in_the_record(tmp_path: Path) -> None:
+    points = corners(SPHERE)
+    moving = written(tmp_path / "open.stl", stl(np.delete(points, np.argmax(points[:, :, 1].mean(axis=1)), axis=0)))
+    result = done(area(tmp_path / "out", moving=moving, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0))))
+    assert len(result.warnings) == 1 and "open.stl is open" in result.warnings[0]
+    assert result.record()["warnings"] == result.warnings
+
+
+def test_options_of_two_spellings_are_recorded_as_typed_and_in_si(tmp_path: Path) -> None:
+    given = ("--threshold", "1,4mm", "--medial", "+", "--split", "z", "--bounds", "5%", "--adduction", "x=2")
+    result = done(area(tmp_path / "out", *given, moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0))))
+    told = result.record()
+    assert {name: told["options"][name] for name in ("threshold", "bounds", "adduction")} == {
+        "threshold": "1,4mm",
+        "bounds": "5%",
+        "adduction": "x=2",
+    }
+    assert told["options_si"]["threshold [m]"] == [1e-3, 4e-3] and told["options_si"]["bounds"] == 0.05
+    axis, angle = told["options_si"]["adduction [rad]"]
+    assert (axis, angle) == ("x", pytest.approx(np.radians(2.0)))
+    assert set(result.table()["adduction offset [deg]"]) == {2.0}
 
 
 def test_empty_cells_stand_for_what_is_not_there(tmp_path: Path) -> None:

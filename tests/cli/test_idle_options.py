@@ -111,7 +111,10 @@ IDLE: Cases = {
     "--tolerance without --compare": ({"--tolerance": "5%"}, ("--tolerance", "without --compare", "measured areas")),
     "--medial without --split": ({"--medial": "-"}, ("--medial", "without --split", "give --split")),
     "--axis without --sweep": ({"--axis": "0,0,0,0,0,1"}, ("--axis", "without --sweep", "give --sweep")),
-    "--side without --convention": ({"--side": "left"}, ("--side", "without --convention", "give it too")),
+    "--side without --convention": (
+        {"--side": "left"},
+        ("--side", "has no effect without --convention", "give --convention"),
+    ),
     "--convention without --side": ({"--convention": "grood-suntay"}, ("--side", "missing", "right or left")),
     "--convention beside poses": (
         OPTIONS["--convention"],
@@ -119,14 +122,17 @@ IDLE: Cases = {
     ),
     "--convention beside --osim": (
         {**JOINT, "--convention": "grood-suntay", "--side": "left"},
-        ("--convention", "beside --osim", "give one"),
+        ("--convention", "has no effect with --osim", "give one"),
     ),
     "--map beside --osim": ({**JOINT, "--map": "tx=knee_tx"}, ("--map", "--osim", "give one")),
     "--order beside --osim": ({**JOINT, "--order": "XYZ"}, ("--order", "joint", "leave it out")),
     "--moving parent without a joint": ({"--moving": "parent"}, ("--moving", "parent", "swap the two meshes")),
     "--moving child without a joint": ({"--moving": "child"}, ("--moving", "child", "swap the two meshes")),
     **{
-        f"{option} beside --sweep": (MOTIONS["sweep"] | more, (f"{next(iter(more))}: ", "beside --sweep", "leave it"))
+        f"{option} beside --sweep": (
+            MOTIONS["sweep"] | more,
+            (f"{next(iter(more))}: ", "has no effect with --sweep", "leave it"),
+        )
         for option, more in OPTIONS.items()
         if option not in ("--axis", "--medial", "--tolerance")
     },

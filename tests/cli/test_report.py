@@ -35,7 +35,7 @@ def everything(tmp_path_factory: pytest.TempPathFactory) -> tuple[Call, mock.Moc
         mock.patch(f"{patched}.draw_stills", return_value=(Still(Path("x.png"), "matplotlib", NOTE),)) as stills,
         mock.patch(f"{patched}.write_vtp_series") as series,
         mock.patch("geocontact.analyses.area.run.FRAMES", 1),
-        mock.patch("geocontact.analyses.area.run.PATIENT", 1),
+        mock.patch("geocontact.analyses.area.read.PATIENT", 1),
     ):
         result = done(
             area(folder / "out", *options, "--stills", "--paraview", moving=FEMUR, fixed=INSERT,

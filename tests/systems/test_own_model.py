@@ -219,13 +219,13 @@ def test_listed_names_are_those_of_the_systems() -> None:
 
 
 def blocks() -> list[str]:
-    """Python of the page for users, in order: the model, a look at it, a law, an effect."""
+    """Python of the page for users, in order: a simulator, the model, a look at it, a law, an effect, and two more."""
     page = Path(__file__).resolve().parents[2] / "docs" / "how-to" / "own_model.md"
     return re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
 
 
 def test_the_model_of_the_page_for_users_works(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    model, _, _, effect, _, _ = blocks()
+    _, model, _, _, effect, _, _ = blocks()
     monkeypatch.delitem(sys.modules, "own_orthosis", raising=False)
     text = effect + model.replace('"N m"},', '"N m"}, own=(SECOND_STRUT,),')
     (here / "own_orthosis.py").write_text(text, encoding="utf-8")

@@ -8,12 +8,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from geocontact.contact.elasticity import layer_modulus
 from geocontact.view.page.content import FaceMap, Scene
 from tests.cli.calls import Call, done
-from tests.cli.test_area_pressure import M, pressed
+from tests.cli.test_area_pressure import pressed
 from tests.view.page.conftest import DESKTOP, PHONE, Open, Opened, rows, set_range
 from tests.view.page.examples import small_page
 from tests.view.page.pictures import pixels
+
+M = layer_modulus(5e8, 0.46)
 
 SHOWN = {
     "force, medial": ("force_medial [N]", 1),

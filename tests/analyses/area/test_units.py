@@ -6,23 +6,31 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.calls import FEMUR, INSERT, Call, agree, area, corners, done, gait, shifted, stl, written
+from geocontact.analyses.area.result import AreaResult
+from geocontact.data.errors import InputError
+from tests.analyses.area.calls import area
+from tests.cli.calls import FEMUR, INSERT, agree, corners, gait, shifted, stl, written
 
 PER_MM = {"m": 1e-3, "cm": 0.1, "mm": 1.0, "in": 1 / 25.4}
 WORDS = {"m": "metres", "cm": "centimetres", "mm": "millimetres", "in": "inches"}
 
 
 @pytest.fixture(scope="module")
-def knee(tmp_path_factory: pytest.TempPathFactory) -> Call:
+def knee(tmp_path_factory: pytest.TempPathFactory) -> AreaResult:
     """Options that hold lengths in the mesh unit, in mm."""
     folder = tmp_path_factory.mktemp("knee")
-    options = ("--split", "z=4", "--region", "x > -15 and ny > 0.25", *placed(folder, "mm"), "--rule", "clip")
-    return done(area(folder / "out", *options, motion=gait(folder)))
+    return area(FEMUR, INSERT, gait(folder), **in_mesh_units(folder, "mm"))
 
 
-def placed(folder: Path, unit: str) -> tuple[str, Path]:
-    """MOVING half a millimetre to the front."""
-    return "--place-moving", shifted(folder, (0.5 * PER_MM[unit], 0, 0))
+def in_mesh_units(folder: Path, unit: str) -> dict[str, str]:
+    """Options that hold lengths in the mesh unit; MOVING half a millimetre to the front."""
+    return {
+        "unit": unit,
+        "split": f"z={4 * PER_MM[unit]!r}",
+        "region": f"x > {-15 * PER_MM[unit]!r} and ny > 0.25",
+        "place_moving": str(shifted(folder, (0.5 * PER_MM[unit], 0, 0))),
+        "rule": "clip",
+    }
 
 
 def rewritten(folder: Path, mesh: Path, unit: str) -> Path:
@@ -31,17 +39,13 @@ def rewritten(folder: Path, mesh: Path, unit: str) -> Path:
 
 
 @pytest.mark.parametrize("unit", ["m", "cm", "in"])
-def test_the_unit_of_the_meshes_does_not_matter(tmp_path: Path, knee: Call, unit: str) -> None:
+def test_the_unit_of_the_meshes_does_not_matter(tmp_path: Path, knee: AreaResult, unit: str) -> None:
     """Areas to 1e-6, lengths to 1e-5 mm; the threshold and the motion keep their own units."""
-    options = (
-        "--split", f"z={4 * PER_MM[unit]!r}", "--region", f"x > {-15 * PER_MM[unit]!r} and ny > 0.25",
-        *placed(tmp_path, unit), "--rule", "clip",
-    )  # fmt: skip
-    bodies = {"moving": rewritten(tmp_path, FEMUR, unit), "fixed": rewritten(tmp_path, INSERT, unit)}
-    result = done(area(tmp_path / "out", *options, **bodies, motion=gait(tmp_path), unit=unit))
+    bodies = [rewritten(tmp_path, mesh, unit) for mesh in (FEMUR, INSERT)]
+    result = area(*bodies, gait(tmp_path), **in_mesh_units(tmp_path, unit))
     agree(result.table(), knee.table(), areas=1e-6, lengths=1e-5)
     ours, theirs = (
-        [length for entry in call.record()["inputs"] for length in entry.get("box_mm", [])] for call in (result, knee)
+        [length for entry in call.record.inputs for length in entry.get("box_mm", [])] for call in (result, knee)
     )
     assert ours == pytest.approx(theirs, rel=1e-6)
 
@@ -50,20 +54,19 @@ def test_the_unit_of_the_meshes_does_not_matter(tmp_path: Path, knee: Call, unit
 def test_the_refined_area_does_not_depend_on_the_unit_either(tmp_path: Path, unit: str) -> None:
     """Which triangles are divided may hang on the last digit: areas within a tenth of the stated accuracy."""
     motion = gait(tmp_path, [30])
-    bodies = {"moving": rewritten(tmp_path, FEMUR, unit), "fixed": rewritten(tmp_path, INSERT, unit)}
-    ours = done(area(tmp_path / "a", **bodies, motion=motion, unit=unit)).table()
-    theirs = done(area(tmp_path / "b", motion=motion)).table()
+    bodies = [rewritten(tmp_path, mesh, unit) for mesh in (FEMUR, INSERT)]
+    ours = area(*bodies, motion, unit=unit).table()
+    theirs = area(FEMUR, INSERT, motion).table()
     names = ["area_fixed [mm^2]", "area_moving [mm^2]"]
     assert ours[names].to_numpy() == pytest.approx(theirs[names].to_numpy(), rel=1e-4)
 
 
 @pytest.mark.parametrize(("true", "said"), [("m", "mm"), ("mm", "m"), ("m", "cm"), ("cm", "m")])
 def test_an_absurd_unit_is_refused_with_the_likely_one(tmp_path: Path, true: str, said: str) -> None:
-    bodies = {"moving": rewritten(tmp_path, FEMUR, true), "fixed": rewritten(tmp_path, INSERT, true)}
-    result = area(tmp_path / "out", **bodies, motion=gait(tmp_path), unit=said)
-    assert result.code == 2
-    (line,) = result.complaints
+    bodies = [rewritten(tmp_path, mesh, true) for mesh in (FEMUR, INSERT)]
+    with pytest.raises(InputError) as refused:
+        area(*bodies, gait(tmp_path), unit=said)
+    line = str(refused.value)
     likely = {"m": "m", "mm": "mm", "cm": "mm"}[true]  # a 7 x 6 x 6 of cm could be mm as well
     assert FEMUR.name in line and "bounding box" in line
-    assert f"{WORDS[likely]}, pass --unit {likely}" in line or f"{WORDS[true]}, pass --unit {true}" in line
-    assert not (tmp_path / "out").exists()
+    assert any(f"{WORDS[unit]}, pass `unit` {unit}" in line for unit in (likely, true))

@@ -1,0 +1,157 @@
+"""The options of an area analysis: as they are typed, as Python gives them, and what is refused."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.area.options import AreaOptions, PressureOptions
+from geocontact.analyses.options import declared
+from geocontact.cli.command import option, read
+from geocontact.data.errors import InputError
+
+TESTS = Path(__file__).parents[2]
+BODIES: dict[str, Any] = {"moving": Path("a.stl"), "fixed": Path("b.stl"), "unit": "mm"}
+MOTION: dict[str, Any] = {"motion": ("gait.csv",)}
+SWEEP: dict[str, Any] = {"sweep": ("flexion", 0.0, 1.0, 0.1)}
+LAYER: dict[str, Any] = {"pressure": True, "modulus": gc.MPa(500), "poisson": 0.46}
+OPTIONS = {one.name: one for one in declared(AreaOptions)}
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [
+        *(("threshold", text, (4e-3,)) for text in ("4", "4mm", "0.4cm", "0.004 m", " 4 ")),
+        ("threshold", "4,0.1mm", (4e-3, 1e-4)),
+        *(("bounds", text, 0.02) for text in ("0.02", "2%", "2 %")),
+        ("tolerance", "10%", 0.1),
+        ("sweep", "flexion=0:90:5", ("flexion", 0.0, gc.deg(90), gc.deg(5))),
+        ("sweep", "a=0:2", ("a", 0.0, gc.deg(2), gc.deg(1))),
+        ("adduction", "x=-2", ("x", gc.deg(-2))),
+        ("modulus", "0.5 GPa", 5e8),
+        ("piece", "1", 1e-3),
+        *(("thickness", text, value) for text, value in ((" rays ", "rays"), ("8mm", 8e-3), ("3", 3e-3))),
+    ],
+)
+def test_what_is_typed_becomes_si(name: str, text: str, value: object) -> None:
+    found = read(OPTIONS[name], text)
+    if isinstance(value, tuple) and isinstance(value[0], str):
+        assert (found[0], found[1:]) == (value[0], pytest.approx(value[1:], rel=1e-15))
+    else:
+        assert found == (value if isinstance(value, str) else pytest.approx(value, rel=1e-15))
+
+
+REFUSED: dict[str, tuple[dict[str, Any], str]] = {
+    "no motion": ({}, "`motion`: give either `motion` or `sweep`; exactly one of them is needed"),
+    "two motions": (MOTION | SWEEP, "`motion`: give either `motion` or `sweep`; exactly one of them is needed"),
+    "order of a sweep": (
+        SWEEP | {"order": "XYZ"},
+        "`order`: has no effect with `sweep`, which reads no motion file; leave it out",
+    ),
+    "order of a joint": (
+        MOTION | {"order": "XYZ", "osim": Path("knee.osim")},
+        "`order`: has no effect with `osim`: the joint gives the order; leave it out",
+    ),
+    "map of a joint": (
+        MOTION | {"map": "rx=a", "osim": Path("knee.osim")},
+        "`map`: with `osim` names the columns twice; give one",
+    ),
+    "side without a convention": (
+        MOTION | {"side": "left"},
+        "`side`: has no effect without `convention`; give `convention`",
+    ),
+    "convention without a side": (
+        MOTION | {"convention": "grood-suntay"},
+        "`side`: is missing with `convention`; give right or left",
+    ),
+    "moving body of poses": (
+        MOTION | {"moving_body": "parent"},
+        "`moving_body`: parent needs a joint or a knee convention; swap the two meshes, or give `osim` and `joint`",
+    ),
+    "axis without a sweep": (
+        MOTION | {"axis": "0,0,0,0,0,1"},
+        "`axis`: has no effect without `sweep`; give `sweep`",
+    ),
+    "tolerance of nothing": (
+        MOTION | {"tolerance": 0.1},
+        "`tolerance`: has no effect without `compare`; give your measured areas too, or leave it out",
+    ),
+    "modulus without pressures": (
+        MOTION | {"modulus": 1e6},
+        "`modulus`: has no effect without `pressure`; give `pressure`",
+    ),
+    "pressures without a modulus": (
+        MOTION | {"pressure": True, "poisson": 0.3},
+        "`modulus`: is missing with `pressure`; give for example 500MPa",
+    ),
+    "second layer without pressures": (
+        MOTION | LAYER | {"thickness_moving": 1e-3},
+        "`thickness_moving`: has no effect without `modulus_moving`; give `modulus_moving`",
+    ),
+    "no threads": (MOTION | {"workers": 0}, "`workers`: 0 is less than one thread; give 1 or more"),
+    "threshold negative": (
+        MOTION | {"threshold": (-1e-3,)},
+        "`threshold`: (-0.001,) is not a distance of 0 or more; give for example 4 mm",
+    ),
+    "threshold nan": (
+        MOTION | {"threshold": (math.nan,)},
+        "`threshold`: (nan,) is not a distance of 0 or more; give for example 4 mm",
+    ),
+    "no threshold": (
+        MOTION | {"threshold": ()},
+        "`threshold`: () is not a distance of 0 or more; give for example 4 mm",
+    ),
+    "threshold twice": (
+        MOTION | {"threshold": (1e-3, 1e-3)},
+        "`threshold`: (0.001, 0.001) names a threshold twice; give each once",
+    ),
+    "bounds of zero": (MOTION | {"bounds": 0.0}, "`bounds`: 0 is not a positive number; give more than 0"),
+    "modulus infinite": (
+        MOTION | LAYER | {"modulus": math.inf},
+        "`modulus`: inf is not a positive pressure; give more than 0",
+    ),
+    "thickness of zero": (
+        MOTION | LAYER | {"thickness": 0.0},
+        "`thickness`: 0 is not a positive length; give more than 0",
+    ),
+    "Poisson's ratio of rubber": (
+        MOTION | LAYER | {"poisson": 0.5},
+        "`poisson`: 0.5 is not from 0 to below 0.5; give for example 0.46",
+    ),
+    "adduction about no axis": (
+        MOTION | {"adduction": ("w", 0.0)},
+        "`adduction`: ('w', 0.0) is no small turn about x, y or z; give an axis and at most 45 degrees",
+    ),
+    "adduction of a right angle": (
+        MOTION | {"adduction": ("x", 1.5)},
+        "`adduction`: ('x', 1.5) is no small turn about x, y or z; give an axis and at most 45 degrees",
+    ),
+}
+
+
+@pytest.mark.parametrize(("given", "said"), REFUSED.values(), ids=REFUSED.keys())
+def test_what_cannot_be_or_has_no_effect_is_refused_in_python_words(given: dict[str, Any], said: str) -> None:
+    """Before any file is read: there are none of these."""
+    with pytest.raises(InputError) as refused:
+        AreaOptions(**BODIES, **given)
+    assert str(refused.value) == said
+
+
+def test_a_sound_call_is_not_refused() -> None:
+    rays = {"thickness": "rays", "modulus_moving": 1e9, "poisson_moving": 0.0, "thickness_moving": 3e-3}
+    given = AreaOptions(**BODIES, **MOTION, **LAYER, **rays, adduction=("x", gc.deg(45)), threshold=(0.0,))
+    assert given.in_si()["modulus [Pa]"] == 5e8 and given.in_si()["thickness [m]"] == "rays"
+    assert PressureOptions(**BODIES, **MOTION, modulus=1e6, poisson=0.3).pressure is True
+
+
+def test_every_option_is_tried_in_some_test() -> None:
+    """A new option is named in these tests or those of the command line, or this fails."""
+    here = (TESTS / "analyses/area", TESTS / "cli")
+    texts = "".join(file.read_text(encoding="utf-8") for folder in here for file in folder.glob("*.py"))
+    for name, one in OPTIONS.items():
+        if not one.positional:
+            assert any(word in texts for word in (f"{name}=", f'"{name}":', f'"--{option(one)}"')), name
