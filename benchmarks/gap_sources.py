@@ -57,7 +57,7 @@ def effects_of(source: str) -> tuple[str, ...]:
     return tuple(name for name in known_to(source) if name not in hidden)
 
 
-def has_swallowed(source: str) -> bool:
+def has_confounded(source: str) -> bool:
     """Whether it has cases of effects that base parameters swallow."""
     return not is_folder(source)
 

@@ -31,7 +31,7 @@ def write_gap_case(
     Parameters
     ----------
     case
-        SI units; every channel's unit must be told.
+        SI units; every channel's unit must be given.
     folder
         Made if it is not there.
     units
