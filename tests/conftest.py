@@ -40,6 +40,16 @@ def checked_modules() -> Iterator[str]:
 install_import_hook(list(checked_modules()), "beartype.beartype")
 
 
+@pytest.fixture(scope="session", autouse=True)
+def unhurried() -> Iterator[None]:
+    """Kernels are loaded without a word, which depends on the machine; test_process.py asks for the word."""
+    from geocontact.cli import show
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(show, "SILENCE", 3600.0)
+        yield
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark what lies below tests/real, and what asks for the library opensim; files that are slow come first.
 

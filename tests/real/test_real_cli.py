@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import igl
@@ -12,7 +11,6 @@ import pytest
 import trimesh
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.cli import show
 from geocontact.io.motion.poses import motion_from_joint
 from geocontact.io.opensim.osim import read_joint
 from geocontact.io.text.tables import read_table
@@ -21,14 +19,6 @@ from tests.cli.calls import Call, area, done, written
 WORKSHOP = "gc4_jw_predsim_workshop"
 DM_MAP = "rx=knee_flex_r,ry=knee_add_r,rz=knee_rot_r,tx=knee_ant_r,ty=knee_sup_r,tz=knee_lat_r"
 FIXED, MOVING, GAP = "area_fixed [mm^2]", "area_moving [mm^2]", "min_distance [mm]"
-
-
-@pytest.fixture(scope="module", autouse=True)
-def unhurried() -> Iterator[None]:
-    """No word about compiling, which depends on the machine and its load."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(show, "SILENCE", 3600.0)
-        yield
 
 
 def dm(data_dir: Path, out: Path, kind: str, *options: object) -> Call:
