@@ -10,12 +10,12 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import CellsHeld, ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
-from geocontact.data.gap_case import GapCase
-from geocontact.data.gap_cell import Cell
-from geocontact.data.held_out import HeldOut
-from geocontact.data.ranked import Ranked
-from geocontact.data.surface_gap import SurfaceGap
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.cell import Cell
+from geocontact.data.gap.diagnosis import CellsHeld, ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
+from geocontact.data.gap.held_out import HeldOut
+from geocontact.data.gap.ranked import Ranked
+from geocontact.data.gap.surface_gap import SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted

@@ -17,7 +17,7 @@ import numpy as np
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.case.problem import Plain, Problem
 from geocontact.gap.case.refit import derivatives

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import FAR, System
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap.case.refit import NO_VALUE, Measured, Refit, at, free, refit
 from geocontact.gap.case.whitening import Share, Whitening, layouts_of, sensitivity, usual_levels, varies_by
 from geocontact.gap.inputs.denoise import Filters, Left, denoised, highest_noise, left, seen_noise, shaken

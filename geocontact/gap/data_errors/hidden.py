@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap.case.problem import Problem, base_starts, problem_of
 from geocontact.gap.case.refit import Measured, Refit, Whiten, refit
 from geocontact.gap.data_errors.correction import corrected

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
-from geocontact.data.diagnosis import NextExperiment
+from geocontact.data.gap.diagnosis import NextExperiment
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, derivatives

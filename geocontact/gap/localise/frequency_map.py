@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.fft import dct, idct
 
-from geocontact.data.gap_cell import BAND, FAST, FAST_PHASE, Cell, shares
+from geocontact.data.gap.cell import BAND, FAST, FAST_PHASE, Cell, shares
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.selection.evidence import Judged
 

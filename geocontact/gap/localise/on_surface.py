@@ -23,8 +23,8 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.cell_channels import CellChannels
-from geocontact.data.surface_gap import SurfaceGap
+from geocontact.data.gap.cell_channels import CellChannels
+from geocontact.data.gap.surface_gap import SurfaceGap
 from geocontact.data.trial import Trial
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.data_errors.gross import DataError

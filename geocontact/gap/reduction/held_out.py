@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.data.held_out import HeldOut
+from geocontact.data.gap.held_out import HeldOut
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal, get_args
 
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap_benchmark.synthetic.ideal import IdealTrial
 
 Kind = Literal["none", "single", "pair", "outside", "absorbed", "fault", "shift"]
