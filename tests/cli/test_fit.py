@@ -88,6 +88,7 @@ def test_writes_what_python_writes(tmp_path: Path) -> None:
     assert told["profile [rad]"] == list(gc.deg(0, 80, 40)) and told["window [rad]"] == gc.deg(40)
 
 
+@pytest.mark.slow
 def test_fit_json_is_the_axis_of_a_sweep_and_of_a_patch(tmp_path: Path) -> None:
     axis = done(fit(tmp_path / "axis", FEMUR, "cylinder", *KNEE)).folder / "fit.json"
     again = found(done(fit(tmp_path / "o", FEMUR, "cylinder", "--axis", axis, "--region", "outward>0.5")))

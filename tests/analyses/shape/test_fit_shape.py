@@ -106,6 +106,8 @@ def test_radius_by_side_and_by_flexion() -> None:
     table = result.table("profile")
     assert list(result.sides) == list(result.profiles) == ["medial", "lateral"]
     assert list(result.table()["side"]) == ["whole", "medial", "lateral"]
+    for side in result.sides.values():
+        np.testing.assert_array_equal(side.axis, result.fit.axis)
     points, counted = (sum(len(f.quality.residual) for f in fits) for fits in ([result.fit], result.sides.values()))
     assert points <= counted <= points + 200, "points on the plane are on both sides"
     (low, high), q = result.fit.radius_interval or (np.nan, np.nan), result.fit.quality
