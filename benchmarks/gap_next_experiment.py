@@ -54,8 +54,8 @@ def arguments() -> argparse.Namespace:
 
 def asked(options: argparse.Namespace) -> Iterator[tuple[str, str, tuple[str, ...], int]]:
     """Source, effect, pair that is held against each other (none: the diagnosis decides) and place of every case."""
+    from benchmarks.gap_sources import CONFOUNDED, effects_of, has_confounded, known_to
     from benchmarks.gap_sources import NOTHING as BARE
-    from benchmarks.gap_sources import SWALLOWED, effects_of, has_swallowed, known_to
 
     known = {source: list(_pairs(effects_of(source), known_to(source))) for source in options.sources}
     for place in range(options.cases):
@@ -65,8 +65,8 @@ def asked(options: argparse.Namespace) -> Iterator[tuple[str, str, tuple[str, ..
     for place in range(options.others):
         for source in options.sources:
             yield source, BARE, (), options.cases + 2 * place
-            if has_swallowed(source):
-                yield source, SWALLOWED, (), options.cases + 2 * place + 1
+            if has_confounded(source):
+                yield source, CONFOUNDED, (), options.cases + 2 * place + 1
 
 
 def _pairs(effects: Sequence[str], known: Sequence[str]) -> Iterator[tuple[tuple[str, str], tuple[str, ...]]]:
@@ -127,10 +127,7 @@ def in_question(case: Any, system: Any, pair: tuple[str, ...]) -> Any:
     near = [c for c in ranked if c.judged.nats > ranked[0].judged.nats + np.log(ALIVE)]
     names = tuple(dict.fromkeys(name for c in near for name in c.names))
     said = Answer("explained", names[:1], {}, names, ranked[0])
-    return Attribution(
-        problem=problem, data_error=None, clean=problem, base=base, contenders=tuple(ranked), remaining={}, odd=(), flat=(),
-        answer=said,
-    )  # fmt: skip
+    return Attribution(problem, None, problem, base, tuple(ranked), remaining={}, odd=(), flat=(), answer=said)
 
 
 def separated(found: Any, chosen: Any, rng: np.random.Generator, repeats: int) -> tuple[float, float]:
@@ -143,14 +140,14 @@ def separated(found: Any, chosen: Any, rng: np.random.Generator, repeats: int) -
     stage, moved = chosen.experiment.staged, chosen.experiment.trial
     outcomes: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for true in {id(pair.true): pair.true for pair in chosen.pairs}.values():
-        imitators = [pair.imitator for pair in chosen.pairs if pair.true is true]
+        confounders = [pair.confounder for pair in chosen.pairs if pair.true is true]
         for _ in range(repeats):
             values = dict(true.values)
             recorded = [trial_of(problem, noise, t, true.system, values, rng) for t in old]
             fresh = [trial_of(problem, noise, moved, true.system, values, rng, stage) for _ in range(TRIALS)]
             seen = Seen.of(problem, chosen.lead, recorded, fresh, stage)
             own = seen.costs(true)
-            for other in imitators:
+            for other in confounders:
                 wrong = seen.costs(other)
                 gap = (wrong[0] - own[0], wrong[1] - own[1])
                 outcomes.setdefault((true.name, other.name), []).append(gap)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap.identifiability.signatures import at_nats
 
 NOTHING, CONFOUNDED = "none", "absorbed"
@@ -57,7 +57,7 @@ def effects_of(source: str) -> tuple[str, ...]:
     return tuple(name for name in known_to(source) if name not in hidden)
 
 
-def has_swallowed(source: str) -> bool:
+def has_confounded(source: str) -> bool:
     """Whether it has cases of effects that base parameters swallow."""
     return not is_folder(source)
 

@@ -12,7 +12,7 @@ from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.identify.noise.autoregressive import AutoregressiveNoise, noise_of
 from geocontact.identify.signals.angle_bins import AngleBins, Cells, angle_bins, edges_over
 
-CHUNK = 0.05  # s, over which a residual is averaged before its memory is told
+CHUNK = 0.05  # s, over which a residual is averaged before its correlation time is estimated
 MEMORIES = 10.0  # correlation times in a stretch: a tenth of the variance is lost across their ends
 SHORTEST, FEWEST = 1.0, 6  # s of a stretch, and stretches in a trial
 BETA, FORCE, RATE, PRESSURE, DISPLACEMENT = range(5)

@@ -223,7 +223,7 @@ def sensitivities(task: DesignTask, x: float, y: float) -> list[Sensitivity]:
     at, peak = where[int(np.argmax(forces))], float(forces.max())
     fine = grid(task.start, task.stop, FINE)
 
-    def told(changed: dict[str, float]) -> tuple[float, float]:
+    def evaluated(changed: dict[str, float]) -> tuple[float, float]:
         return float(np.abs(_force(task, changed, np.array([at])))[0]), _rms(_force(task, changed, fine))
 
     if peak <= NOTHING * task.length * c.stiffness:
@@ -232,7 +232,7 @@ def sensitivities(task: DesignTask, x: float, y: float) -> list[Sensitivity]:
     found = []
     for name, value in values.items():
         step = CHANGE * (value if name == "k" else max(abs(value), 1e-2 * task.length))
-        above, below = (told({**values, name: value + side * step}) for side in (1.0, -1.0))
+        above, below = (evaluated({**values, name: value + side * step}) for side in (1.0, -1.0))
         slopes = [(one - other) / (2.0 * step) for one, other in zip(above, below, strict=True)]
         share = [slope * value / of for slope, of in zip(slopes, (peak, rms), strict=True)]
         found.append(Sensitivity(name, value, *slopes, *share))

@@ -75,9 +75,9 @@ def displacement_scale(
 ) -> DisplacementScale | None:
     """The scale by the mean displacement of some free trials; None where it has no standard error.
 
-    That is told by how each trial's displacement runs over the mean of all, which takes two trials that differ, each
-    with three bins over which the joint slides; `width` is that of a bin [rad]. Where a rotary joint of the device was
-    free too (`rotary_free`), the displacement is d_lin.
+    That is estimated from how each trial's displacement runs over the mean of all, which takes two trials that differ,
+    each with three bins over which the joint slides; `width` is that of a bin [rad]. Where a rotary joint of the device
+    was free too (`rotary_free`), the displacement is d_lin.
     """
     found = [slope_over(each.beta, each.joint, stroke, width) for each in trials]
     slopes = np.array([slope for slope, bins in found if bins >= FEWEST])

@@ -52,7 +52,7 @@ class Design:
         Its correlation time [s]. Assumed; the paper has none.
     donning
         Standard deviation of the offsets x and y from trial to trial [m]. Assumed: the device was put on before each
-        task (sec. III.B), by how much it moved is not told.
+        task (sec. III.B), by how much it moved is not reported.
     bits
         Of the converter, 0 for none; sec. III.C.
     pressures

@@ -62,7 +62,8 @@ class Direction:
     singular_values
         Of the derivatives with respect to their logarithms, largest first [N].
     least
-        Unit vector of the direction told least; where it is (-1, 1, 1, 1, 1)/sqrt(5) in k, x, y, l, z it is the scale.
+        Unit vector of the direction identified least; where it is (-1, 1, 1, 1, 1)/sqrt(5) in k, x, y, l, z it is the
+        scale.
     """
 
     names: tuple[str, ...]
@@ -71,7 +72,7 @@ class Direction:
 
     @property
     def flat(self) -> bool:
-        """Whether nothing is told in that direction."""
+        """Whether nothing is identified in that direction."""
         return bool(self.singular_values[-1] <= FLAT * self.singular_values[0])
 
 
@@ -181,7 +182,7 @@ def _scores(data: Binned, e: ElbowFit) -> tuple[Float[np.ndarray, "g p"], int]:
 
 
 def direction(e: ElbowFit, names: tuple[str, ...] = SCALED) -> Direction:
-    """Singular values and the direction told least, of numbers that need not be free, in their logarithms.
+    """Singular values and the direction identified least, of numbers that need not be free, in their logarithms.
 
     Numbers that are 0 are left out: they have no logarithm, and no factor changes them.
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from geocontact.chain.candidate import Candidate, Stage
 from geocontact.chain.contact_sites import placed
 from geocontact.chain.system import System
-from geocontact.data.gap_case import LISTED_SYSTEMS
+from geocontact.data.gap.case import LISTED_SYSTEMS
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap.case.problem import Problem, problem_of
 from geocontact.gap.data_errors.correction import corrected
 from geocontact.gap.data_errors.gross import DataError, data_error_of, recognised
@@ -26,11 +26,11 @@ LEADING = 3  # contenders under whose noise everyone is compared
 WORTH_A_PAIR = 8.0  # nats that a single must gain before a second effect is looked for
 WORTH_UNDOING = 12.0  # nats that a mistake may be behind for its noise to be looked at where it is undone
 CLIPPED = "saturation"  # what a flat top speaks for
-ODD = 5.0  # nats from which an oddity counts as something unknown
+ODD = 5.0  # nats from which an anomaly counts as something unknown
 
 Offer = Callable[[System], Sequence[Candidate]]
 Listener = Callable[[str], None]
-"""Is told what is being done, as each stage of a diagnosis begins."""
+"""Is called with what is being done, as each stage of a diagnosis begins."""
 
 
 def nobody(_: str) -> None:
@@ -54,7 +54,7 @@ class Attribution:
     contenders
         Models with effects, those with one first.
     remaining
-        What the stand-in for anything unknown finds on the base ("none") and on the best contender, by label.
+        What the surrogate for anything unknown finds on the base ("none") and on the best contender, by label.
     odd
         What is odd about the residual of the leader.
     flat
@@ -134,7 +134,7 @@ def _attributed(
 
 
 def _believed(problem: Problem, found: Surrogate) -> float:
-    """What a stand-in gains, as far as the calibration trials bear it out, its choice paid for [nats]."""
+    """What a surrogate gains, as far as the calibration trials bear it out, its choice paid for [nats]."""
     return borne_out(found.gain, found.calibration, calibration_share(problem, found.predicted)) - found.price
 
 
@@ -163,8 +163,10 @@ def _with_clipped(
 
 def _credited(contenders: Sequence[Contender], flat: Sequence[ClippedChannel]) -> list[Contender]:
     """What a flat top tells counts for the saturation of its channel; best first."""
-    told = {one.channel: one.nats for one in flat}
-    beside = [sum((told.get(one.channel, 0.0) for one in c.candidates if one.name == CLIPPED), 0.0) for c in contenders]
+    by_channel = {one.channel: one.nats for one in flat}
+    beside = [
+        sum((by_channel.get(one.channel, 0.0) for one in c.candidates if one.name == CLIPPED), 0.0) for c in contenders
+    ]
     found = [replace(c, beside=nats) for c, nats in zip(contenders, beside, strict=True)]
     return sorted(found, key=lambda c: -c.nats)
 

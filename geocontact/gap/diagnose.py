@@ -10,12 +10,12 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import CellsHeld, ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
-from geocontact.data.gap_case import GapCase
-from geocontact.data.gap_cell import Cell
-from geocontact.data.held_out import HeldOut
-from geocontact.data.ranked import Ranked
-from geocontact.data.surface_gap import SurfaceGap
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.cell import Cell
+from geocontact.data.gap.diagnosis import CellsHeld, ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
+from geocontact.data.gap.held_out import HeldOut
+from geocontact.data.gap.ranked import Ranked
+from geocontact.data.gap.surface_gap import SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted
@@ -75,7 +75,7 @@ def diagnose(case: GapCase, system: System, version: str = "", at: Listener = no
     version
         Of the package, for the record.
     at
-        Is told in words what is being done, as each stage begins: for progress.
+        Is called in words with what is being done, as each stage begins: for progress.
     """
     with threadpool_limits(limits=1):  # matrices are small: threads would only wait for each other
         return _diagnosed(case, system, version, at)
@@ -171,7 +171,7 @@ def estimates(judged: Judged) -> dict[str, Estimate]:
     """Every free parameter with its interval, from the curvature of the evidence over all trials' weights.
 
     Intervals are those of the calibration trials: held-out rows are left out of the curvature. Curvature tells nothing
-    of a parameter that ended on a bound: it gets the whole of what is physical, and is not called told.
+    of a parameter that ended on a bound: it gets the whole of what is physical, and is not called identified.
     """
     system, values = judged.model.system, judged.model.values
     spread = prior_spread(system, values)
@@ -182,8 +182,8 @@ def estimates(judged: Judged) -> dict[str, Estimate]:
     for k, p in enumerate(free(system)):
         sd = float(np.sqrt(covariance[k, k])) if not held[k] else np.inf
         low, high = (min(max(values[p.name] + s * Z95 * sd, p.lower), p.upper) for s in (-1.0, 1.0))
-        told = not held[k] and sd < TOLD * spread[k]
-        found[p.name] = Estimate(values[p.name], (low, high), p.unit, bool(told))
+        identified = not held[k] and sd < TOLD * spread[k]
+        found[p.name] = Estimate(values[p.name], (low, high), p.unit, bool(identified))
     return found
 
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.case.problem import Plain, Problem
 from geocontact.gap.case.refit import derivatives
@@ -41,7 +41,7 @@ class Injected:
     values
         Of the effect's parameters, SI.
     size
-        Root mean square of the gap that no base parameter imitates, calibration trials, each channel in units of its
+        Root mean square of the gap that no base parameter reproduces, calibration trials, each channel in units of its
         floor; NaN for a mistake in the data.
     """
 
@@ -86,7 +86,7 @@ def inject(
 
 
 def visible(problem: Problem, changed: System, values: Mapping[str, float]) -> float:
-    """`Injected.size` of the base model changed so, to first order in what base parameters can imitate."""
+    """`Injected.size` of the base model changed so, to first order in what base parameters can reproduce."""
     measured, base = problem.calibration, problem.plain.values
     whiten = [Plain(there, problem.floor) for there in measured.present]
     before = measured.residuals(problem.system, base)

@@ -6,7 +6,7 @@ the wrong side, an error of the signed distance of 1e-8 m on an implant.
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int8
@@ -17,61 +17,16 @@ from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
 from geocontact.geometry.kernels.binary import Binary
 from geocontact.geometry.kernels.self_intersection import pierced
 
+Body = Any
+"""A `geometry.surface.Surface`, which is made of what is found here."""
+
 UNDECIDED = 0.2  # |w - 0.5| below which a winding number gives no side
 SINGLE = 1e-6  # share of the body's size that single precision resolves for certain
 WITNESSES = 5  # faces that speak for a patch
 PROBES = 2000  # points at which normals are compared with winding numbers before they are trusted
 
 
-class Closed(Protocol):
-    """What is asked of a surface here: `geometry.surface.Surface` has it."""
-
-    @property
-    def vertices(self) -> Float[np.ndarray, "n 3"]:
-        """Corners of the faces [m]."""
-
-    @property
-    def faces(self) -> Int[np.ndarray, "m 3"]:
-        """Rows of `vertices`."""
-
-    @property
-    def corners(self) -> Float[np.ndarray, "m 3 3"]:
-        """Of every face, about the surface's centre [m]."""
-
-    @property
-    def face_area(self) -> Float[np.ndarray, " m"]:
-        """[m^2]."""
-
-    @property
-    def face_normal(self) -> Float[np.ndarray, "m 3"]:
-        """Outwards."""
-
-    @property
-    def topology(self) -> Any:
-        """How faces hang together."""
-
-    @property
-    def winding(self) -> Any:
-        """Gives winding numbers."""
-
-    @property
-    def tree(self) -> Any:
-        """Of the faces, for distances."""
-
-    @property
-    def closed(self) -> bool:
-        """Whether there is an inside."""
-
-    @property
-    def inside_out(self) -> bool:
-        """Whether faces point inwards."""
-
-    @property
-    def normals_trusted(self) -> bool:
-        """Whether sides may be read from normals."""
-
-
-def doubtful_faces(surface: Closed, binary: Binary) -> Bool[np.ndarray, " m"]:
+def doubtful_faces(surface: Body, binary: Binary) -> Bool[np.ndarray, " m"]:
     """Faces whose normals would misplace points: those at a self-intersection, and patches that are no boundary.
 
     Self-intersections cut a surface into patches. On either side of a patch the winding number is constant; where it is
@@ -101,7 +56,7 @@ def _patches(faces: Int[np.ndarray, "k 3"], count: int) -> Int[np.ndarray, " k"]
     return np.asarray(np.unique(label[faces[:, 0]], return_inverse=True)[1])
 
 
-def _is_boundary(surface: Closed, members: Int[np.ndarray, " k"]) -> bool:
+def _is_boundary(surface: Body, members: Int[np.ndarray, " k"]) -> bool:
     """Whether most of the largest faces of a patch have the outside in front and the inside behind."""
     largest = members[np.argsort(-surface.face_area[members], kind="stable")[:WITNESSES]]
     middle = surface.corners[largest].mean(axis=1)
@@ -110,7 +65,7 @@ def _is_boundary(surface: Closed, members: Int[np.ndarray, " k"]) -> bool:
     return bool(2 * np.count_nonzero((front == 1) & (back == -1)) > len(largest))
 
 
-def winding_signs(surface: Closed, local: Float[np.ndarray, "n 3"]) -> Int8[np.ndarray, " n"]:
+def winding_signs(surface: Body, local: Float[np.ndarray, "n 3"]) -> Int8[np.ndarray, " n"]:
     """Side of each point (about the surface's centre) by winding number: 1 outside, -1 inside, 0 undecided."""
     if len(local) == 0:
         return np.zeros(0, np.int8)
@@ -122,7 +77,7 @@ def winding_signs(surface: Closed, local: Float[np.ndarray, "n 3"]) -> Int8[np.n
     return side
 
 
-def normals_agree(surface: Closed) -> bool:
+def normals_agree(surface: Body) -> bool:
     """Whether sides from normals agree with winding numbers at probes close to the faces and around the body.
 
     They do on a sound closed body; they do not where components overlap or a patch is turned over.
@@ -130,7 +85,7 @@ def normals_agree(surface: Closed) -> bool:
     return disagreement(surface) == 0.0
 
 
-def disagreement(surface: Closed) -> float:
+def disagreement(surface: Body) -> float:
     """Share of probes where the side by normals differs from the side by winding number, 0 for a sound closed body."""
     rng = np.random.default_rng(0)
     some = rng.permutation(len(surface.faces))[: PROBES // 4]
@@ -148,7 +103,7 @@ def disagreement(surface: Closed) -> float:
 
 
 def resolve_inside_outside(
-    surface: Closed, local: Float[np.ndarray, "n 3"], side: Int8[np.ndarray, " n"], distance: Float[np.ndarray, " n"]
+    surface: Body, local: Float[np.ndarray, "n 3"], side: Int8[np.ndarray, " n"], distance: Float[np.ndarray, " n"]
 ) -> tuple[Int8[np.ndarray, " n"], int]:
     """Sides with doubts settled by winding number, and how many points off the surface stayed undecided.
 

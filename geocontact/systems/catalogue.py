@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.chain.system import System
-from geocontact.data.gap_case import COMMAND, GapCase
+from geocontact.data.gap.case import COMMAND, GapCase
 from geocontact.systems.base import Base
 from geocontact.systems.elbow.model import ELBOW
 from geocontact.systems.external.program import program_system

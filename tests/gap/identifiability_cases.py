@@ -10,8 +10,8 @@ import numpy as np
 from scipy.stats import ncx2
 
 from geocontact.chain.candidate import Candidate
-from geocontact.data.diagnosis import NextExperiment
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.diagnosis import NextExperiment
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
@@ -83,7 +83,7 @@ def lag_against_delay(times: float) -> tuple[float, float]:
     ground, known = stood(quickened(elbow_case(seed=1, duration=16.0 * times), times))
     late = sized(ground, known["time_shift"], {"time_shift.delay": LAG})
     slow = sized(ground, known["filter_lag"], {"filter_lag.lag": LAG, "filter_lag.order": 1.0})
-    found = {(each.true, each.imitator): each.nats for each in separations(ground, [late, slow])}
+    found = {(each.true, each.confounder): each.nats for each in separations(ground, [late, slow])}
     return found["time_shift", "filter_lag"], found["filter_lag", "time_shift"]
 
 
@@ -92,7 +92,7 @@ def same_things() -> tuple[dict[tuple[str, str], float], tuple[tuple[str, ...], 
     ground, known = stood(thigh_case())
     wanted = [c for c in known.values() if c.name in ("preload", "motion_offset", "sensor_offset", "damping")]
     found = separations(ground, [at_nats(ground, one, 50.0) for one in wanted])
-    return {(each.true, each.imitator): each.nats for each in found}, classes(found)
+    return {(each.true, each.confounder): each.nats for each in found}, classes(found)
 
 
 def straight_and_refitted() -> list[tuple[str, str, float, float]]:
@@ -162,11 +162,11 @@ def proposed(effects: Mapping[str, float] | None, times: float = TELLS) -> NextE
     base = base_contender(problem)
     known = candidates(problem.system)
     if effects:
-        rivals = singles(problem, base, [one for one in known if one.name in ("time_shift", "filter_lag")])
-        said = Answer("explained", ("time_shift",), {}, ("time_shift", "filter_lag"), rivals[0])
+        competitors = singles(problem, base, [one for one in known if one.name in ("time_shift", "filter_lag")])
+        said = Answer("explained", ("time_shift",), {}, ("time_shift", "filter_lag"), competitors[0])
     else:
-        rivals, said = [], Answer("no_gap", (), {}, (), base)
-    found = Attribution(problem, None, problem, base, tuple(rivals), {}, (), (), said)
+        competitors, said = [], Answer("no_gap", (), {}, (), base)
+    found = Attribution(problem, None, problem, base, tuple(competitors), {}, (), (), said)
     names = [each.name for each in non_identifiable(problem, known, ())]
     with patch("geocontact.gap.experiment.proposal.TELLS", times):
         return next_experiment(found, first_of(known, names))

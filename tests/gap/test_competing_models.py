@@ -33,7 +33,7 @@ def truth(system: System, times: float) -> tuple[Measured, Measured]:
     return first, second
 
 
-def imitator(system: System, known: Measured) -> Hypothesis:
+def confounder(system: System, known: Measured) -> Hypothesis:
     values = dict(system.start)
     return Hypothesis("knee", system, values, known.residuals(system, values), derivatives(system, known, values))
 
@@ -46,7 +46,7 @@ def straight(one: Hypothesis, known: Measured) -> Rows:
 def test_a_straight_imitator_leaves_what_first_order_says() -> None:
     system = wider(example("knee")[0], 8e7)
     old, new = truth(system, 1.3)
-    one = imitator(system, old)
+    one = confounder(system, old)
     recordings = [SimulatedTrials(system, old, [whiten]), SimulatedTrials(system, new, [whiten], 3)]
     expected = straight(one, old).with_(straight(one, new), 3).nats
     assert remaining_nats(one, recordings) == pytest.approx(expected, rel=1e-3)
@@ -58,8 +58,8 @@ def test_bounds_hold_an_imitator_back() -> None:
     system = example("knee")[0]
     held = wider(system, 1.02 * free(system)[0].start)
     old, _ = truth(system, 1.3)
-    plenty = remaining_nats(imitator(wider(system, 8e7), old), [SimulatedTrials(system, old, [whiten])])
-    assert remaining_nats(imitator(held, old), [SimulatedTrials(held, old, [whiten])]) > 2.0 * plenty
+    plenty = remaining_nats(confounder(wider(system, 8e7), old), [SimulatedTrials(system, old, [whiten])])
+    assert remaining_nats(confounder(held, old), [SimulatedTrials(held, old, [whiten])]) > 2.0 * plenty
 
 
 def test_a_bent_imitator_is_followed_beyond_its_first_step() -> None:
@@ -67,7 +67,7 @@ def test_a_bent_imitator_is_followed_beyond_its_first_step() -> None:
     system, trials = example("sit_to_stand")
     known = {name: 1.6 * value for name, value in system.start.items()}
     measured = Measured(tuple(trials), tuple(system.simulate(t, known) for t in trials), np.ones(3))
-    one = imitator(system, measured)
+    one = confounder(system, measured)
     first = sum(0.5 * float((whiten(r[..., None]) ** 2).sum()) for r in measured.residuals(system, one.values))
     left = remaining_nats(one, [SimulatedTrials(system, measured, [whiten] * len(trials))])
     believed = 0.5 * sum(

@@ -8,7 +8,7 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
-from geocontact.gap.inputs.denoise import denoised, left, loudest, seen_noise, shaken
+from geocontact.gap.inputs.denoise import denoised, highest_noise, left, seen_noise, shaken
 from geocontact.gap.inputs.spectrum import switches
 from geocontact.identify.signals.low_pass import LowPass
 
@@ -42,10 +42,10 @@ def test_a_fast_movement_hides_it() -> None:
 def test_no_input_is_noisier_than_the_quietest_band_of_its_spectrum() -> None:
     """Nor is the limit below the noise where the corner is taken for too high by half."""
     slow = [trial(0.004, 0.25, seed)[0] for seed in range(3)]
-    assert 0.004 < loudest(slow, "u", LowPass(6.0, STEP)) < 0.008
-    assert loudest(slow, "u", LowPass(9.0, STEP)) > 0.004
+    assert 0.004 < highest_noise(slow, "u", LowPass(6.0, STEP)) < 0.008
+    assert highest_noise(slow, "u", LowPass(9.0, STEP)) > 0.004
     fast = [trial(0.0001, 2.2, seed)[0] for seed in range(3)]
-    assert 0.0001 < loudest(fast, "u", LowPass(6.0, STEP)) < 0.1
+    assert 0.0001 < highest_noise(fast, "u", LowPass(6.0, STEP)) < 0.1
 
 
 @pytest.mark.parametrize(("count", "samples"), [(1, 50), (1, 100), (3, 50), (5, 200)])
@@ -60,14 +60,14 @@ def test_noise_is_hardly_ever_louder_than_its_limit(count: int, samples: int) ->
             )
             values = 0.004 * raw[100:-100] / raw.std()
             trials.append(Trial("t", Signals(STEP * np.arange(samples), values[:, None], ("u",), ("rad",))))
-        over += loudest(trials, "u", LowPass(6.0, STEP)) < 0.004
+        over += highest_noise(trials, "u", LowPass(6.0, STEP)) < 0.004
     assert over <= 3
 
 
 def test_trials_too_short_for_a_spectrum_set_no_limit() -> None:
     whole = trial(0.004, 0.25, 0)[0]
     few = Trial("t", Signals(whole.time[:20], whole.signals.values[:20], ("u",), ("rad",)))
-    assert loudest([few], "u", LowPass(6.0, STEP)) == np.inf
+    assert highest_noise([few], "u", LowPass(6.0, STEP)) == np.inf
 
 
 @pytest.mark.parametrize("lost", [False, True])

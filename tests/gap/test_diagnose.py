@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from geocontact.analyses.gap.diagnose.words import verdict_sentences
 from geocontact.analyses.gap.words import proposal_words
-from geocontact.data.diagnosis import Diagnosis
+from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.case.problem import Noise, problem_of
 from geocontact.gap.diagnose import diagnose, estimates
 from geocontact.gap.selection.evidence import Judged

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.data.gap_cell import Cell
+from geocontact.data.gap.cell import Cell
 from geocontact.gap.localise.frequency_map import PHASES, _placed, energies
 from geocontact.gap.localise.gap_map import BLOCKS, Window, _least, load_outputs, shortest, systematic
 from geocontact.systems.catalogue import system_of

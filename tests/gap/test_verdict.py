@@ -83,10 +83,10 @@ def test_everyone_is_borne_out_by_what_it_changes_itself() -> None:
 
 
 def test_variants_share_what_is_believed_of_their_effect() -> None:
-    rivals = contender(30.0, "damping"), contender(30.0, "dry_friction.rate")
-    even = said(*rivals).probabilities
+    competitors = contender(30.0, "damping"), contender(30.0, "dry_friction.rate")
+    even = said(*competitors).probabilities
     assert even["damping"] == pytest.approx(even["dry_friction"])
-    odds = said(*rivals, variants={"dry_friction": 2}).probabilities
+    odds = said(*competitors, variants={"dry_friction": 2}).probabilities
     assert odds["damping"] / odds["dry_friction"] == pytest.approx(2.0 ** (1.0 / (1.0 + 30.0 * FORM)), rel=0.01)
 
 
@@ -209,10 +209,10 @@ def test_a_mistake_takes_what_speaks_for_nothing_else() -> None:
 
 
 def test_who_has_no_evidence_is_not_weighed() -> None:
-    rivals = contender(np.nan, "preload"), contender(50.0, "damping"), contender(np.nan, "damping", "preload")
-    held = ranking(contender(0.0), rivals, shares(*rivals), {one.name: 1 for one in OFFERED.values()})
-    assert held.best is rivals[1]
-    assert said(*rivals).effects == ("damping",)
+    competitors = contender(np.nan, "preload"), contender(50.0, "damping"), contender(np.nan, "damping", "preload")
+    held = ranking(contender(0.0), competitors, shares(*competitors), {one.name: 1 for one in OFFERED.values()})
+    assert held.best is competitors[1]
+    assert said(*competitors).effects == ("damping",)
 
 
 @pytest.mark.parametrize("given", [{"rest": np.nan}, {"unnamed": np.nan}, {"strange": np.nan}])

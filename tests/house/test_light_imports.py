@@ -35,8 +35,8 @@ def test_help_is_light(arguments: list[str]) -> None:
 
 def commands() -> list[list[str]]:
     """Words of every command, those of groups included."""
-    from geocontact.cli.elbow import elbow
-    from geocontact.cli.gap import gap
+    from geocontact.cli.elbow.group import elbow
+    from geocontact.cli.gap.group import gap
     from geocontact.cli.main import app
 
     def names(of: App) -> list[str]:

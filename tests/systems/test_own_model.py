@@ -14,7 +14,7 @@ from geocontact.chain.candidate import Candidate
 from geocontact.chain.effect import Effect
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
-from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
+from geocontact.data.gap.case import LISTED_SYSTEMS, GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import SimulatorError

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from geocontact.data.diagnosis import NextExperiment
+from geocontact.data.gap.diagnosis import NextExperiment
 
 
 def names(some: Sequence[str], last: str = "and") -> str:

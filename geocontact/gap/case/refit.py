@@ -1,4 +1,4 @@
-"""A model refitted to trials, base and effect parameters together, under a given weighing of the residuals."""
+"""A model refitted to trials, base and effect parameters together, under a given whitening of the residuals."""
 
 from __future__ import annotations
 
@@ -225,7 +225,7 @@ class RefitSearch:
 
 
 def at(system: System, measured: Measured, whitenings: Sequence[Whiten] | None, values: Mapping[str, float]) -> Refit:
-    """A model at given values, nothing fitted; without weighings nothing is whitened either."""
+    """A model at given values, nothing fitted; without whitenings nothing is whitened either."""
     residuals = measured.residuals(system, values)
     model = Refit.bare(system, values, residuals, derivatives(system, measured, values, residuals))
     return model if whitenings is None else model.weighed(whitenings)

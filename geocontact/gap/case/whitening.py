@@ -27,7 +27,7 @@ SHARE_VARIES = 0.04  # of any other parameter
 INPUT_NOISE = 2e-3  # of an input's half-range
 ALIKE, OWN = 0.8, 0.5  # standard deviations of the logarithm of input noise: of a unit, and of one input beyond that
 LOUDER = 2.0  # times what is believed of an input's noise that it may be
-SENSOR_LOUDER = 1.2  # times what was told of a sensor's
+SENSOR_LOUDER = 1.2  # times the stated noise of a sensor
 QUIETEST = 0.1  # of `INPUT_NOISE`, that an input's limit is at the least: resolution, slow errors
 Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 """Of power that is left, by frequency [Hz]."""
@@ -124,7 +124,7 @@ def _bumped(system: System, kind: str, row: int, by: float) -> System:
 
 def usual_levels(
     system: System,
-    told: Mapping[str, float],
+    stated: Mapping[str, float],
     rough: Float[np.ndarray, " c"],
     seen: Mapping[str, float],
     most: Mapping[str, float],
@@ -135,11 +135,11 @@ def usual_levels(
     stands in and is believed less. Quick noise remembers a few samples, slow noise some tenths of a second. Inputs are
     known as well as their spectra show (`seen`), 0.2 % of their half-range at the least unless `most` is less, and
     those of one unit about equally well, since they come from the same markers. A sensor is hardly noisier than
-    `SENSOR_LOUDER` times what was told, an input than `LOUDER` times what is believed, or than `most` (a tenth of the
+    `SENSOR_LOUDER` times what was stated, an input than `LOUDER` times what is believed, or than `most` (a tenth of the
     0.2 % at the least); nothing more is believed of it than that.
     """
-    known = np.array([name in told for name in system.outputs])
-    sd = np.array([told.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
+    known = np.array([name in stated for name in system.outputs])
+    sd = np.array([stated.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
     units = [system.units.get(name, name) for name in system.inputs]
     alike = np.array([[a == b for b in units] for a in units])
     own = np.array([max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs])
@@ -152,11 +152,13 @@ def usual_levels(
     factor[: len(widths), : len(widths)] = np.diag(widths)
     factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
     memory = np.array([2.0 * system.scale.step * sure, SLOW * sure])
-    sensors = SENSOR_LOUDER * np.array([told.get(name, np.inf) for name in system.outputs])
-    loudest = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
-    loudest = np.maximum(loudest, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs])
-    inputs = np.minimum(inputs, loudest)
-    return NoisePriors(NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, loudest)
+    sensors = SENSOR_LOUDER * np.array([stated.get(name, np.inf) for name in system.outputs])
+    highest_noise = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
+    highest_noise = np.maximum(
+        highest_noise, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs]
+    )
+    inputs = np.minimum(inputs, highest_noise)
+    return NoisePriors(NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, highest_noise)
 
 
 def layouts_of(

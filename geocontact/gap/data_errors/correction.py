@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.data_errors.gross import DataError
 

@@ -1,6 +1,6 @@
 """Mistakes in the data that refitted parameters may hide, so that nothing about them is gross.
 
-Base parameters swallow a force that reads 9.8 times too much, a model that is nearly even in an input hardly tells
+Base parameters reproduce a force that reads 9.8 times too much, a model that is nearly even in an input hardly tells
 its sign, and two sides that carry much the same hardly tell that they were exchanged. Such mistakes compete with the
 effects, by evidence, and one that comes near is judged where it is undone.
 """
@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap.case.problem import Problem, base_starts, problem_of
 from geocontact.gap.case.refit import Measured, Refit, Whiten, refit
 from geocontact.gap.data_errors.correction import corrected
@@ -36,7 +36,7 @@ def hidden_mistakes(problem: Problem, base: Judged, candidates: Sequence[Candida
     found = [one for one in mistakes if one.factor != 1.0 and 1.0 / MODEST <= one.factor <= MODEST]
     reversed_ = [one for one in mistakes if one.factor < 0.0 and one.channel in problem.system.inputs]
     exchanged = [one for one in mistakes if not one.channel]
-    whitenings = problem.whitenings(problem.quieter(base.noise), base.model)
+    whitenings = problem.whitenings(problem.with_lower_noise(base.noise), base.model)
     for one in (*reversed_, *exchanged):
         best = _where(problem, one, whitenings)
         found += [] if best is None else [best]

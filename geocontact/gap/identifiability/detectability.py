@@ -8,9 +8,10 @@ first order, what its model gains is
 Q the directions of its own parameters beyond the base's, D their derivatives at this amplitude, S their prior spread:
 half a noncentral chi-square with noncentrality 2 × the visible nats, less Occam's price. Other effects gain on the same
 residual, correlated with it, so chi-squares are drawn together, not looked up. Gains then pass what the verdict makes
-of them (`gap.selection.verdict`: borne out by calibration trials, tolerance of form, `SURE` for the base model), and the effect
-counts as seen where effects together outweigh "none". The seed is the same at every amplitude, so a bisection finds
-the amplitude. Noise levels are taken as known. That something is seen does not say that the right effect is named.
+of them (`gap.selection.verdict`: borne out by calibration trials, tolerance of form, `SURE` for the base model), and
+the effect counts as seen where effects together outweigh "none". The seed is the same at every amplitude, so a
+bisection finds the amplitude. Noise levels are taken as known. That something is seen does not say that the right
+effect is named.
 """
 
 from __future__ import annotations
@@ -93,10 +94,13 @@ def detectabilities(
     step: Callable[[], None] = lambda: None,
 ) -> tuple[Detectability, ...]:
     """Of those asked about, all of which and `candidates` may gain; `step` is called after each."""
-    variants, rivals = Counter(one.name for one in candidates if one.parameters), competitors_of(ground, candidates)
+    variants, competitors = (
+        Counter(one.name for one in candidates if one.parameters),
+        competitors_of(ground, candidates),
+    )
     found = []
     for one in asked:
-        found.append(detectability(ground, one, rivals, variants[one.name]))
+        found.append(detectability(ground, one, competitors, variants[one.name]))
         step()
     return tuple(found)
 
@@ -109,11 +113,11 @@ def competitors_of(ground: BaseState, candidates: Sequence[Candidate]) -> dict[s
 
 
 def detectability(
-    ground: BaseState, candidate: Candidate, rivals: dict[str, list[Gainer]], variants: int
+    ground: BaseState, candidate: Candidate, competitors: dict[str, list[Gainer]], variants: int
 ) -> Detectability:
     """Of one candidate; `rivals` are all that may gain, by label."""
     faint, clear = (at_nats(ground, candidate, nats) for nats in (FAINTEST, CLEAR))
-    others = [each for label, some in rivals.items() if label != candidate.label for each in some]
+    others = [each for label, some in competitors.items() if label != candidate.label for each in some]
 
     def seen(one: Sized) -> float:
         return power(ground, one, others, variants)
@@ -184,7 +188,7 @@ def _independent(gainers: Sequence[Gainer]) -> Float[np.ndarray, "n k"]:
 
 
 def _starting(ground: BaseState, candidate: Candidate, variants: int) -> list[Gainer]:
-    """A rival, at every start that it offers."""
+    """A competing model, at every start that it offers."""
     system = candidate.apply(ground.system)
     return [
         _gainer(ground, candidate, start, ground.moved(system, {**ground.values, **start}), variants, present=False)
@@ -202,7 +206,7 @@ def _gainer(
 ) -> Gainer:
     """A candidate near given values: the first direction is what it does there, the others its shape's.
 
-    Of a rival, `present` false, only the first: what its shape can do besides is in its other starts.
+    Of a competing model, `present` false, only the first: what its shape can do besides is in its other starts.
     """
     parameters = candidate.parameters if present else candidate.parameters[:1]
     slopes = own_slopes(ground, candidate, values, moved)[:, : len(parameters)]

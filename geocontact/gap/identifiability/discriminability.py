@@ -9,8 +9,8 @@ from threadpoolctl import threadpool_limits
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import NextExperiment
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.diagnosis import NextExperiment
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.case.admission import admitted
@@ -32,7 +32,7 @@ class Discriminability:
     found
         The diagnosis that noise and base parameters are taken from.
     ground
-        Base model and weighing of all trials.
+        Base model and whitening of all trials.
     effects
         Every candidate asked about, as visible as asked for, or as its bounds let it be.
     separations, classes
@@ -40,7 +40,8 @@ class Discriminability:
     detectabilities
         From which amplitude on each is seen.
     absorbed
-        Effects, and mistakes in the data, that refitted base parameters swallow, the most completely swallowed first.
+        Effects, and mistakes in the data, that refitted base parameters reproduce, the most completely reproduced
+        first.
     mistakes
         Names of mistakes in the data that would leave a gap in every variant, if made in all calibration trials.
     proposal

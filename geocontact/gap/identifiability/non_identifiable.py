@@ -1,8 +1,8 @@
-"""Effects that these trials would not show, because refitted base parameters imitate them.
+"""Effects that these trials would not show, because refitted base parameters reproduce them.
 
 An effect at the size where a search for it sets out moves the prediction by s (each channel in noise levels); refitting
-the base leaves the part P⊥ s that no base parameter imitates. What is left of the energy, |P⊥ s|²/|s|², is the visible
-share: where it is small the effect makes wrong parameters instead of a gap.
+the base leaves the part P⊥ s that no base parameter reproduces. What is left of the energy, |P⊥ s|²/|s|², is the
+visible share: where it is small the effect makes wrong parameters instead of a gap.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Visibility:
 
     @property
     def absorbed(self) -> bool:
-        """Whether base parameters swallow it."""
+        """Whether base parameters reproduce it."""
         return self.share < VISIBLE and self.nats < UNSEEN
 
 
@@ -43,12 +43,12 @@ NOTHING = Visibility("", np.inf)
 
 
 def non_identifiable(problem: Problem, candidates: Sequence[Candidate], named: Sequence[str]) -> list[Visibility]:
-    """Effects and mistakes that the base parameters swallow, the most completely swallowed first."""
+    """Effects and mistakes that the base parameters reproduce, the most completely reproduced first."""
     return confounded((*visibilities(problem, candidates), *mistakes(problem, candidates)), named)
 
 
 def confounded(seen: Sequence[Visibility], named: Sequence[str]) -> list[Visibility]:
-    """Those of them that base parameters swallow and nobody named, once each, the most completely swallowed first."""
+    """Those of them that base parameters reproduce and nobody named, once each, most completely reproduced first."""
     least: dict[str, Visibility] = {}
     for each in seen:
         if each.absorbed and each.name not in named and each.share < least.get(each.name, NOTHING).share:

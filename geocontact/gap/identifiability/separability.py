@@ -1,10 +1,10 @@
-"""Which effects these trials would tell apart: what is left of one when another, and the base, may imitate it.
+"""Which effects these trials would tell apart: what is left of one when another, and the base, may reproduce it.
 
 Suppose effect e is there at some amplitude and somebody fits effect f instead, base parameters with it. What f cannot
-imitate of e, ½ min |s_e - (s_f(φ) + base)|² in whitened units, are the nats by which e beats f on such trials.
+reproduce of e, ½ min |s_e - (s_f(φ) + base)|² in whitened units, are the nats by which e beats f on such trials.
 To first order that is what the directions of f's parameters at one of its starts leave of s_e; the point that this step
 leads to is simulated, and where it does not keep what it promises a short bounded refit takes its place. Where even a
-straight imitation leaves more than `FAR` nats nothing is simulated; the figure then tells that the two differ, and
+first-order fit leaves more than `FAR` nats nothing is simulated; the figure then tells that the two differ, and
 roughly how much.
 """
 
@@ -36,16 +36,16 @@ class Separation:
 
     Parameters
     ----------
-    true, imitator
-        Labels of the candidates; "none" for the base model alone as imitator.
+    true, confounder
+        Labels of the candidates; "none" for the base model alone as confounder.
     nats
-        What the imitator leaves.
+        What the confounder leaves.
     way
         How that was found.
     """
 
     true: str
-    imitator: str
+    confounder: str
     nats: float
     way: Way
 
@@ -84,11 +84,11 @@ def separations(
     ground: BaseState, effects: Sequence[Sized], step: Callable[[], None] = lambda: None
 ) -> tuple[Separation, ...]:
     """Every effect against the base model and against every other; `step` is called after each effect."""
-    imitators = [base_alone(ground), *(confounder_of(ground, one.candidate) for one in effects)]
+    confounders = [base_alone(ground), *(confounder_of(ground, one.candidate) for one in effects)]
     found = []
     for one in effects:
         target = ground.moved(one.candidate.apply(ground.system), {**ground.values, **one.values})
-        found += [separation(ground, one, target, other) for other in imitators]
+        found += [separation(ground, one, target, other) for other in confounders]
         step()
     return tuple(found)
 
@@ -137,7 +137,8 @@ def refitted(ground: BaseState, one: Sized, other: Confounder, start: Mapping[st
 
 
 def classes(found: Sequence[Separation], least: float = APART) -> tuple[tuple[str, ...], ...]:
-    """Effects that these trials cannot tell apart: within a class each imitates every other to less than `least` nats.
+    """Effects that these trials cannot tell apart: within a class each reproduces every other to less than `least`
+    nats.
 
     Complete linkage; classes of one are left out. The base model is none of them.
     """
@@ -155,10 +156,10 @@ def classes(found: Sequence[Separation], least: float = APART) -> tuple[tuple[st
 
 
 def table(found: Sequence[Separation]) -> tuple[list[str], Float[np.ndarray, "e f"]]:
-    """Labels, and nats: a row per true effect, a column per imitator, the base model's first."""
+    """Labels, and nats: a row per true effect, a column per confounder, the base model's first."""
     labels = list(dict.fromkeys(each.true for each in found))
     columns = [NONE, *labels]
     matrix = np.full((len(labels), len(columns)), np.nan)
     for each in found:
-        matrix[labels.index(each.true), columns.index(each.imitator)] = each.nats
+        matrix[labels.index(each.true), columns.index(each.confounder)] = each.nats
     return labels, matrix

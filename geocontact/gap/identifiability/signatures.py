@@ -1,8 +1,8 @@
 """What an effect does to the predictions of given trials, in units of what noise and trial-to-trial variation hide.
 
 The base model stands at fitted values; an effect of an amplitude moves its prediction by s, whitened as the diagnosis
-whitens residuals (sensor noise, noise of the inputs, deviations of the trials). Refitted base parameters imitate all of
-it but P⊥ s: ½|s|² nats are there, ½|P⊥ s|² are **visible**, the rest is **absorbed**.
+whitens residuals (sensor noise, noise of the inputs, deviations of the trials). Refitted base parameters reproduce all
+of it but P⊥ s: ½|s|² nats are there, ½|P⊥ s|² are **visible**, the rest is **absorbed**.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class BaseState:
         return self.whitened([a - b for a, b in zip(self.before, after, strict=True)])
 
     def left(self, moved: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-        """What refitted base parameters do not imitate of it, to first order."""
+        """What refitted base parameters do not reproduce of it, to first order."""
         return np.asarray(moved - self.base @ (self.base.T @ moved))
 
 
@@ -143,7 +143,7 @@ class Sized:
 
     @property
     def absorbed(self) -> float:
-        """What refitted base parameters imitate [nats]."""
+        """What refitted base parameters reproduce [nats]."""
         return self.whole - self.visible
 
 

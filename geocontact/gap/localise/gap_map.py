@@ -17,7 +17,7 @@ from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
-from geocontact.data.gap_cell import Cell, shares
+from geocontact.data.gap.cell import Cell, shares
 from geocontact.gap.case.problem import Problem, noise_variance
 from geocontact.gap.data_errors.correction import put_back
 from geocontact.gap.data_errors.gross import DataError

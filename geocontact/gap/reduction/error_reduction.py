@@ -1,11 +1,11 @@
 """How far the gap shrinks on trials that were not used once the effect is in the model.
 
 What is asked for is the reduction on fresh trials of the same kind, of which the held-out ones are a few, against the
-model with the effect at its true values. Where these lie is best told by all trials together. The error that stays, a²,
-is what that best fit leaves of each trial and what it bent towards it, with what the fitted noise levels imply counted
-as part of a trial more. The error that goes, g², is how far the base model, fitted to few trials, is from the truth on
-the held-out ones: from the best fit, and what that errs by itself; and what noise of the inputs makes of the one error
-beyond the other, which may be less than nothing. Then
+model with the effect at its true values. Where these lie is best estimated from all trials together. The error that
+stays, a², is what that best fit leaves of each trial and what it bent towards it, with what the fitted noise levels
+imply counted as part of a trial more. The error that goes, g², is how far the base model, fitted to few trials, is from
+the truth on the held-out ones: from the best fit, and what that errs by itself; and what noise of the inputs makes of
+the one error beyond the other, which may be less than nothing. Then
 
     reduction = 1 - rmse_after / rmse_before = 1 - (1 + g²/a²)^(-1/2).
 

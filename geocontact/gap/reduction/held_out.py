@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.data.held_out import HeldOut
+from geocontact.data.gap.held_out import HeldOut
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
 
@@ -15,7 +15,7 @@ def held_out(problem: Problem, errors: RawInputErrors, named: bool) -> tuple[Hel
     Parameters
     ----------
     errors
-        Of base model and answer (`raw_input_errors.errors_as_measured`).
+        Of base model and answer (`raw_input_errors.raw_input_errors`).
     """
     trials = []
     for k in range(len(problem.calibration.trials), len(problem.recorded.trials)):

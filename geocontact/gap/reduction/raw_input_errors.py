@@ -36,7 +36,8 @@ class RawInputErrors:
         The answer at its values, fitted to the calibration trials.
     best
         The answer where all trials together put it (to first order), its effects bent as they may be otherwise than
-        their candidates (`gap.selection.model_discrepancy`): nearest to the truth, not to be reported as an error on trials it was fitted to.
+        their candidates (`gap.selection.model_discrepancy`): nearest to the truth, not to be reported as an error on
+        trials it was fitted to.
     derivatives
         Of the answer's predictions, with respect to its parameters and to how its effects are bent.
     known
@@ -96,7 +97,7 @@ def passed_on(
 
     Per channel, on the held-out trials: what it makes of the square of the base model's error beyond the answer's, less
     the square of the difference of the two. `pair` are the base model and the answer, as they see what was measured:
-    system, values, residuals on those trials. Noise is drawn, as loud as the answer has it, and added to what was
+    system, values, residuals on those trials. Noise is drawn, as high as the answer has it, and added to what was
     recorded (simulation extrapolation: Cook & Stefanski 1994, J. Am. Stat. Assoc. 89:1314). A draw in which a
     simulation fails tells nothing.
     """
@@ -115,8 +116,8 @@ def passed_on(
         product = [2.0 * a * (b - a) for a, b in zip(own, base, strict=True)]
         sums = [np.where(there, each, 0.0).sum(axis=0) for each, there in zip(product, held_out.present, strict=True)]
         found.append(sum(sums) / np.maximum(sum(there.sum(axis=0) for there in held_out.present), 1))
-    told = [each for each in found if np.isfinite(each).all()]
-    return np.asarray(np.mean(told, axis=0) if told else np.zeros(len(problem.system.outputs)))
+    finite = [each for each in found if np.isfinite(each).all()]
+    return np.asarray(np.mean(finite, axis=0) if finite else np.zeros(len(problem.system.outputs)))
 
 
 def observed_variation(clean: Problem, after: Judged) -> Float[np.ndarray, " q"]:
@@ -129,7 +130,7 @@ def observed_variation(clean: Problem, after: Judged) -> Float[np.ndarray, " q"]
 def from_all_trials(
     clean: Problem, after: Judged, varies: np.ndarray
 ) -> tuple[Float[np.ndarray, " p"], Float[np.ndarray, "p p"]]:
-    """How parameters and bends move when the held-out trials tell of them too, and their covariance then.
+    """How parameters and discrepancies move when the held-out trials tell of them too, and their covariance then.
 
     Nothing that is fitted is reported of a trial it was fitted to; this is where the true values are believed to lie.
     Trials vary as much as they are seen to, so that few of them tell less than many samples would.
@@ -145,7 +146,7 @@ def from_all_trials(
 
 
 def directions(one: Judged) -> list[Float[np.ndarray, "_ c k"]]:
-    """Per trial, what is free to move: derivatives with respect to parameters, then bends."""
+    """Per trial, what is free to move: derivatives with respect to parameters, then the discrepancy basis."""
     pairs = zip(one.model.jacobian, one.discrepancy_basis, strict=True)
     return [np.concatenate([jacobian, discrepancy_basis], axis=-1) for jacobian, discrepancy_basis in pairs]
 

@@ -55,7 +55,7 @@ class Judged:
 
     @property
     def loose(self) -> Float[np.ndarray, "n k"]:
-        """Everything that is free to move, in units of its prior spread: parameters, then bends."""
+        """Everything that is free to move, in units of its prior spread: parameters, then the discrepancy basis."""
         spread = prior_spread(self.model.system, self.model.values)
         return np.concatenate([self.model.whitened_jacobian * spread, self.whitened_basis], axis=1)
 

@@ -17,7 +17,7 @@ from geocontact.gap.selection.model_discrepancy import discrepancy_basis
 
 SECOND = 18  # candidates that are fitted again under the noise that suits the best
 FINALISTS = 6
-FORERUNNERS = 3  # leading under quiet noise
+FORERUNNERS = 3  # leading under low noise
 MATE_TRIALS = 6  # second effects that are fitted on top of a first
 PAIRS = 6  # of two effects each that get noise of their own
 ROUNDS, ENOUGH = 4, 0.05  # times that noise and parameters of a leader are fitted in turn; nats from which it goes on
@@ -75,7 +75,7 @@ def finished(problem: Problem, candidates: tuple[Candidate, ...], model: Refit, 
 def settled_in(problem: Problem, one: Contender) -> Contender:
     """A contender after its parameters and its noise have come to terms.
 
-    Each is fitted in turn, the noise to what the bends of the effects leave, until nothing is gained any more.
+    Each is fitted in turn, the noise to what the discrepancies of the effects leave, until nothing is gained any more.
     """
     for _ in range(ROUNDS):
         model = replace(one.judged.model, residuals=without_discrepancy(one.judged))
@@ -89,12 +89,12 @@ def settled_in(problem: Problem, one: Contender) -> Contender:
 def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) -> list[Contender]:
     """The most likely candidates, best first.
 
-    Noise fitted to the base model explains away what it misses, so all are fitted under quieter noise first, then under
+    Noise fitted to the base model explains away what it misses, so all are fitted under lower noise first, then under
     the noise that suits the best of them; the leading ones of both rounds get noise of their own. What does not promise
     to be among those that go on is not fitted to the end.
     """
     reference = base.judged.model
-    noise = problem.quieter(base.judged.noise)
+    noise = problem.with_lower_noise(base.judged.noise)
     rounds: list[dict[str, Refit]] = []
     entered = candidates
     for kept in (SECOND, FINALISTS):
@@ -127,15 +127,15 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
 def pairs(problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Candidate]) -> list[Contender]:
     """Leading contenders with a second candidate, the best pair of each two effects, best first.
 
-    Noise that was fitted to one effect explains away what the other does, so all pairs are fitted under noise no louder
-    than was told, the same for all, and the search for their own noise sets out from there; one linear step tells which
-    to fit, and those that do not promise to be among the `PAIRS` best are not fitted to the end.
+    Noise that was fitted to one effect explains away what the other does, so all pairs are fitted under noise no higher
+    than was stated, the same for all, and the search for their own noise sets out from there; one linear step tells
+    which to fit, and those that do not promise to be among the `PAIRS` best are not fitted to the end.
     """
-    quiet = problem.quieter(firsts[0].judged.noise)
+    low_noise = problem.with_lower_noise(firsts[0].judged.noise)
     best: dict[tuple[str, ...], tuple[tuple[Candidate, ...], Refit]] = {}
     for first in firsts:
         model = first.judged.model
-        whitenings = problem.fitting(quiet, model)
+        whitenings = problem.fitting(low_noise, model)
         for one in promising(problem, first, whitenings, candidates):
             starts = [{**model.values, **start} for start in one.starts]
             useful = to_undercut([pair for _, pair in best.values()], PAIRS)
@@ -144,7 +144,7 @@ def pairs(problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Ca
             if names not in best or both.cost < best[names][1].cost:
                 best[names] = ((*first.candidates, one), both)
     leading = sorted(best.values(), key=lambda pair: pair[1].cost)[:PAIRS]
-    done = [finished(problem, together, model, quiet) for together, model in leading]
+    done = [finished(problem, together, model, low_noise) for together, model in leading]
     return sorted(done, key=lambda c: -c.judged.nats)
 
 

@@ -20,14 +20,16 @@ from geocontact.gap.case.refit import Refit
 
 BENT = 0.15  # root mean square of the bending, as a share of the effect's
 POWERS = ((1, 0), (2, 0), (0, 1), (0, 2), (1, 1))  # of an input's position and of its rate
-TIMES = (1, 2, 3, 4, 5)  # of time within a trial: two turns of a slow wander
-FAINT = 1e-6  # of the largest singular value, below which a bend adds nothing
+TIMES = (1, 2, 3, 4, 5)  # of time within a trial: two turns of a slow drift
+FAINT = 1e-6  # of the largest singular value, below which a direction adds nothing
 
 
 def discrepancy_basis(
     problem: Problem, candidates: tuple[Candidate, ...], model: Refit
 ) -> list[Float[np.ndarray, "_ c m"]]:
-    """Bends of each effect of a model in all trials, calibration first; weights have the standard deviation 1."""
+    """Discrepancy basis of each effect of a model in all trials, calibration first; weights have the standard deviation
+    1.
+    """
     everything = [*problem.calibration.trials, *problem.evaluation.trials]
     floor, base = problem.floor, len(problem.usual)
     jacobian = np.concatenate([(j[..., :base] / floor[:, None]).reshape(-1, base) for j in model.jacobian])

@@ -54,7 +54,9 @@ def residual_anomalies(problem: Problem, judged: Judged) -> list[ResidualAnomaly
 
 
 def innovations(problem: Problem, judged: Judged) -> list[list[Float[np.ndarray, " _"]]]:
-    """Whitened residual of each channel of each trial in the order of time, without what bends make up for."""
+    """Whitened residual of each channel of each trial in the order of time, without what the discrepancy basis makes up
+    for.
+    """
     whitenings = problem.whitenings(judged.noise, judged.model)
     channels = len(problem.floor)
     out = []
@@ -146,7 +148,7 @@ def ringing(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
             others = (usual * frames - together) / (frames - 1)
             freedom = 2 * len(spectra)
             ratio = together / others
-            ratio /= np.maximum(np.median(ratio, axis=1, keepdims=True), 1.0)  # louder at all frequencies is no ringing
+            ratio /= np.maximum(np.median(ratio, axis=1, keepdims=True), 1.0)  # higher at all frequencies is no ringing
             nats = -f.logsf(ratio, freedom, freedom * frames // 2) - np.log(ratio.size * len(PACKETS))
             frame, at = np.unravel_index(int(np.argmax(nats)), nats.shape)
             if nats[frame, at] > best:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial as CaseTrial
 from geocontact.gap_benchmark.synthetic.base_fit import refit, starts
@@ -43,8 +43,8 @@ FRESH = 40
 FAINTEST, BRIGHTEST = 3.0, 8000.0
 """Range of visibility of single effects [nats]."""
 HIDDEN, SHARE_HIDDEN, WHOLE = 1.5, 0.97, 40.0
-"""An absorbed effect shows less than this [nats], base parameters swallow at least this share of it, and before they do
-it is at least this large [nats]."""
+"""An absorbed effect shows less than this [nats], base parameters reproduce at least this share of it, and before
+they do it is at least this large [nats]."""
 ALIKE, APART = 0.9, 10.0
 """Of a pair: largest cosine between the visible signatures; what each shows at least beside the other [nats]."""
 ATTEMPTS = 60
@@ -227,7 +227,7 @@ def amplitude(stage: Stage, draw: Draw, target: float) -> tuple[float, Sight]:
 
 
 def pair(rng: Rng, stage: Stage, _: str | None, __: float | None) -> DrawnCase:
-    """Two effects that are visible about alike, none of which the base parameters swallow."""
+    """Two effects that are visible about alike, none of which the base parameters reproduce."""
     hard = NO_GAP.get(stage.scene.system, ())
     known = [one for one in plans(stage.scene.system) if one.name not in hard]
     first, second = (known[i] for i in rng.choice(len(known), 2, replace=False))
@@ -266,7 +266,7 @@ def outside(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> D
 
 
 def confounded(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> DrawnCase:
-    """An effect of some size that refitted base parameters swallow on these trials."""
+    """An effect of some size that refitted base parameters reproduce on these trials."""
     known = [one for one in plans(stage.scene.system) if one.name in CONFOUNDED[stage.scene.system]]
     known = [one for one in known if one.name == effect or effect is None]
     plan = known[rng.integers(len(known))]
@@ -334,7 +334,7 @@ def lost_rows(rng: Rng, count: int) -> Int[np.ndarray, " s"]:
 def case_of(
     rng: Rng, scene: SyntheticScene, recordings: Sequence[SyntheticTrial], learn: int, name: str
 ) -> tuple[GapCase, tuple[str, ...]]:
-    """The recordings as a case that does not tell what was planted."""
+    """The recordings as a case that does not tell what was injected."""
     trials = []
     for i, one in enumerate(recordings):
         outputs = one.outputs.copy()

@@ -1,4 +1,4 @@
-"""Every planted effect of the vocabulary; mistakes in the data are exact and stand in `faults`."""
+"""Every injected effect of the vocabulary; mistakes in the data are exact and stand in `data_errors`."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ CONFOUNDED = {
     "knee": ("sensor_gain",),
     "sit_to_stand": ("sensor_gain", "series_compliance"),
 }
-"""Effects that base parameters imitate nearly, if they are of a plain form."""
+"""Effects that base parameters reproduce nearly, if they are of a plain form."""
 
 NO_GAP = {"elbow": CONFOUNDED["elbow"], "sit_to_stand": ("sensor_gain",)}
 """Those that leave no visible gap of their own kind at all: never planted as a single one or in a pair."""

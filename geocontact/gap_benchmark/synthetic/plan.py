@@ -1,4 +1,4 @@
-"""What every planted effect says of itself, and where it is drawn to sit."""
+"""What every injected effect says of itself, and where it is drawn to sit."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class Draw:
 
 @dataclass(frozen=True)
 class Plan:
-    """A planted effect: name of the vocabulary, the equation planted, the candidate's, and how to draw one.
+    """An injected effect: name of the vocabulary, the equation planted, the candidate's, and how to draw one.
 
     Of several interfaces one that is `placed` sits at one, or, where it may stand `together`, now and then at all.
     """

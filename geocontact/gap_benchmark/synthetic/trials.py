@@ -32,7 +32,7 @@ class DataError:
         """What is recorded of the inputs."""
         return self.times(scene.inputs, rows, self.factor)
 
-    def mended(self, scene: SyntheticScene, rows: Outputs) -> Outputs:
+    def corrected(self, scene: SyntheticScene, rows: Outputs) -> Outputs:
         """The inputs that were recorded, put right."""
         return self.times(scene.inputs, rows, 1.0 / self.factor)
 
@@ -156,8 +156,8 @@ def as_measured(recording: SyntheticTrial) -> InputCourse:
 
 def predicted(scene: SyntheticScene, recording: SyntheticTrial, hooks: Hooks, fine: int) -> Outputs:
     """What the true simulator at its nominal parameters makes of the recorded inputs."""
-    mended = recording.data_error.mended(scene, recording.inputs)
-    path = through(recording.time, mended, recording.duration, recording.phase, recording.setting)
+    corrected = recording.data_error.corrected(scene, recording.inputs)
+    path = through(recording.time, corrected, recording.duration, recording.phase, recording.setting)
     count = int(recording.rows[-1]) + 1
     outputs = truth(scene, path, count, scene.theta, hooks, fine)[:, recording.rows]
     return recording.data_error.outputs(scene, outputs)

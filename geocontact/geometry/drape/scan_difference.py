@@ -1,4 +1,4 @@
-"""Where a mat lies on a body, told by a scan with it and one without: the region that stands off."""
+"""Where a mat lies on a body, found from a scan with it and one without: the region that stands off."""
 
 from __future__ import annotations
 

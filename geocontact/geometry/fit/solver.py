@@ -139,5 +139,5 @@ def biweight(square: Float[np.ndarray, " n"]) -> Float[np.ndarray, "3 n"]:
 
 
 def spread(residual: Float[np.ndarray, " n"]) -> float:
-    """Standard deviation of normal residuals about zero, told by their median size: outliers hardly matter."""
+    """Standard deviation of normal residuals about zero, estimated from their median size: outliers hardly matter."""
     return max(NORMAL * float(np.median(np.abs(residual))), FINEST)

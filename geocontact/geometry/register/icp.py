@@ -62,7 +62,7 @@ def icp(moving: Surface, fixed: Surface, start: RigidTransform, search: IcpSearc
     """The pose X_BA near `start` at which the moving surface A lies best on the fixed surface B.
 
     Every round, points spread evenly over A get partners: the nearest points of B. Partners on the rim of B, across a
-    limb or out of reach are dropped, and what remains is weighted by Tukey's biweight with the scale told by the
+    limb or out of reach are dropped, and what remains is weighted by Tukey's biweight with the scale estimated from the
     median, so A and B need not cover the same part. The motion that brings the points to the planes of their partners
     in the sense of least squares is a 6 x 6 system (Chen and Medioni 1992); nothing moves along what the shapes leave
     open. The faces of both surfaces must agree on what is outside.

@@ -26,7 +26,7 @@ def unguided(moving: Surface, fixed: Surface, search: IcpSearch | None = None) -
 
     Starts are A as it stands, and A with its centroid and longest principal axis on those of B, turned about that axis
     in steps of 30 degrees, both ways up. Each is followed roughly by `icp`, the best three to the end. What fits is
-    told by the median residual, so that a part that only one scan has does not count. Bodies that are alike from
+    estimated from the median residual, so that a part that only one scan has does not count. Bodies that are alike from
     several sides have several answers: the one that needs no turn is preferred.
     """
     rated = []

@@ -47,10 +47,10 @@ class Normality:
     @property
     def words(self) -> str:
         """What the p-value says."""
-        told = f"{self.shown}, by simulated normal noise with the memory of the recorded one"
+        test = f"{self.shown}, by simulated normal noise with the memory of the recorded one"
         if self.p < LEVEL:
-            return f"not normal: Lilliefors' test rejects it ({told}; a small p speaks against)"
-        return f"no evidence against normal residuals (Lilliefors, {told}; this does not prove them)"
+            return f"not normal: Lilliefors' test rejects it ({test}; a small p speaks against)"
+        return f"no evidence against normal residuals (Lilliefors, {test}; this does not prove them)"
 
     @property
     def shown(self) -> str:

@@ -22,7 +22,7 @@ from geocontact.identify.noise.autoregressive import AutoregressiveNoise
 
 GRID = 30  # correlation times
 SHORTEST = 0.2  # of a step: no memory at all
-LONGEST = 1.0 / 3.0  # of the duration: more cannot be told from a wrong model
+LONGEST = 1.0 / 3.0  # of the duration: more cannot be distinguished from a wrong model
 PAUSE = 20.0  # usual steps: a longer one is a pause and does not count as duration
 LEAST = 1e-8  # of the largest singular value: below, parameters act as one
 

@@ -1,6 +1,6 @@
 """Levels of noise, and what is believed of them before residuals are looked at.
 
-Noise that is estimated grows with whatever the model misses, so that a strong gap passes for loud noise. What is known
+Noise that is estimated grows with whatever the model misses, so that a strong gap passes for high noise. What is known
 of it beforehand is therefore a belief and, where there is one, a limit: of the whole noise of a sensor, and of that of
 an input.
 """
@@ -49,7 +49,7 @@ class NoiseLevels:
         return NoiseLevels(white, coloured.reshape(self.coloured.shape), memory.reshape(self.memory.shape), inputs)
 
     def times(self, sensors: Float[np.ndarray, " c"], inputs: Float[np.ndarray, " j"]) -> NoiseLevels:
-        """All noise of each output channel, and that of each input, so many times as loud."""
+        """All noise of each output channel, and that of each input, so many times as high."""
         return NoiseLevels(self.white * sensors, self.coloured * sensors, self.memory, self.inputs * inputs)
 
     @property

@@ -1,7 +1,7 @@
 """Levels of noise that make residuals most likely, searched with average information.
 
 Far from the end, curvature is the average of observed and expected information (Gilmour, Thompson & Cullis 1995,
-Biometrics 51:1440), which needs no product of matrices and takes no step too far where noise is much too quiet. From
+Biometrics 51:1440), which needs no product of matrices and takes no step too far where noise is much too low. From
 where a step gains less than `NEAR`, secants amend it (BFGS, damped as by Powell 1978, Lecture Notes in Mathematics
 630:144), since it leaves out how variances bend with their logarithms.
 """

@@ -50,8 +50,8 @@ def variation(
         pairs = [_conditional(trial, sd) for trial in trials]
         unsure = sum(np.diag(cov) for _, cov in pairs)
         squares = unsure + sum(mean**2 for mean, _ in pairs)
-        told = 1.0 - unsure / np.maximum(len(trials) * sd**2, 1e-300)
-        new = np.sqrt((weight * prior_sd**2 + squares) / (weight + len(trials) - spent * told))
+        identified = 1.0 - unsure / np.maximum(len(trials) * sd**2, 1e-300)
+        new = np.sqrt((weight * prior_sd**2 + squares) / (weight + len(trials) - spent * identified))
         done = bool(np.allclose(new, sd, rtol=1e-6))
         sd = new
         if done:

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.data.cell_channels import CellChannels
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.cell_channels import CellChannels
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.io.cases.case_cells import AREA, PLACE, cells_file, channel_name
@@ -31,7 +31,7 @@ def write_gap_case(
     Parameters
     ----------
     case
-        SI units; every channel's unit must be told.
+        SI units; every channel's unit must be given.
     folder
         Made if it is not there.
     units

@@ -33,21 +33,21 @@ class Gathering:
 def read_gathering(path: Path) -> Gathering:
     """Content of gather.toml; paths in it are meant from its own folder."""
     given = toml_of(path, LARGEST_SETTINGS)
-    told, columns = given.pop("from", None), columns_of(path, given.pop("columns", {}))
-    if not isinstance(told, dict) or not told:
+    stated, columns = given.pop("from", None), columns_of(path, given.pop("columns", {}))
+    if not isinstance(stated, dict) or not stated:
         raise InputError(path, "", "says nowhere what trials come from", f"write {EXAMPLE}")
     if "layout" in given:
         raise InputError(path, "layout", "is what gathering writes", "leave it out")
     settings = settings_of(given, fspath(path))
     check_settings(settings, path, KNOWN_SYSTEMS)
     for name in settings.trials:
-        if name not in told:
+        if name not in stated:
             raise InputError(path, f"[from.{name}]", "is missing", f"write {EXAMPLE}")
-    for name in told:
+    for name in stated:
         if name not in settings.trials:
             what = "neither calibration nor evaluation lists this trial"
             raise InputError(path, f"[from.{name}]", what, f"trials are {', '.join(settings.trials[:30])}")
-    sources = {name: source_of(path, name, told[name]) for name in settings.trials}
+    sources = {name: source_of(path, name, stated[name]) for name in settings.trials}
     _check_columns(path, sources, columns)
     return Gathering(settings, sources, columns)
 

@@ -1,7 +1,7 @@
 """Knee angles of Grood and Suntay in a table: flexion, adduction and internal rotation as poses.
 
-Axes and signs stand in `data.multibody.knee_angles`. Sources differ in what they call positive (abduction, valgus, external
-rotation): negate with `-name` in the map.
+Axes and signs stand in `data.multibody.knee_angles`. Sources differ in what they call positive (abduction, valgus,
+external rotation): negate with `-name` in the map.
 """
 
 from __future__ import annotations

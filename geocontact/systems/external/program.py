@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.chain.system import System
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.systems.external.simulator import simulated_system
 from geocontact.systems.validate import refusal
 

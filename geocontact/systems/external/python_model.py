@@ -13,7 +13,7 @@ from types import ModuleType
 
 from geocontact.chain.links import Geometry
 from geocontact.chain.system import System
-from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
+from geocontact.data.gap.case import LISTED_SYSTEMS, GapCase
 from geocontact.systems.base import Base
 from geocontact.systems.validate import refusal, said, validated
 

@@ -26,7 +26,7 @@ from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor
 from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
 from geocontact.data.cell_regression import CellRegression
-from geocontact.data.gap_case import CaseMesh
+from geocontact.data.gap.case import CaseMesh
 from geocontact.data.parameter import Parameter
 from geocontact.geometry.contact_area.sided_areas import SidedAreas
 from geocontact.geometry.plane import Plane

@@ -1,7 +1,8 @@
 """Geometry link of a knee implant that is driven by its pose: pose → areas of the sides → what Hertz's law multiplies.
 
 The pose is that of the femoral component F in the tibial one T, in knee angles of Grood and Suntay
-(`data.multibody.knee_angles`) and the position of F's origin along the axes of T: x anterior, y proximal, z to the right.
+(`data.multibody.knee_angles`) and the position of F's origin along the axes of T: x anterior, y proximal, z to the
+right.
 """
 
 from __future__ import annotations

@@ -113,7 +113,7 @@ def test_a_case_whose_process_is_lost_counts_as_wrong(monkeypatch: pytest.Monkey
     with pytest.warns(gc.InputWarning, match="was lost: RuntimeError: killed"):
         result = benchmark(system="elbow", cases=2, kinds="none", seed=SEED)
     assert result.outcome.kinds == {"none": 2} and result.table()["verdict"].tolist() == ["failed"] * 2
-    assert result.record.options["seed"] == SEED and result._repr_png_().startswith(b"\x89PNG")
+    assert result.record.options["seed"] == SEED and "<img src=" in result._repr_html_()
     assert repr(result).startswith(f"# Gap benchmark\n\nSeed {SEED}, ")
 
 

@@ -13,9 +13,9 @@ from geocontact.analyses.gap.diagnose.figures import axis_units, gap_figures
 from geocontact.analyses.gap.diagnose.page import gap_page
 from geocontact.analyses.gap.diagnose.words import states, verdict_sentences
 from geocontact.analyses.gap.words import percent
-from geocontact.data.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
-from geocontact.data.gap_case import GapCase
-from geocontact.data.gap_cell import Cell
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.cell import Cell
+from geocontact.data.gap.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
 from geocontact.gap.diagnose import Findings
 from geocontact.view.page.content import Curves, Page, Picture, Table, Words
 from geocontact.view.page.write import page_html

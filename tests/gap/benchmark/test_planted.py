@@ -271,11 +271,11 @@ def test_an_attachment_creeps_slower_and_slower_and_stays_where_it_is():
     assert at[1.99] > 5e-4 and at[4.0] == pytest.approx(at[2.1], rel=0.01)
 
 
-def test_mistakes_are_exact_and_can_be_mended(stages):
+def test_mistakes_are_exact_and_can_be_corrected(stages):
     scene = stages["foot"].scene
     inputs, outputs = np.random.default_rng(0).normal(size=(2, 3, 5))
     degrees = DataError("unit_error", "pitch", np.degrees(1.0))
-    np.testing.assert_allclose(degrees.mended(scene, degrees.inputs(scene, inputs)), inputs)
+    np.testing.assert_allclose(degrees.corrected(scene, degrees.inputs(scene, inputs)), inputs)
     np.testing.assert_array_equal(degrees.outputs(scene, outputs), outputs)
     swapped = DataError("side_swap", "", 1.0, (0, 1)).outputs(scene, outputs)
     np.testing.assert_array_equal(swapped, outputs[[1, 0, 2]])

@@ -13,7 +13,7 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from geocontact.analyses.json_file import plain
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.data.version import VERSION
 from geocontact.effects.catalogue import candidates

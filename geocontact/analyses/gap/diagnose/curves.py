@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.held_out import HeldOut
+from geocontact.data.gap.held_out import HeldOut
 
 
 def resampled(

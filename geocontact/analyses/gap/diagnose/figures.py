@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.gap.diagnose.curves import resampled
-from geocontact.data.gap_cell import BAND, FAST_PHASE
-from geocontact.data.held_out import HeldOut
+from geocontact.data.gap.cell import BAND, FAST_PHASE
+from geocontact.data.gap.held_out import HeldOut
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.localise.gap_map import load_outputs
 from geocontact.view.curves.diagnosis.before_after import SIDE_BY_SIDE, before_after

@@ -21,9 +21,9 @@ from geocontact.analyses.gap.diagnose.page_tables import (
 from geocontact.analyses.gap.diagnose.words import place, verdict_sentences
 from geocontact.analyses.gap.words import names, percent
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.data.diagnosis import Diagnosis
-from geocontact.data.gap_case import GapCase
-from geocontact.data.held_out import HeldOut
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.data.gap.held_out import HeldOut
 from geocontact.gap.diagnose import Findings
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.style import in_style

@@ -6,7 +6,7 @@ import numpy as np
 
 from geocontact.analyses.gap.diagnose.figures import axis_units, quantity_of
 from geocontact.analyses.gap.words import percent
-from geocontact.data.diagnosis import Diagnosis
+from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.diagnose import Findings
 from geocontact.view.curves.diagnosis.gap_map import SIGNIFICANT
 from geocontact.view.curves.text import number

@@ -17,8 +17,8 @@ from geocontact.analyses.gap.diagnose.tables import diagnosis_tables
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.result import Result
-from geocontact.data.diagnosis import Diagnosis
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.diagnose import Findings
 from geocontact.io.text.results import write_table
 from geocontact.view.page.tables import inputs_table

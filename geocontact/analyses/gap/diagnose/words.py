@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from geocontact.analyses.gap.words import names, percent, proposal_words
-from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Where
-from geocontact.data.gap_cell import BAND, FAST_PHASE, Cell
+from geocontact.data.gap.cell import BAND, FAST_PHASE, Cell
+from geocontact.data.gap.diagnosis import CellsHeld, ChannelGap, Diagnosis, Where
 
 SIGNIFICANT = 0.05  # family-wise
 TELLING = 0.35  # share of a channel's gap along one axis that a part of its range must hold to be named

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.data.version import VERSION
 from geocontact.gap.identifiability.detectability import POWER, Detectability
 from geocontact.gap.identifiability.discriminability import Discriminability

@@ -18,7 +18,7 @@ from geocontact.analyses.gap.discriminability.tables import detectability_table,
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.result import Result
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.io.text.results import write_table
 from geocontact.view.page.tables import inputs_table

@@ -18,7 +18,7 @@ def separability_table(found: Discriminability) -> pd.DataFrame:
             "amplitude": own[each.true].amplitude,
             "unit": own[each.true].candidate.parameters[0].unit,
             "visible [nats]": own[each.true].visible,
-            "imitator": each.imitator,
+            "imitator": each.confounder,
             "separation [nats]": each.nats,
             "way": each.way,
         }

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from geocontact.analyses.run_record import Record
-from geocontact.data.cell_channels import CellChannels, CellTrial
 from geocontact.data.errors import InputError
+from geocontact.data.gap.cell_channels import CellChannels, CellTrial
 from geocontact.io.recordings.mat_results import CELLS, MatResult
 
 ELSEWHERE = 0.01  # m, that a cell may lie away from where it lies on average without a word

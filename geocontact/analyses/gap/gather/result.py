@@ -12,7 +12,7 @@ from geocontact.analyses.gap.gather.options import GatherOptions
 from geocontact.analyses.plain_page import write_plain_page
 from geocontact.analyses.result import Result
 from geocontact.analyses.results_folder import Scratch
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.io.cases.gap_case_writer import trial_table
 
 

@@ -11,7 +11,7 @@ from geocontact.analyses.gap.gather.read import Recording, Recordings
 from geocontact.analyses.gap.gather.result import GatherResult
 from geocontact.analyses.results_folder import Scratch
 from geocontact.analyses.run_record import Record
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.io.cases.case_consistency import parameters_of
 from geocontact.io.cases.gap_case import case_of, read_gap_case
 from geocontact.io.cases.gap_case_writer import write_gap_case

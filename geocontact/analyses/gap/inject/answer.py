@@ -6,7 +6,7 @@ import math
 
 from geocontact.analyses.gap.inject.words import imitated
 from geocontact.chain.candidate import Candidate
-from geocontact.data.diagnosis import Diagnosis
+from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.inject import Injected
 
 

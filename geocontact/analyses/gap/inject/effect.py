@@ -10,7 +10,7 @@ from geocontact.analyses.gap.case_with_model import CaseWithModel
 from geocontact.analyses.gap.inject.options import InjectOptions
 from geocontact.chain.candidate import Candidate
 from geocontact.data.errors import InputError
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.problem import problem_of

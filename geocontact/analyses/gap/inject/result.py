@@ -16,7 +16,7 @@ from geocontact.analyses.json_file import write_json
 from geocontact.analyses.result import Result
 from geocontact.analyses.results_folder import Scratch
 from geocontact.chain.candidate import Candidate
-from geocontact.data.diagnosis import Diagnosis
+from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.inject import Injected
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ import numpy as np
 
 from geocontact.analyses.gap.words import names
 from geocontact.chain.candidate import Candidate
-from geocontact.data.diagnosis import Diagnosis
+from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.inject import Injected
 
 IMITATED = 0.05  # times the noise floor that a gap of what base parameters imitate may have

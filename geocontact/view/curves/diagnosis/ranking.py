@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geocontact.data.ranked import Ranked
+from geocontact.data.gap.ranked import Ranked
 from geocontact.view.curves.style import BLACK, DOUBLE, GREY, PALETTE, empty, in_style
 from geocontact.view.curves.text import number, plain
 

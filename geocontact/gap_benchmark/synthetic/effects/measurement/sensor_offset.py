@@ -1,4 +1,4 @@
-"""A zero error that wanders slowly.
+"""A zero error that drifts slowly.
 
 planted:   y + o (1 + e sin(2 pi m t/T + phi)), e = 0.16..0.3 (straps 0.05..0.08), m = 1..2.5
 candidate: y + o

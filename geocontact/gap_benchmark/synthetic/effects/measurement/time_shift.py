@@ -1,4 +1,4 @@
-"""Outputs come late, by a clock that wanders.
+"""Outputs come late, by a clock that drifts.
 
 planted:   out(t - d (1 + e sin(2 pi m t/T + phi))), e = 0.28..0.38: buffers fill and empty while a trial runs
 candidate: out(t - d)

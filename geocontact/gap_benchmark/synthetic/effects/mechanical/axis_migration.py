@@ -1,4 +1,4 @@
-"""The joint's axis wanders along a smooth path.
+"""The joint's axis drifts along a smooth path.
 
 planted:   x + a w tanh(phi/w) + c a sin(3 phi), phi = beta - middle, w = 0.9..1.3 rad; R of the knee with flexion, the
            lever of a site with its rotation: phi in units of half their range

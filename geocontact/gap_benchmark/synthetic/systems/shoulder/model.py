@@ -57,7 +57,7 @@ class Driven:
 
 
 def driven(course: InputCourse, numbers: Numbers, hooks: Hooks) -> Driven:
-    """p = L_h (sin a, -cos a) less the hinge, which may wander with the arm."""
+    """p = L_h (sin a, -cos a) less the hinge, which may drift with the arm."""
     angle, rate = course.position[0], course.rate[0]
     s, c, l = np.sin(angle), np.cos(angle), numbers["L_h"]
     o_x = np.full_like(angle, numbers["o_x"])

@@ -17,8 +17,8 @@ LEVELS = ((0.0, 0.5, 1.0), (0.0, 0.5, 1.0), (0.0, 1.0), (0.3, 0.6, 1.0), (0.6, 0
 """Of support, taken in turn by the trials."""
 
 RATE, STILL = 0.06, 0.0014
-"""Noise of the recorded arm: of its rate [rad/s], about, whatever the corner, for who smooths little has quiet markers;
-and the most of its angle [rad]."""
+"""Noise of the recorded arm: of its rate [rad/s], about, whatever the corner, for who smooths little has markers of
+low noise; and the most of its angle [rad]."""
 
 
 def shoulder_scene(rng: Rng, *, shifted: bool) -> SyntheticScene:

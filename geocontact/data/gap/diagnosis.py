@@ -134,7 +134,7 @@ class Diagnosis:
 
     `probabilities` is a distribution over single answers (effects, "none", "unknown"), `ambiguity` the effects that
     these data cannot tell apart, `absorbed` those that would be invisible here, `next_experiment` what to record so
-    that it can be told; None where nothing is in question, or nothing that is simulated tells enough.
+    that it can be identified; None where nothing is in question, or nothing that is simulated tells enough.
     """
 
     case: str

@@ -17,8 +17,8 @@ elbow = App(
     name="elbow",
     help=HELP,
 )
-elbow.command("geocontact.cli.elbow_simulate:simulate", name="simulate")
-elbow.command("geocontact.cli.elbow_fit:fit", name="fit")
-elbow.command("geocontact.cli.elbow_compare:compare", name="compare")
-elbow.command("geocontact.cli.elbow_design:design", name="design")
-elbow.command("geocontact.cli.elbow_population:population", name="population")
+elbow.command("geocontact.cli.elbow.simulate:simulate", name="simulate")
+elbow.command("geocontact.cli.elbow.fit:fit", name="fit")
+elbow.command("geocontact.cli.elbow.compare:compare", name="compare")
+elbow.command("geocontact.cli.elbow.design:design", name="design")
+elbow.command("geocontact.cli.elbow.population:population", name="population")

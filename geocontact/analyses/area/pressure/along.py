@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.analyses.area.options import AreaOptions
-from geocontact.analyses.area.pressure_layers import layer_given, skin_given
+from geocontact.analyses.area.pressure.layers import layer_given, skin_given
 from geocontact.analyses.area.read import Bodies
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError

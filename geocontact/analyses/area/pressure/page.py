@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.area.pressure import PressureEvolution
+from geocontact.analyses.area.pressure.along import PressureEvolution
 from geocontact.data.motion import Course
 from geocontact.view.page.content import Curve, Curves, FaceMap, Picture, Readout, Row, Section, Words
 
