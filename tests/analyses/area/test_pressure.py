@@ -37,7 +37,8 @@ def bodies(folder: Path, n: int = 30) -> tuple[Path, Path]:
 def pressed(folder: Path, at: tuple[float, float] = (0.0, 0.0), n: int = 30, **options: object) -> AreaResult:
     """The ball at the depths, `at` x and z [mm]; areas are counted the quick way, as few tests look at them."""
     motion = poses(folder, *((at[0], 20.0 - depth, at[1]) for depth in DEPTHS))
-    return pressures(*bodies(folder, n), motion, **{"rule": "clip", "threshold": 0.0, "piece": gc.mm(1)} | LAYER | options)
+    quick = {"rule": "clip", "threshold": 0.0, "piece": gc.mm(1)}
+    return pressures(*bodies(folder, n), motion, **(quick | LAYER | options))
 
 
 @pytest.mark.parametrize(("law", "closed"), [("linear", linear_force), ("logarithmic", logarithmic_force)])
