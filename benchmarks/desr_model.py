@@ -13,8 +13,9 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -47,7 +48,7 @@ def cam_switch(cams: pd.DataFrame) -> Effect:
         share = Parameter("cam_switch.share", "-", 0.5, 0.0, 2.0)
         stretch = Parameter("cam_switch.stretch", "-", 1.0, 0.7, 1.6)
 
-        def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+        def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
             at = movement.position[0] - values.get("angle0", 0.0)
             aside = np.interp(at / values[stretch.name], angle, half) * on_dorsal_cam(at, *SWITCHED)
             stiffness = elastic_joint.stiffness_at_setting(values)

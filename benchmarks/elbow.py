@@ -195,9 +195,9 @@ def scaled(runs: int, seed: int, donning: float) -> dict[str, object]:
     import numpy as np
 
     from geocontact.axis_misalignment.bins import binned
-    from geocontact.axis_misalignment.end_stop import curve_of, stiffness_by_displacement, stroke_of
+    from geocontact.axis_misalignment.end_stop import bin_means, recorded_stroke, stiffness_by_displacement
     from geocontact.axis_misalignment.least_squares import estimated, problem_of
-    from geocontact.axis_misalignment.scale import scale_of
+    from geocontact.axis_misalignment.scale import displacement_scale
     from geocontact.axis_misalignment.synthetic import PAPER, Design
     from geocontact.axis_misalignment.uncertainty import covariance, profiled
     from tests.systems.elbow_trials import parameters, trials
@@ -207,11 +207,11 @@ def scaled(runs: int, seed: int, donning: float) -> dict[str, object]:
     for run in range(runs):
         locked = binned(trials(PAPER, design, [seed, run, 3]), width)
         free = binned(trials(PAPER, design, [seed, run, 4], stroke=STROKE), width)
-        stroke = stroke_of(curve_of(free))
-        scale = scale_of([curve_of(free.only(k)) for k in range(len(free.names))], stroke, width)
+        stroke = recorded_stroke(bin_means(free))
+        scale = displacement_scale([bin_means(free.only(k)) for k in range(len(free.names))], stroke, width)
         e = estimated(problem_of(locked, parameters({}), {}, scale))
         p = profiled(e, covariance(locked, e), "k", points=2)
-        each = [curve_of(locked.only(k)) for k in range(len(locked.names))]
+        each = [bin_means(locked.only(k)) for k in range(len(locked.names))]
         slope = stiffness_by_displacement(each, stroke, width).value
         found[run] = p.lower <= PAPER["k"] <= p.upper, p.upper - p.lower, e.named["k"], slope
     row: dict[str, object] = {

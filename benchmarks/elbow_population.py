@@ -151,8 +151,8 @@ def drawing(seed: int) -> list[dict[str, float]]:
     """The 95 % quantile and its interval by number of people."""
     import numpy as np
 
-    from geocontact.identify.intervals.quantile_intervals import quantile
     from geocontact.axis_misalignment.population import peak_forces
+    from geocontact.identify.intervals.quantile_intervals import quantile
 
     rows = []
     for count in (1000, 10_000, 100_000, MILLION):

@@ -1,10 +1,11 @@
 """Do detectability statements hold? `python -m benchmarks.gap_detectability [--cases N] [--repeats N]`.
 
-Cases without an effect (planted ones, or a folder: `benchmarks.gap_sources`) are fitted; `gap.identifiability.detectability` says from
-which amplitude on the diagnosis would see an effect. Then trials are simulated at that amplitude, at half and at one
-and a half times of it, with noise, deviations of the trials and noise of the inputs as fitted, and attributed. Seen is
-an effect where the verdict is not `no_gap`. A statement is what is more probable by the predicted power, at half and at
-one and a half times; it is right where that happens. Every simulation is kept as it comes (`benchmarks.gap_rows`).
+Cases without an effect (planted ones, or a folder: `benchmarks.gap_sources`) are fitted;
+`gap.identifiability.detectability` says from which amplitude on the diagnosis would see an effect. Then trials are
+simulated at that amplitude, at half and at one and a half times of it, with noise, deviations of the trials and noise
+of the inputs as fitted, and attributed. Seen is an effect where the verdict is not `no_gap`. A statement is what is
+more probable by the predicted power, at half and at one and a half times; it is right where that happens. Every
+simulation is kept as it comes (`benchmarks.gap_rows`).
 """
 
 from __future__ import annotations
@@ -64,8 +65,8 @@ def statements(source: str, place: int, options: argparse.Namespace) -> Iterator
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.case.admission import admitted
     from geocontact.gap.case.problem import problem_of
-    from geocontact.gap.identifiability.detectability import detectabilities, power, rivals_of
-    from geocontact.gap.identifiability.signatures import ground_of, reach_of, rest_of, sized
+    from geocontact.gap.identifiability.detectability import competitors_of, detectabilities, power
+    from geocontact.gap.identifiability.signatures import base_state_of, reach_of, rest_of, sized
     from geocontact.gap.selection.model_comparison import base_contender
     from geocontact.systems.catalogue import system_of
 
@@ -73,7 +74,7 @@ def statements(source: str, place: int, options: argparse.Namespace) -> Iterator
     case = admitted(case, system_of(case))
     problem = problem_of(case, system_of(case))
     base = base_contender(problem).judged
-    ground = ground_of(problem, base.noise, base.model.values)
+    ground = base_state_of(problem, base.noise, base.model.values)
     known = [one for one in candidates(problem.system) if one.parameters]
     able = [name for name in EFFECTS if any(one.name == name for one in known)]
     names = [able[(place + k) % len(able)] for k in range(min(options.most, len(able)))]
@@ -83,13 +84,13 @@ def statements(source: str, place: int, options: argparse.Namespace) -> Iterator
         return [one for one in candidates(system) if source not in options.narrow or one.name in names]
 
     offered = [one for one in offer(problem.system) if one.parameters]
-    rivals = rivals_of(ground, offered)
+    competitors = competitors_of(ground, offered)
     for told in detectabilities(ground, offered, asked):
         one = told.candidate
         if told.smallest is None:
             continue
         rest, first = rest_of(one), one.parameters[0].name
-        others = [each for label, some in rivals.items() if label != one.label for each in some]
+        others = [each for label, some in competitors.items() if label != one.label for each in some]
         for times in options.times:
             amplitude = rest + times * (told.smallest - rest)
             if (amplitude - rest) / reach_of(one, one.starts[0]) > 1.0:

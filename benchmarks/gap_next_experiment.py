@@ -54,8 +54,8 @@ def arguments() -> argparse.Namespace:
 
 def asked(options: argparse.Namespace) -> Iterator[tuple[str, str, tuple[str, ...], int]]:
     """Source, effect, pair that is held against each other (none: the diagnosis decides) and place of every case."""
+    from benchmarks.gap_sources import CONFOUNDED, effects_of, has_confounded, known_to
     from benchmarks.gap_sources import NOTHING as BARE
-    from benchmarks.gap_sources import SWALLOWED, effects_of, has_swallowed, known_to
 
     known = {source: list(_pairs(effects_of(source), known_to(source))) for source in options.sources}
     for place in range(options.cases):
@@ -65,8 +65,8 @@ def asked(options: argparse.Namespace) -> Iterator[tuple[str, str, tuple[str, ..
     for place in range(options.others):
         for source in options.sources:
             yield source, BARE, (), options.cases + 2 * place
-            if has_swallowed(source):
-                yield source, SWALLOWED, (), options.cases + 2 * place + 1
+            if has_confounded(source):
+                yield source, CONFOUNDED, (), options.cases + 2 * place + 1
 
 
 def _pairs(effects: Sequence[str], known: Sequence[str]) -> Iterator[tuple[tuple[str, str], tuple[str, ...]]]:
@@ -87,7 +87,7 @@ def checked(
     from geocontact.gap.case.admission import admitted
     from geocontact.gap.diagnose import first_of
     from geocontact.gap.experiment.proposal import proposed
-    from geocontact.gap.identifiability.non_identifiable import absorbed
+    from geocontact.gap.identifiability.non_identifiable import non_identifiable
     from geocontact.systems.catalogue import system_of
 
     nats = float(np.exp(np.random.default_rng([options.seed, place]).uniform(*np.log(FAINT))))
@@ -98,7 +98,7 @@ def checked(
     case = admitted(case, system)
     found = in_question(case, system, pair) if pair else attribute(case, system, candidates)
     problem, said = found.clean, found.answer
-    hidden = [each.name for each in absorbed(problem, candidates(problem.system), said.effects)]
+    hidden = [each.name for each in non_identifiable(problem, candidates(problem.system), said.effects)]
     chosen = proposed(found, first_of(candidates(problem.system), hidden))
     row: dict[str, Any] = {"source": name_of(source), "effect": effect, "held": list(pair), "case": place}
     row |= {"verdict": said.verdict, "in_question": list(said.ambiguity)}
@@ -127,10 +127,7 @@ def in_question(case: Any, system: Any, pair: tuple[str, ...]) -> Any:
     near = [c for c in ranked if c.judged.nats > ranked[0].judged.nats + np.log(ALIVE)]
     names = tuple(dict.fromkeys(name for c in near for name in c.names))
     said = Answer("explained", names[:1], {}, names, ranked[0])
-    return Attribution(
-        problem=problem, fault=None, clean=problem, base=base, contenders=tuple(ranked), remaining={}, odd=(), flat=(),
-        answer=said,
-    )  # fmt: skip
+    return Attribution(problem, None, problem, base, tuple(ranked), remaining={}, odd=(), flat=(), answer=said)
 
 
 def separated(found: Any, chosen: Any, rng: np.random.Generator, repeats: int) -> tuple[float, float]:
@@ -143,14 +140,14 @@ def separated(found: Any, chosen: Any, rng: np.random.Generator, repeats: int) -
     stage, moved = chosen.experiment.staged, chosen.experiment.trial
     outcomes: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for true in {id(pair.true): pair.true for pair in chosen.pairs}.values():
-        imitators = [pair.imitator for pair in chosen.pairs if pair.true is true]
+        confounders = [pair.confounder for pair in chosen.pairs if pair.true is true]
         for _ in range(repeats):
             values = dict(true.values)
             recorded = [trial_of(problem, noise, t, true.system, values, rng) for t in old]
             fresh = [trial_of(problem, noise, moved, true.system, values, rng, stage) for _ in range(TRIALS)]
             seen = Seen.of(problem, chosen.lead, recorded, fresh, stage)
             own = seen.costs(true)
-            for other in imitators:
+            for other in confounders:
                 wrong = seen.costs(other)
                 gap = (wrong[0] - own[0], wrong[1] - own[1])
                 outcomes.setdefault((true.name, other.name), []).append(gap)
@@ -161,8 +158,8 @@ def separated(found: Any, chosen: Any, rng: np.random.Generator, repeats: int) -
 class Seen:
     """Old and new trials as the diagnosis sees them, and one weighing of each for every model."""
 
-    def __init__(self, outputs: Sequence[str], trials: Sequence[Any], weighings: Sequence[Any], old: int, stage: Any):
-        self.trials, self.weighings, self.old, self.stage = trials, weighings, old, stage
+    def __init__(self, outputs: Sequence[str], trials: Sequence[Any], whitenings: Sequence[Any], old: int, stage: Any):
+        self.trials, self.whitenings, self.old, self.stage = trials, whitenings, old, stage
         self.measured = [np.stack([t.column(name) for name in outputs], axis=1) for t in trials]
 
     @classmethod
@@ -173,7 +170,7 @@ class Seen:
         sd = dict(zip(problem.system.inputs, lead.noise.levels.inputs.tolist(), strict=True))
         seen = [denoised(t, sd, problem.passed) for t in (*recorded, *fresh)]
         return cls(
-            problem.system.outputs, seen, weighings(problem, lead, seen, stage, len(recorded)), len(recorded), stage
+            problem.system.outputs, seen, whitenings(problem, lead, seen, stage, len(recorded)), len(recorded), stage
         )
 
     def costs(self, one: Any) -> tuple[float, float]:
@@ -197,7 +194,7 @@ class Seen:
             for k in range(count):
                 predicted = (one.system if k < self.old else staged).simulate(self.trials[k], values)
                 left = np.nan_to_num(self.measured[k] - predicted)
-                parts.append(self.weighings[k](left[..., None])[:, 0])
+                parts.append(self.whitenings[k](left[..., None])[:, 0])
             return np.concatenate(parts)
 
         start = np.array([one.values[p.name] for p in parameters]) / size
@@ -206,10 +203,10 @@ class Seen:
         return float(fit.cost)
 
 
-def weighings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain: int) -> list[Any]:
+def whitenings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain: int) -> list[Any]:
     """Whitening of every trial; those from `plain` on are staged."""
     from geocontact.gap.case.refit import Measured, derivatives
-    from geocontact.gap.case.whitening import Weighing, heard
+    from geocontact.gap.case.whitening import Whitening, propagated_input_noise
     from geocontact.identify.noise.covariance import Layout
 
     base = {name: lead.model.values[name] for name in problem.plain.values}
@@ -217,9 +214,11 @@ def weighings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain:
     for k, trial in enumerate(trials):
         system = problem.system if k < plain else stage(problem.system)
         measured = Measured.of(system, [trial], problem.calibration.rough)
-        layout = Layout.of(trial.time, measured.present[0], heard(system, trial, base, problem.passed, problem.left))
+        layout = Layout.of(
+            trial.time, measured.present[0], propagated_input_noise(system, trial, base, problem.passed, problem.left)
+        )
         varied = derivatives(system, measured, base)[0] * lead.noise.varies
-        made.append(Weighing.of(layout.whitener(lead.noise.levels), varied))
+        made.append(Whitening.of(layout.whitener(lead.noise.levels), varied))
     return made
 
 

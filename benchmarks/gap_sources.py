@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap.identifiability.signatures import at_nats
 
-NOTHING, SWALLOWED = "none", "absorbed"
+NOTHING, CONFOUNDED = "none", "absorbed"
 BESIDES = 0.5  # of the nats asked for that an effect must at least show
 
 
@@ -30,12 +30,12 @@ def name_of(source: str) -> str:
 
 def bare_case(source: str, seed: int, place: int) -> GapCase:
     """A case without an effect; of a folder always the same."""
-    from geocontact.gap_benchmark.synthetic.cases import plant
+    from geocontact.gap_benchmark.synthetic.cases import synthetic_case
     from geocontact.io.cases.gap_case import read_gap_case
 
     if is_folder(source):
         return read_gap_case(Path(source))
-    return plant(source, "none", np.random.SeedSequence(seed, spawn_key=(place,))).case
+    return synthetic_case(source, "none", np.random.SeedSequence(seed, spawn_key=(place,))).case
 
 
 def known_to(source: str) -> tuple[str, ...]:
@@ -51,13 +51,13 @@ def known_to(source: str) -> tuple[str, ...]:
 
 def effects_of(source: str) -> tuple[str, ...]:
     """Those of them that a case of this source can have, none that base parameters always swallow."""
-    from geocontact.gap_benchmark.synthetic.catalogue import NO_GAP, SWALLOWED
+    from geocontact.gap_benchmark.synthetic.catalogue import CONFOUNDED, NO_GAP
 
-    hidden = () if is_folder(source) else (*NO_GAP.get(source, ()), *SWALLOWED[source])
+    hidden = () if is_folder(source) else (*NO_GAP.get(source, ()), *CONFOUNDED[source])
     return tuple(name for name in known_to(source) if name not in hidden)
 
 
-def has_swallowed(source: str) -> bool:
+def has_confounded(source: str) -> bool:
     """Whether it has cases of effects that base parameters swallow."""
     return not is_folder(source)
 
@@ -67,14 +67,14 @@ def case_with(source: str, effect: str, nats: float, seed: int, place: int) -> G
 
     None where the effect cannot be so visible, or where a folder has no such case.
     """
-    from geocontact.gap_benchmark.synthetic.cases import NotFoundError, plant
+    from geocontact.gap_benchmark.synthetic.cases import NotFoundError, synthetic_case
 
     if is_folder(source):
-        return None if effect == SWALLOWED else _simulated(source, effect, nats, seed, place)
-    kind = effect if effect in (NOTHING, SWALLOWED) else "single"
+        return None if effect == CONFOUNDED else _simulated(source, effect, nats, seed, place)
+    kind = effect if effect in (NOTHING, CONFOUNDED) else "single"
     sequence = np.random.SeedSequence(seed, spawn_key=(place,))
     try:
-        return plant(source, kind, sequence, *((effect, nats) if kind == "single" else ())).case
+        return synthetic_case(source, kind, sequence, *((effect, nats) if kind == "single" else ())).case
     except NotFoundError:
         return None
 
@@ -85,7 +85,7 @@ def _simulated(folder: str, effect: str, nats: float, seed: int, place: int) -> 
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.case.admission import admitted
     from geocontact.gap.case.problem import problem_of
-    from geocontact.gap.identifiability.signatures import ground_of
+    from geocontact.gap.identifiability.signatures import base_state_of
     from geocontact.gap.selection.model_comparison import base_contender
     from geocontact.systems.catalogue import system_of
 
@@ -96,7 +96,7 @@ def _simulated(folder: str, effect: str, nats: float, seed: int, place: int) -> 
     key = int(np.random.SeedSequence(seed, spawn_key=(place,)).generate_state(1)[0])
     if effect == NOTHING:
         return case_of(case, problem, base.noise, problem.system, base.model.values, key)
-    ground = ground_of(problem, base.noise, base.model.values)
+    ground = base_state_of(problem, base.noise, base.model.values)
     sized = [at_nats(ground, one, nats) for one in candidates(problem.system) if one.name == effect and one.parameters]
     seen = [one for one in sized if one.visible > BESIDES * nats]
     if not seen:

@@ -84,7 +84,7 @@ def coverage_with(name: str, frames: int, tau: float, runs: int, seed: int) -> d
     from geocontact.elastic_modulus.area_force import MODULUS
     from geocontact.elastic_modulus.identify import fitted, modulus_parameter
     from geocontact.identify.intervals.profile_likelihood import profile
-    from geocontact.identify.noise.autocorrelation import memory_of
+    from geocontact.identify.noise.autocorrelation import autocorrelation_of
     from tests.identify.synthetic_contact import TRUE, coloured, synthetic_model
 
     free, true = {
@@ -99,7 +99,7 @@ def coverage_with(name: str, frames: int, tau: float, runs: int, seed: int) -> d
     for _ in range(runs):
         measured = force + coloured(model.frames, NOISE, tau, rng)
         fit = fitted(model, measured, parameters, starts=0)
-        memory = memory_of(model.frames, fit.residuals[0][:, 0], fit.jacobian[0][:, 0, :])
+        memory = autocorrelation_of(model.frames, fit.residuals[0][:, 0], fit.jacobian[0][:, 0, :])
         ends = [
             profile(model.predict, measured, model.frames, parameters, fit, memory, each, points=2)
             for each in (MODULUS, name)

@@ -80,16 +80,16 @@ def bed_of(insert, edge: float, smooth: bool):
     """The insert's upper faces as a layer, and what building it costs."""
     from dataclasses import replace
 
-    from geocontact.geometry.phong_offset import bulge, corner_normals
-    from geocontact.geometry.surface_quadrature import pieces_of
+    from geocontact.geometry.phong_offset import corner_normals, phong_offset
+    from geocontact.geometry.surface_quadrature import surface_quadrature
     from geocontact.geometry.thickness import thickness_below
     from geocontact.loads.foundation import Layer
 
     started = time.process_time()
-    pieces = pieces_of(insert, edge, insert.face_normal[:, 1] > 0.25)
+    pieces = surface_quadrature(insert, edge, insert.face_normal[:, 1] > 0.25)
     layer = Layer(pieces, thickness_below(insert, pieces.point, pieces.normal), MODULUS)
     if smooth:
-        layer = replace(layer, height=bulge(insert, corner_normals(insert), pieces.face, pieces.point))
+        layer = replace(layer, height=phong_offset(insert, corner_normals(insert), pieces.face, pieces.point))
     return layer, time.process_time() - started
 
 
@@ -157,7 +157,7 @@ def beside(ours: Forces, finest: Forces, faces: int, smooth: bool) -> dict[str, 
 
 def refined(surface, times: int = 2):
     """Every face cut into four, so many times; new corners on the smooth surface, creases kept."""
-    from geocontact.geometry.phong_offset import bulge, corner_normals
+    from geocontact.geometry.phong_offset import corner_normals, phong_offset
     from geocontact.geometry.surface import Surface
 
     for _ in range(times):
@@ -168,7 +168,7 @@ def refined(surface, times: int = 2):
         middle = vertices[unique].mean(axis=1)
         normal = np.zeros((len(unique), 3))
         face = np.arange(len(faces)).repeat(3)
-        lift = bulge(surface, normals, face, vertices[edges].mean(axis=1))
+        lift = phong_offset(surface, normals, face, vertices[edges].mean(axis=1))
         np.add.at(normal, place.ravel(), surface.face_normal[face])
         height = np.bincount(place.ravel(), lift, len(unique)) / np.bincount(place.ravel(), minlength=len(unique))
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 from geocontact.data.version import VERSION
 
 if TYPE_CHECKING:
+    from geocontact import chain
     from geocontact.analyses import misalignment
     from geocontact.analyses.area.job import area, pressure
     from geocontact.analyses.cop.job import centre_of_pressure
@@ -38,7 +39,9 @@ if TYPE_CHECKING:
     from geocontact.data.errors import InputError, InputWarning
     from geocontact.data.evolution import AreaEvolution
     from geocontact.data.motion import Motion
+    from geocontact.data.parameter import Parameter
     from geocontact.data.units import GPa, MPa, cm, deg, inch, kN, kPa, lbf, m, mm, mmHg, ms, percent
+    from geocontact.effects.catalogue import candidates
     from geocontact.geometry.contact_area.area import Refinement
     from geocontact.geometry.contact_area.evolution import ContactPair, Settings, area_evolution
     from geocontact.geometry.contact_area.maps import DistanceMaps
@@ -49,8 +52,12 @@ if TYPE_CHECKING:
     from geocontact.geometry.shapes import HalfSpace, Sphere, Tube
     from geocontact.geometry.surface import Surface
     from geocontact.geometry.sweep import Axis, sweep
+    from geocontact.io.cases.gap_case import read_gap_case
     from geocontact.io.mesh.meshes import read_mesh
     from geocontact.io.motion.motion import read_motion
+    from geocontact.systems.base import Base, require_numbers
+    from geocontact.systems.catalogue import system_of
+    from geocontact.systems.external.simulator import simulator_base
 
 __version__ = VERSION
 
@@ -92,6 +99,13 @@ _PLACES = {
     "discriminability": "analyses.gap.discriminability.job",
     "inject": "analyses.gap.inject.job",
     "gather": "analyses.gap.gather.job",
+    "Base": "systems.base",
+    "require_numbers": "systems.base",
+    "simulator_base": "systems.external.simulator",
+    "Parameter": "data.parameter",
+    "read_gap_case": "io.cases.gap_case",
+    "system_of": "systems.catalogue",
+    "candidates": "effects.catalogue",
     "m": "data.units",
     "cm": "data.units",
     "mm": "data.units",
@@ -108,9 +122,13 @@ _PLACES = {
     "Result": "analyses.result",
 }
 
+_ROOMS = {"misalignment": "analyses.misalignment", "chain": "chain"}
+"""Modules with names of their own."""
+
 __all__ = [
     "AreaEvolution",
     "Axis",
+    "Base",
     "ContactPair",
     "DistanceMaps",
     "GPa",
@@ -119,6 +137,7 @@ __all__ = [
     "InputWarning",
     "MPa",
     "Motion",
+    "Parameter",
     "Plane",
     "Proximity",
     "Refinement",
@@ -129,7 +148,9 @@ __all__ = [
     "Tube",
     "area",
     "area_evolution",
+    "candidates",
     "centre_of_pressure",
+    "chain",
     "cm",
     "deg",
     "diagnose",
@@ -154,13 +175,17 @@ __all__ = [
     "ms",
     "percent",
     "pressure",
+    "read_gap_case",
     "read_mesh",
     "read_motion",
     "read_surface",
+    "require_numbers",
     "scale",
     "separation",
     "settle",
+    "simulator_base",
     "sweep",
+    "system_of",
     "virtual_markers",
 ]
 
@@ -169,8 +194,8 @@ def __getattr__(name: str) -> Any:
     """Import what is asked for, so that `import geocontact` stays light."""
     if name in _PLACES:
         return getattr(import_module(f"geocontact.{_PLACES[name]}"), name)
-    if name == "misalignment":
-        return import_module("geocontact.analyses.misalignment")
+    if name in _ROOMS:
+        return import_module(f"geocontact.{_ROOMS[name]}")
     raise AttributeError(f"module 'geocontact' has no attribute {name!r}")
 
 

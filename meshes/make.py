@@ -13,6 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
 
 from meshes.gait import synthetic_gait
+from meshes.leg_files import leg_model, leg_swing
 from meshes.mat_files import recording_files
 from meshes.mat_recordings import recordings
 from meshes.motion_files import opensim_model, opensim_motion, pose_table
@@ -43,13 +44,15 @@ def simple_files() -> dict[str, bytes]:
 
 
 def motion_files() -> dict[str, bytes]:
-    """The gait cycle, settled on the medium right pair, as table, motion and model."""
+    """The gait cycle, settled on the medium right pair, as table, motion and model; a leg with markers that swings."""
     gait = synthetic_gait(*total_knee(RESOLUTIONS["medium"]))
     texts = {
         "gait.csv": pose_table(gait),
         "gait_left.csv": pose_table(gait.mirrored()),
         "gait.mot": opensim_motion(gait),
         "knee.osim": opensim_model("tibial_insert_right_medium.stl", "femoral_component_right_medium.stl"),
+        "leg.osim": leg_model(),
+        "leg_swing.mot": leg_swing(),
     }
     return {name: text.encode("ascii") for name, text in texts.items()}
 

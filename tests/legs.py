@@ -11,48 +11,12 @@ from geocontact.data.multibody.model import Multibody
 from geocontact.io.mocap.trc_writer import write_trc
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.opensim.storage_writer import write_storage
+from meshes.leg_files import BODIES, GRAVITY, leg_model
+
+__all__ = ["BODIES", "GRAVITY"]
 
 RATE = 100.0
-GRAVITY = 9.80665
-BODIES = {"pelvis": 10.0, "femur_r": 8.0, "tibia_r": 4.0, "foot_r": 1.0}
-JOINTS = (
-    ("FreeJoint", "base", "ground", "pelvis", (0, 0, 0), ("tilt", "list", "turn", "tx", "ty", "tz")),
-    ("BallJoint", "hip_r", "pelvis", "femur_r", (0, -0.1, 0.1), ("hip_x", "hip_y", "hip_z")),
-    ("PinJoint", "knee_r", "femur_r", "tibia_r", (0, -0.4, 0), ("knee",)),
-    ("PinJoint", "ankle_r", "tibia_r", "foot_r", (0, -0.4, 0), ("ankle",)),
-)
-PLACES = ((0.1, 0.0, 0.03), (-0.08, 0.05, 0.0), (0.0, -0.2, 0.08), (0.05, -0.1, -0.07))
-
-
-def _body(name: str, mass: float) -> str:
-    inertia = f"{0.02 * mass} {0.01 * mass} {0.015 * mass} 0 0 0"
-    return f"""<Body name="{name}"><mass>{mass}</mass><mass_center>0 -0.15 0</mass_center>
-<inertia>{inertia}</inertia></Body>"""
-
-
-def _joint(kind: str, name: str, parent: str, child: str, at: tuple[float, ...], coordinates: tuple[str, ...]) -> str:
-    path = "/ground" if parent == "ground" else f"/bodyset/{parent}"
-    held = "".join(f'<Coordinate name="{c}"/>' for c in coordinates)
-    return f"""<{kind} name="{name}"><socket_parent_frame>{name}_in</socket_parent_frame>
-<socket_child_frame>{name}_out</socket_child_frame><coordinates>{held}</coordinates><frames>
-<PhysicalOffsetFrame name="{name}_in"><socket_parent>{path}</socket_parent>
-<translation>{" ".join(map(str, at))}</translation></PhysicalOffsetFrame>
-<PhysicalOffsetFrame name="{name}_out"><socket_parent>/bodyset/{child}</socket_parent></PhysicalOffsetFrame>
-</frames></{kind}>"""
-
-
-def _marker(body: str, k: int) -> str:
-    place = " ".join(map(str, PLACES[k]))
-    return f"""<Marker name="{body}{k}"><socket_parent_frame>/bodyset/{body}</socket_parent_frame>
-<location>{place}</location></Marker>"""
-
-
-OSIM = f"""<?xml version="1.0"?><OpenSimDocument Version="40000"><Model name="synthetic leg">
-<gravity>0 -{GRAVITY} 0</gravity><Ground name="ground"/>
-<BodySet><objects>{"".join(_body(*each) for each in BODIES.items())}</objects></BodySet>
-<JointSet><objects>{"".join(_joint(*each) for each in JOINTS)}</objects></JointSet>
-<MarkerSet><objects>{"".join(_marker(body, k) for body in BODIES for k in range(4))}</objects></MarkerSet>
-</Model></OpenSimDocument>"""
+OSIM = leg_model()
 
 
 def model_file(folder: Path) -> Path:

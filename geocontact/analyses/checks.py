@@ -11,7 +11,7 @@ Idle = tuple[bool, str, str, str]
 def bootstrap_rule(count: int, usual: int) -> Idle:
     """Replicates that are neither none nor enough."""
     what, remedy = f"{count} is not 100 to 100000", f"give {usual}, or 0 for none"
-    return (count != 0 and not 100 <= count <= 100_000, "--bootstrap", what, remedy)
+    return (count != 0 and not 100 <= count <= 100_000, "`bootstrap`", what, remedy)
 
 
 def width_rule(option: str, width_deg: float) -> Idle:

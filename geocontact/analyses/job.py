@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from inspect import Parameter, Signature
 from pathlib import Path
-from typing import Any, Generic, ParamSpec, TypeVar
+from typing import Any, Generic, TypeVar
 
 from geocontact.analyses.listener import Listener
 from geocontact.analyses.options import Declared, Options, declared
@@ -16,12 +16,11 @@ from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record, as_python
 from geocontact.data.errors import InputWarning
 
-P = ParamSpec("P")
 I = TypeVar("I")
 R = TypeVar("R", bound=Result)
 
 
-class Job(Generic[P, I, R]):
+class Job(Generic[I, R]):
     """An analysis: its name, its options, and what reads and computes.
 
     Called with the options' arguments it returns the result; reservations become `InputWarning`s.
@@ -41,12 +40,11 @@ class Job(Generic[P, I, R]):
     def __init__(
         self,
         command: str,
-        options: Callable[P, Any],
+        options: type[Options],
         read: Callable[[Any, Record], I],
         run: Callable[[I, Any, Record], R],
     ) -> None:
-        self.command, self.read, self.run = command, read, run
-        self.options: Any = options
+        self.command, self.options, self.read, self.run = command, options, read, run
         self.__doc__ = options.__doc__
         self.__name__ = command.replace(" ", "_")
 
@@ -55,12 +53,12 @@ class Job(Generic[P, I, R]):
         """Names, types and defaults of the options, without what only the command line needs."""
         return Signature([_parameter(one) for one in declared(self.options) if one.settable])
 
-    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
-        """Read and compute; nothing is written."""
-        options: Options = self.options(*args, **kwargs)
-        record = Record(self.command, options.in_si(), options.in_si())
+    def __call__(self, *inputs: Any, **options: Any) -> R:
+        """Read and compute; nothing is written. Arguments are those of `__signature__`; paths may be text."""
+        asked = self.options(*inputs, **options)
+        record = Record(self.command, asked.in_si(), asked.in_si())
         with record.catching_warnings():
-            result = self.run(self.read(options, record), options, record)
+            result = self.run(self.read(asked, record), asked, record)
         for line in record.warnings:
             warnings.warn(line, InputWarning, stacklevel=2)
         return result
@@ -94,7 +92,7 @@ class Call:
     spell: Callable[[str], str] = as_python
 
 
-def execute(job: Job[..., Any, R], options: Options, out: Path, call: Call) -> tuple[R, list[str]]:
+def execute(job: Job[Any, R], options: Options, out: Path, call: Call) -> tuple[R, list[str]]:
     """Evaluate and write into `out`, whole or not at all; the result and the names of the files."""
     record = Record(job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell)
     with record.catching_warnings(), written_whole(out) as draft:

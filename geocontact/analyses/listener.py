@@ -12,6 +12,9 @@ class Listener:
     def warn(self, line: str) -> None:
         """A reservation, as soon as it is known."""
 
+    def fail(self, line: str) -> None:
+        """A part of the work that could not be done, in one line; the rest goes on."""
+
     def preparing(self) -> AbstractContextManager[None]:
         """Kernels may be compiled in this block, which takes a while once on a machine."""
         return nullcontext()

@@ -27,7 +27,8 @@ class Typed:
     si
         SI unit, "-" for none.
     read
-        Function of `analyses.quantities` that takes the text and the option's name and gives the value in SI.
+        Function of `analyses.quantities` that takes the text and the option's name and gives the value in SI; as
+        "misalignment.parameters:numbers" of another module of the analyses.
     hint
         What the help of the command line says of units.
     kind
@@ -56,6 +57,8 @@ class Spelled:
         A value may begin with a minus.
     each
         May be given again and again, one value each time.
+    keyword
+        An option there, although in Python it may be given by its place.
     """
 
     name: str = ""
@@ -63,6 +66,7 @@ class Spelled:
     default: Any = None
     dashed: bool = False
     each: bool = False
+    keyword: bool = False
 
 
 @dataclass(frozen=True)
@@ -151,13 +155,22 @@ class Declared:
         if value is None:
             return None
         if self.several:
-            items = value if isinstance(value, (tuple, list)) else (value,)
-            return tuple(_as(get_args(self.kind)[0], item) for item in items)
+            one = get_args(self.kind)[0]
+            return tuple(_as(one, item) for item in ((value,) if self._alone(value) else value))
         if self.kind in (Path, float, str):
             return _as(self.kind, value)
+        if isinstance(value, str) and Path in get_args(self.kind):
+            return Path(value)
         if self.choices and value not in self.choices:
             raise InputError("", f"`{self.name}`", f"{value!r} is not a choice", f"one of {', '.join(self.choices)}")
         return value
+
+    def _alone(self, value: Any) -> bool:
+        """Whether a value is one of several; a pair is one where pairs are asked for."""
+        if not isinstance(value, (tuple, list)):
+            return True
+        pairs = get_origin(get_args(self.kind)[0]) is tuple
+        return pairs and len(value) > 0 and not isinstance(value[0], (tuple, list))
 
 
 @dataclass(frozen=True)
@@ -255,7 +268,7 @@ def _taken_apart(hint: Any) -> tuple[Any, list[Any], bool]:
             hint, *own = get_args(hint)
             marks += own
         elif get_origin(hint) in (Union, UnionType) and NoneType in get_args(hint):
-            hint = next(each for each in get_args(hint) if each is not NoneType)
+            hint = Union[tuple(each for each in get_args(hint) if each is not NoneType)]  # noqa: UP007
             optional = True
         else:
             return hint, marks, optional

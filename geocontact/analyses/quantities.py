@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Literal
 
@@ -64,6 +65,18 @@ def finite(value: float, option: str) -> float:
     if not math.isfinite(value):
         raise InputError("", option, f"{value} is not a finite number", "give a number")
     return value
+
+
+def named_numbers(texts: Iterable[str], option: str) -> dict[str, float]:
+    """ "damping.b=25", "damping.c=1" to numbers by name; in SI as they are."""
+    found = {}
+    for text in texts:
+        name, _, value = text.partition("=")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            raise InputError("", option, f"{value!r} is no number", f"write {name}=1.5") from None
+    return found
 
 
 def friction(text: str, option: str) -> tuple[float, float]:
@@ -155,6 +168,11 @@ def angle_range(text: str, option: str, example: str) -> tuple[float, float, flo
     return start * ANGLE["deg"], stop * ANGLE["deg"], step * ANGLE["deg"]
 
 
+def degree_range(text: str, option: str) -> tuple[float, float, float]:
+    """ "-30:120:5" to start, stop, step [rad]; degrees are typed."""
+    return angle_range(text, option, f"{option}=-30:120:5")
+
+
 def directions(text: str, option: str) -> tuple[Vector, Vector]:
     """ "-y,x" to two unit vectors along coordinate axes."""
     names = [part.strip() for part in text.split(",")]
@@ -227,7 +245,7 @@ def _checked(point: tuple[float, float, float], direction: tuple[float, float, f
         raise InputError("", "`axis`", str(error), f"check {text!r}") from error
 
 
-def windows(text: str, option: str) -> list[tuple[float, float]]:
+def windows(text: str, option: str) -> tuple[tuple[float, float], ...]:
     """ "0:0.5,9:9.5" to pairs of times [s]."""
     found = []
     for part in text.split(","):
@@ -237,7 +255,7 @@ def windows(text: str, option: str) -> list[tuple[float, float]]:
         found.append((number(first, option, "0:0.5"), number(last, option, "0:0.5")))
         if found[-1][1] <= found[-1][0]:
             raise InputError("", option, f"{part!r} ends before it begins", "write for example 0:0.5")
-    return found
+    return tuple(found)
 
 
 def time_span(text: str, option: str) -> tuple[float, float]:
@@ -265,47 +283,33 @@ def turned_axes(text: str, option: str) -> Rotation:
     return Rotation.from_matrix(matrix)
 
 
-def registration(text: str) -> tuple[float, float]:
+def registration(text: str, option: str) -> tuple[float, float]:
     """ "1mm,2deg" to a length [m] and an angle [rad]."""
     parts = [part.strip() for part in text.split(",")]
     if len(parts) != 2 or not parts[1].endswith(("deg", "rad")):
-        raise InputError("", "`registration`", f"{text!r} is not a length and an angle", "write 1mm,2deg")
-    angle = number(parts[1][:-3], "`registration`", "1mm,2deg") * ANGLE[parts[1][-3:]]
-    shift = length(parts[0], "`registration`")
+        raise InputError("", option, f"{text!r} is not a length and an angle", "write 1mm,2deg")
+    angle = number(parts[1][:-3], option, "1mm,2deg") * ANGLE[parts[1][-3:]]
+    shift = length(parts[0], option)
     if shift < 0.0 or angle < 0.0:
-        raise InputError("", "`registration`", f"{text!r} is negative", "write 1mm,2deg")
+        raise InputError("", option, f"{text!r} is negative", "write 1mm,2deg")
     return shift, angle
 
 
 def angle_span(text: str, option: str) -> tuple[float, float]:
-    """ "0:120deg" to two rising angles [rad]; the unit is written and counts for both."""
+    """ "0:120deg" to two angles [rad]; the unit is written and counts for both."""
     found = re.fullmatch(r"(?P<first>[^:]+):(?P<last>[^:a-z]+)\s*(?P<unit>deg|rad)", text.strip())
     if found is None:
         raise InputError("", option, f"{text!r} is not a range of angles with its unit", "write for example 0:120deg")
     first, last = (number(found[end], option, "0:120deg") * ANGLE[found["unit"]] for end in ("first", "last"))
-    if last <= first:
-        raise InputError("", option, f"{text!r} ends before it begins", "write for example 0:120deg")
-    if max(abs(first), abs(last)) > 2.0 * math.pi:
-        raise InputError("", option, f"{text!r} is more than a turn", "are these degrees? write for example 0:120deg")
-    if last - first < SMALLEST_SPAN:
-        what = f"{text!r} is a range of {math.degrees(last - first):.3g} degrees"
-        raise InputError("", option, what, "are these radians? write for example 0:2.1rad")
     return first, last
 
 
-SMALLEST_SPAN = math.radians(5.0)
-"""rad; nobody asks for what happens within less, but radians are taken for degrees."""
-
-
 def length_span(text: str, option: str) -> tuple[float, float]:
-    """ "-20:35" to two lengths [m], mm unless a unit is written, the second not below the first."""
+    """ "-20:35" to two lengths [m], mm unless a unit is written."""
     first, colon, last = text.partition(":")
     if not colon:
         raise InputError("", option, f"{text!r} is not a length from … to", "write for example -20:35")
-    lower, upper = length(first, option), length(last, option)
-    if upper < lower:
-        raise InputError("", option, f"{text!r} ends before it begins", "write the lower end first")
-    return lower, upper
+    return length(first, option), length(last, option)
 
 
 def length_pair(text: str, option: str) -> tuple[float, float]:
@@ -314,3 +318,31 @@ def length_pair(text: str, option: str) -> tuple[float, float]:
     if len(parts) != 2:
         raise InputError("", option, f"{text!r} is not two lengths", "write for example 5,-3")
     return length(parts[0], option), length(parts[1], option)
+
+
+FREE_UNITS = {"threshold": LENGTH["mm"], "lag": 1.0, "adduction": ANGLE["deg"], "slope": 1.0}
+"""SI units per unit in which the bounds of a free number are typed."""
+
+
+def free_numbers(text: str, option: str) -> dict[str, tuple[float, float] | None]:
+    """ "threshold=1:6,lag" to bounds in SI by name, None where none are given."""
+    found: dict[str, tuple[float, float] | None] = {}
+    for part in text.split(","):
+        name, _, bounds = (piece.strip() for piece in part.partition("="))
+        if name not in FREE_UNITS or name in found:
+            what = f"{part.strip()!r} is none of {', '.join(FREE_UNITS)}, or is named twice"
+            raise InputError("", option, what, "write threshold,lag=-0.05:0.05")
+        found[name] = _bounds(bounds, option, FREE_UNITS[name]) if bounds else None
+    return found
+
+
+def _bounds(text: str, option: str, unit: float) -> tuple[float, float]:
+    low, colon, high = text.partition(":")
+    if not colon:
+        raise InputError("", option, f"{text!r} is not lower:upper", "write threshold=1:6")
+    return number(low, option, "lag=-0.05:0.05") * unit, number(high, option, "lag=-0.05:0.05") * unit
+
+
+def ratios(text: str, option: str) -> tuple[float, ...]:
+    """ "0.25,0.46" to numbers."""
+    return tuple(number(part, option, "0.25,0.46") for part in text.split(","))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from base64 import b64encode
 from dataclasses import dataclass, field
+from html import escape
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
@@ -46,6 +48,11 @@ class Result(ABC):
     def accepted(self) -> bool:
         """False where a comparison that was asked for is beyond its tolerance."""
         return True
+
+    @property
+    def exit_code(self) -> int:
+        """What the command ends with."""
+        return 0 if self.accepted else 1
 
     @property
     def folders(self) -> tuple[str, ...]:
@@ -101,10 +108,13 @@ class Result(ABC):
     def __repr__(self) -> str:
         return "\n".join((*self.sentences, *(f"warning: {line}" for line in self.warnings)))
 
-    def _repr_png_(self) -> bytes | None:
+    def _repr_html_(self) -> str:
+        """Sentences, reservations and figure, as a notebook shows them."""
+        lines = [*self.sentences, *(f"warning: {line}" for line in self.warnings)]
+        text = "".join(f"<p>{escape(line)}</p>" for line in lines)
         figure = self.figure()
         if figure is None:
-            return None
+            return text
         picture = BytesIO()
         figure.savefig(picture, format="png", dpi=96)
-        return picture.getvalue()
+        return f'{text}<img src="data:image/png;base64,{b64encode(picture.getvalue()).decode("ascii")}"/>'

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import secrets
 import shutil
+import tempfile
+import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -19,6 +21,26 @@ def discard_drafts() -> None:
     """Remove what is half-written."""
     for draft in tuple(_drafts):
         shutil.rmtree(draft, ignore_errors=True)
+
+
+class Scratch:
+    """A folder for files that a result will write; it goes with the last reference to it, and when a run is ended.
+
+    Parameters
+    ----------
+    folder
+        Empty at first.
+    """
+
+    def __init__(self) -> None:
+        self.folder = Path(tempfile.mkdtemp(prefix="geocontact-"))
+        _drafts.add(self.folder)
+        weakref.finalize(self, _discard, self.folder)
+
+
+def _discard(folder: Path) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    _drafts.discard(folder)
 
 
 @contextmanager

@@ -112,7 +112,7 @@ class Record:
         }
         places = dict.fromkeys(folders)
         for folder in places:
-            files = written(folder, places)
+            files = written(folder, places, self.command)
             told = {**content, "files": sorted((*files, RUN)), "sha256": files}
             text = json.dumps(told, indent=2, ensure_ascii=False)
             (folder / RUN).write_text(text + "\n", encoding="utf-8")
@@ -123,6 +123,8 @@ def _plain(value: object) -> object:
         return value
     if isinstance(value, (list, tuple)):
         return [_plain(item) for item in value]
+    if isinstance(value, Mapping):
+        return {str(key): _plain(each) for key, each in value.items()}
     return str(value)
 
 

@@ -20,9 +20,13 @@ def digest(file: Path) -> str:
         return hashlib.file_digest(content, "sha256").hexdigest()
 
 
-def written(folder: Path, others: Iterable[Path]) -> dict[str, str]:
-    """Files of one run in and below `folder` with their SHA-256, but not those of the runs in `others` below it."""
-    apart = {place for place in others if folder in place.parents}
+def written(folder: Path, others: Iterable[Path], command: str) -> dict[str, str]:
+    """Files of one run in and below `folder` with their SHA-256.
+
+    Not those of the runs in `others` below it, nor where a run.json of the same command tells of them already.
+    """
+    own = {file.parent for file in folder.rglob(RUN) if _told(file.parent).get("command") == command}
+    apart = {place for place in (*others, *own) if folder in place.parents}
     files = sorted(file for file in folder.rglob("*") if file.is_file() and not apart & set(file.parents))
     return {file.relative_to(folder).as_posix(): digest(file) for file in files if file.name != RUN}
 

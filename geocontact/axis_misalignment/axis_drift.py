@@ -1,4 +1,4 @@
-"""How the axis of a joint wanders with the angle: added to the offsets of a misaligned axis.
+"""How the axis of a joint drifts with the angle: added to the offsets of a misaligned axis.
 
 The drift is a piecewise polynomial over the exoskeleton's angle β or the joint's own α = β - γ: one piece for a
 polynomial, cubic pieces through the rows of a table, which is held at its ends. It is that of a point which stays with
@@ -97,7 +97,7 @@ def from_instant_centre(
 ) -> AxisDrift:
     """Drift of the limb's own point over the joint's angle [rad], from where the instant centre is at each; all in m.
 
-    The instant centre c is the point of the limb that stands still at that instant, told as offsets (x, y) are. The
+    The instant centre c is the point of the limb that stands still at that instant, given as offsets (x, y) are. The
     limb's line starts from where the centre is when the joint is straight (angle 0); that point o stays with the limb
     and moves by do/dα = i (o - c) in complex numbers x + i y. ValueError where the table does not hold angle 0.
     """

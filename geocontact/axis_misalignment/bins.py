@@ -9,10 +9,10 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.elbow_recording import ElbowRecording
-from geocontact.identify.noise.autoregressive import Noise, noise_of
-from geocontact.identify.signals.angle_bins import Cells, Visits, edges_over, visits
+from geocontact.identify.noise.autoregressive import AutoregressiveNoise, noise_of
+from geocontact.identify.signals.angle_bins import AngleBins, Cells, angle_bins, edges_over
 
-CHUNK = 0.05  # s, over which a residual is averaged before its memory is told
+CHUNK = 0.05  # s, over which a residual is averaged before its correlation time is estimated
 MEMORIES = 10.0  # correlation times in a stretch: a tenth of the variance is lost across their ends
 SHORTEST, FEWEST = 1.0, 6  # s of a stretch, and stretches in a trial
 BETA, FORCE, RATE, PRESSURE, DISPLACEMENT = range(5)
@@ -36,9 +36,9 @@ class Binned:
     """
 
     names: tuple[str, ...]
-    visits: Visits
+    visits: AngleBins
     cells: Cells
-    noise: Noise
+    noise: AutoregressiveNoise
     stretch: float
     step: float
     pressure: float
@@ -68,7 +68,7 @@ class Binned:
 
     def _kept(self, kept: np.ndarray) -> Binned:
         v = self.visits
-        some = Visits(v.edges, v.trial[kept], v.stretch[kept], v.place[kept], v.count[kept], v.means[kept])
+        some = AngleBins(v.edges, v.trial[kept], v.stretch[kept], v.place[kept], v.count[kept], v.means[kept])
         return Binned(self.names, some, some.cells(), self.noise, self.stretch, self.step, self.pressure)
 
 
@@ -86,7 +86,7 @@ def binned(recordings: Sequence[ElbowRecording], width: float, centre: float | N
     noise = _noise(times, channels, edges)
     shortest = min(float(t[-1] - t[0]) for t in times)
     stretch = min(max(SHORTEST, MEMORIES * float(noise.tau[0])), shortest / FEWEST)
-    found = visits(times, channels, edges, stretch)
+    found = angle_bins(times, channels, edges, stretch)
     step = float(np.median([r.step for r in recordings]))
     return Binned(tuple(r.name for r in recordings), found, found.cells(), noise, stretch, step, pressure)
 
@@ -102,9 +102,9 @@ def _noise(
     times: Sequence[Float[np.ndarray, " _"]],
     channels: Sequence[Float[np.ndarray, "_ 5"]],
     edges: Float[np.ndarray, " edges"],
-) -> Noise:
+) -> AutoregressiveNoise:
     """Of the force about the curve through all trials' bin means, which no model has a part in."""
-    curve = visits(times, channels, edges, np.inf).cells()
+    curve = angle_bins(times, channels, edges, np.inf).cells()
     bins = len(edges) - 1
     count = np.bincount(curve.place, curve.count, bins)
     reached = count > 0.0

@@ -14,7 +14,7 @@ from jaxtyping import Float
 
 @dataclass(frozen=True)
 class Compensation:
-    """Stiffness k of the attachment [N/m] and stroke ends of the joint [m]; locked unless told otherwise."""
+    """Stiffness k of the attachment [N/m] and stroke ends of the joint [m]; locked unless stated otherwise."""
 
     stiffness: float
     lower: float = 0.0

@@ -11,10 +11,10 @@ from math import cos, hypot, sin, sqrt
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.law_parameters import Slots
+from geocontact.chain.law_parameters import LawParameters
 from geocontact.geometry.kernels.compile import kernel
 
-ELBOW_GEOMETRY = Slots(
+ELBOW_GEOMETRY = LawParameters(
     {
         "l_ex": 1.0,
         "z_ex": 0.0,

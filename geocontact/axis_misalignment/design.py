@@ -39,7 +39,7 @@ NOTHING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Task:
+class DesignTask:
     """An exoskeleton's numbers that are not offsets, the range of angles [rad] and the limit of |F| [N]."""
 
     length: float
@@ -82,7 +82,7 @@ class OffsetMap:
     fate: Int[np.ndarray, " n"]
 
 
-def offset_map(task: Task, x: Float[np.ndarray, " a"], y: Float[np.ndarray, " b"]) -> OffsetMap:
+def offset_map(task: DesignTask, x: Float[np.ndarray, " a"], y: Float[np.ndarray, " b"]) -> OffsetMap:
     """Extremes over a grid of offsets."""
     offsets = np.array([(u, v) for v in y for u in x])
     found, fate = task.extremes(offsets)
@@ -103,7 +103,7 @@ class Boundary:
         return float(self.distances.min())
 
 
-def boundary(task: Task, centre: tuple[float, float], most: float) -> Boundary:
+def boundary(task: DesignTask, centre: tuple[float, float], most: float) -> Boundary:
     """Where |F| first passes the limit around `centre`, looked for up to `most` [m].
 
     Every direction is walked outwards until the limit is passed for the first time, in steps of `most`/200; distances
@@ -120,7 +120,7 @@ def boundary(task: Task, centre: tuple[float, float], most: float) -> Boundary:
 
 
 def _passed(
-    task: Task, centre: tuple[float, float], angles: Float[np.ndarray, " r"], most: float
+    task: DesignTask, centre: tuple[float, float], angles: Float[np.ndarray, " r"], most: float
 ) -> Float[np.ndarray, " r"]:
     """Distance from the centre at which the limit is first passed in each direction."""
     way = np.column_stack([np.cos(angles), np.sin(angles)])
@@ -145,7 +145,7 @@ def disc(centre: tuple[float, float], radius: float) -> Float[np.ndarray, "n 2"]
 
 
 def force_band(
-    task: Task, centre: tuple[float, float], radius: float, beta: Float[np.ndarray, " m"]
+    task: DesignTask, centre: tuple[float, float], radius: float, beta: Float[np.ndarray, " m"]
 ) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"]]:
     """Least and largest force [N] at each angle [rad] over a disc of offsets that all have a deflection."""
     offsets = disc(centre, radius)
@@ -155,7 +155,7 @@ def force_band(
 
 
 @dataclass(frozen=True)
-class Stroke:
+class NeededStroke:
     """What a disc of offsets asks of the stroke ends [m].
 
     least, largest
@@ -175,7 +175,7 @@ class Stroke:
         return max(self.upper - self.lower, 0.0)
 
 
-def needed_stroke(task: Task, centre: tuple[float, float], radius: float) -> Stroke:
+def needed_stroke(task: DesignTask, centre: tuple[float, float], radius: float) -> NeededStroke:
     """Stroke that offsets in a disc ask for; ValueError names offsets at which there is no deflection.
 
     What lies between the offsets of `disc` is missed by less than 1e-4 of the radius where links are several times as
@@ -188,7 +188,7 @@ def needed_stroke(task: Task, centre: tuple[float, float], radius: float) -> Str
         task.joint(float(x), float(y)).extremes(task.start, task.stop)
     least, largest = float(found[:, 0].min()), float(found[:, 1].max())
     ((lower, upper),) = needed_ends(np.array([[least, largest]]), task.slack)
-    return Stroke(least, largest, float(lower), float(upper))
+    return NeededStroke(least, largest, float(lower), float(upper))
 
 
 @dataclass(frozen=True)
@@ -207,7 +207,7 @@ class Sensitivity:
     rms_elasticity: float
 
 
-def sensitivities(task: Task, x: float, y: float) -> list[Sensitivity]:
+def sensitivities(task: DesignTask, x: float, y: float) -> list[Sensitivity]:
     """Slopes and elasticities for k, x, y, l, z and both stroke ends at one pair of offsets, central differences.
 
     F(k/s, s · lengths) = F: the elasticity to k is 1, and those to all lengths, stroke ends among them, add up to 1
@@ -223,7 +223,7 @@ def sensitivities(task: Task, x: float, y: float) -> list[Sensitivity]:
     at, peak = where[int(np.argmax(forces))], float(forces.max())
     fine = grid(task.start, task.stop, FINE)
 
-    def told(changed: dict[str, float]) -> tuple[float, float]:
+    def evaluated(changed: dict[str, float]) -> tuple[float, float]:
         return float(np.abs(_force(task, changed, np.array([at])))[0]), _rms(_force(task, changed, fine))
 
     if peak <= NOTHING * task.length * c.stiffness:
@@ -232,14 +232,14 @@ def sensitivities(task: Task, x: float, y: float) -> list[Sensitivity]:
     found = []
     for name, value in values.items():
         step = CHANGE * (value if name == "k" else max(abs(value), 1e-2 * task.length))
-        above, below = (told({**values, name: value + side * step}) for side in (1.0, -1.0))
+        above, below = (evaluated({**values, name: value + side * step}) for side in (1.0, -1.0))
         slopes = [(one - other) / (2.0 * step) for one, other in zip(above, below, strict=True)]
         share = [slope * value / of for slope, of in zip(slopes, (peak, rms), strict=True)]
         found.append(Sensitivity(name, value, *slopes, *share))
     return found
 
 
-def _force(task: Task, values: dict[str, float], beta: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+def _force(task: DesignTask, values: dict[str, float], beta: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
     """Force [N] with these numbers in place of the task's own."""
     joint = PlanarJoint(values["l"], values["z"], values["x"], values["y"], task.drift)
     c = task.compensation

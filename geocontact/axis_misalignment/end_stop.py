@@ -21,7 +21,7 @@ BUILT_UP = 3.0  # standard deviations of the force while the joint slides
 
 
 @dataclass(frozen=True, eq=False)
-class Curve:
+class BinMeans:
     """Means over all trials of a bin: angle [rad], force [N], displacement of the joint [m]."""
 
     beta: Float[np.ndarray, " b"]
@@ -56,13 +56,13 @@ class EndStop:
 
 
 @dataclass(frozen=True, eq=False)
-class Stroke:
+class RecordedStroke:
     """What the joint does over the angle: its stands, and the level and spread of the force while it slides [N].
 
     `slides` says for each bin whether the joint is at neither extreme of its displacement.
     """
 
-    curve: Curve
+    curve: BinMeans
     stops: tuple[EndStop, ...]
     level: float
     spread: float
@@ -90,18 +90,18 @@ class Stiffness:
     bins: float
 
 
-def curve_of(data: Binned) -> Curve:
+def bin_means(data: Binned) -> BinMeans:
     """Means over all trials, bin by bin, of the bins that were reached."""
     cells = data.cells
     bins = len(data.visits.edges) - 1
     count = np.bincount(cells.place, cells.count, bins)
     there = count > 0.0
-    columns = [np.bincount(cells.place, cells.count * cells.means[:, k], bins)[there] / count[there]
-               for k in (BETA, FORCE, DISPLACEMENT)]  # fmt: skip
-    return Curve(*columns)
+    wanted = (cells.means[:, k] for k in (BETA, FORCE, DISPLACEMENT))
+    columns = [np.bincount(cells.place, cells.count * means, bins)[there] / count[there] for means in wanted]
+    return BinMeans(*columns)
 
 
-def stroke_of(curve: Curve) -> Stroke | None:
+def recorded_stroke(curve: BinMeans) -> RecordedStroke | None:
     """Stands and free range of the joint; None where it slides over fewer than three bins."""
     low, high = float(curve.joint.min()), float(curve.joint.max())
     near = STILL * (high - low)
@@ -112,10 +112,10 @@ def stroke_of(curve: Curve) -> Stroke | None:
     level = float(np.median(curve.force[slides]))
     spread = float(curve.force[slides].std())
     stops = [stop for side, still in at.items() if (stop := _stop(curve, side, still, level, spread)) is not None]
-    return Stroke(curve, tuple(stops), level, spread, slides)
+    return RecordedStroke(curve, tuple(stops), level, spread, slides)
 
 
-def _stop(curve: Curve, side: str, still: Bool[np.ndarray, " b"], level: float, spread: float) -> EndStop | None:
+def _stop(curve: BinMeans, side: str, still: Bool[np.ndarray, " b"], level: float, spread: float) -> EndStop | None:
     """The longest stand at one extreme, where force builds up in it."""
     runs = np.split(np.arange(len(still)), np.flatnonzero(np.diff(still.astype(int))) + 1)
     run = max((r for r in runs if still[r[0]]), key=len)
@@ -125,11 +125,11 @@ def _stop(curve: Curve, side: str, still: Bool[np.ndarray, " b"], level: float, 
     stands = float(np.median(np.abs(curve.joint[run] - position))) <= STANDS * float(np.ptp(curve.joint))
     if len(run) < FEWEST or abs(most) < BUILT_UP * spread or not stands:
         return None
-    return EndStop(side, position, float(curve.beta[run[0]]), float(curve.beta[run[-1]]),
-                   _leaves(curve, run, position), most)  # fmt: skip
+    first, last = float(curve.beta[run[0]]), float(curve.beta[run[-1]])
+    return EndStop(side, position, first, last, _leaves(curve, run, position), most)
 
 
-def _leaves(curve: Curve, run: np.ndarray, position: float) -> float:
+def _leaves(curve: BinMeans, run: np.ndarray, position: float) -> float:
     """Angle at which the straight line through the first two bins off the stand meets it [rad]; its end without."""
     last = len(curve.beta) - 1
     way = 1 if run[-1] < last else -1
@@ -143,7 +143,7 @@ def _leaves(curve: Curve, run: np.ndarray, position: float) -> float:
     return min(max(float(met), low), high)
 
 
-def stiffness_by_displacement(locked: Sequence[Curve], stroke: Stroke, width: float) -> Stiffness | None:
+def stiffness_by_displacement(locked: Sequence[BinMeans], stroke: RecordedStroke, width: float) -> Stiffness | None:
     """k from the locked force of each trial and the free displacement at the same angles.
 
     None where no trial has three bins in common with the free range; `width` is that of a bin [rad].
@@ -158,15 +158,15 @@ def stiffness_by_displacement(locked: Sequence[Curve], stroke: Stroke, width: fl
 
 
 def slope_over(
-    beta: Float[np.ndarray, " b"], values: Float[np.ndarray, " b"], stroke: Stroke, width: float
+    beta: Float[np.ndarray, " b"], values: Float[np.ndarray, " b"], stroke: RecordedStroke, width: float
 ) -> tuple[float, int]:
     """Least-squares slope of one trial's bin means over the free displacement at the same angles, and of how many bins.
 
     Bins over which the joint slides count; NaN where there are fewer than three.
     """
     free = stroke.curve
-    pairs = [(j, int(k)) for j in np.flatnonzero(stroke.slides)
-             for k in np.flatnonzero(np.abs(beta - free.beta[j]) < 0.5 * width)[:1]]  # fmt: skip
+    near = {j: np.flatnonzero(np.abs(beta - free.beta[j]) < 0.5 * width) for j in np.flatnonzero(stroke.slides)}
+    pairs = [(j, int(places[0])) for j, places in near.items() if len(places)]
     if len(pairs) < FEWEST:
         return float("nan"), len(pairs)
     moved = free.joint[[j for j, _ in pairs]]

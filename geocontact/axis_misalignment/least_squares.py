@@ -17,9 +17,9 @@ from jaxtyping import Float
 
 from geocontact.axis_misalignment.bins import BETA, FORCE, PRESSURE, RATE, Binned
 from geocontact.axis_misalignment.law import NAMES, SCALED, ElbowLaw
-from geocontact.axis_misalignment.scale import Scale
+from geocontact.axis_misalignment.scale import DisplacementScale
 from geocontact.data.parameter import Parameter
-from geocontact.identify.optimise.levenberg_marquardt import Search, levenberg_marquardt
+from geocontact.identify.optimise.levenberg_marquardt import LevenbergMarquardtResult, levenberg_marquardt
 from geocontact.identify.optimise.quasi_newton import spread_starts
 
 STARTS = 8
@@ -35,7 +35,7 @@ class Prior:
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class ElbowProblem:
     """Mean forces of cells, the law at their means, and what is known of its numbers beforehand.
 
     Parameters
@@ -59,7 +59,7 @@ class Problem:
     weight: Float[np.ndarray, " n"]
     parameters: tuple[Parameter, ...]
     priors: Mapping[str, Prior]
-    scale: Scale | None = None
+    scale: DisplacementScale | None = None
 
     @cached_property
     def free(self) -> list[int]:
@@ -101,22 +101,22 @@ class Problem:
         scale = [] if self.scale is None else [self.scale.slopes(theta)[None, self.free]]
         return np.vstack([slopes, *scale, np.diag(1.0 / self._prior_sd)[self._known]])
 
-    def held(self, name: str, value: float) -> Problem:
+    def held(self, name: str, value: float) -> ElbowProblem:
         """The same problem with one number known; its prior stays, as a constant that no step changes."""
-        fixed = [replace(p, start=value, lower=value, upper=value, fixed=True) if p.name == name else p
-                 for p in self.parameters]  # fmt: skip
-        return replace(self, parameters=tuple(fixed), priors={n: p for n, p in self.priors.items() if n != name})
+        known = replace(self.parameters[NAMES.index(name)], start=value, lower=value, upper=value, fixed=True)
+        parameters = tuple(known if p.name == name else p for p in self.parameters)
+        return replace(self, parameters=parameters, priors={n: p for n, p in self.priors.items() if n != name})
 
-    def measuring(self, force: Float[np.ndarray, " n"]) -> Problem:
+    def measuring(self, force: Float[np.ndarray, " n"]) -> ElbowProblem:
         """The same problem with other mean forces."""
         return replace(self, force=force)
 
-    def drawn(self, force: Float[np.ndarray, " n"], rng: np.random.Generator) -> Problem:
+    def drawn(self, force: Float[np.ndarray, " n"], rng: np.random.Generator) -> ElbowProblem:
         """The same problem with other mean forces, and with what is known otherwise as it could have been found."""
         priors = {n: Prior(float(rng.normal(p.mean, p.sd)), p.sd) for n, p in self.priors.items()}
         return replace(self, force=force, priors=priors, scale=None if self.scale is None else self.scale.drawn(rng))
 
-    def searched(self, start: Float[np.ndarray, " p"]) -> Search:
+    def searched(self, start: Float[np.ndarray, " p"]) -> LevenbergMarquardtResult:
         """Least squares from one start."""
         free = [self.parameters[k] for k in self.free]
         lower, upper = np.array([p.lower for p in free]), np.array([p.upper for p in free])
@@ -141,7 +141,7 @@ class Problem:
 
 
 @dataclass(frozen=True, eq=False)
-class Estimate:
+class ElbowFit:
     """Values of the free numbers, the best of several searches.
 
     Parameters
@@ -154,7 +154,7 @@ class Estimate:
         Half the sum of squares and the free numbers at the end of every search, in the order of the starts.
     """
 
-    problem: Problem
+    problem: ElbowProblem
     theta: Float[np.ndarray, " 7"]
     values: Float[np.ndarray, " p"]
     cost: float
@@ -172,20 +172,13 @@ class Estimate:
         """Force of each cell [N]."""
         return self.problem.law.force(self.theta)
 
-    @property
-    def on_bound(self) -> tuple[str, ...]:
-        """Free numbers that ended on a bound."""
-        pairs = zip(self.problem.free, self.values, strict=True)
-        bounds = [(self.problem.parameters[k], v) for k, v in pairs]
-        return tuple(p.name for p, v in bounds if v <= p.lower or v >= p.upper)
-
 
 def problem_of(
-    data: Binned, parameters: Sequence[Parameter], priors: Mapping[str, Prior], scale: Scale | None = None
-) -> Problem:
+    data: Binned, parameters: Sequence[Parameter], priors: Mapping[str, Prior], scale: DisplacementScale | None = None
+) -> ElbowProblem:
     """What the bins of some trials ask."""
-    return Problem(data.cells.means[:, FORCE], law_at(data.cells.means), np.sqrt(data.information),
-                   tuple(parameters), priors, scale)  # fmt: skip
+    means, weight = data.cells.means, np.sqrt(data.information)
+    return ElbowProblem(means[:, FORCE], law_at(means), weight, tuple(parameters), priors, scale)
 
 
 def law_at(means: Float[np.ndarray, "n 5"]) -> ElbowLaw:
@@ -193,15 +186,16 @@ def law_at(means: Float[np.ndarray, "n 5"]) -> ElbowLaw:
     return ElbowLaw(*(np.ascontiguousarray(means[:, k]) for k in (BETA, RATE, PRESSURE)))
 
 
-def estimated(problem: Problem, starts: int = STARTS) -> Estimate:
+def estimated(problem: ElbowProblem, starts: int = STARTS) -> ElbowFit:
     """The best of the searches from the parameters' own start and `starts` more, spread over the bounds."""
     names = problem.names
-    begins = [np.array([start.get(n, problem.parameters[NAMES.index(n)].start) for n in names])
-              for start in spread_starts(problem.parameters, starts)]  # fmt: skip
+    own = {n: problem.parameters[NAMES.index(n)].start for n in names}
+    spread = spread_starts(problem.parameters, starts)
+    begins = [np.array([start.get(n, own[n]) for n in names]) for start in spread]
     return best_from(problem, begins)
 
 
-def best_from(problem: Problem, begins: Sequence[Float[np.ndarray, " p"]]) -> Estimate:
+def best_from(problem: ElbowProblem, begins: Sequence[Float[np.ndarray, " p"]]) -> ElbowFit:
     """The best of the searches from some starts.
 
     Of searches that end equally well the first counts: where only the scale is free, that is the first start.
@@ -210,7 +204,7 @@ def best_from(problem: Problem, begins: Sequence[Float[np.ndarray, " p"]]) -> Es
     least = min(each.cost for each in found)
     best = next(each for each in found if each.cost <= (1.0 + SAME) * least + np.finfo(float).tiny)
     costs, ends = tuple(each.cost for each in found), tuple(each.values for each in found)
-    return Estimate(problem, problem.theta(best.values), best.values, best.cost, best.converged, costs, ends)
+    return ElbowFit(problem, problem.theta(best.values), best.values, best.cost, best.converged, costs, ends)
 
 
 def r_squared(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"]) -> float:

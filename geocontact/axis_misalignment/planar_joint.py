@@ -1,6 +1,6 @@
 """A joint of one degree of freedom beside the hinge of an exoskeleton: how far its attachment is deflected.
 
-The elbow's model for any such joint (hip, knee, elbow), with offsets (x, y) that may wander with the angle. The hinge
+The elbow's model for any such joint (hip, knee, elbow), with offsets (x, y) that may drift with the angle. The hinge
 is at the origin of the plane, the limb's own point o at (x, -y) in front of it and along the straight limb, the tip of
 the link at l (sin β, cos β). The limb lies along the line from o to the tip, and
 
@@ -229,7 +229,7 @@ class PlanarJoint:
     drift: AxisDrift = STILL
 
     @property
-    def told(self) -> str:
+    def words(self) -> str:
         """Its numbers in words."""
         return f"l = {self.length * 1e3:g} mm, x = {self.x * 1e3:g} mm, y = {self.y * 1e3:g} mm"
 
@@ -243,12 +243,12 @@ class PlanarJoint:
         drift = drift_numbers(self.drift)
         _, fate = straight_length(self.length, self.x, self.y, *drift)
         if fate != SOUND:
-            raise ValueError(f"{self.told}: {FATES[fate]}")
+            raise ValueError(f"{self.words}: {FATES[fate]}")
         (value,), (bottom,) = deflections(beta, self.numbers, *drift)
         if not (bottom > POLE_SHARE * self.length).all():
             k = int(np.argmin(np.where(np.isnan(bottom), -np.inf, bottom)))
             fate = LOST if np.isnan(bottom[k]) else POLE
-            raise ValueError(f"{self.told}: {FATES[fate]} (at {np.degrees(beta[k]):.4g} deg)")
+            raise ValueError(f"{self.words}: {FATES[fate]} (at {np.degrees(beta[k]):.4g} deg)")
         return np.asarray(value)
 
     def extremes(self, start: float, stop: float) -> tuple[Float[np.ndarray, " 2"], Float[np.ndarray, " 2"]]:
@@ -257,7 +257,7 @@ class PlanarJoint:
         self.deflection(beta)
         value, angle, fate = extremes_of(beta, self.numbers, self.drift)
         if fate[0] != SOUND:
-            raise ValueError(f"{self.told}: {FATES[fate[0]]} (between two angles of the grid)")
+            raise ValueError(f"{self.words}: {FATES[fate[0]]} (between two angles of the grid)")
         return value[0], angle[0]
 
 

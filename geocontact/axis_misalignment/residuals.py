@@ -13,27 +13,27 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.axis_misalignment.bins import FORCE, Binned
-from geocontact.axis_misalignment.least_squares import Estimate
+from geocontact.axis_misalignment.least_squares import ElbowFit
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.identify.intervals.bin_tests import DRAWS, Normality, lilliefors
 from geocontact.identify.noise.autocorrelation import spread
 from geocontact.identify.noise.bin_noise import mean_covariance
-from geocontact.identify.signals.angle_bins import places
+from geocontact.identify.signals.angle_bins import bin_numbers
 
 
-def residual_by_bin(data: Binned, e: Estimate) -> tuple[Float[np.ndarray, " b"], Float[np.ndarray, " b"]]:
+def residual_by_bin(data: Binned, e: ElbowFit) -> tuple[Float[np.ndarray, " b"], Float[np.ndarray, " b"]]:
     """Angle [rad] and measured less fitted force [N] of each bin, all trials together."""
     there = np.unique(data.cells.place)
     return data.centres[there], _pooled(data, (data.cells.means[:, FORCE] - e.predicted)[None])[0]
 
 
-def standard_residuals(data: Binned, e: Estimate) -> Float[np.ndarray, " b"]:
+def standard_residuals(data: Binned, e: ElbowFit) -> Float[np.ndarray, " b"]:
     """Residual of each bin times the root of its information: about one spread, however long a bin was stayed in."""
     return np.asarray(residual_by_bin(data, e)[1] * _root_information(data))
 
 
 def normal_residuals(
-    recordings: Sequence[ElbowRecording], data: Binned, e: Estimate, count: int = DRAWS, seed: int = 0
+    recordings: Sequence[ElbowRecording], data: Binned, e: ElbowFit, count: int = DRAWS, seed: int = 0
 ) -> Float[np.ndarray, "d b"]:
     """`standard_residuals` of `count` draws of normal noise in the place of the recorded one.
 
@@ -61,7 +61,7 @@ class Excess:
 
 
 def excess(
-    recordings: Sequence[ElbowRecording], data: Binned, e: Estimate, count: int = DRAWS, seed: int = 1
+    recordings: Sequence[ElbowRecording], data: Binned, e: ElbowFit, count: int = DRAWS, seed: int = 1
 ) -> Excess:
     """Offsets that change from trial to trial, and whatever the law misses, leave more than a trial's noise does."""
     left = _noise_left(recordings, data, e, count, seed)
@@ -71,14 +71,14 @@ def excess(
 
 
 def _noise_left(
-    recordings: Sequence[ElbowRecording], data: Binned, e: Estimate, count: int, seed: int
+    recordings: Sequence[ElbowRecording], data: Binned, e: ElbowFit, count: int, seed: int
 ) -> Float[np.ndarray, "d n"]:
     """Weighted residuals of draws of noise, by trial and bin."""
     rng, bins, cells = np.random.default_rng(seed), len(data.visits.edges) - 1, data.cells
     noise = np.empty((count, len(cells.count)))
     for trial, r in enumerate(recordings):
         mine = cells.trial == trial
-        all_bins = mean_covariance(r.time, places(r.beta, data.visits.edges), bins, float(data.noise.tau[0]))
+        all_bins = mean_covariance(r.time, bin_numbers(r.beta, data.visits.edges), bins, float(data.noise.tau[0]))
         reached = cells.place[mine]
         value, vector = np.linalg.eigh(all_bins[np.ix_(reached, reached)])
         noise[:, mine] = rng.standard_normal((count, len(value))) @ (vector * np.sqrt(np.maximum(value, 0.0))).T
@@ -87,7 +87,7 @@ def _noise_left(
     return np.asarray(data.noise.sd[0] * (off - off @ slopes @ spread(jacobian) @ slopes.T))
 
 
-def normality(recordings: Sequence[ElbowRecording], data: Binned, e: Estimate) -> Normality:
+def normality(recordings: Sequence[ElbowRecording], data: Binned, e: ElbowFit) -> Normality:
     """Lilliefors' test of the bins' standard residuals."""
     return lilliefors(standard_residuals(data, e), normal_residuals(recordings, data, e))
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.axis_misalignment.end_stop import FEWEST, Curve, Stroke, slope_over
+from geocontact.axis_misalignment.end_stop import FEWEST, BinMeans, RecordedStroke, slope_over
 from geocontact.axis_misalignment.law import ElbowLaw
 
 TOTAL = {0: 1.0, 5: 0.0, 6: 0.0}
@@ -24,7 +24,7 @@ LINEAR = {**TOTAL, 4: 0.0}
 
 
 @dataclass(frozen=True, eq=False)
-class Scale:
+class DisplacementScale:
     """Slope of the law's d_tot over the free displacement, and the error with which it is 1.
 
     Parameters
@@ -60,7 +60,7 @@ class Scale:
         found[list(self.rest)] = 0.0
         return np.asarray(found)
 
-    def drawn(self, rng: np.random.Generator) -> Scale:
+    def drawn(self, rng: np.random.Generator) -> DisplacementScale:
         """As it could have been measured."""
         return replace(self, slope=float(rng.normal(self.slope, self.error)))
 
@@ -70,12 +70,14 @@ class Scale:
         return rest
 
 
-def scale_of(trials: Sequence[Curve], stroke: Stroke, width: float, *, rotary_free: bool = False) -> Scale | None:
+def displacement_scale(
+    trials: Sequence[BinMeans], stroke: RecordedStroke, width: float, *, rotary_free: bool = False
+) -> DisplacementScale | None:
     """The scale by the mean displacement of some free trials; None where it has no standard error.
 
-    That is told by how each trial's displacement runs over the mean of all, which takes two trials that differ, each
-    with three bins over which the joint slides; `width` is that of a bin [rad]. Where a rotary joint of the device was
-    free too (`rotary_free`), the displacement is d_lin.
+    That is estimated from how each trial's displacement runs over the mean of all, which takes two trials that differ,
+    each with three bins over which the joint slides; `width` is that of a bin [rad]. Where a rotary joint of the device
+    was free too (`rotary_free`), the displacement is d_lin.
     """
     found = [slope_over(each.beta, each.joint, stroke, width) for each in trials]
     slopes = np.array([slope for slope, bins in found if bins >= FEWEST])
@@ -85,4 +87,4 @@ def scale_of(trials: Sequence[Curve], stroke: Stroke, width: float, *, rotary_fr
     beta, joint = stroke.curve.beta[stroke.slides], stroke.curve.joint[stroke.slides]
     off, still = joint - joint.mean(), np.zeros(len(beta))
     law, share = ElbowLaw(beta, still, still), off / (off @ off)
-    return Scale(law, share, 1.0, error, len(slopes), dict(LINEAR if rotary_free else TOTAL))
+    return DisplacementScale(law, share, 1.0, error, len(slopes), dict(LINEAR if rotary_free else TOTAL))

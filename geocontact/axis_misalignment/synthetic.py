@@ -1,8 +1,9 @@
 """Synthetic recordings of an exoskeleton at an elbow, after the design of the explicit model's experiment.
 
-60 s of tracking a multisine of random frequencies from 0.05 to 0.35 Hz, 1 kHz, 12 bits, cuff pressures of 10 to 60 mmHg
-at random, the compensation joint locked or free. What a person adds is an Ornstein-Uhlenbeck force; the true numbers
-are those given.
+The paper's design (sec. III.B, III.C): 60 s of tracking a multisine of random frequencies from 0.05 to 0.35 Hz, 1 kHz,
+12 bits, cuff pressures of 10 to 60 mmHg at random, the compensation joint locked or free. It does not print everything
+that a recording needs. At each number below stands whether it is the paper's or assumed; docs/how-to/elbow.md has the
+table. Assumed throughout: the person adds an Ornstein-Uhlenbeck force. The true numbers of the law are those given.
 """
 
 from __future__ import annotations
@@ -19,31 +20,44 @@ from geocontact.axis_misalignment.explicit import Offsets, constraint_force, dis
 from geocontact.data.elbow_recording import ElbowRecording
 
 PAPER = {"k": 222.43, "x": 0.048, "y": 0.059, "l": 0.169, "z": 0.127, "b": 0.0, "s": 0.0}
-"""What the explicit model's paper identified: one point of the line on which forces do not change."""
+"""What the explicit model's paper identified (sec. IV.C): one point of the line on which forces do not change.
+
+Its fit has no damping (sec. III.D) and no stiffness that follows the pressure, so b and s are 0.
+"""
 SINES = 6
-FULL_SCALE = {"beta": np.pi, "force": 100.0, "displacement": 0.2}  # that the bits divide: rad, N, m
+"""Sines of the tracking signal. Assumed: the paper gives their band, not their number."""
+AMPLITUDES = (0.3, 1.0)
+"""Least and largest amplitude of a sine before all are scaled to the reach [-]. Assumed: the paper says 0 to pi."""
+FULL_SCALE = {"beta": np.pi, "force": 100.0, "displacement": 0.2}
+"""What the converter's steps divide [rad, N, m]. Assumed: the paper gives the 12 bits only."""
 
 
 @dataclass(frozen=True)
 class Design:
-    """How recordings are made.
+    """How recordings are made; sections are the paper's.
 
     Parameters
     ----------
     seconds, rate
-        Length [s] and sampling rate [Hz].
+        Length [s] and sampling rate [Hz]; sec. III.B.
     band
-        Frequencies of the multisine [Hz].
+        Frequencies of the multisine [Hz]; sec. III.B.
     reach
-        Least and largest angle of each trial [rad].
-    noise, memory
-        Standard deviation [N] and correlation time [s] of what the person adds to the force.
+        Least and largest angle of each trial [rad]. Width: the 42 bins of 2 degrees of sec. III.C. Ends: assumed; the
+        paper says only that 0 was not reached with the joint locked (sec. IV.C).
+    noise
+        Standard deviation of what the person adds to the force [N]. Assumed: the paper's residuals, of bins' means,
+        have 0.782 N (sec. IV.C).
+    memory
+        Its correlation time [s]. Assumed; the paper has none.
     donning
-        Standard deviation of the offsets x and y from trial to trial [m].
+        Standard deviation of the offsets x and y from trial to trial [m]. Assumed: the device was put on before each
+        task (sec. III.B), by how much it moved is not reported.
     bits
-        Of the converter; 0 for none.
+        Of the converter, 0 for none; sec. III.C.
     pressures
-        Range from which each trial's cuff pressure is drawn [Pa]; None where none is recorded.
+        Range from which each trial's cuff pressure is drawn [Pa]; None where none is recorded. 10 to 60 mmHg in
+        sec. III.B.
     """
 
     seconds: float = 60.0
@@ -60,7 +74,7 @@ class Design:
 def multisine(time: Float[np.ndarray, " t"], design: Design, rng: np.random.Generator) -> Float[np.ndarray, " t"]:
     """Angle of one trial [rad]: sines of random frequencies, amplitudes and phases, from end to end of the reach."""
     frequency = rng.uniform(*design.band, SINES)
-    size, phase = rng.uniform(0.3, 1.0, SINES), rng.uniform(0.0, 2.0 * np.pi, SINES)
+    size, phase = rng.uniform(*AMPLITUDES, SINES), rng.uniform(0.0, 2.0 * np.pi, SINES)
     sum_of = size @ np.sin(2.0 * np.pi * frequency[:, None] * time + phase[:, None])
     low, high = float(sum_of.min()), float(sum_of.max())
     first, last = design.reach

@@ -16,7 +16,7 @@ from scipy.stats import t as student
 
 from geocontact.axis_misalignment.bins import FORCE, Binned
 from geocontact.axis_misalignment.law import LENGTHS, NAMES, SCALED
-from geocontact.axis_misalignment.least_squares import Estimate, Problem, best_from, law_at
+from geocontact.axis_misalignment.least_squares import ElbowFit, ElbowProblem, best_from, law_at
 from geocontact.identify.intervals.profile_likelihood import POINTS, Profile, profile_of
 from geocontact.identify.noise.autocorrelation import spread
 
@@ -62,7 +62,8 @@ class Direction:
     singular_values
         Of the derivatives with respect to their logarithms, largest first [N].
     least
-        Unit vector of the direction told least; where it is (-1, 1, 1, 1, 1)/sqrt(5) in k, x, y, l, z it is the scale.
+        Unit vector of the direction identified least; where it is (-1, 1, 1, 1, 1)/sqrt(5) in k, x, y, l, z it is the
+        scale.
     """
 
     names: tuple[str, ...]
@@ -71,11 +72,11 @@ class Direction:
 
     @property
     def flat(self) -> bool:
-        """Whether nothing is told in that direction."""
+        """Whether nothing is identified in that direction."""
         return bool(self.singular_values[-1] <= FLAT * self.singular_values[0])
 
 
-def covariance(data: Binned, e: Estimate) -> Covariance:
+def covariance(data: Binned, e: ElbowFit) -> Covariance:
     """Sandwich of the stretches' scores; priors and the scale count as one stretch each that has just its error."""
     jacobian = e.problem.jacobian(e.values)
     inverse = spread(jacobian)
@@ -86,7 +87,7 @@ def covariance(data: Binned, e: Estimate) -> Covariance:
     return Covariance(matrix, inverse, max(stretches - len(e.values), 1))
 
 
-def profiled(e: Estimate, c: Covariance, name: str, level: float = 0.95, points: int = POINTS) -> Profile:
+def profiled(e: ElbowFit, c: Covariance, name: str, level: float = 0.95, points: int = POINTS) -> Profile:
     """Profile of one free number, and its interval of probability `level`.
 
     Offsets of other signs can fit nearly as well. Each value is searched from every minimum that lies within the cut,
@@ -114,13 +115,13 @@ def profiled(e: Estimate, c: Covariance, name: str, level: float = 0.95, points:
     return profile_of(held, 2.0 * e.cost, parameter, float(e.values[k]), half, float(c.inverse[k, k]), points, others)
 
 
-def with_link_held(e: Estimate) -> Estimate:
+def with_link_held(e: ElbowFit) -> ElbowFit:
     """The same with l held where it is: k and the lengths are then, in units of l, what no scale changes."""
     problem, place = e.problem.held("l", e.named["l"]), e.problem.names.index("l")
     return best_from(problem, [np.delete(values, place) for values in _minima(e, np.inf)])
 
 
-def _minima(e: Estimate, cut: float) -> list[Float[np.ndarray, " p"]]:
+def _minima(e: ElbowFit, cut: float) -> list[Float[np.ndarray, " p"]]:
     """Ends of searches less than `cut` above the least sum of squares, each once; at one l where the scale is free."""
     found = [e.values]
     for end, cost in zip(e.ends, e.costs, strict=True):
@@ -131,7 +132,7 @@ def _minima(e: Estimate, cut: float) -> list[Float[np.ndarray, " p"]]:
     return found
 
 
-def _near(problem: Problem, values: Float[np.ndarray, " p"], name: str, value: float) -> Float[np.ndarray, " p"]:
+def _near(problem: ElbowProblem, values: Float[np.ndarray, " p"], name: str, value: float) -> Float[np.ndarray, " p"]:
     """Where to search from with one number held at a value: along the scale where it is free, else where it was."""
     best = float(values[problem.names.index(name)])
     if not problem.scalable or name not in SCALED or value * best <= 0.0:
@@ -140,12 +141,12 @@ def _near(problem: Problem, values: Float[np.ndarray, " p"], name: str, value: f
     return np.asarray(_scaled(problem.theta(values), np.array([factor]))[0][problem.free])
 
 
-def _cost(e: Estimate, value: float) -> float:
+def _cost(e: ElbowFit, value: float) -> float:
     off = (e.problem.law.force(e.problem.theta(np.array([value]))) - e.problem.force) * e.problem.weight
     return 0.5 * float(off @ off)
 
 
-def wild_bootstrap(data: Binned, e: Estimate, count: int, seed: int = 0) -> Float[np.ndarray, "b p"]:
+def wild_bootstrap(data: Binned, e: ElbowFit, count: int, seed: int = 0) -> Float[np.ndarray, "b p"]:
     """Free numbers refitted to `count` replicates: stretches keep or turn the sign of their residuals.
 
     Residuals are widened by the root of G/(G - p) for G stretches and p free numbers; means of priors are drawn from
@@ -169,7 +170,7 @@ def wild_bootstrap(data: Binned, e: Estimate, count: int, seed: int = 0) -> Floa
     return found
 
 
-def _scores(data: Binned, e: Estimate) -> tuple[Float[np.ndarray, "g p"], int]:
+def _scores(data: Binned, e: ElbowFit) -> tuple[Float[np.ndarray, "g p"], int]:
     """Gradient of half the sum of squares, stretch by stretch, and how many stretches there are."""
     v = data.visits
     off = v.means[:, FORCE] - law_at(v.means).force(e.theta)
@@ -180,8 +181,8 @@ def _scores(data: Binned, e: Estimate) -> tuple[Float[np.ndarray, "g p"], int]:
     return np.column_stack([np.bincount(stretch, column) for column in share.T]), len(numbers)
 
 
-def direction(e: Estimate, names: tuple[str, ...] = SCALED) -> Direction:
-    """Singular values and the direction told least, of numbers that need not be free, in their logarithms.
+def direction(e: ElbowFit, names: tuple[str, ...] = SCALED) -> Direction:
+    """Singular values and the direction identified least, of numbers that need not be free, in their logarithms.
 
     Numbers that are 0 are left out: they have no logarithm, and no factor changes them.
 
@@ -196,7 +197,7 @@ def direction(e: Estimate, names: tuple[str, ...] = SCALED) -> Direction:
     return Direction(names, values, np.asarray(least if least[-1] >= 0.0 else -least))
 
 
-def along_the_scale(e: Estimate, factors: Float[np.ndarray, " m"]) -> Float[np.ndarray, "m 7"]:
+def along_the_scale(e: ElbowFit, factors: Float[np.ndarray, " m"]) -> Float[np.ndarray, "m 7"]:
     """Numbers (k/s, s times the lengths) for each factor s; every row gives the same force."""
     return _scaled(e.theta, factors)
 

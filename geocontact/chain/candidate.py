@@ -1,4 +1,4 @@
-"""What an effect offers: candidates, each a way to turn a system into one that has the effect."""
+"""One way to turn a system into one that has an effect."""
 
 from __future__ import annotations
 
@@ -7,9 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from geocontact.chain.contact_sites import placed
 from geocontact.chain.system import System
-from geocontact.data.gap_case import LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter
 
 Stage = Literal["timing", "kinematics", "geometry", "constitutive", "load", "sensor", "data"]
@@ -98,49 +96,3 @@ class Candidate:
             raise ValueError(f"{self.label} is in this system already")
         changed = self.link(system)
         return replace(changed, parameters=system.parameters + self.parameters, effects=(*system.effects, self.label))
-
-
-@dataclass(frozen=True)
-class Effect:
-    """A row of the vocabulary.
-
-    Parameters
-    ----------
-    name
-        As in `diagnosis.json`.
-    stage
-        Where in the chain it acts.
-    systems
-        Names of the systems that it applies to; of the listed ones, those that the vocabulary names.
-    offer
-        Makes the candidates for one of these; none where a system has no channel for it.
-    source
-        Where the formula is from.
-    needs
-        Numbers of the law or the geometry that it sets; a system that is not listed gets it where these are free.
-    together
-        Whether, of several places of contact, all may have it alike; what depends on where a place is may not.
-    """
-
-    name: str
-    stage: Stage
-    systems: tuple[str, ...]
-    offer: Callable[[System], tuple[Candidate, ...]]
-    source: str
-    needs: tuple[str, ...] = ()
-    together: bool = True
-
-    def applies(self, system: System) -> bool:
-        """Whether the vocabulary, or else the links of the system, admit it."""
-        if system.name in LISTED_SYSTEMS:
-            return system.name in self.systems
-        links = (system.law.slots, system.geometry.slots)
-        return all(any(slots.free(name) for slots in links) for name in self.needs)
-
-    def candidates(self, system: System) -> tuple[Candidate, ...]:
-        """Candidates for a system, with bounds from its scale; none where the effect does not apply."""
-        if not self.applies(system):
-            return ()
-        return (
-            placed(self.offer, system, together=self.together) if self.needs and system.places else self.offer(system)
-        )

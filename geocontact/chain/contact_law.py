@@ -12,14 +12,14 @@ import math
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.chain.law_parameters import Slots
+from geocontact.chain.law_parameters import LawParameters
 from geocontact.chain.terms.asymmetry import direction_factor
 from geocontact.chain.terms.relaxation import branch_force
 from geocontact.chain.terms.stiffening import stiffening_factor
 from geocontact.contact import sphere_foot
 from geocontact.geometry.kernels.compile import kernel
 
-CONTACT_LAW = Slots(
+CONTACT_LAW = LawParameters(
     {
         "n": 1.0,
         "delta_full": 1.0,

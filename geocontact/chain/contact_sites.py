@@ -9,16 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from geocontact.chain.law_parameters import Slots, Source
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 
-if TYPE_CHECKING:
-    from geocontact.chain.candidate import Candidate
-
-Offer = Callable[[System], "tuple[Candidate, ...]"]
+Offer = Callable[[System], tuple[Candidate, ...]]
 
 
 def placed(offer: Offer, system: System, *, together: bool) -> tuple[Candidate, ...]:
@@ -87,7 +84,7 @@ def _linked(alike: Mapping[str, Candidate], names: Mapping[str, str]) -> Callabl
     return link
 
 
-def _added(before: Slots, after: Slots, place: str, names: Mapping[str, str]) -> dict[str, Source]:
+def _added(before: LawParameters, after: LawParameters, place: str, names: Mapping[str, str]) -> dict[str, Source]:
     """What was added to the numbers of a place, as it is called in the whole system."""
     return {
         f"{place}.{name}": names.get(source, source) if isinstance(source, str) else source

@@ -36,7 +36,7 @@ Weights = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
-class Movement:
+class DifferentiatedInputs:
     """Inputs of a trial over time with their first two derivatives, one row per input.
 
     Parameters
@@ -175,9 +175,9 @@ def _remembered(time: bytes, at: bytes, reach: float, neighbours: int, degree: i
     return weights_of(np.frombuffer(time), np.frombuffer(at), reach, neighbours, degree)
 
 
-def movement(
+def differentiated_inputs(
     time: Float[np.ndarray, " t"], inputs: tuple[str, ...], position: Float[np.ndarray, "i t"], reach: float = REACH
-) -> Movement:
+) -> DifferentiatedInputs:
     """Differentiate measured inputs by local fits over `reach` to either side [s].
 
     ValueError when an input was never measured.
@@ -191,12 +191,12 @@ def movement(
         fitted[:, row : row + 1] = local_fit(time[there], known, time, reach, NEIGHBOURS, DEGREE)
     place, rate = fitted
     acceleration = local_fit(time, np.ascontiguousarray(rate), time, reach, NEIGHBOURS, DEGREE)[1]
-    return Movement(time, inputs, np.where(np.isfinite(position), position, place), rate, acceleration)
+    return DifferentiatedInputs(time, inputs, np.where(np.isfinite(position), position, place), rate, acceleration)
 
 
 def by_differences(
     time: Float[np.ndarray, " t"], inputs: tuple[str, ...], position: Float[np.ndarray, "i t"]
-) -> Movement:
+) -> DifferentiatedInputs:
     """Inputs as they were measured, with central differences: what a simulator sees that smooths nothing.
 
     Empty cells are bridged by straight lines; ValueError when an input was never measured.
@@ -208,9 +208,9 @@ def by_differences(
             raise ValueError(f"input {name} has no value in this trial; it needs at least one")
         filled[row] = np.interp(time, time[there], position[row, there])
     if len(time) == 1:
-        return Movement(time, inputs, filled, np.zeros_like(filled), np.zeros_like(filled))
+        return DifferentiatedInputs(time, inputs, filled, np.zeros_like(filled), np.zeros_like(filled))
     rate = np.gradient(filled, time, axis=1)
-    return Movement(time, inputs, filled, rate, np.gradient(rate, time, axis=1))
+    return DifferentiatedInputs(time, inputs, filled, rate, np.gradient(rate, time, axis=1))
 
 
 def rate_of_waves(frequency: Float[np.ndarray, " f"], step: float, reach: float = REACH) -> Float[np.ndarray, " f"]:
@@ -226,10 +226,10 @@ def rate_of_waves(frequency: Float[np.ndarray, " f"], step: float, reach: float 
     return np.asarray(np.abs(np.sin(2.0 * np.pi * frequency[:, None] * time) @ weights))
 
 
-_SEEN: dict[tuple[int, tuple[str, ...], float], tuple[weakref.ref[Signals], Movement]] = {}
+_SEEN: dict[tuple[int, tuple[str, ...], float], tuple[weakref.ref[Signals], DifferentiatedInputs]] = {}
 
 
-def recorded(signals: Signals, inputs: tuple[str, ...], reach: float = REACH) -> Movement:
+def recorded(signals: Signals, inputs: tuple[str, ...], reach: float = REACH) -> DifferentiatedInputs:
     """Movement of a recording; remembered as long as the recording lives, which must not be altered.
 
     Rates by local fits over `reach` to either side [s], by central differences where it is 0.
@@ -239,6 +239,10 @@ def recorded(signals: Signals, inputs: tuple[str, ...], reach: float = REACH) ->
     if seen is not None and seen[0]() is signals:
         return seen[1]
     position = np.array([signals.column(name) for name in inputs])
-    found = movement(signals.time, inputs, position, reach) if reach else by_differences(signals.time, inputs, position)
+    found = (
+        differentiated_inputs(signals.time, inputs, position, reach)
+        if reach
+        else by_differences(signals.time, inputs, position)
+    )
     _SEEN[key] = (weakref.ref(signals, lambda _: _SEEN.pop(key, None)), found)
     return found

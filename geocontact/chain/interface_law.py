@@ -18,7 +18,7 @@ import math
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.chain.law_parameters import Slots
+from geocontact.chain.law_parameters import LawParameters
 from geocontact.chain.terms.asymmetry import direction_factor
 from geocontact.chain.terms.contact_loss import transmitted
 from geocontact.chain.terms.damping import power_damping
@@ -31,7 +31,7 @@ from geocontact.chain.terms.slip import slipped
 from geocontact.chain.terms.stiffening import stiffening_factor
 from geocontact.geometry.kernels.compile import kernel
 
-INTERFACE_LAW = Slots(
+INTERFACE_LAW = LawParameters(
     {
         "k": 0.0,
         "slip.mobility": 0.0,

@@ -15,7 +15,7 @@ Source = str | float | Callable[[Mapping[str, float]], float]
 
 
 @dataclass(frozen=True)
-class Slots:
+class LawParameters:
     """Named numbers in a fixed order; those without a source stay neutral, as if their term were not there.
 
     Parameters
@@ -34,7 +34,7 @@ class Slots:
         """Whether the link has such a number and nothing sets it yet."""
         return name in self.neutral and name not in self.sources
 
-    def having(self, sources: Mapping[str, Source]) -> Slots:
+    def having(self, sources: Mapping[str, Source]) -> LawParameters:
         """The same link with more of its numbers coming from somewhere.
 
         A number that the link does not know, or that has a source already, is refused: an effect is added once.
@@ -46,16 +46,18 @@ class Slots:
                 raise ValueError(f"{name} is set already, by {self.sources[name]}")
         return replace(self, sources={**self.sources, **sources})
 
-    def apart(self, places: Sequence[str]) -> Slots:
+    def apart(self, places: Sequence[str]) -> LawParameters:
         """The same numbers once for every place, "thigh.k"; those of the first place come first."""
         neutral = {f"{place}.{name}": value for place in places for name, value in self.neutral.items()}
-        return Slots(neutral, {f"{place}.{name}": s for place in places for name, s in self.sources.items()})
+        return LawParameters(neutral, {f"{place}.{name}": s for place in places for name, s in self.sources.items()})
 
-    def at(self, place: str) -> Slots:
+    def at(self, place: str) -> LawParameters:
         """The numbers of one place, named as if there were no other."""
         here = f"{place}."
         neutral = {name.removeprefix(here): v for name, v in self.neutral.items() if name.startswith(here)}
-        return Slots(neutral, {name.removeprefix(here): s for name, s in self.sources.items() if name.startswith(here)})
+        return LawParameters(
+            neutral, {name.removeprefix(here): s for name, s in self.sources.items() if name.startswith(here)}
+        )
 
     def numbers(self, values: Mapping[str, float]) -> Float[np.ndarray, " slots"]:
         """All numbers in order; KeyError for a name that has no value."""

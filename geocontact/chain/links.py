@@ -9,8 +9,8 @@ from typing import Generic, Protocol, TypeVar, runtime_checkable
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.differentiated_inputs import REACH, Movement, recorded
-from geocontact.chain.law_parameters import Slots, Source
+from geocontact.chain.differentiated_inputs import REACH, DifferentiatedInputs, recorded
+from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.data.trial import Trial
 
 RECORDING = 100.0
@@ -40,7 +40,7 @@ class Modifier(Generic[T]):
 
     name: str
     rank: float
-    change: Callable[[T, Movement, Values], T]
+    change: Callable[[T, DifferentiatedInputs, Values], T]
     trials: frozenset[str] | None = None
     apart: bool = False
 
@@ -52,7 +52,7 @@ def added(modifiers: tuple[Modifier[T], ...], one: Modifier[T]) -> tuple[Modifie
     return tuple(sorted((*modifiers, one), key=lambda each: (each.rank, each.name)))
 
 
-def passed_on(modifiers: tuple[Modifier[T], ...], what: T, movement: Movement, values: Values) -> T:
+def passed_on(modifiers: tuple[Modifier[T], ...], what: T, movement: DifferentiatedInputs, values: Values) -> T:
     """What is left after all modifiers that belong to this trial."""
     for each in modifiers:
         if each.trials is None or movement.trial in each.trials:
@@ -76,15 +76,15 @@ class Motion:
     """
 
     inputs: tuple[str, ...]
-    modifiers: tuple[Modifier[Movement], ...] = ()
+    modifiers: tuple[Modifier[DifferentiatedInputs], ...] = ()
     reach: float = REACH
 
-    def seen(self, trial: Trial, values: Values) -> Movement:
+    def seen(self, trial: Trial, values: Values) -> DifferentiatedInputs:
         """Movement that the model works with."""
         known = replace(recorded(trial.signals, self.inputs, self.reach), trial=trial.name)
         return passed_on(self.modifiers, known, known, values)
 
-    def having(self, one: Modifier[Movement]) -> Motion:
+    def having(self, one: Modifier[DifferentiatedInputs]) -> Motion:
         """The same link with one modifier more."""
         return replace(self, modifiers=added(self.modifiers, one))
 
@@ -117,7 +117,7 @@ class Geometry(Protocol):
     """
 
     @property
-    def slots(self) -> Slots:
+    def slots(self) -> LawParameters:
         """Its numbers."""
 
     @property
@@ -127,17 +127,17 @@ class Geometry(Protocol):
     def having(self, sources: Mapping[str, Source]) -> Geometry:
         """The same link with more of its numbers coming from somewhere."""
 
-    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+    def loads(self, movement: DifferentiatedInputs, law: Law, values: Values) -> Loads:
         """Forces along a movement."""
 
     def deflection(
-        self, movement: Movement, values: Values
+        self, movement: DifferentiatedInputs, values: Values
     ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
         """Deflections and their rates without any load, for scales."""
 
 
 @runtime_checkable
-class Places(Geometry, Protocol):
+class ContactSites(Geometry, Protocol):
     """A geometry of several places of contact that do not feel each other; numbers of each are called "thigh.rho"."""
 
     def at(self, place: str) -> Geometry:
@@ -156,7 +156,7 @@ class Law:
         Units of what it gives and of what it is given: N and m, or N m and rad for a joint.
     """
 
-    slots: Slots
+    slots: LawParameters
     load: str = "N"
     deflection: str = "m"
 
@@ -176,7 +176,7 @@ class Balance:
     total: Callable[[Loads], Channels]
     modifiers: tuple[Modifier[Channels], ...] = ()
 
-    def read(self, loads: Loads, movement: Movement, values: Values) -> Channels:
+    def read(self, loads: Loads, movement: DifferentiatedInputs, values: Values) -> Channels:
         """True outputs."""
         return passed_on(self.modifiers, self.total(loads), movement, values)
 
@@ -192,7 +192,7 @@ class Sensor:
     outputs: tuple[str, ...]
     modifiers: tuple[Modifier[Channels], ...] = ()
 
-    def read(self, outputs: Channels, movement: Movement, values: Values) -> Channels:
+    def read(self, outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         """Measured outputs."""
         return passed_on(self.modifiers, outputs, movement, values)
 

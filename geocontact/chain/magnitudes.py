@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.links import Geometry
 from geocontact.data.trial import Trial
 
 
 @dataclass(frozen=True)
-class Scale:
+class Magnitudes:
     """Magnitudes over all trials, SI; ones where there are no trials yet.
 
     Parameters
@@ -41,7 +41,7 @@ class Scale:
     output: Mapping[str, float] = field(default_factory=dict)
     centre: Mapping[str, float] = field(default_factory=dict)
     span: Mapping[str, float] = field(default_factory=dict)
-    places: Mapping[str, Scale] = field(default_factory=dict)
+    places: Mapping[str, Magnitudes] = field(default_factory=dict)
     speed: Mapping[str, float] = field(default_factory=dict)
 
     def of(self, channel: str) -> float:
@@ -61,29 +61,29 @@ def measured_magnitude(trials: Sequence[Trial], channel: str) -> float:
     return positive(max((float(v.max()) for v in finite if v.size), default=1.0))
 
 
-def rms_rate(movements: Sequence[Movement], name: str) -> float:
+def rms_rate(movements: Sequence[DifferentiatedInputs], name: str) -> float:
     """Root mean square of the rate of an input over all trials."""
     rates = np.concatenate([m.rate[m.row(name)] for m in movements])
     return positive(float(np.sqrt(np.mean(rates**2))))
 
 
-def scale_of(
+def magnitudes_of(
     geometry: Geometry,
     outputs: tuple[str, ...],
     trials: Sequence[Trial],
-    movements: Sequence[Movement],
+    movements: Sequence[DifferentiatedInputs],
     values: Sequence[Mapping[str, float]],
-) -> Scale:
+) -> Magnitudes:
     """Magnitudes over `trials`, with deflections at `values`, the numbers known in each of them."""
     if not trials:
-        return Scale()
+        return Magnitudes()
     pairs = [geometry.deflection(movement, known) for movement, known in zip(movements, values, strict=True)]
     deflection = np.concatenate([d.ravel() for d, _ in pairs])
     rate = np.concatenate([r.ravel() for _, r in pairs])[deflection != 0.0]
     inputs = movements[0].inputs
     least = {name: min(float(m.position[m.row(name)].min()) for m in movements) for name in inputs}
     most = {name: max(float(m.position[m.row(name)].max()) for m in movements) for name in inputs}
-    return Scale(
+    return Magnitudes(
         deflection=positive(float(np.abs(deflection).max())),
         low=float(deflection.min()),
         high=float(deflection.max()),

@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
 from geocontact.chain.interface_law import MEMORY, interface_force
-from geocontact.chain.law_parameters import Slots, Source
+from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.geometry.kernels.compile import kernel
 
-SERIES = Slots(
+SERIES = LawParameters(
     {
         "series_compliance.compliance": 0.0,
         "series_compliance.exponent": 1.0,
@@ -136,20 +136,20 @@ class SingleDeflection:
 
     yields: str
     deflect: Deflect
-    slots: Slots = SERIES
+    slots: LawParameters = SERIES
 
     def having(self, sources: Mapping[str, Source]) -> SingleDeflection:
         """The same link with more of its numbers coming from somewhere."""
         return replace(self, slots=self.slots.having(sources))
 
     def deflection(
-        self, movement: Movement, values: Values
+        self, movement: DifferentiatedInputs, values: Values
     ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
         """Deflection and rate without load."""
         u, slope = self._seen(movement.position[movement.row(self.yields)], values)
         return u[:, None], (slope * movement.rate[movement.row(self.yields)])[:, None]
 
-    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+    def loads(self, movement: DifferentiatedInputs, law: Law, values: Values) -> Loads:
         """Load along a movement; its law is the interface law."""
         n, numbers = self.slots.numbers(values), law.slots.numbers(values)
         if n[0] == 0.0:

@@ -11,8 +11,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.implicit import NotConverged
-from geocontact.chain.links import Balance, Geometry, Law, Modifier, Motion, Places, Sensor
-from geocontact.chain.magnitudes import Scale, scale_of
+from geocontact.chain.links import Balance, ContactSites, Geometry, Law, Modifier, Motion, Sensor
+from geocontact.chain.magnitudes import Magnitudes, magnitudes_of
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 
@@ -70,7 +70,7 @@ class System:
     sensor: Sensor
     parameters: tuple[Parameter, ...]
     constants: Mapping[str, float]
-    scale: Scale
+    scale: Magnitudes
     effects: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
     own: tuple[Offering, ...] = ()
@@ -162,14 +162,14 @@ class System:
         numbers = [{**trial.covariates, **self.known, **self.start, **(values or {})} for trial in trials]
         movements = [self.motion.seen(trial, known) for trial, known in zip(trials, numbers, strict=True)]
 
-        def of(one: System) -> Scale:
-            return scale_of(one.geometry, one.outputs, trials, movements, numbers)
+        def of(one: System) -> Magnitudes:
+            return magnitudes_of(one.geometry, one.outputs, trials, movements, numbers)
 
         return replace(self, scale=replace(of(self), places={place: of(self.at(place)) for place in self.places}))
 
     def at(self, place: str) -> System:
         """The base as if it made contact at one place only; ValueError when it has no such place."""
-        if place not in self.places or not isinstance(self.geometry, Places):
+        if place not in self.places or not isinstance(self.geometry, ContactSites):
             raise ValueError(f"{self.name}: no place {place}; it has {', '.join(self.places) or 'none'}")
         inputs, outputs = (
             tuple(name for name in names if name.startswith(f"{place}_")) for names in (self.inputs, self.outputs)

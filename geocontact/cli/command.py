@@ -18,10 +18,11 @@ from geocontact.cli.show import Terminal
 from geocontact.data.errors import InputError
 
 OUT = "Folder for the results."
+MOST_FILES = 20  # that are listed at the end, those in sub-folders among them
 
 
 def command(
-    job: str,
+    job: str | Callable[[Options], str],
     options: type[Options],
     words: str,
     *,
@@ -34,7 +35,8 @@ def command(
     Parameters
     ----------
     job
-        Where the analysis is, "geocontact.analyses.cop.job:centre_of_pressure"; imported when it runs.
+        Where the analysis is, "geocontact.analyses.cop.job:centre_of_pressure", or where it is for options that are
+        given; imported when it runs.
     options
         Its options.
     words
@@ -58,12 +60,12 @@ def command(
     def _run(typed: dict[str, Any]) -> int:
         folder = typed["out"]
         given = options(**{one.name: read(one, typed[key(one)]) for one in known if key(one) in typed})
-        place, _, name = job.partition(":")
+        place, _, name = (job if isinstance(job, str) else job(given)).partition(":")
         result, files = execute(getattr(import_module(place), name), given, folder, Call(typed, Terminal(), spell))
         tell(result, folder, files)
         if after is not None:
             after(result, folder)
-        return 0 if result.accepted else 1
+        return int(result.exit_code)
 
     run.__doc__ = spell(words)
     run.__name__ = options.__name__
@@ -71,14 +73,26 @@ def command(
     return run
 
 
+def _shortened(files: list[str]) -> list[str]:
+    """Names of files as they are, but sub-folders as a whole where there are many files in them."""
+    if len(files) <= MOST_FILES:
+        return files
+    return sorted({name if "/" not in name else f"{name.partition('/')[0]}/…" for name in files})
+
+
 def speller(known: tuple[Declared, ...]) -> Callable[[str], str]:
     """What turns `` `radius` `` into --radius-mm, for the options of one command."""
-    names = {one.name: one.name.upper() if one.positional else f"--{option(one)}" for one in known} | {"out": "--out"}
+    names = {one.name: one.name.upper() if argument(one) else f"--{option(one)}" for one in known} | {"out": "--out"}
 
     def spelled(text: str) -> str:
         return re.sub(r"`(\w+)`", lambda found: names.get(found[1], found[0]), text)
 
     return spelled
+
+
+def argument(one: Declared) -> bool:
+    """Whether it is typed without its name."""
+    return one.positional and not one.spelled.keyword
 
 
 def respelled(error: InputError, spell: Callable[[str], str]) -> InputError:
@@ -90,7 +104,7 @@ def tell(result: Result, folder: Path, files: list[str]) -> None:
     """Say what was found and where it lies."""
     for sentence in result.sentences:
         print(sentence)
-    print(f"results in {folder}: {', '.join(files)}")
+    print(f"results in {folder}: {', '.join(_shortened(files))}")
 
 
 def option(one: Declared) -> str:
@@ -107,9 +121,8 @@ def read(one: Declared, value: Any) -> Any:
     """What was typed, in SI."""
     if one.typed is None or value is None:
         return value
-    from geocontact.analyses import quantities
-
-    function = getattr(quantities, one.typed.read)
+    place, _, name = one.typed.read.rpartition(":")
+    function = getattr(import_module(f"geocontact.analyses.{place or 'quantities'}"), name)
     return function(value, f"`{one.name}`")
 
 
@@ -118,7 +131,7 @@ def _typed(known: tuple[Declared, ...], rest: str, arguments: tuple[Any, ...], t
     found: dict[str, Any] = {}
     left = list(arguments)
     for one in known:
-        if one.positional:
+        if argument(one):
             found[key(one)] = tuple(left.pop(0) for _ in range(len(left))) if one.several else left.pop(0)
         elif one.name in typed:
             found[key(one)] = typed[one.name]
@@ -136,12 +149,12 @@ def _default(one: Declared) -> Any:
 def _signature(known: tuple[Declared, ...], rest: str, spell: Callable[[str], str], out: str) -> inspect.Signature:
     parameters: list[inspect.Parameter] = []
     for one in known:
-        if one.positional:
+        if argument(one):
             parameters += _positional(one, spell)
     if rest:
         words = f"Further ones, as a shell pattern after `{rest}` gives them."
         parameters.append(_parameter(f"more_{rest}s", inspect.Parameter.VAR_POSITIONAL, str, {"help": spell(words)}))
-    keywords = [one for one in known if not one.positional]
+    keywords = [one for one in known if not argument(one)]
     required = [_keyword(one, spell) for one in keywords if one.required]
     folder = _parameter("out", inspect.Parameter.KEYWORD_ONLY, Path, {"help": out})
     return inspect.Signature(
@@ -158,7 +171,7 @@ def _positional(one: Declared, spell: Callable[[str], str]) -> list[inspect.Para
     if not one.required:
         return [many]
     first = _parameter(one.name.removesuffix("s"), inspect.Parameter.POSITIONAL_ONLY, Path, told)
-    more = Parameter(help="Further ones: one sub-folder each.")
+    more = Parameter(help="Further ones.")
     return [first, many.replace(name=f"more_{one.name}", annotation=Annotated[Path, more])]
 
 

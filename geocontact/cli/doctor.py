@@ -94,7 +94,6 @@ FEATURES = (
     ),
     Feature("optimal control", "casadi", "body models", "import casadi", "pip install casadi"),
     Feature("motion capture", "ezc3d", ".c3d files", "import ezc3d", "pip install ezc3d"),
-    Feature("many subjects", "dask", "cohorts", "import distributed", 'pip install "dask[distributed]"'),
 )
 
 

@@ -13,11 +13,15 @@ SILENCE = 2.5  # s; loading compiled kernels from the cache takes less
 
 
 class Terminal(Listener):
-    """Shows warnings on stderr, and where that is a terminal how far the work is."""
+    """Shows warnings and failures on stderr, and where that is a terminal how far the work is."""
 
     def warn(self, line: str) -> None:
         """One line on stderr."""
         print(f"warning: {line}", file=sys.stderr)
+
+    def fail(self, line: str) -> None:
+        """One line on stderr."""
+        print(" ".join(line.split()), file=sys.stderr)
 
     @contextmanager
     def preparing(self) -> Iterator[None]:

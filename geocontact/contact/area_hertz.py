@@ -66,7 +66,7 @@ def threshold_force(area: X, radius: X, modulus: X, threshold: X) -> X:
 
 
 @dataclass(frozen=True)
-class Patch:
+class PatchGeometry:
     """What the readings take besides area and E*: radius R, length of a strip and threshold of the area, all [m].
 
     A radius that follows flexion is an array as long as the area.
@@ -96,9 +96,9 @@ class Reading:
     name: str
     words: str
     power: float
-    force: Callable[[Any, Patch, Any], Any]
+    force: Callable[[Any, PatchGeometry, Any], Any]
 
-    def modulus(self, area: float, force: float, patch: Patch) -> float:
+    def modulus(self, area: float, force: float, patch: PatchGeometry) -> float:
         """E* [Pa] with which `area` carries `force`; infinite where the reading sees no contact."""
         unit = float(self.force(area, patch, 1.0))
         return force / unit if unit > 0.0 else float("inf")
@@ -110,8 +110,10 @@ READINGS: tuple[Reading, ...] = (
     Reading("strip", "strip of a cylinder, A = 2 b L", 2.0, lambda a, p, e: strip_force(a, p.radius, e, p.length)),
     Reading("cap", "overlap of an undeformed sphere, A = 2 pi R d", 1.5, lambda a, p, e: cap_force(a, p.radius, e)),
     Reading(
-        "threshold", "undeformed sphere within the threshold, A = 2 pi R (d + T)", 1.5,
+        "threshold",
+        "undeformed sphere within the threshold, A = 2 pi R (d + T)",
+        1.5,
         lambda a, p, e: threshold_force(a, p.radius, e, p.threshold),
     ),
-)  # fmt: skip
+)
 """Every reading; "disc" is what the paper's words ask for most directly."""

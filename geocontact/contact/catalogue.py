@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from geocontact.contact.area_hertz import cap_force, disc_force, discs_force, strip_force, threshold_force
+from geocontact.contact.bristle_friction import bristle_force, deflection_rate
 from geocontact.contact.elastic_foundation import (
     linear_pair_pressure,
     linear_pressure,
@@ -16,28 +17,42 @@ from geocontact.contact.elastic_foundation import (
 from geocontact.contact.hertz_ellipse import ellipse_force
 from geocontact.contact.hertz_line import line_load
 from geocontact.contact.hertz_point import point_force
+from geocontact.contact.sphere_foot import friction_coefficient, normal_force
 
 
 @dataclass(frozen=True)
-class Law:
-    """A law of one running variable.
+class Variable:
+    """What runs along a motion.
+
+    Parameters
+    ----------
+    name, unit
+        In words, and its SI unit.
+    typical
+        A value that occurs, away from the kinks of the law.
+    """
+
+    name: str
+    unit: str
+    typical: float
+
+
+@dataclass(frozen=True)
+class ForceLaw:
+    """A law of one running variable or more.
 
     Parameters
     ----------
     function
-        Takes the variable first, then its numbers.
-    variable, unit
-        What runs, its unit.
-    typical
-        A value of the variable that occurs in the contact of an implant.
+        Takes the variables first, then its numbers.
+    variables
+        What runs, in the order of the function's arguments.
     numbers
-        Numbers that occur with it, SI units.
+        Numbers that occur with the typical values, SI units.
     """
 
     function: Callable[..., Any]
-    variable: str
-    unit: str
-    typical: float
+    variables: tuple[Variable, ...]
     numbers: tuple[float, ...]
 
     @property
@@ -46,17 +61,38 @@ class Law:
         return self.function.__name__
 
 
-LAWS: tuple[Law, ...] = (
-    Law(point_force, "depth", "m", 2e-4, (37e-3, 1e9)),
-    Law(line_load, "half width", "m", 3e-3, (37e-3, 1e9)),
-    Law(ellipse_force, "depth", "m", 2e-4, (5.0, 1e9, 2.0, 0.7)),
-    Law(disc_force, "area", "m^2", 1.1e-3, (37e-3, 6.8e6)),
-    Law(discs_force, "area", "m^2", 1.1e-3, (37e-3, 6.8e6)),
-    Law(strip_force, "area", "m^2", 1.1e-3, (37e-3, 6.8e6, 60e-3)),
-    Law(cap_force, "area", "m^2", 1.1e-3, (37e-3, 6.8e6)),
-    Law(threshold_force, "area", "m^2", 1.1e-3, (37e-3, 3e8, 4e-3)),
-    Law(linear_pressure, "depth", "m", 2e-4, (8e-3, 1e9)),
-    Law(logarithmic_pressure, "depth", "m", 2e-4, (8e-3, 1e9)),
-    Law(linear_pair_pressure, "depth", "m", 2e-4, (8e-3, 1e9, 2e-3, 5e6)),
-    Law(logarithmic_pair_pressure, "depth", "m", 2e-4, (8e-3, 1e9, 2e-3, 5e6)),
+DEPTH, AREA = Variable("depth", "m", 2e-4), Variable("area", "m^2", 1.1e-3)
+
+PRESSING: tuple[ForceLaw, ...] = (
+    ForceLaw(point_force, (DEPTH,), (37e-3, 1e9)),
+    ForceLaw(line_load, (Variable("half width", "m", 3e-3),), (37e-3, 1e9)),
+    ForceLaw(ellipse_force, (DEPTH,), (5.0, 1e9, 2.0, 0.7)),
+    ForceLaw(disc_force, (AREA,), (37e-3, 6.8e6)),
+    ForceLaw(discs_force, (AREA,), (37e-3, 6.8e6)),
+    ForceLaw(strip_force, (AREA,), (37e-3, 6.8e6, 60e-3)),
+    ForceLaw(cap_force, (AREA,), (37e-3, 6.8e6)),
+    ForceLaw(threshold_force, (AREA,), (37e-3, 3e8, 4e-3)),
+    ForceLaw(linear_pressure, (DEPTH,), (8e-3, 1e9)),
+    ForceLaw(logarithmic_pressure, (DEPTH,), (8e-3, 1e9)),
+    ForceLaw(linear_pair_pressure, (DEPTH,), (8e-3, 1e9, 2e-3, 5e6)),
+    ForceLaw(logarithmic_pair_pressure, (DEPTH,), (8e-3, 1e9, 2e-3, 5e6)),
+    ForceLaw(normal_force, (Variable("depth", "m", 1.5e-3), Variable("rate", "m/s", 0.3)), (6e4, 1.5, 300.0, 2e-3)),
 )
+"""How bodies press: 0 unless the first variable is positive, never negative."""
+
+FRICTION: tuple[ForceLaw, ...] = (
+    ForceLaw(friction_coefficient, (Variable("speed", "m/s", 0.3),), (0.25, 0.9, 0.7)),
+    ForceLaw(
+        deflection_rate,
+        (Variable("deflection", "m", 3e-5), Variable("speed", "m/s", 2e-3)),
+        (4e-5, 0.6),
+    ),
+    ForceLaw(
+        bristle_force,
+        (Variable("deflection", "m", 3e-5), Variable("rate", "m/s", 2e-3)),
+        (1e5, 30.0),
+    ),
+)
+"""How they resist sliding: odd in all variables together."""
+
+LAWS = PRESSING + FRICTION

@@ -20,15 +20,6 @@ def plane_modulus(young: X, poisson: X) -> X:
     return modulus
 
 
-def contact_modulus(first: X, second: X) -> X:
-    """E* of two half-spaces of plane moduli `first` and `second` [Pa]: 1/E* = 1/first + 1/second.
-
-    Johnson, Contact Mechanics (1985), eq. 4.24. Two bodies of one material have half its plane modulus.
-    """
-    modulus: X = first * second / (first + second)
-    return modulus
-
-
 def layer_modulus(young: X, poisson: X) -> X:
     """(1 - nu) E / ((1 + nu)(1 - 2 nu)) [Pa]: pressure per strain of a thin layer that cannot spread sideways.
 

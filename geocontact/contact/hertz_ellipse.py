@@ -21,25 +21,6 @@ X = TypeVar("X", bound=Any)
 """A number, an array or a symbol."""
 
 
-def relative_curvatures(along: X, across: X, other_along: X, other_across: X, angle: X) -> tuple[X, X]:
-    """A <= B of the gap A x^2 + B y^2 [1/m] from the principal curvatures of both bodies (Johnson, eq. 4.3).
-
-    Parameters
-    ----------
-    along, across
-        Principal curvatures of one body [1/m]: 1/radius, positive where it is convex, 0 where it is flat.
-    other_along, other_across
-        Those of the other body.
-    angle
-        Between the directions of `along` and `other_along` [rad].
-    """
-    first, second = along - across, other_along - other_across
-    square = first * first + second * second + 2.0 * first * second * np.cos(2.0 * angle)
-    total = along + across + other_along + other_across
-    difference = np.sqrt(np.maximum(square, 0.0))
-    return 0.25 * (total - difference), 0.25 * (total + difference)
-
-
 def ellipse_shape(ratio: X) -> tuple[X, X, X]:
     """Axis ratio q = b/a, K and S of the patch for B/A = `ratio` >= 1; right to 1e-13 up to B/A = 1e8.
 

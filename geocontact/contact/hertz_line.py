@@ -31,6 +31,6 @@ def line_half_width(load: X, radius: X, modulus: X) -> X:
 
 
 def line_peak_pressure(load: X, radius: X, modulus: X) -> X:
-    """Pressure in the middle, p0 = sqrt(P E* / (pi R)) [Pa]: 4/pi of the mean, falling off as `point_pressure`."""
+    """Pressure in the middle, p0 = sqrt(P E* / (pi R)) [Pa]: 4/pi of the mean, falling off as sqrt(1 - x^2/b^2)."""
     p0: X = np.sqrt(np.maximum(load, 0.0) * modulus / (np.pi * radius))
     return p0

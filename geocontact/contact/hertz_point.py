@@ -45,10 +45,3 @@ def point_peak_pressure(force: X, radius: X, modulus: X) -> X:
     """Pressure in the middle, p0 = (6 F E*^2 / (pi^3 R^2))^(1/3) [Pa], 3/2 of the mean."""
     p0: X = (6.0 * np.maximum(force, 0.0) * modulus * modulus / (np.pi**3 * radius * radius)) ** (1.0 / 3.0)
     return p0
-
-
-def point_pressure(distance: X, patch: X, peak: X) -> X:
-    """Pressure p0 sqrt(1 - r^2 / a^2) at `distance` r from the middle of a patch of radius a; 0 outside [Pa]."""
-    inside = np.maximum(1.0 - distance * distance / (patch * patch), 0.0)
-    pressure: X = peak * np.sqrt(inside)
-    return pressure

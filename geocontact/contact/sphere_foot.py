@@ -1,8 +1,14 @@
-"""Spheres of a foot on the ground: normal force after Hunt and Crossley with gated damping, friction by a table.
+"""Spheres of a foot on the ground: a Kelvin-Voigt element with a power spring and gated damping, friction by a table.
 
-The law of the contact library that the studies of prosthetic feet use (Simscape Multibody Contact Forces Library):
-F = k d^n + b d' s(d / d_full), without damping while the bodies part. The smooth step s lets the damping set in with
-the depth, so that a sphere that touches down fast starts at zero force.
+F = k d^n + b max(d', 0) s(d / d_full). This is the law of the Simscape Multibody Contact Forces Library (S. Miller);
+the study of the variable-stiffness foot that uses it calls it a modified Kelvin-Voigt law (its eq. 1). Spring and
+damper act in parallel. The smooth step s lets the damping set in with the depth, so that a sphere that touches down
+fast starts at zero force.
+
+It is not the law of Hunt & Crossley (1975), Coefficient of restitution interpreted as damping in vibroimpact, J Appl
+Mech 42, 440-445: F = k d^n + c d^n d'. There the damping is the elastic force times (c/k) d', so it grows with the
+depth without limit and acts while the bodies part as well. Here it is b d' at any depth beyond d_full and 0 while they
+part.
 
 Scalar in, scalar out: the same source runs on arrays, in numba loops and on CasADi symbols (numpy mode 1).
 """

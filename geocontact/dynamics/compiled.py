@@ -40,9 +40,9 @@ def compiled(function: Function) -> Function:
     generator = CodeGenerator("f.c")
     generator.add(function)
     source = generator.dump()
-    told = "\0".join((source, program, *FLAGS))
+    key = "\0".join((source, program, *FLAGS))
     folder = cache_folder()
-    library = folder / f"{hashlib.sha256(told.encode()).hexdigest()}.so"
+    library = folder / f"{hashlib.sha256(key.encode()).hexdigest()}.so"
     if not library.is_file():
         try:
             _build(program, source, folder, library)

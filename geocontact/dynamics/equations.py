@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from geocontact.dynamics.inverse_dynamics import Wrenches, generalised_forces
+from geocontact.dynamics.symbols import entries
 from geocontact.dynamics.tree import Tree
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Memory:
+class LawState:
     """A law's own state.
 
     Parameters
@@ -98,7 +99,7 @@ def equations_of_motion(
     loads: Wrenches | None = None,
     along: Mapping[str, SX] | None = None,
     prescribed: Sequence[str] = (),
-    memory: Sequence[Memory] = (),
+    memory: Sequence[LawState] = (),
     inputs: Sequence[SX] = (),
     parameters: Sequence[SX] = (),
 ) -> Equations:
@@ -125,13 +126,15 @@ def equations_of_motion(
     free = [k for k, name in enumerate(tree.names) if name not in prescribed]
     given = [tree.names.index(name) for name in prescribed]
     acting = vertcat(*(driven.get(name, SX(0)) for name in tree.names))
-    balance = (acting - generalised_forces(tree, loads))[free]
+    balance = entries(acting - generalised_forces(tree, loads), free)
     z = vertcat(*(each.symbol for each in memory)) if memory else SX(0, 1)
     growth = vertcat(*(each.growth for each in memory)) if memory else SX(0, 1)
-    w = vertcat(tree.q[given], tree.u[given], tree.a[given], *inputs)
+    courses = (entries(each, given) for each in (tree.q, tree.u, tree.a))
+    w = vertcat(*courses, *inputs)
     p = vertcat(*parameters) if parameters else SX(0, 1)
     names = tuple(tree.names[k] for k in free)
-    return Equations(names, tree.q[free], tree.u[free], tree.a[free], z, w, p, balance, growth)
+    q, u, a = (entries(each, free) for each in (tree.q, tree.u, tree.a))
+    return Equations(names, q, u, a, z, w, p, balance, growth)
 
 
 def solved(mass: SX, force: SX) -> SX:

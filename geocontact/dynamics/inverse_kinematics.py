@@ -50,8 +50,9 @@ class Poses:
         Taken in each frame.
     settled
         Whether the last step was short enough.
-    told
-        Whether markers, weights and limits of the frame determine the coordinate; what is not told is filled or NaN.
+    determined
+        Whether markers, weights and limits of the frame determine the coordinate; what is not determined is filled or
+        NaN.
     """
 
     time: Float[np.ndarray, " t"]
@@ -61,7 +62,7 @@ class Poses:
     distances: Float[np.ndarray, "t m"]
     steps: Int[np.ndarray, " t"]
     settled: Bool[np.ndarray, " t"]
-    told: Bool[np.ndarray, "t n"]
+    determined: Bool[np.ndarray, "t n"]
 
 
 def inverse_kinematics(
@@ -77,8 +78,8 @@ def inverse_kinematics(
     Parameters
     ----------
     fill
-        Longest gap [s] over which a coordinate that is not told is filled by a cubic spline through the frames that do;
-        from the last frame before the gap to the first after it. Gaps at the ends are not filled.
+        Longest gap [s] over which a coordinate that is not determined is filled by a cubic spline through the frames
+        that do; from the last frame before the gap to the first after it. Gaps at the ends are not filled.
 
     Those markers count that model, recording and tasks have; ValueError where no frame shows three of them.
     """
@@ -93,29 +94,29 @@ def inverse_kinematics(
     search = _Search(tree, markers, tasks)
     values, distances = np.zeros((len(seen), len(tree.names))), np.full((len(seen), len(markers)), np.nan)
     steps, settled = np.zeros(len(seen), dtype=np.int64), np.zeros(len(seen), dtype=bool)
-    told = np.zeros(values.shape, dtype=bool)
+    determined = np.zeros(values.shape, dtype=bool)
     first = int(np.argmax(there.sum(axis=1)))
     done = 0
     for frames in (range(first, len(seen)), range(first - 1, -1, -1)):
         q = search.start if frames.step > 0 else values[first]
         for frame in frames:
             q, steps[frame], settled[frame] = search.pose(q, places[frame])
-            values[frame], told[frame] = q, search.told(q, there[frame])
+            values[frame], determined[frame] = q, search.determined(q, there[frame])
             distances[frame] = np.linalg.norm(search.fit.places(q) - places[frame], axis=1)
             done += 1
             progress(done)
-    values = np.where(told.any(axis=0), _filled(seen.time, values, told, fill), search.start)
-    return Poses(seen.time, tree.names, values, tuple(m.name for m in markers), distances, steps, settled, told)
+    values = np.where(determined.any(axis=0), _filled(seen.time, values, determined, fill), search.start)
+    return Poses(seen.time, tree.names, values, tuple(m.name for m in markers), distances, steps, settled, determined)
 
 
 def _filled(
-    time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t n"], told: Bool[np.ndarray, "t n"], longest: float
+    time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t n"], determined: Bool[np.ndarray, "t n"], longest: float
 ) -> Float[np.ndarray, "t n"]:
-    """What is not told, over short gaps by a cubic spline through what is, else NaN."""
-    found = np.where(told, values, np.nan)
-    for k in np.flatnonzero(~told.all(axis=0)):
-        known = np.flatnonzero(told[:, k])
-        lost = np.flatnonzero(~told[:, k])
+    """What is not determined, over short gaps by a cubic spline through what is, else NaN."""
+    found = np.where(determined, values, np.nan)
+    for k in np.flatnonzero(~determined.all(axis=0)):
+        known = np.flatnonzero(determined[:, k])
+        lost = np.flatnonzero(~determined[:, k])
         if len(known) < 2:
             continue
         after = np.searchsorted(known, lost)
@@ -170,7 +171,7 @@ class _Search:
             self.kept = self.kept if fast else None
         return q, MOST, False
 
-    def told(self, q: Vector, there: Bool[np.ndarray, " m"]) -> Bool[np.ndarray, " n"]:
+    def determined(self, q: Vector, there: Bool[np.ndarray, " m"]) -> Bool[np.ndarray, " n"]:
         """Which coordinates the markers that are there, held values and locks determine; once for all of them there."""
         if there.all() and self.whole is not None:
             return self.whole

@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from geocontact.dynamics.equations import Equations, solved
+from geocontact.dynamics.symbols import entries
 
 if TYPE_CHECKING:
     from casadi import SX, Function
@@ -43,16 +44,17 @@ def rosenbrock_step(equations: Equations) -> Function:
     for stage, (drift, earlier) in enumerate(zip(DRIFT, MEMORY, strict=True)):
         if stage >= 2:
             there = x + 2.0 * stages[0] + (stages[2] if stage == 3 else 0.0)
-            q, u, z = there[:n], there[n : 2 * n], there[2 * n :]
-            own, acting, grown = parts(q, u, z, later, e.p)
-            rest.append((u, mass @ solved(own, acting), grown))
+            at = _split(there, n)
+            own, acting, grown = parts(*at, later, e.p)
+            rest.append((at[1], mass @ solved(own, acting), grown))
         right = list(rest[stage])
         right[1] = right[1] + drift * h * linear.drift_force(slope)
         right[2] = right[2] + drift * h * linear.drift_growth(slope)
         for weight, one in zip(earlier, stages, strict=True):
-            right[0] = right[0] + weight / h * one[:n]
-            right[1] = right[1] + weight / h * (mass @ one[n : 2 * n])
-            right[2] = right[2] + weight / h * one[2 * n :]
+            of_q, of_u, of_z = _split(one, n)
+            right[0] = right[0] + weight / h * of_q
+            right[1] = right[1] + weight / h * (mass @ of_u)
+            right[2] = right[2] + weight / h * of_z
         stages.append(linear.solved(*right))
     found = x + 2.0 * stages[0] + stages[2] + stages[3]
     rate = vertcat(e.u, start, growth)
@@ -73,6 +75,11 @@ def tangent_step(step: Function) -> Function:
     both, seeds = vertcat(x, p), vertcat(turned, SX.eye(p.numel()))
     outputs = [densify(jtimes(found, both, seeds)), densify(jtimes(rate, both, seeds))]
     return Function("tangent", [*given, turned], outputs)
+
+
+def _split(x: SX, n: int) -> tuple[SX, SX, SX]:
+    """The parts of a state, or of its change, that belong to n coordinates, their rates and the memories."""
+    return entries(x, slice(n)), entries(x, slice(n, 2 * n)), entries(x, slice(2 * n, None))
 
 
 class _Linear:
@@ -108,7 +115,7 @@ class _Linear:
         found = self.factors.solved(
             vertcat(force + self.hg * (self.force_q @ speed), growth + self.hg * (self.growth_q @ speed))
         )
-        return vertcat(self.hg * (found[: self.n] + speed), found)
+        return vertcat(self.hg * (entries(found, slice(self.n)) + speed), found)
 
 
 class _Factors:

@@ -25,7 +25,7 @@ SMALLEST = 1e-12
 
 
 @dataclass(frozen=True)
-class Course:
+class SimulatedMotion:
     """A motion at the times that were wanted.
 
     Parameters
@@ -94,7 +94,7 @@ class Stepper:
         first: float = 1e-4,
         longest: float = np.inf,
         steps: int | None = None,
-    ) -> Course:
+    ) -> SimulatedMotion:
         """Motion from q, u, z at `time[0]` to `time[-1]`, between the steps by cubic polynomials.
 
         Parameters
@@ -162,7 +162,7 @@ class Stepper:
             by = CubicHermiteSpline(times, np.array(turns), np.array(turn_rates))(time).swapaxes(1, 2)
         else:
             by = np.zeros((len(time), len(x), 0))
-        return Course(time, self.equations.names, q, u, z, len(times) - 1, refused, error, by)
+        return SimulatedMotion(time, self.equations.names, q, u, z, len(times) - 1, refused, error, by)
 
 
 def _size(off: Vector, x: Vector, found: Vector, tolerance: float) -> float:

@@ -63,11 +63,3 @@ def sphere_wrench(
     friction = friction_coefficient(speed, law.v_th, law.mu_s, law.mu_k) * sliding / speed
     force = pressing * (normal - friction)
     return force, cross(body.place + arm - height * normal, force)
-
-
-def together(first: tuple[SX, SX], *others: tuple[SX, SX]) -> tuple[SX, SX]:
-    """Sum of forces and moments about one point."""
-    force, moment = first
-    for more in others:
-        force, moment = force + more[0], moment + more[1]
-    return force, moment

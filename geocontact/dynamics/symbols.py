@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,6 +26,14 @@ def constant(values: Float[np.ndarray, ...]) -> SX:
     from casadi import SX, sparsify
 
     return sparsify(SX(np.asarray(values, dtype=float)))
+
+
+def entries(column: SX, which: Sequence[int] | slice) -> SX:
+    """Entries of an (n, 1) column as a column, (k, 1), also for k = 0.
+
+    Indexed by one subscript, a column of one entry gives (1, 0) where nothing is taken, and `vertcat` counts its row.
+    """
+    return column[which, :]
 
 
 def turn(axis: Float[np.ndarray, " 3"], angle: SX) -> SX:

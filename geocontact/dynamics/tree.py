@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.dynamics.moving_joint import MovingJoint, moving_joint
-from geocontact.dynamics.symbols import apply_numpy, constant
+from geocontact.dynamics.symbols import apply_numpy, constant, entries
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -74,7 +74,7 @@ class Moving:
 
 
 @dataclass(frozen=True)
-class Axis:
+class JointAxis:
     """What a joint's rates do, in the ground's frame: angular velocity and velocity of `place` per rate, (3, k)."""
 
     place: SX
@@ -105,7 +105,7 @@ class Tree:
     u: SX
     a: SX
     bodies: dict[str, Moving]
-    axes: tuple[Axis, ...]
+    axes: tuple[JointAxis, ...]
     masses: Mapping[str, SX] = field(default_factory=dict)
 
     @property
@@ -149,10 +149,10 @@ def tree_of(
     moved = dict(places or {})
     axes = []
     for joint, columns in zip(model.joints, tree.columns(), strict=True):
-        own = moving_joint(joint, q[columns], u[columns], a[columns])
+        own = moving_joint(joint, *(entries(each, columns) for each in (q, u, a)))
         fixed = bodies[joint.parent].carried(joint.parent_offset, moved.get(joint.name))
         moving = fixed.moved(own)
         bodies[joint.child] = moving.carried(joint.child_offset.inv())
         rates = (mtimes(fixed.rotation, per) for per in (own.spin_per_rate, own.speed_per_rate))
-        axes.append(Axis(moving.place, *rates))
+        axes.append(JointAxis(moving.place, *rates))
     return Tree(model, q, u, a, bodies, tuple(axes), dict(masses or {}))

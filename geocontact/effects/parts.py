@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.law_parameters import Source
 from geocontact.chain.links import Channels, Modifier
 from geocontact.chain.system import System
@@ -34,7 +34,7 @@ def with_geometry(sources: Mapping[str, Source]) -> Callable[[System], System]:
     return lambda system: replace(system, geometry=system.geometry.having(sources))
 
 
-def with_motion(one: Modifier[Movement]) -> Callable[[System], System]:
+def with_motion(one: Modifier[DifferentiatedInputs]) -> Callable[[System], System]:
     """Replaces the motion by one that is changed once more."""
     return lambda system: replace(system, motion=system.motion.having(one))
 

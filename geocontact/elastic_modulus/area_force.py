@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import PchipInterpolator
 
-from geocontact.contact.area_hertz import Patch, Reading
+from geocontact.contact.area_hertz import PatchGeometry, Reading
 from geocontact.data.tilted_areas import TiltedAreas
 
 MODULUS, THRESHOLD, LAG, ADDUCTION, SLOPE = "modulus", "threshold", "lag", "adduction", "slope"
@@ -19,7 +19,7 @@ of adduction that is added to the recorded pose [rad], and the share by which R 
 
 
 @dataclass(frozen=True, eq=False)
-class AreaEvolution:
+class ThresholdAreas:
     """Area of one compartment, or of all, over time and threshold.
 
     Parameters
@@ -48,7 +48,7 @@ class AreaEvolution:
     tilts: TiltedAreas | None = None
     flexion: Float[np.ndarray, " t"] | None = None
 
-    def with_offsets(self, values: Mapping[str, float]) -> AreaEvolution:
+    def with_offsets(self, values: Mapping[str, float]) -> ThresholdAreas:
         """The evolution at an adduction offset, and R (1 + slope flexion) for R, as far as `values` name them."""
         given = self
         if ADDUCTION in values:
@@ -76,7 +76,7 @@ class AreaEvolution:
 
     def per_modulus(self, reading: Reading, threshold: float) -> Float[np.ndarray, " t"]:
         """Force over E* at each frame [m^2]."""
-        patch = Patch(self.radius, self.length, threshold)
+        patch = PatchGeometry(self.radius, self.length, threshold)
         return np.asarray(reading.force(self.within(threshold), patch, 1.0), float)
 
 
@@ -96,7 +96,7 @@ class AreaForce:
         Used unless it is a free parameter [m].
     """
 
-    evolution: AreaEvolution
+    evolution: ThresholdAreas
     reading: Reading
     frames: Float[np.ndarray, " n"]
     taken: float

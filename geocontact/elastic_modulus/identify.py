@@ -14,7 +14,7 @@ from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE
 from geocontact.identify.identifiability import Identifiability, identifiability
 from geocontact.identify.intervals.block_bootstrap import Replicates, block_bootstrap
 from geocontact.identify.intervals.profile_likelihood import Profile, profile
-from geocontact.identify.noise.autocorrelation import Memory, memory_of
+from geocontact.identify.noise.autocorrelation import Autocorrelation, autocorrelation_of
 from geocontact.identify.optimise.least_squares import Fit
 from geocontact.identify.optimise.least_squares import fit as least_squares
 from geocontact.identify.optimise.quasi_newton import search, spread_starts
@@ -47,7 +47,7 @@ class Identification:
     model: AreaForce
     measured: Float[np.ndarray, " n"]
     fit: Fit
-    memory: Memory
+    memory: Autocorrelation
     profiles: Mapping[str, Profile]
     replicates: Replicates | None
     told_apart: Mapping[str, Identifiability]
@@ -110,7 +110,7 @@ def identify(
     parameters = (modulus_parameter(), *others)
     fit = fitted(model, measured, parameters, starts)
     jacobian = fit.jacobian[0][:, 0, :]
-    memory = memory_of(model.frames, fit.residuals[0][:, 0], jacobian)
+    memory = autocorrelation_of(model.frames, fit.residuals[0][:, 0], jacobian)
     profiles = {
         name: profile(model.predict, measured, model.frames, parameters, fit, memory, name, level) for name in fit.names
     }
@@ -119,7 +119,7 @@ def identify(
 
 
 def _bootstrap(
-    model: AreaForce, fit: Fit, memory: Memory, parameters: Sequence[Parameter], count: int, level: float
+    model: AreaForce, fit: Fit, memory: Autocorrelation, parameters: Sequence[Parameter], count: int, level: float
 ) -> Replicates:
     best = np.array([fit.values[name] for name in fit.names])
     alone = fit.names == (MODULUS,)

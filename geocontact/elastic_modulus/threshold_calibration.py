@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.optimize import minimize_scalar
 
-from geocontact.elastic_modulus.area_force import AreaEvolution
+from geocontact.elastic_modulus.area_force import ThresholdAreas
 
 GRID = 60  # thresholds tried before the search
 
@@ -36,7 +36,7 @@ class Calibration:
 
 
 def calibrated(
-    evolution: AreaEvolution,
+    evolution: ThresholdAreas,
     frames: Float[np.ndarray, " n"],
     force: Float[np.ndarray, " n"],
     table_force: Float[np.ndarray, " m"],

@@ -8,29 +8,29 @@ from dataclasses import dataclass, replace
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap.case.problem import Problem, problem_of
-from geocontact.gap.data_errors.correction import mended
-from geocontact.gap.data_errors.gross import Fault, fault_of, recognised
+from geocontact.gap.data_errors.correction import corrected
+from geocontact.gap.data_errors.gross import DataError, data_error_of, recognised
 from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
 from geocontact.gap.selection.calibration_share import calibration_share, changes
-from geocontact.gap.selection.clipping import FlatTop, flat_tops
+from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import settled
 from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, settled_in, singles
-from geocontact.gap.selection.residual_anomalies import Oddity, oddities
+from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
-from geocontact.gap.selection.verdict import Answer, answer, borne_out, standing, with_mistake
+from geocontact.gap.selection.verdict import Answer, answer, borne_out, ranking, with_mistake
 
 FIRSTS = 3  # singles that a second effect is tried on
 LEADING = 3  # contenders under whose noise everyone is compared
 WORTH_A_PAIR = 8.0  # nats that a single must gain before a second effect is looked for
 WORTH_UNDOING = 12.0  # nats that a mistake may be behind for its noise to be looked at where it is undone
 CLIPPED = "saturation"  # what a flat top speaks for
-ODD = 5.0  # nats from which an oddity counts as something unknown
+ODD = 5.0  # nats from which an anomaly counts as something unknown
 
 Offer = Callable[[System], Sequence[Candidate]]
 Listener = Callable[[str], None]
-"""Is told what is being done, as each stage of a diagnosis begins."""
+"""Is called with what is being done, as each stage of a diagnosis begins."""
 
 
 def nobody(_: str) -> None:
@@ -45,7 +45,7 @@ class Attribution:
     ----------
     problem
         Base model of the case as it came.
-    fault
+    data_error
         The mistake in the data that everything below takes as undone, if there is one.
     clean
         The case with it undone; `problem` itself where there is none.
@@ -54,7 +54,7 @@ class Attribution:
     contenders
         Models with effects, those with one first.
     remaining
-        What the stand-in for anything unknown finds on the base ("none") and on the best contender, by label.
+        What the surrogate for anything unknown finds on the base ("none") and on the best contender, by label.
     odd
         What is odd about the residual of the leader.
     flat
@@ -64,13 +64,13 @@ class Attribution:
     """
 
     problem: Problem
-    fault: Fault | None
+    data_error: DataError | None
     clean: Problem
     base: Contender
     contenders: tuple[Contender, ...]
     remaining: dict[str, Surrogate]
-    odd: tuple[Oddity, ...]
-    flat: tuple[FlatTop, ...]
+    odd: tuple[ResidualAnomaly, ...]
+    flat: tuple[ClippedChannel, ...]
     answer: Answer
 
 
@@ -82,27 +82,27 @@ def attribute(case: GapCase, system: System, offer: Offer, at: Listener = nobody
     """
     at("the base model and the noise")
     problem = problem_of(case, system)
-    fault = fault_of(problem, offer(problem.system))
-    if fault is None:
+    data_error = data_error_of(problem, offer(problem.system))
+    if data_error is None:
         found = _attributed(problem, None, problem, offer, case, at)
         mistaken = [one for one in found.answer.chosen.candidates if one.somewhere is not None]
         if not found.answer.effects or not mistaken:
             return found
-        fault = recognised(problem, mistaken[0], found.answer.chosen.judged.model)
-    at(f"the {fault.candidate.name} undone")
-    case = mended(case, fault)
-    return _attributed(problem, fault, problem_of(case, system), offer, case, at)
+        data_error = recognised(problem, mistaken[0], found.answer.chosen.judged.model)
+    at(f"the {data_error.candidate.name} undone")
+    case = corrected(case, data_error)
+    return _attributed(problem, data_error, problem_of(case, system), offer, case, at)
 
 
 def _attributed(
-    problem: Problem, fault: Fault | None, clean: Problem, offer: Offer, case: GapCase, at: Listener
+    problem: Problem, data_error: DataError | None, clean: Problem, offer: Offer, case: GapCase, at: Listener
 ) -> Attribution:
     """The contest of the effects, a mistake undone; `case` is what `clean` was made of."""
     candidates = offer(clean.system)
     base = base_contender(clean)
-    hidden = hidden_mistakes(clean, base.judged, candidates) if fault is None else ()
+    hidden = hidden_mistakes(clean, base.judged, candidates) if data_error is None else ()
     entered = [*(one for one in candidates if one.parameters), *hidden]
-    flat = flat_tops(clean)
+    flat = clipped_channels(clean)
     at("every effect alone")
     single = _with_clipped(clean, base, singles(clean, base, entered), candidates, flat)
     contenders = [*single]
@@ -120,21 +120,21 @@ def _attributed(
         for c in contenders
     ]
     shares = {c.label: calibration_share(clean, changes(clean, base, c)) for c in contenders}
-    held = standing(base, contenders, shares, Counter(one.name for one in entered))
-    odd = tuple(each for each in oddities(clean, held.leader.judged) if each.nats > ODD)
+    held = ranking(base, contenders, shares, Counter(one.name for one in entered))
+    odd = tuple(each for each in residual_anomalies(clean, held.leader.judged) if each.nats > ODD)
     strange = float(sum(each.nats for each in odd))
     best = held.best
     at("what is left over")
     rest = surrogate(clean, best.judged)
     said = answer(held, _believed(clean, remaining["none"]), strange, _believed(clean, rest) + strange)
     remaining |= {best.label: rest}
-    if fault is not None:
-        said = with_mistake(said, fault.candidate.name)
-    return Attribution(problem, fault, clean, base, tuple(contenders), remaining, odd, flat, said)
+    if data_error is not None:
+        said = with_mistake(said, data_error.candidate.name)
+    return Attribution(problem, data_error, clean, base, tuple(contenders), remaining, odd, flat, said)
 
 
 def _believed(problem: Problem, found: Surrogate) -> float:
-    """What a stand-in gains, as far as the calibration trials bear it out, its choice paid for [nats]."""
+    """What a surrogate gains, as far as the calibration trials bear it out, its choice paid for [nats]."""
     return borne_out(found.gain, found.calibration, calibration_share(problem, found.predicted)) - found.price
 
 
@@ -152,7 +152,7 @@ def _with_clipped(
     base: Contender,
     contenders: Sequence[Contender],
     candidates: Sequence[Candidate],
-    flat: Sequence[FlatTop],
+    flat: Sequence[ClippedChannel],
 ) -> list[Contender]:
     """The singles and the saturation of each channel that ends at a level, best first."""
     channels, there = {one.channel for one in flat}, {c.label for c in contenders}
@@ -161,10 +161,12 @@ def _with_clipped(
     return _credited([*contenders, *(singles(problem, base, others) if others else ())], flat)
 
 
-def _credited(contenders: Sequence[Contender], flat: Sequence[FlatTop]) -> list[Contender]:
+def _credited(contenders: Sequence[Contender], flat: Sequence[ClippedChannel]) -> list[Contender]:
     """What a flat top tells counts for the saturation of its channel; best first."""
-    told = {one.channel: one.nats for one in flat}
-    beside = [sum((told.get(one.channel, 0.0) for one in c.candidates if one.name == CLIPPED), 0.0) for c in contenders]
+    by_channel = {one.channel: one.nats for one in flat}
+    beside = [
+        sum((by_channel.get(one.channel, 0.0) for one in c.candidates if one.name == CLIPPED), 0.0) for c in contenders
+    ]
     found = [replace(c, beside=nats) for c, nats in zip(contenders, beside, strict=True)]
     return sorted(found, key=lambda c: -c.nats)
 

@@ -3,26 +3,31 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, Estimate, FaultFound, Where
-from geocontact.data.gap_case import GapCase
-from geocontact.data.gap_cell import Cell
-from geocontact.data.surface_gap import SurfaceGap
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.cell import Cell
+from geocontact.data.gap.diagnosis import CellsHeld, ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
+from geocontact.data.gap.held_out import HeldOut
+from geocontact.data.gap.ranked import Ranked
+from geocontact.data.gap.surface_gap import SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.refit import free
 from geocontact.gap.experiment.proposal import first_of, next_experiment
-from geocontact.gap.identifiability.non_identifiable import absorbed
+from geocontact.gap.identifiability.non_identifiable import non_identifiable
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
-from geocontact.gap.reduction.error_reduction import shrinkage
+from geocontact.gap.reduction.error_reduction import error_reduction, error_reduction_of
+from geocontact.gap.reduction.held_out import held_out
 from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
+from geocontact.gap.reduction.raw_input_errors import raw_input_errors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import base_contender
 from geocontact.gap.selection.verdict import SURE
@@ -35,13 +40,25 @@ TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that 
 class Findings:
     """A diagnosis with all that it rests on, for figures and further questions.
 
-    `trials` tells how much better each is predicted from all others with what was named; none where nothing was.
-    `surface` tells where on a mat the gaps lie of channels that have one, none where there are no cells.
+    Parameters
+    ----------
+    cells
+        The gap map.
+    held_out
+        Held-out trials measured, by the base model, and with what was named.
+    ranking
+        Every model that was tried, by its gain.
+    trials
+        How much better each is predicted from all others with what was named; none where nothing was.
+    surface
+        Where on a mat the gaps lie of channels that have one; none where there are no cells.
     """
 
     diagnosis: Diagnosis
     attribution: Attribution
     cells: tuple[Cell, ...]
+    held_out: tuple[HeldOut, ...]
+    ranking: tuple[Ranked, ...]
     trials: tuple[TrialGain, ...] = ()
     surface: tuple[SurfaceGap, ...] = ()
 
@@ -58,7 +75,7 @@ def diagnose(case: GapCase, system: System, version: str = "", at: Listener = no
     version
         Of the package, for the record.
     at
-        Is told in words what is being done, as each stage begins: for progress.
+        Is called in words with what is being done, as each stage begins: for progress.
     """
     with threadpool_limits(limits=1):  # matrices are small: threads would only wait for each other
         return _diagnosed(case, system, version, at)
@@ -73,27 +90,28 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
     chosen = said.chosen.judged
     offered = candidates(found.clean.system)
     at("what would be invisible")
-    hidden = absorbed(found.clean, offered, said.effects)
+    hidden = non_identifiable(found.clean, offered, said.effects)
     at("the experiment to run next")
     then = next_experiment(found, first_of(offered, [each.name for each in hidden]))
     at("where it misses, and how far that shrinks")
     cells = gap_map(found.clean, found.base.judged)
-    as_came = cells if found.fault is None else gap_map(problem, base_contender(problem).judged)
+    as_came = cells if found.data_error is None else gap_map(problem, base_contender(problem).judged)
+    errors = raw_input_errors(problem, found.clean, chosen, found.data_error)
     gap = {
         name: ChannelGap(s.rmse_before, s.rmse_after, s.floor, s.reduction, (s.low, s.high), s.unexplained)
-        for name, s in shrinkage(problem, found.clean, chosen, named, found.fault).items()
+        for name, s in error_reduction_of(errors, problem, chosen, named, found.data_error).items()
     }
     stages = {one.name: one.stage for one in offered}
     stage = stages.get(said.effects[0], "") if said.effects else ""
     after = chosen if named else None
-    surface = () if said.verdict == "no_gap" else on_surface(problem, after, found.fault, case.cells)
+    surface = () if said.verdict == "no_gap" else on_surface(problem, after, found.data_error, case.cells)
     held = {one.channel: CellsHeld(one.holding, len(one.ids), *one.held, one.p_value) for one in surface}
     where = (
         ()
         if said.verdict == "no_gap"
         else tuple(
             Where(w.channel, w.phase, w.share, w.p_value, stage, held.get(w.channel))
-            for w in windows(problem, found.clean, found.base.judged, after, found.fault, as_came)
+            for w in windows(problem, found.clean, found.base.judged, after, found.data_error, as_came)
         )
     )
     diagnosis = Diagnosis(
@@ -118,7 +136,23 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
         next_experiment=then,
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
-    return Findings(diagnosis, found, cells, trials, surface)
+    curves, models = held_out(problem, errors, named), ranking(found, said.probabilities)
+    return Findings(diagnosis, found, cells, curves, models, trials, surface)
+
+
+def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ranked, ...]:
+    """Every model that was tried, the base, and the surrogate of anything unknown; the largest gain first."""
+    zero, unknown = found.base.judged, found.remaining["none"]
+    rows = [
+        Ranked("none", "none", 0.0, 0.0, probabilities.get("none", 0.0)),
+        Ranked("unknown", "unknown", unknown.nats, unknown.calibration, probabilities.get("unknown", 0.0)),
+    ]
+    for one in sorted(found.contenders, key=lambda c: -c.nats):
+        gain, calibration = one.nats - zero.nats, one.judged.calibration - zero.calibration
+        first = len(one.names) == 1 and not any(row.effects == one.names[0] for row in rows)
+        probability = probabilities.get(one.names[0], 0.0) if first else None
+        rows.append(Ranked(one.label, " + ".join(one.names), gain, calibration, probability))
+    return tuple(sorted(rows, key=lambda row: -row.gain))
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:
@@ -127,7 +161,7 @@ def nearest(found: Attribution) -> tuple[str, ...]:
     gain = best.nats - found.base.nats
     if gain < SURE:
         return ()
-    shrunk = shrinkage(found.problem, found.clean, best.judged, True, found.fault)
+    shrunk = error_reduction(found.problem, found.clean, best.judged, True, found.data_error)
     parts = ", ".join(f"{100.0 * s.reduction:.0f} % of the error of {name}" for name, s in shrunk.items())
     only = ", with an amplitude on the bound of what is physical" if best.cut_short else ""
     return (f"nearest of the known effects: {best.label}, which gains {gain:.0f} nats and would remove {parts}{only}",)
@@ -137,7 +171,7 @@ def estimates(judged: Judged) -> dict[str, Estimate]:
     """Every free parameter with its interval, from the curvature of the evidence over all trials' weights.
 
     Intervals are those of the calibration trials: held-out rows are left out of the curvature. Curvature tells nothing
-    of a parameter that ended on a bound: it gets the whole of what is physical, and is not called told.
+    of a parameter that ended on a bound: it gets the whole of what is physical, and is not called identified.
     """
     system, values = judged.model.system, judged.model.values
     spread = prior_spread(system, values)
@@ -148,13 +182,13 @@ def estimates(judged: Judged) -> dict[str, Estimate]:
     for k, p in enumerate(free(system)):
         sd = float(np.sqrt(covariance[k, k])) if not held[k] else np.inf
         low, high = (min(max(values[p.name] + s * Z95 * sd, p.lower), p.upper) for s in (-1.0, 1.0))
-        told = not held[k] and sd < TOLD * spread[k]
-        found[p.name] = Estimate(values[p.name], (low, high), p.unit, bool(told))
+        identified = not held[k] and sd < TOLD * spread[k]
+        found[p.name] = Estimate(values[p.name], (low, high), p.unit, bool(identified))
     return found
 
 
-def _faults(found: Attribution) -> tuple[FaultFound, ...]:
-    if found.fault is None:
+def _faults(found: Attribution) -> tuple[DataErrorFound, ...]:
+    if found.data_error is None:
         return ()
-    one = found.fault.candidate
-    return (FaultFound(one.name, one.channel, one.factor, found.fault.trials),)
+    one = found.data_error.candidate
+    return (DataErrorFound(one.name, one.channel, one.factor, found.data_error.trials),)

@@ -17,7 +17,7 @@ import numpy as np
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.case.problem import Plain, Problem
 from geocontact.gap.case.refit import derivatives
@@ -31,7 +31,7 @@ HALVINGS = 20
 
 
 @dataclass(frozen=True)
-class Planted:
+class Injected:
     """A case with an effect put in.
 
     Parameters
@@ -41,7 +41,7 @@ class Planted:
     values
         Of the effect's parameters, SI.
     size
-        Root mean square of the gap that no base parameter imitates, calibration trials, each channel in units of its
+        Root mean square of the gap that no base parameter reproduces, calibration trials, each channel in units of its
         floor; NaN for a mistake in the data.
     """
 
@@ -50,14 +50,14 @@ class Planted:
     size: float
 
 
-def plant(
+def inject(
     case: GapCase,
     problem: Problem,
     one: Candidate,
     values: Mapping[str, float],
     size: float,
     trials: frozenset[str] | None = None,
-) -> Planted:
+) -> Injected:
     """The case with the effect put in.
 
     Parameters
@@ -68,13 +68,13 @@ def plant(
         Of parameters of the effect; those that are not given are where a search would set out, the amplitude so that
         the gap has `size`, or as large as its bounds admit.
     size
-        Of `Planted.size`.
+        Of `Injected.size`.
     trials
         For a mistake in the data: the trials that have it, all where None.
     """
     if one.somewhere is not None:
         some = frozenset(t.name for t in (*case.calibration, *case.evaluation)) if trials is None else trials
-        return Planted(_changed(case, lambda trial: mistaken(trial, one) if trial.name in some else trial), {}, np.nan)
+        return Injected(_changed(case, lambda trial: mistaken(trial, one) if trial.name in some else trial), {}, np.nan)
     system = problem.system
     changed = one.apply(system)
     given = {p.name: p.start for p in one.parameters} | dict(values)
@@ -82,18 +82,18 @@ def plant(
     if amplitude.name not in values:
         given[amplitude.name] = _amplitude(problem, changed, one, given, size)
     case = _changed(case, lambda trial: _with(trial, system, changed, problem.plain.values, given))
-    return Planted(case, given, visible(problem, changed, given))
+    return Injected(case, given, visible(problem, changed, given))
 
 
 def visible(problem: Problem, changed: System, values: Mapping[str, float]) -> float:
-    """`Planted.size` of the base model changed so, to first order in what base parameters can imitate."""
+    """`Injected.size` of the base model changed so, to first order in what base parameters can reproduce."""
     measured, base = problem.calibration, problem.plain.values
-    weigh = [Plain(there, problem.floor) for there in measured.present]
+    whiten = [Plain(there, problem.floor) for there in measured.present]
     before = measured.residuals(problem.system, base)
     after = measured.residuals(changed, {**base, **values})
-    moved = np.concatenate([w((a - b)[..., None])[:, 0] for w, a, b in zip(weigh, after, before, strict=True)])
+    moved = np.concatenate([w((a - b)[..., None])[:, 0] for w, a, b in zip(whiten, after, before, strict=True)])
     slopes = derivatives(problem.system, measured, base, before)
-    basis = np.linalg.qr(np.concatenate([w(j) for w, j in zip(weigh, slopes, strict=True)]))[0]
+    basis = np.linalg.qr(np.concatenate([w(j) for w, j in zip(whiten, slopes, strict=True)]))[0]
     return float(np.sqrt(np.mean((moved - basis @ (basis.T @ moved)) ** 2)))
 
 

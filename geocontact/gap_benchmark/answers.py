@@ -12,7 +12,7 @@ NONE, UNKNOWN = "none", "unknown"
 
 
 def true_distribution(label: Plain) -> dict[str, float]:
-    """Truth over single answers: a pair split equally, "none" also for what base parameters swallow."""
+    """Truth over single answers: a pair split equally, "none" also for what base parameters reproduce."""
     if label["kind"] == "outside":
         return {UNKNOWN: 1.0}
     if label["kind"] in ("none", "absorbed"):

@@ -1,8 +1,9 @@
-"""How near candidates come to what was planted, and whether one imitates an effect outside the table; from the truth.
+"""How near candidates come to what was injected, and whether one reproduces an effect outside the table; from the
+truth.
 
 Every candidate is refitted together with the base to the calibration trials as they would be without noise and without
 trial-to-trial variation, residuals weighed by the true covariance of both (that of the label's nats). The effect is
-imitated where the best candidate leaves less than a tenth of what the base alone leaves: nobody who knows the table
+reproduced where the best candidate leaves less than a tenth of what the base alone leaves: nobody who knows the table
 only could tell then that the effect is not in it. Mistakes in the data are not tried, being gross where they apply.
 """
 
@@ -23,7 +24,7 @@ LEFT = 0.1
 ROUNDS = 15
 
 
-def imitation(
+def confounding(
     system: System, trials: Sequence[IdealTrial], candidates: Sequence[Candidate], rough: Mapping[str, float]
 ) -> tuple[float, str]:
     """Share of the visible energy that the best candidate leaves, and its label; 1 and "" where none helps.
@@ -31,7 +32,7 @@ def imitation(
     Parameters
     ----------
     system
-        Base model; what was planted is added to its own prediction, so that the two base models need not agree.
+        Base model; what was injected is added to its own prediction, so that the two base models need not agree.
     trials
         Calibration trials without noise.
     candidates

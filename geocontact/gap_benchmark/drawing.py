@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic import KINDS, Planted, plant
+from geocontact.gap_benchmark.synthetic import KINDS, SyntheticCase, synthetic_case
 
-__all__ = ["KINDS", "SHARES", "SYSTEMS", "Lot", "Planted", "drawn", "lots", "shares"]
+__all__ = ["KINDS", "SHARES", "SYSTEMS", "Lot", "SyntheticCase", "drawn", "lots", "shares"]
 
 SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
 SHARES = {"none": 100, "single": 70, "pair": 10, "outside": 10, "absorbed": 3, "fault": 4, "shift": 3}
@@ -43,7 +43,7 @@ def lots(systems: Sequence[str], cases: int, kinds: Sequence[str], seed: int) ->
             yield from (Lot(system, kind, seed, place) for place in range(count))
 
 
-def drawn(lot: Lot) -> Planted:
+def drawn(lot: Lot) -> SyntheticCase:
     """The labelled case; the same lot gives the same case."""
     key = (SYSTEMS.index(lot.system), KINDS.index(lot.kind), lot.place)
-    return plant(lot.system, lot.kind, np.random.SeedSequence(lot.seed, spawn_key=key))
+    return synthetic_case(lot.system, lot.kind, np.random.SeedSequence(lot.seed, spawn_key=key))

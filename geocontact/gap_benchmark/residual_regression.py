@@ -26,7 +26,7 @@ from jaxtyping import Float
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.refit import Measured, Weigh, at
+from geocontact.gap.case.refit import Measured, Whiten, at
 
 VERY_STRONG = 10.0
 """Advantage of BIC that an answer needs over nothing, and a second effect over the first alone."""
@@ -72,7 +72,7 @@ class Signature:
 
 
 @dataclass(frozen=True)
-class Model:
+class SignatureModel:
     """A regression: names, BIC, coefficients and what they belong to."""
 
     names: tuple[str, ...]
@@ -95,7 +95,7 @@ def residual_regression(problem: Problem, candidates: Sequence[Candidate], *, aw
     """
     noise = problem.weighed(problem.plain)
     count = len(problem.calibration.trials)
-    weighings: Sequence[Weigh] = problem.fitting(noise, problem.plain) if aware else noise.whiteners[:count]
+    weighings: Sequence[Whiten] = problem.fitting(noise, problem.plain) if aware else noise.whiteners[:count]
     base = at(problem.system, problem.calibration, None, problem.plain.values).residuals
     held_out = at(problem.system, problem.evaluation, None, problem.plain.values).residuals
     left = np.concatenate([w(r[..., None])[:, 0] for w, r in zip(weighings, base, strict=True)])
@@ -107,7 +107,7 @@ def residual_regression(problem: Problem, candidates: Sequence[Candidate], *, aw
 def signatures(
     problem: Problem,
     candidates: Sequence[Candidate],
-    weighings: Sequence[Weigh],
+    weighings: Sequence[Whiten],
     base: Sequence[np.ndarray],
     held_out: Sequence[np.ndarray],
 ) -> list[Signature]:
@@ -153,7 +153,7 @@ def _range(one: Candidate, start: Mapping[str, float]) -> tuple[float, float]:
     return min(ends[0], 0.0), max(ends[1], 0.0)
 
 
-def _library(problem: Problem, weighings: Sequence[Weigh]) -> Float[np.ndarray, "n f"]:
+def _library(problem: Problem, weighings: Sequence[Whiten]) -> Float[np.ndarray, "n f"]:
     """Orthonormal columns that span monomials of inputs, rates and time, in every channel, whitened."""
     inputs, channels = problem.system.inputs, len(problem.system.outputs)
     movements = [recorded(trial.signals, inputs) for trial in problem.calibration.trials]
@@ -182,7 +182,7 @@ def _in_channel(columns: Float[np.ndarray, "t f"], c: int, channels: int) -> Flo
 
 def _models(
     left: Float[np.ndarray, " n"], found: Sequence[Signature], library: Float[np.ndarray, "n f"]
-) -> list[Model]:
+) -> list[SignatureModel]:
     """Nothing, the unnamed, every effect at its best start, and the leading ones with a second."""
     n = len(left)
     names = float(len({one.name for one in found}))
@@ -192,18 +192,18 @@ def _models(
 
     whole = float(left @ left)
     along = library.T @ left
-    nothing = Model((NONE,), bic(whole, 0, 1.0))
-    unnamed = Model((UNKNOWN,), bic(whole - float(along @ along), library.shape[1], 1.0))
-    best: dict[frozenset[str], Model] = {}
+    nothing = SignatureModel((NONE,), bic(whole, 0, 1.0))
+    unnamed = SignatureModel((UNKNOWN,), bic(whole - float(along @ along), library.shape[1], 1.0))
+    best: dict[frozenset[str], SignatureModel] = {}
 
-    def offer(model: Model) -> None:
+    def offer(model: SignatureModel) -> None:
         key = frozenset(model.names)
         if key not in best or model.bic < best[key].bic:
             best[key] = model
 
     for one in found:
         c = _clipped(one, left)
-        offer(Model((one.name,), bic(_rss(left, (one, c)), one.count, names), (c,), (one,)))
+        offer(SignatureModel((one.name,), bic(_rss(left, (one, c)), one.count, names), (c,), (one,)))
     for first in sorted(best.values(), key=lambda model: model.bic)[:FIRSTS]:
         own, c = first.signatures[0], first.coefficients[0]
         alone = _rss(left, (own, c))
@@ -217,7 +217,7 @@ def _models(
             rss = _rss(left, (own, a), (second, b))
             both = bic(rss, own.count + second.count, names * (names - 1) / 2.0)
             if both < first.bic - VERY_STRONG and alone - rss > WORTH * (whole - alone):
-                offer(Model((own.name, second.name), both, (a, b), (own, second)))
+                offer(SignatureModel((own.name, second.name), both, (a, b), (own, second)))
     return [nothing, unnamed, *best.values()]
 
 
@@ -232,7 +232,7 @@ def _clipped(one: Signature, left: Float[np.ndarray, " n"]) -> float:
     return float(np.clip(float(one.white @ left) / power, one.low, one.high)) if power > 0.0 else 0.0
 
 
-def _answer(problem: Problem, models: Sequence[Model], residuals: Sequence[np.ndarray]) -> dict[str, Any]:
+def _answer(problem: Problem, models: Sequence[SignatureModel], residuals: Sequence[np.ndarray]) -> dict[str, Any]:
     least = min(model.bic for model in models)
     weights = {model.names: float(np.exp(-0.5 * (model.bic - least))) for model in models}
     total = sum(weights.values())
@@ -264,7 +264,7 @@ def _answer(problem: Problem, models: Sequence[Model], residuals: Sequence[np.nd
     }
 
 
-def _reductions(problem: Problem, chosen: Model, residuals: Sequence[np.ndarray]) -> dict[str, Any]:
+def _reductions(problem: Problem, chosen: SignatureModel, residuals: Sequence[np.ndarray]) -> dict[str, Any]:
     """On the held-out trials: what is left once the signatures are taken off; interval by a bootstrap of blocks.
 
     Nobody claims a reduction below 0.

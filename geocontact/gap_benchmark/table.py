@@ -22,7 +22,7 @@ DRAWS = 2000
 
 
 @dataclass(frozen=True)
-class Row:
+class ScoreRow:
     """A figure: its name in `Score`, what it is called, its bar, and whether a value reaches it (None: no bar)."""
 
     figure: str
@@ -32,20 +32,20 @@ class Row:
 
 
 ROWS = (
-    Row("false_alarms", "false alarms", "≤ 5 %", lambda v: v <= 0.05),
-    Row("first_right", "first-ranked right where visible", "≥ 92 %", lambda v: v >= 0.92),
-    Row("in_small_set", "truth in a set of ≤ 3 where visible", "≥ 97 %", lambda v: v >= 0.97),
-    Row("missed", "visible, called no gap"),
-    Row("confidently_wrong", "confidently wrong", "≤ 2 %", lambda v: v <= 0.02),
-    Row("both_found", "both of two found", "≥ 70 %", lambda v: v >= 0.70),
-    Row("one_of_two", "at least one of two in question"),
-    Row("unknown_called", "outside the table called unknown", "≥ 90 %", lambda v: v >= 0.90),
-    Row("absorbed_recognised", "absorbed recognised", "≥ 97 %", lambda v: v >= 0.97),
-    Row("reduction_error", "error of reduction, mean", "≤ 0.025", lambda v: v <= 0.025),
-    Row("reduction_error_median", "error of reduction, median"),
-    Row("coverage", "true reduction inside ci95", "90–99 %", lambda v: 0.90 <= v <= 0.99),
-    Row("brier", "Brier score (constant and oracle beside it)"),
-    Row("calibration_error", "error of stated probabilities, mean"),
+    ScoreRow("false_alarms", "false alarms", "≤ 5 %", lambda v: v <= 0.05),
+    ScoreRow("first_right", "first-ranked right where visible", "≥ 92 %", lambda v: v >= 0.92),
+    ScoreRow("in_small_set", "truth in a set of ≤ 3 where visible", "≥ 97 %", lambda v: v >= 0.97),
+    ScoreRow("missed", "visible, called no gap"),
+    ScoreRow("confidently_wrong", "confidently wrong", "≤ 2 %", lambda v: v <= 0.02),
+    ScoreRow("both_found", "both of two found", "≥ 70 %", lambda v: v >= 0.70),
+    ScoreRow("one_of_two", "at least one of two in question"),
+    ScoreRow("unknown_called", "outside the table called unknown", "≥ 90 %", lambda v: v >= 0.90),
+    ScoreRow("absorbed_recognised", "absorbed recognised", "≥ 97 %", lambda v: v >= 0.97),
+    ScoreRow("reduction_error", "error of reduction, mean", "≤ 0.025", lambda v: v <= 0.025),
+    ScoreRow("reduction_error_median", "error of reduction, median"),
+    ScoreRow("coverage", "true reduction inside ci95", "90–99 %", lambda v: 0.90 <= v <= 0.99),
+    ScoreRow("brier", "Brier score (constant and oracle beside it)"),
+    ScoreRow("calibration_error", "error of stated probabilities, mean"),
 )
 
 
@@ -150,7 +150,7 @@ def markdown(
     return lines
 
 
-def cell(row: Row, one: Score, *, mark: bool) -> str:
+def cell(row: ScoreRow, one: Score, *, mark: bool) -> str:
     """A figure with its exact interval."""
     value: Any = getattr(one, row.figure)
     number = value.value if isinstance(value, Rate) else float(value)

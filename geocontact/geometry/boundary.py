@@ -11,7 +11,9 @@ from geocontact.geometry.surface import Surface
 NEAR = 1e-9  # of a face's longest edge: a point so near to an edge lies on it
 
 
-def on_rim(surface: Surface, points: Float[np.ndarray, "n 3"], face: Int[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
+def on_boundary(
+    surface: Surface, points: Float[np.ndarray, "n 3"], face: Int[np.ndarray, " n"]
+) -> Bool[np.ndarray, " n"]:
     """Which points [m] of the surface, each on its face, lie on an edge or a corner where the surface ends."""
     faces = surface.topology.merged[surface.faces]
     ends = neighbours(faces) < 0

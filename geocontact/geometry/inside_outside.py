@@ -6,7 +6,7 @@ the wrong side, an error of the signed distance of 1e-8 m on an implant.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int8
@@ -15,10 +15,10 @@ from scipy.sparse.csgraph import connected_components
 
 from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
 from geocontact.geometry.kernels.binary import Binary
-from geocontact.geometry.kernels.tangle import pierced
+from geocontact.geometry.kernels.self_intersection import pierced
 
-if TYPE_CHECKING:
-    from geocontact.geometry.surface import Surface
+Body = Any
+"""A `geometry.surface.Surface`, which is made of what is found here."""
 
 UNDECIDED = 0.2  # |w - 0.5| below which a winding number gives no side
 SINGLE = 1e-6  # share of the body's size that single precision resolves for certain
@@ -26,7 +26,7 @@ WITNESSES = 5  # faces that speak for a patch
 PROBES = 2000  # points at which normals are compared with winding numbers before they are trusted
 
 
-def doubtful_faces(surface: Surface, binary: Binary) -> Bool[np.ndarray, " m"]:
+def doubtful_faces(surface: Body, binary: Binary) -> Bool[np.ndarray, " m"]:
     """Faces whose normals would misplace points: those at a self-intersection, and patches that are no boundary.
 
     Self-intersections cut a surface into patches. On either side of a patch the winding number is constant; where it is
@@ -56,16 +56,16 @@ def _patches(faces: Int[np.ndarray, "k 3"], count: int) -> Int[np.ndarray, " k"]
     return np.asarray(np.unique(label[faces[:, 0]], return_inverse=True)[1])
 
 
-def _is_boundary(surface: Surface, members: Int[np.ndarray, " k"]) -> bool:
+def _is_boundary(surface: Body, members: Int[np.ndarray, " k"]) -> bool:
     """Whether most of the largest faces of a patch have the outside in front and the inside behind."""
     largest = members[np.argsort(-surface.face_area[members], kind="stable")[:WITNESSES]]
     middle = surface.corners[largest].mean(axis=1)
     step = 0.05 * np.sqrt(surface.face_area[largest])[:, None] * surface.face_normal[largest]
-    front, back = winding_sides(surface, middle + step), winding_sides(surface, middle - step)
+    front, back = winding_signs(surface, middle + step), winding_signs(surface, middle - step)
     return bool(2 * np.count_nonzero((front == 1) & (back == -1)) > len(largest))
 
 
-def winding_sides(surface: Surface, local: Float[np.ndarray, "n 3"]) -> Int8[np.ndarray, " n"]:
+def winding_signs(surface: Body, local: Float[np.ndarray, "n 3"]) -> Int8[np.ndarray, " n"]:
     """Side of each point (about the surface's centre) by winding number: 1 outside, -1 inside, 0 undecided."""
     if len(local) == 0:
         return np.zeros(0, np.int8)
@@ -77,7 +77,7 @@ def winding_sides(surface: Surface, local: Float[np.ndarray, "n 3"]) -> Int8[np.
     return side
 
 
-def normals_agree(surface: Surface) -> bool:
+def normals_agree(surface: Body) -> bool:
     """Whether sides from normals agree with winding numbers at probes close to the faces and around the body.
 
     They do on a sound closed body; they do not where components overlap or a patch is turned over.
@@ -85,7 +85,7 @@ def normals_agree(surface: Surface) -> bool:
     return disagreement(surface) == 0.0
 
 
-def disagreement(surface: Surface) -> float:
+def disagreement(surface: Body) -> float:
     """Share of probes where the side by normals differs from the side by winding number, 0 for a sound closed body."""
     rng = np.random.default_rng(0)
     some = rng.permutation(len(surface.faces))[: PROBES // 4]
@@ -98,12 +98,12 @@ def disagreement(surface: Surface) -> float:
     spheres = chunk_spheres(probes, limits)
     distance, side, _, _ = signed_distances(surface.tree, probes, limits, spheres, True)
     clear = distance > 1e-7 * np.linalg.norm(box[3:] - box[:3])
-    differs = (side != 0) & (side != winding_sides(surface, probes)) & clear
+    differs = (side != 0) & (side != winding_signs(surface, probes)) & clear
     return float(differs.mean())
 
 
-def resolve_sides(
-    surface: Surface, local: Float[np.ndarray, "n 3"], side: Int8[np.ndarray, " n"], distance: Float[np.ndarray, " n"]
+def resolve_inside_outside(
+    surface: Body, local: Float[np.ndarray, "n 3"], side: Int8[np.ndarray, " n"], distance: Float[np.ndarray, " n"]
 ) -> tuple[Int8[np.ndarray, " n"], int]:
     """Sides with doubts settled by winding number, and how many points off the surface stayed undecided.
 
@@ -118,7 +118,7 @@ def resolve_sides(
     if not ask.any():
         return side, 0
     side = side.copy()
-    side[ask] = winding_sides(surface, local[ask])
+    side[ask] = winding_signs(surface, local[ask])
     undecided = side == 0
     side[undecided] = 1
     return side, int(np.count_nonzero(undecided & (distance > SINGLE * np.linalg.norm(root[3:] - root[:3]))))

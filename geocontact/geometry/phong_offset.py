@@ -43,7 +43,7 @@ def corner_normals(surface: Surface) -> Float[np.ndarray, "m 3 3"]:
     return np.where(size > 0.0, total / np.maximum(size, 1e-300), normal).reshape(-1, 3, 3)
 
 
-def bulge(
+def phong_offset(
     surface: Surface,
     normals: Float[np.ndarray, "m 3 3"],
     face: Int[np.ndarray, " n"],

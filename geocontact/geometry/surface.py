@@ -10,10 +10,10 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from geocontact.data.mesh import Mesh
-from geocontact.geometry.inside_outside import doubtful_faces, normals_agree, resolve_sides
+from geocontact.geometry.inside_outside import doubtful_faces, normals_agree, resolve_inside_outside
 from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
 from geocontact.geometry.kernels.binary import build
-from geocontact.geometry.kernels.tree import Tree
+from geocontact.geometry.kernels.tree import BoxTree
 from geocontact.geometry.kernels.triangle import triangle_frames
 from geocontact.geometry.kernels.wide import widen
 from geocontact.geometry.proximity import Proximity
@@ -131,7 +131,7 @@ class Surface:
         return used
 
     @cached_property
-    def tree(self) -> Tree:
+    def tree(self) -> BoxTree:
         """The bounded tree over the faces, about the centre."""
         corners = self.corners
         binary = build(corners.min(axis=1), corners.max(axis=1))
@@ -143,7 +143,7 @@ class Surface:
             normals[doubtful_faces(self, binary)[order]] = 0.0
         oriented = np.sign(np.einsum("ij,ij->i", records[:, 3:6], normals[:, 0]))
         boxes, child, leaves, slots, fill = widen(binary, records, oriented)
-        return Tree(binary.root, boxes, child, leaves, slots, fill, order, normals.ravel())
+        return BoxTree(binary.root, boxes, child, leaves, slots, fill, order, normals.ravel())
 
     @cached_property
     def walk(self) -> Int[np.ndarray, " n"]:
@@ -177,7 +177,7 @@ class Surface:
         limits = np.full(len(points), float(limit))
         spheres = chunk_spheres(local, limits)
         distance, side, slot, closest = signed_distances(self.tree, local, limits, spheres, self.closed)
-        side, _ = resolve_sides(self, local, side, distance)
+        side, _ = resolve_inside_outside(self, local, side, distance)
         found = slot >= 0
         signed = np.where(found, distance, np.inf) * side
         face = np.where(found, self.tree.face[slot], -1)

@@ -14,7 +14,7 @@ MOST = 4_000_000
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
+class SurfaceQuadrature:
     """Pieces of a surface in its own frame; neighbours are close together in the list.
 
     Parameters
@@ -41,7 +41,9 @@ class Pieces:
         return np.divide(total, area, out=np.zeros(faces), where=area > 0.0)
 
 
-def pieces_of(surface: Surface, edge: float = np.inf, faces: Bool[np.ndarray, " f"] | None = None) -> Pieces:
+def surface_quadrature(
+    surface: Surface, edge: float = np.inf, faces: Bool[np.ndarray, " f"] | None = None
+) -> SurfaceQuadrature:
     """Faces cut into n^2 congruent triangles each, n as large as edges of at most `edge` [m] ask for.
 
     Faces without area have no piece, and one that stands in the file twice counts once.
@@ -68,7 +70,7 @@ def pieces_of(surface: Surface, edge: float = np.inf, faces: Bool[np.ndarray, " 
     owner = np.concatenate(owners) if owners else np.zeros(0, np.int64)
     along = np.argsort(owner, kind="stable")
     face = order[owner[along]]
-    return Pieces(
+    return SurfaceQuadrature(
         point=np.concatenate(points)[along] if points else np.zeros((0, 3)),
         area=surface.face_area[face] / n[owner[along]] ** 2,
         normal=surface.face_normal[face],

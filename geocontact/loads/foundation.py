@@ -15,9 +15,9 @@ from geocontact.contact.elastic_foundation import (
     logarithmic_pair_pressure,
     logarithmic_pressure,
 )
-from geocontact.geometry.phong_offset import bulge
+from geocontact.geometry.phong_offset import phong_offset
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.surface_quadrature import Pieces
+from geocontact.geometry.surface_quadrature import SurfaceQuadrature
 from geocontact.loads.pressure_load import PressureLoad, compartment_loads, pressure_load
 
 FOUNDATIONS: Mapping[str, Callable[..., Any]] = {"linear": linear_pressure, "logarithmic": logarithmic_pressure}
@@ -50,7 +50,7 @@ class Layer:
         Of the smooth surface above each piece [m], `geometry.phong_offset`; None where triangles are taken as they are.
     """
 
-    pieces: Pieces
+    pieces: SurfaceQuadrature
     thickness: Float[np.ndarray, " p"]
     modulus: float
     law: str = "linear"
@@ -156,7 +156,7 @@ def _overlap(
         distance = distance - layer.height
     reached = np.flatnonzero(distance < (0.0 if normals is None else USUAL))
     if normals is not None:
-        distance[reached] -= bulge(moving, normals, face[reached], closest[reached])
+        distance[reached] -= phong_offset(moving, normals, face[reached], closest[reached])
     against = np.einsum("pi,pi->p", normal[reached] @ rotation.T, pieces.normal[reached])
     depth = np.zeros(len(distance))
     depth[reached] = np.where(against < 0.0, np.maximum(-distance[reached], 0.0), 0.0)

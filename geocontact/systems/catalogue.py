@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from geocontact.chain.system import System
-from geocontact.data.gap_case import COMMAND, GapCase
+from geocontact.data.gap.case import COMMAND, GapCase
 from geocontact.systems.base import Base
 from geocontact.systems.elbow.model import ELBOW
-from geocontact.systems.external.program import command_system
-from geocontact.systems.external.python_model import own_system
+from geocontact.systems.external.program import program_system
+from geocontact.systems.external.python_model import python_system
 from geocontact.systems.foot.model import FOOT
 from geocontact.systems.knee.model import KNEE
 from geocontact.systems.shoulder.model import SHOULDER
 from geocontact.systems.sit_to_stand.model import SIT_TO_STAND
-from geocontact.systems.validate import refusal, tried
+from geocontact.systems.validate import refusal, validated
 
 SYSTEMS: tuple[Base, ...] = (ELBOW, FOOT, SHOULDER, KNEE, SIT_TO_STAND)
 
@@ -24,9 +24,9 @@ def system_of(case: GapCase) -> System:
     fails on a trial; "package.module:OBJECT" is imported.
     """
     if ":" in case.system:
-        return own_system(case).scaled(case.calibration)
+        return python_system(case).scaled(case.calibration)
     if case.system == COMMAND:
-        return tried(command_system(case), case).scaled(case.calibration)
+        return validated(program_system(case), case).scaled(case.calibration)
     base = next((one for one in SYSTEMS if one.name == case.system), None)
     if base is None:
         known = ", ".join(one.name for one in SYSTEMS)
@@ -35,4 +35,4 @@ def system_of(case: GapCase) -> System:
         system = base.made(case)
     except ValueError as error:
         raise refusal(case, str(error), "") from error
-    return tried(system, case).scaled(case.calibration)
+    return validated(system, case).scaled(case.calibration)

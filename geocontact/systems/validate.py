@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 
 LONGEST = 300
 """Characters that are told of an error in somebody's code."""
 
 
-def tried(system: System, case: GapCase) -> System:
+def validated(system: System, case: GapCase) -> System:
     """The same system, after every trial was found to have its channels in its units, and was simulated once."""
     for trial in (*case.calibration, *case.evaluation):
         _require_channels(system, trial, case)

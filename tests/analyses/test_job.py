@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from base64 import b64decode
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
 import pandas as pd
 import pytest
+from matplotlib.figure import Figure
 
 import geocontact as gc
 from geocontact.analyses.job import Call, Job, execute
@@ -142,3 +144,14 @@ def test_what_fails_leaves_the_folder_as_it_was(file: Path, tmp_path: Path) -> N
         result.write(out)
     assert {p.name: p.read_bytes() for p in out.iterdir()} == before
     assert not [p for p in tmp_path.iterdir() if p.name.startswith(".geocontact")]
+
+
+def test_a_notebook_shows_sentences_and_figure(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One answer that notebooks prefer to text: pictures alone would hide what was found."""
+    file.write_text("2000")
+    with pytest.warns(InputWarning):
+        result = double(file)
+    assert result._repr_html_() == "<p>twice 2 m</p><p>warning: more than a metre, see `more`</p>"
+    monkeypatch.setattr(Doubled, "figure", lambda _: Figure())
+    assert result._repr_html_().endswith('"/>') and "<p>twice 2 m</p>" in result._repr_html_()
+    assert b64decode(result._repr_html_().split("base64,")[1][:-3]).startswith(b"\x89PNG")

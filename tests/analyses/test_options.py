@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
 import pytest
-from geocontact.analyses.gap.benchmark.job import benchmark
 
 import geocontact as gc
+from geocontact.analyses.gap.benchmark.job import benchmark
 from geocontact.analyses.job import Job
 from geocontact.analyses.options import (
     Declared,
@@ -22,6 +23,7 @@ from geocontact.analyses.options import (
     Options,
     Requires,
     Spelled,
+    Typed,
     declared,
 )
 from geocontact.cli.command import option, read, speller
@@ -68,6 +70,8 @@ class Example(Options):
         Of `depth`.
     kind, other
         Which.
+    course
+        A file, or coefficients.
     """
 
     files: tuple[Path, ...]
@@ -77,6 +81,7 @@ class Example(Options):
     radius: Annotated[Millimetres | None, Spelled("radius-mm", "radius_mm"), Requires("depth")] = None
     kind: Literal["a", "b"] = "a"
     other: Annotated[str | None, Excludes("radius"), Needs("depth", "give 4mm")] = None
+    course: Annotated[Path | Mapping[str, tuple[float, ...]] | None, Typed("m", "misalignment.drift:typed")] = None
 
     def refuse_impossible(self) -> None:
         if self.depth is not None and not self.depth > 0.0:
@@ -117,6 +122,13 @@ def test_what_has_no_effect_is_refused(given: dict, said: str) -> None:
     with pytest.raises(InputError) as refused:
         Example("a.csv", **given)
     assert str(refused.value) == said
+
+
+def test_an_option_may_be_one_of_several_types_and_read_by_any_module() -> None:
+    course = of("course")
+    assert course.optional and Example("a.csv", course="b.csv").course == Path("b.csv")
+    assert Example("a.csv", course={"x": (0.0, 1e-3)}).course == {"x": (0.0, 1e-3)}
+    assert read(course, "x=0:1,y=2") == {"x": (0.0, 1e-3), "y": (2e-3,)} and read(course, "c.csv") == Path("c.csv")
 
 
 def test_messages_are_spelled_as_the_user_wrote_them() -> None:

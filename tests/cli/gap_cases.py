@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
@@ -12,12 +12,14 @@ from unittest import mock
 
 import numpy as np
 
-from geocontact import __version__
-from geocontact.data.gap_case import GapCase
-from geocontact.gap.case.admission import admitted
-from geocontact.gap.diagnose import Findings, diagnose
-from geocontact.io.cases.gap_case import read_gap_case
-from geocontact.systems.catalogue import system_of
+from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
+from geocontact.analyses.gap.diagnose.read import read
+from geocontact.analyses.gap.diagnose.result import DiagnoseResult
+from geocontact.analyses.gap.diagnose.run import run
+from geocontact.analyses.gap.discriminability.job import discriminability
+from geocontact.analyses.gap.discriminability.result import DiscriminabilityResult
+from geocontact.analyses.listener import Listener
+from geocontact.analyses.run_record import Record
 from tests.systems.examples import (
     ELBOW_CONSTANTS,
     ELBOW_VALUES,
@@ -27,13 +29,14 @@ from tests.systems.examples import (
     recording,
     spheres,
 )
+from tests.unchecked import unchecked
 
 CALIBRATION, EVALUATION = ("t01", "t02"), ("t03", "t04")
 DAMPING = 25.0
 """N s/m."""
 NOISE = 0.15
 """N, white."""
-TOLD: list[str] = []
+TOLD: list[tuple[str, str]] = []
 """Stages of `diagnosed_elbow`, as they were told."""
 SETTINGS = f"""format = 1
 system = "elbow"
@@ -85,21 +88,48 @@ def damped_elbow(folder: Path, damping: float = DAMPING, samples: int = 160) -> 
     return folder
 
 
+class Hearing(Listener):
+    """Keeps the stages that are told, with what they are stages of."""
+
+    def __init__(self, heard: list[tuple[str, str]]) -> None:
+        self.heard = heard
+
+    @contextmanager
+    def stages(self, label: str) -> Iterator[Callable[[str], None]]:
+        """A block whose stages are kept."""
+        yield lambda stage: self.heard.append((label, stage))
+
+
 @cache
-def diagnosed_elbow() -> tuple[GapCase, Findings]:
-    """The case, and its diagnosis, made once for all tests."""
-    with TemporaryDirectory() as folder:
-        case = read_gap_case(damped_elbow(Path(folder) / "elbow_7"))
-    system = system_of(case)
-    return case, diagnose(admitted(case, system), system, __version__, TOLD.append)
+def diagnosed_elbow() -> DiagnoseResult:
+    """Its diagnosis, made once for all tests of a process."""
+    with TemporaryDirectory() as folder, unchecked():
+        options = DiagnoseOptions(damped_elbow(Path(folder) / "elbow_7"))
+        record = Record("gap diagnose", options.in_si(), options.in_si(), listener=Hearing(TOLD))
+        return run(read(options, record), options, record)
 
 
 @contextmanager
 def known() -> Iterator[mock.Mock]:
-    """The command line is given that diagnosis instead of making it again."""
-    findings = diagnosed_elbow()[1]
+    """A diagnosis is given those findings instead of making them again."""
+    findings = diagnosed_elbow().findings
     with mock.patch("geocontact.analyses.gap.diagnose.run.diagnose", return_value=findings) as instead:
         yield instead
+
+
+EFFECTS = ("damping", "time_shift", "filter_lag", "sensor_gain", "unit_error", "sign_flip")
+"""Asked about in `confused_elbow`."""
+
+
+@cache
+def confused_elbow() -> DiscriminabilityResult:
+    """What its trials can tell of some effects, made once for all tests of a process."""
+    same = mock.patch(
+        "geocontact.gap.identifiability.discriminability.attribute",
+        return_value=diagnosed_elbow().findings.attribution,
+    )
+    with TemporaryDirectory() as folder, unchecked(), same:
+        return discriminability(damped_elbow(Path(folder) / "elbow_7"), effects=",".join(EFFECTS))
 
 
 def write_trial(folder: Path, name: str, time: np.ndarray, beta: np.ndarray, force: np.ndarray) -> None:

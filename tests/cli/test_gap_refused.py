@@ -133,8 +133,10 @@ def test_an_out_that_is_a_file(cases: dict[str, Path], tmp_path: Path) -> None:
     assert "out: is a file; --out names a folder" in refused(cases["elbow"], tmp_path / "out")
 
 
-def test_options_that_do_nothing(cases: dict[str, Path], tmp_path: Path) -> None:
-    assert "--workers: does nothing without --many" in refused(cases["elbow"], tmp_path / "out", "--workers", 2)
+def test_options_without_effect(cases: dict[str, Path], tmp_path: Path) -> None:
+    assert "--workers: has no effect without --many; give --many" in refused(
+        cases["elbow"], tmp_path / "out", "--workers", 2
+    )
     line = refused(cases["elbow"].parent, tmp_path / "out", "--many", "--workers", 0)
     assert "--workers: 0 is less than one process; give 1 or more" in line
 

@@ -9,10 +9,13 @@ import numpy as np
 
 from meshes.simple_shapes import sphere
 from meshes.stl import stl_bytes
-from tests.cli.calls import call, inventory
+from tests.cli.calls import call, inventory, stl
 from tests.cli.spoilt import BALL, FLOOR, Cases, Given, each, file, made, refuse, sound, tokens
 
 HTML = b"<!DOCTYPE html>\n<html><body>404 not found" + b" " * 500 + b"</body></html>\n"
+
+FLAT = np.array([[[0.0, 0.0, 0.0], [40.0, 30.0, 0.0], [8.0, 6.0, 0.0]]] * 3)
+"""Corners of faces that lie on a line."""
 
 
 def ball(content: bytes) -> Given:
@@ -38,6 +41,8 @@ MESHES: Cases = {
     "NaN vertex": (ball(vertex(np.nan)), ("ball.stl face 7", "not finite", "repair")),
     "infinite vertex": (ball(vertex(np.inf)), ("ball.stl face 7", "not finite", "repair")),
     "no faces": (ball(BALL[:80] + b"\0" * 4), ("ball.stl", "no faces", "export")),
+    "no face has an area": (ball(stl(FLAT)), ("ball.stl", "none of its faces (3) has an area", "export")),
+    "no face of the fixed body has an area": ({"FIXED": file("floor.stl", stl(FLAT))}, ("floor.stl", "area", "export")),
     "empty file": (ball(b""), ("ball.stl", "empty", "again")),
     "HTML named .stl": (ball(HTML), ("ball.stl", "an HTML page", "download the file itself")),
     "PLY named .stl": (ball(b"ply\nformat ascii 1.0\nend_header\n"), ("ball.stl", "a PLY file", "name it .ply")),

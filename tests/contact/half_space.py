@@ -7,6 +7,11 @@ from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
 
+def semi_ellipse(distance: float, half: float, peak: float) -> float:
+    """Hertz's pressure at a distance from the middle of a patch, peak sqrt(1 - r^2/a^2); within the patch."""
+    return float(peak * np.sqrt(1.0 - (distance / half) ** 2))
+
+
 def displacement(x: float, y: float, a: float, b: float, peak: float, modulus: float) -> float:
     """What a half-space gives way at (x, y) in the ellipse a, b under peak sqrt(1 - x^2/a^2 - y^2/b^2).
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from geocontact.contact.area_hertz import (
     READINGS,
-    Patch,
+    PatchGeometry,
     Reading,
     cap_force,
     disc_force,
@@ -26,7 +26,7 @@ from geocontact.contact.hertz_point import point_force, point_radius
 from tests.closed_forms import sphere_plane_on_sphere
 
 R = 37e-3
-PAPER = Patch(radius=R, length=60e-3, threshold=4e-3)
+PAPER = PatchGeometry(radius=R, length=60e-3, threshold=4e-3)
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "theory" / "contact_laws.md"
 readings = pytest.mark.parametrize("reading", READINGS, ids=lambda r: r.name)
 forces, moduli = st.floats(1.0, 1e4), st.floats(1e6, 1e11)

@@ -1,10 +1,7 @@
-"""Friction with memory: where it sticks, where it slides, and the same on arrays, in loops and on symbols."""
+"""Friction with memory: where it sticks and where it slides; `test_every_law` runs it in loops and on symbols."""
 
 from __future__ import annotations
 
-import inspect
-
-import numba
 import numpy as np
 import pytest
 
@@ -38,23 +35,3 @@ def test_odd_in_motion_and_deflection() -> None:
 
 def test_force_is_a_spring_and_a_damper_against_the_motion() -> None:
     assert bristle_force(1e-5, 2e-3, 1e5, 30.0) == pytest.approx(-(1.0 + 0.06))
-
-
-def test_loops_and_symbols_agree_with_the_array() -> None:
-    casadi = pytest.importorskip("casadi", reason="the extra `dynamics` is not installed")
-    casadi.GlobalOptions.setNumpyMode(1)
-    loop = numba.njit(inspect.unwrap(deflection_rate))
-    s, v = casadi.SX.sym("s"), casadi.SX.sym("v")
-    rate = deflection_rate(s, v, LARGEST, ELASTIC)
-    both = casadi.vertcat(s, v)
-    symbolic = casadi.Function("rate", [s, v], [rate, casadi.gradient(rate, both), casadi.hessian(rate, both)[0]])
-    for each in PAIRS:
-        wanted = deflection_rate(*each, LARGEST, ELASTIC)
-        assert loop(*each, LARGEST, ELASTIC) == pytest.approx(wanted, rel=1e-13, abs=1e-18)
-        value, slope, curve = (np.array(x) for x in symbolic(*each))
-        assert float(value.item()) == pytest.approx(wanted, rel=1e-13, abs=1e-18)
-        assert np.isfinite(slope).all() and np.isfinite(curve).all()
-    slope = np.array(symbolic(3e-5, 0.2)[1]).ravel()
-    step = 1e-9
-    high, low = (deflection_rate(3e-5 + d, 0.2, LARGEST, ELASTIC) for d in (step, -step))
-    assert slope[0] == pytest.approx((high - low) / (2 * step), rel=1e-6)

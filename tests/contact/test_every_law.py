@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterator
+from importlib import import_module
+from itertools import product
+from pathlib import Path
 from typing import Any
 
 import numba
@@ -11,10 +14,26 @@ import numpy as np
 import pytest
 
 import geocontact.contact as room
-from geocontact.contact.catalogue import LAWS, Law
+from geocontact.contact.catalogue import FRICTION, LAWS, PRESSING, ForceLaw
 
-SHARES = np.array([-2.0, -1e-6, 0.0, 1e-9, 1e-3, 0.3, 1.0, 1.7])
+SHARES = (-2.0, -1e-6, 0.0, 1e-9, 1e-3, 0.3, 1.0, 1.7, 5.0)
+"""Of the typical value of each variable, all combinations."""
+STEP = 1e-4
+"""Of the typical value, for differences."""
 laws = pytest.mark.parametrize("law", LAWS, ids=lambda law: law.name)
+
+
+def typical(law: ForceLaw) -> np.ndarray:
+    return np.array([variable.typical for variable in law.variables])
+
+
+def points(law: ForceLaw) -> np.ndarray:
+    """All combinations of shares, (variables, combinations)."""
+    return np.array(list(product(SHARES, repeat=len(law.variables)))).T * typical(law)[:, None]
+
+
+def value(law: ForceLaw, at: np.ndarray) -> Any:
+    return law.function(*at, *law.numbers)
 
 
 @pytest.fixture(scope="module")
@@ -25,64 +44,80 @@ def casadi() -> Iterator[Any]:
     return casadi
 
 
-@laws
-def test_bodies_only_push_and_harder_when_deeper(law: Law) -> None:
-    x = np.linspace(-1.0, 3.0, 4001) * law.typical
-    force = law.function(x, *law.numbers)
-    assert (force[x <= 0.0] == 0.0).all()
-    assert (np.diff(force) >= 0.0).all() and force[-1] > 0.0
+@pytest.mark.parametrize("law", PRESSING, ids=lambda law: law.name)
+def test_bodies_only_push_and_harder_when_deeper(law: ForceLaw) -> None:
+    first, *others = typical(law)
+    x = np.linspace(-1.0, 3.0, 4001) * first
+    for signs in product((-1.0, 0.0, 1.0), repeat=len(others)):
+        force = law.function(x, *(np.array(signs) * others), *law.numbers)
+        assert (force[x <= 0.0] == 0.0).all()
+        assert (np.diff(force) >= 0.0).all() and force[-1] > 0.0
+
+
+@pytest.mark.parametrize("law", FRICTION, ids=lambda law: law.name)
+def test_friction_turns_with_the_motion(law: ForceLaw) -> None:
+    at = points(law)
+    np.testing.assert_array_equal(value(law, -at), -value(law, at))
+    assert value(law, 0.0 * typical(law)) == 0.0 and value(law, typical(law)) != 0.0
 
 
 @laws
-def test_numba_loop_agrees_with_the_array(law: Law) -> None:
-    compiled = numba.njit(inspect.unwrap(law.function))
-    looped = [compiled(x, *law.numbers) for x in (SHARES * law.typical).tolist()]
-    expected = law.function(SHARES * law.typical, *law.numbers)
-    np.testing.assert_allclose(looped, expected, rtol=1e-13, atol=0.0)
+def test_numba_loop_agrees_with_the_array(law: ForceLaw) -> None:
+    compiled, at = numba.njit(inspect.unwrap(law.function)), points(law)
+    looped = [compiled(*one, *law.numbers) for one in at.T.tolist()]
+    np.testing.assert_allclose(looped, value(law, at), rtol=1e-13, atol=0.0)
 
 
 @laws
-def test_casadi_value_agrees_with_the_array(law: Law, casadi: Any) -> None:
-    x = casadi.SX.sym("x")
-    symbolic = casadi.Function("law", [x], [law.function(x, *law.numbers)])
-    values = [float(symbolic(share * law.typical)) for share in SHARES]
-    np.testing.assert_allclose(values, law.function(SHARES * law.typical, *law.numbers), rtol=1e-12, atol=0.0)
+def test_casadi_value_agrees_with_the_array(law: ForceLaw, casadi: Any) -> None:
+    x, at = casadi.SX.sym("x", len(law.variables)), points(law)
+    symbolic = casadi.Function("law", [x], [value(law, casadi.vertsplit(x))])
+    values = [float(symbolic(one)) for one in at.T]
+    np.testing.assert_allclose(values, value(law, at), rtol=1e-12, atol=0.0)
 
 
 @laws
-@pytest.mark.parametrize("share", [-1.0, 0.0, 1.0])
-def test_casadi_derivatives_are_finite_and_right(law: Law, casadi: Any, share: float) -> None:
-    x = casadi.SX.sym("x")
-    hessian, gradient = casadi.hessian(law.function(x, *law.numbers), x)
-    at = casadi.Function("derivatives", [x], [gradient, hessian])(share * law.typical)
-    first, second = (float(value) for value in at)
-    assert np.isfinite([first, second]).all()
-    if share < 0.0:
-        assert (first, second) == (0.0, 0.0)
-    if share > 0.0:
-        step = 1e-4 * law.typical
-        below, here, above = (law.function(law.typical + k * step, *law.numbers) for k in (-1, 0, 1))
-        assert first == pytest.approx((above - below) / (2.0 * step), rel=1e-6)
-        curved = (above - 2.0 * here + below) / step**2
-        assert second == pytest.approx(curved, rel=1e-4, abs=1e-6 * here / law.typical**2)
+def test_casadi_derivatives_are_finite_and_right(law: ForceLaw, casadi: Any) -> None:
+    """Finite everywhere; below and above 0 of each variable, against differences of the array's values."""
+    x = casadi.SX.sym("x", len(law.variables))
+    hessian, gradient = casadi.hessian(value(law, casadi.vertsplit(x)), x)
+    derivatives = casadi.Function("derivatives", [x], [casadi.densify(gradient), casadi.densify(hessian)])
+    for at in points(law).T:
+        slope, curve = (np.array(of) for of in derivatives(at))
+        assert np.isfinite(slope).all() and np.isfinite(curve).all(), at
+        if law in PRESSING and at[0] < 0.0:
+            assert not slope.any() and not curve.any(), at
+    size = typical(law)
+    largest = abs(value(law, size))
+    for signs in product((-1.0, 1.0), repeat=len(size)):
+        slope, curve = (np.array(of) for of in derivatives(np.array(signs) * size))
+        first, second = differences(law, np.array(signs) * size)
+        np.testing.assert_allclose(slope[:, 0] * size, first, rtol=1e-6, atol=1e-8 * largest, err_msg=str(signs))
+        scaled = curve * np.outer(size, size)
+        np.testing.assert_allclose(scaled, second, rtol=1e-4, atol=1e-6 * largest, err_msg=str(signs))
+
+
+def differences(law: ForceLaw, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Gradient and second derivatives by central differences, per share of the typical values."""
+    steps = STEP * np.diag(typical(law))
+    first = [(value(law, at + h) - value(law, at - h)) / (2.0 * STEP) for h in steps]
+    second = [
+        [
+            sum(i * j * value(law, at + i * a + j * b) for i in (1, -1) for j in (1, -1)) / (2.0 * STEP) ** 2
+            for b in steps
+        ]
+        for a in steps
+    ]
+    return np.array(first), np.array(second)
 
 
 def test_no_law_is_left_out() -> None:
-    """What presses, by its name, is in the catalogue."""
-    from importlib import import_module
-    from pathlib import Path
-
+    """What presses or rubs, by its name, is in the catalogue."""
     names = set()
     for file in Path(room.__file__ or "").parent.glob("*.py"):
-        if file.stem in (
-            "__init__",
-            "catalogue",
-            "sphere_foot",
-            "bristle_friction",
-        ):  # tested by themselves, with rates
-            continue
         module = import_module(f"geocontact.contact.{file.stem}")
         functions = inspect.getmembers(module, inspect.isfunction)
         names |= {n for n, f in functions if f.__module__ == module.__name__ and not n.startswith("_")}
-    pressing = {n for n in names if n.endswith(("_force", "_load")) or (n.endswith("_pressure") and "peak" not in n)}
-    assert pressing - {"point_pressure"} == {law.name for law in LAWS}, "the pressure within a patch is not a law"
+    acting = {n for n in names if n.endswith(("_force", "_load", "_pressure", "_coefficient", "_rate"))}
+    of_a_known_force = {n for n in acting if "peak" in n}
+    assert acting - of_a_known_force == {law.name for law in LAWS}

@@ -9,34 +9,31 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.special import ellipkm1
 
-from geocontact.contact.elasticity import contact_modulus, layer_modulus, plane_modulus
+from geocontact.contact.elasticity import layer_modulus, plane_modulus
 from geocontact.contact.hertz_ellipse import (
     ellipse_force,
     ellipse_half_axis,
     ellipse_peak_pressure,
     ellipse_shape,
-    relative_curvatures,
 )
 from geocontact.contact.hertz_line import line_half_width, line_load, line_peak_pressure
-from geocontact.contact.hertz_point import point_force, point_peak_pressure, point_pressure, point_radius
-from tests.contact.half_space import by_root, displacement
+from geocontact.contact.hertz_point import point_force, point_peak_pressure, point_radius
+from tests.contact.half_space import by_root, displacement, semi_ellipse
 
 R, E, D = 37e-3, 1e9, 2e-4
 ratios = st.floats(0.0, 8.0).map(lambda power: 10.0**power)
 
 
 def test_moduli_of_bone_cement_and_steel() -> None:
-    """Two bodies: the softer one decides. A layer of nu = 0.46 is five times as stiff as a free strip of it."""
+    """A layer of nu = 0.46 is five times as stiff as a free strip of it."""
     assert plane_modulus(4.67e9, 0.25) == pytest.approx(4.67e9 / 0.9375, rel=1e-15)
-    assert contact_modulus(1e9, 1e9) == 5e8
-    assert contact_modulus(1e9, 200e9) == pytest.approx(1e9 / 1.005, rel=1e-15)
     assert layer_modulus(5e8, 0.0) == 5e8
     assert layer_modulus(5e8, 0.46) == pytest.approx(0.54 * 5e8 / (1.46 * 0.08), rel=1e-14)
 
 
 def test_point_contact_of_a_worked_example() -> None:
     """Ball of 10 mm radius on a flat, both of steel (210 GPa, 0.3), 100 N: a 0.187 mm, p0 1.37 GPa (by hand)."""
-    modulus = contact_modulus(plane_modulus(210e9, 0.3), plane_modulus(210e9, 0.3))
+    modulus = 0.5 * plane_modulus(210e9, 0.3)  # 1/E* is the sum of both bodies' (1 - nu^2)/E
     a, p0 = point_radius(100.0, 10e-3, modulus), point_peak_pressure(100.0, 10e-3, modulus)
     assert a == pytest.approx((3 * 100.0 * 10e-3 / (4 * 210e9 / 1.82)) ** (1 / 3), rel=1e-14)
     assert (a, p0) == (pytest.approx(0.1866e-3, rel=1e-3), pytest.approx(1.371e9, rel=1e-3))
@@ -48,7 +45,7 @@ def test_point_laws_belong_together(depth: float, radius: float, modulus: float)
     a, p0 = point_radius(force, radius, modulus), point_peak_pressure(force, radius, modulus)
     assert a**2 / radius == pytest.approx(depth, rel=1e-12)
     assert p0 == pytest.approx(1.5 * force / (np.pi * a**2), rel=1e-12)
-    carried = quad(lambda t: a * np.sin(t) * point_pressure(a * np.sin(t), a, p0) * a * np.cos(t), 0.0, np.pi / 2)[0]
+    carried = quad(lambda t: a * np.sin(t) * semi_ellipse(a * np.sin(t), a, p0) * a * np.cos(t), 0.0, np.pi / 2)[0]
     assert 2.0 * np.pi * carried == pytest.approx(force, rel=1e-9)
 
 
@@ -58,7 +55,6 @@ def test_point_pressure_makes_the_surface_meet_the_sphere() -> None:
     a, p0 = point_radius(force, R, E), point_peak_pressure(force, R, E)
     for share in (0.0, 0.3, 0.9):
         assert displacement(share * a, 0.0, a, a, p0, E) == pytest.approx(D - (share * a) ** 2 / (2 * R), rel=1e-10)
-    assert point_pressure(1.01 * a, a, p0) == 0.0
 
 
 @given(st.floats(1.0, 1e6), st.floats(1e-3, 0.1), st.floats(1e5, 1e11))
@@ -78,9 +74,9 @@ def test_line_pressure_bends_the_surface_as_the_cylinder_is_bent() -> None:
     x = 0.4 * b
 
     def regular(s: float) -> float:
-        return float((point_pressure(s, b, p0) - point_pressure(x, b, p0)) / (x - s)) if s != x else 0.0
+        return float((semi_ellipse(s, b, p0) - semi_ellipse(x, b, p0)) / (x - s)) if s != x else 0.0
 
-    whole = quad(regular, -b, b, points=[x], limit=400)[0] + point_pressure(x, b, p0) * np.log((b + x) / (b - x))
+    whole = quad(regular, -b, b, points=[x], limit=400)[0] + semi_ellipse(x, b, p0) * np.log((b + x) / (b - x))
     assert 2.0 / (np.pi * E) * whole == pytest.approx(x / R, rel=1e-6)
 
 
@@ -115,21 +111,3 @@ def test_elliptical_pressure_makes_the_surfaces_meet(ratio: float) -> None:
         there = displacement(x * a, y * q * a, a, q * a, p0, E)
         assert there == pytest.approx(D - flatter * (x * a) ** 2 - ratio * flatter * (y * q * a) ** 2, rel=1e-8)
     assert ellipse_force(D, flatter, E, k, s) == pytest.approx(2.0 / 3.0 * np.pi * a * q * a * p0, rel=1e-13)
-
-
-def test_relative_curvatures() -> None:
-    """Sphere in a groove; equal cylinders crossed are a circle, parallel ones a line; the sum does not turn."""
-    assert relative_curvatures(50.0, 50.0, -20.0, 0.0, 0.7) == pytest.approx((15.0, 25.0), rel=1e-14)
-    assert relative_curvatures(40.0, 0.0, 40.0, 0.0, np.pi / 2) == pytest.approx((20.0, 20.0), abs=1e-6)
-    assert relative_curvatures(40.0, 0.0, 40.0, 0.0, 0.0) == pytest.approx((0.0, 40.0), abs=1e-14)
-    sums = [sum(relative_curvatures(30.0, 12.0, 5.0, -8.0, t)) for t in np.linspace(0.0, np.pi, 7)]
-    assert sums == pytest.approx([19.5] * 7, rel=1e-14)
-
-
-@given(st.floats(0.0, np.pi), st.floats(-40.0, 40.0), st.floats(5.0, 60.0))
-def test_relative_curvatures_are_those_of_the_gap(angle: float, k: float, l: float) -> None:
-    """Half the sum of both curvature tensors, turned against each other, has A and B as eigenvalues."""
-    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    gap = 0.5 * (np.diag([k, 60.0]) + turn @ np.diag([l, 45.0]) @ turn.T)
-    found = relative_curvatures(k, 60.0, l, 45.0, angle)
-    np.testing.assert_allclose(found, np.linalg.eigvalsh(gap), atol=1e-6)

@@ -14,9 +14,9 @@ from geocontact.contact.bristle_friction import bristle_force, deflection_rate
 from geocontact.data.multibody.joint_kinds import prismatic
 from geocontact.data.multibody.model import Body, Multibody
 from geocontact.dynamics import compiled as code
-from geocontact.dynamics.equations import Equations, Memory, equations_of_motion
+from geocontact.dynamics.equations import Equations, LawState, equations_of_motion
 from geocontact.dynamics.simulate import Stepper
-from geocontact.dynamics.sphere_contact import SphereLaw, sphere_wrench, together
+from geocontact.dynamics.sphere_contact import SphereLaw, sphere_wrench
 from geocontact.dynamics.tree import tree_of
 from geocontact.geometry.shapes import HalfSpace
 from tests.dynamics.models import all_kinds, free_ball, pendulum
@@ -76,6 +76,47 @@ def test_order_holds_where_inputs_change() -> None:
     start = (np.zeros(1), np.zeros(1), NONE)
     found = [abs(stepper.simulate(start, time, inputs=inputs, steps=n).q[-1, 0] - exact) for n in (100, 200, 400)]
     assert np.all(np.abs(orders(found) - 3.0) < 0.2), found
+
+
+@pytest.mark.parametrize("count", [0, 1, 2])
+def test_one_coordinate_takes_any_number_of_inputs(count: int) -> None:
+    """x'' + 4 x = cos 3t + t, with as many terms of the right-hand side as there are inputs, from x = 1."""
+    tree = tree_of(slider(1.0))
+    pushes = [SX.sym(f"push{i}") for i in range(count)]
+    equations = equations_of_motion(tree, along={"s": sum(pushes, -4.0 * tree.q[0])}, inputs=pushes)
+    assert equations.w.shape == (count, 1)
+
+    def inputs(t: float) -> tuple[np.ndarray, np.ndarray]:
+        return np.array([np.cos(3 * t), t][:count]), np.array([-3 * np.sin(3 * t), 1.0][:count])
+
+    time = np.linspace(0.0, 2.0, 9)
+    terms = [(np.cos(2 * time) - np.cos(3 * time)) / 5.0, time / 4.0 - np.sin(2 * time) / 8.0]
+    start = (np.ones(1), np.zeros(1), NONE)
+    course = Stepper(equations, machine_code=False).simulate(start, time, inputs=inputs, tolerance=1e-9)
+    np.testing.assert_allclose(course.q[:, 0], np.cos(2 * time) + sum(terms[:count]), atol=1e-7)
+
+
+def test_derivative_by_a_parameter_without_inputs() -> None:
+    """x'' = -k x from x = 1: dx/dk = -t sin(√k t) / (2 √k)."""
+    k, tree = SX.sym("k"), tree_of(slider(1.0))
+    equations = equations_of_motion(tree, along={"s": -k * tree.q[0]}, parameters=[k])
+    stepper, time = Stepper(equations, machine_code=False, by_parameter=True), np.linspace(0.0, 1.0, 5)
+    course = stepper.simulate((np.ones(1), np.zeros(1), NONE), time, parameters=np.array([4.0]), steps=400)
+    np.testing.assert_allclose(course.by_parameter[:, 0, 0], -time * np.sin(2 * time) / 4.0, atol=1e-6)
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_memories_grow_where_every_coordinate_is_prescribed(count: int) -> None:
+    """z' = c (1 - z) along a course with rate 1: 1 - exp(-c t)."""
+    tree, paces = tree_of(slider(1.0)), np.array([1.0, 3.0])[:count]
+    memory = [LawState(z, c * (tree.u[0] - z)) for c in paces for z in [SX.sym("z")]]
+    equations = equations_of_motion(tree, prescribed=["s"], memory=memory)
+    assert (equations.q.shape, equations.balance.shape, equations.w.shape) == ((0, 1), (0, 1), (3, 1))
+    time = np.linspace(0.0, 1.0, 5)
+    course = Stepper(equations, machine_code=False).simulate(
+        (NONE, NONE, np.zeros(count)), time, inputs=lambda t: (np.array([t, 1.0, 0.0]), X), tolerance=1e-9
+    )
+    np.testing.assert_allclose(course.z, 1.0 - np.exp(-np.outer(time, paces)), atol=1e-7)
 
 
 def test_a_stiff_spring_costs_no_more_steps() -> None:
@@ -173,7 +214,7 @@ def sticking(push: float) -> Stepper:
     growth = deflection_rate(s, tree.u[0], 4.0 / 1e5, 0.7)
     friction = bristle_force(s, growth, 1e5, 300.0)
     along = {"s": push * force + friction}
-    return Stepper(equations_of_motion(tree, along=along, memory=[Memory(s, growth)], inputs=[force]))
+    return Stepper(equations_of_motion(tree, along=along, memory=[LawState(s, growth)], inputs=[force]))
 
 
 def there_and_back(t: float) -> tuple[np.ndarray, np.ndarray]:
@@ -254,18 +295,3 @@ def test_what_cannot_go_on_says_so() -> None:
         stepper.simulate((np.ones(1), np.ones(1), NONE), np.array([0.0, 1.0]), parameters=np.ones(1))
     with pytest.raises(ValueError, match="there is no coordinate knee"):
         equations_of_motion(tree, prescribed=["knee"])
-
-
-def test_several_spheres_add_up() -> None:
-    tree = tree_of(free_ball())
-    law = SphereLaw(1e5, 1.5, 300.0, 1e-3, 0.01, 0.5, 0.4)
-    one = sphere_wrench(tree.bodies["ball"], 0.02 * X, 0.05, law, GROUND)
-    two = sphere_wrench(tree.bodies["ball"], -0.02 * X, 0.05, law, GROUND)
-    force, moment = together(one, two)
-    run = casadi.Function("f", [tree.q, tree.u], [force, moment, one[0]])
-    q = np.zeros(6)
-    q[4] = 0.049
-    both, turned, alone = (np.array(each).ravel() for each in run(q, np.zeros(6)))
-    np.testing.assert_allclose(both, 2 * alone)
-    np.testing.assert_allclose(alone, [0.0, 1e5 * 1e-3**1.5, 0.0], atol=1e-9)
-    np.testing.assert_allclose(turned, 0.0, atol=1e-12)

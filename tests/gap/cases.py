@@ -11,9 +11,9 @@ from scipy.signal import butter, filtfilt
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import Diagnosis
-from geocontact.data.gap_case import GapCase
-from geocontact.data.gap_cell import Cell
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.cell import Cell
+from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
@@ -23,11 +23,11 @@ from geocontact.gap.case.refit import Measured
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.localise.gap_map import Window, gap_map, windows
 from geocontact.gap.selection import model_comparison as contest
-from geocontact.gap.selection.clipping import FlatTop, flat_tops
+from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import judged
 from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, singles
-from geocontact.gap.selection.model_discrepancy import forms
-from geocontact.gap.selection.residual_anomalies import oddities
+from geocontact.gap.selection.model_discrepancy import discrepancy_basis
+from geocontact.gap.selection.residual_anomalies import residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
 from geocontact.systems.catalogue import system_of
 
@@ -138,8 +138,8 @@ def evidence_of_bends(lean: float) -> tuple[float, float, float]:
     whole = np.concatenate([each.ravel() for each in added])
     base_columns = np.concatenate([(j[..., :3] / problem.floor[:, None]).reshape(-1, 3) for j in model.jacobian])
     net = whole - base_columns @ np.linalg.lstsq(base_columns, whole, rcond=None)[0]
-    squares = sum(float(np.sum((b / problem.floor[:, None]) ** 2)) for b in one.judged.bends)
-    flips = forms(problem, (offered["sign_flip.beta"],), base.judged.model)
+    squares = sum(float(np.sum((b / problem.floor[:, None]) ** 2)) for b in one.judged.discrepancy_basis)
+    flips = discrepancy_basis(problem, (offered["sign_flip.beta"],), base.judged.model)
     return float(gain), squares / float(net @ net), sum(b.shape[-1] for b in flips)
 
 
@@ -150,7 +150,7 @@ def odd(change: Change | None, after: Change | None = None, duration: float = 24
         if after:
             trial.signals.values[:, 1] = after(trial.name, trial.time, trial.signals.values[:, 1])
     problem = problem_of(case, system_of(case))
-    return {each.words: each.nats for each in oddities(problem, base_contender(problem).judged)}
+    return {each.words: each.nats for each in residual_anomalies(problem, base_contender(problem).judged)}
 
 
 def paired() -> tuple[list[tuple[str, ...]], list[float]]:
@@ -208,10 +208,10 @@ def finished_twice(*, later_is_better: bool) -> dict[str, tuple[list[float], flo
     return {one.label: (got[one.label], one.judged.nats) for one in kept}
 
 
-def flat(recorded: Change | None) -> tuple[FlatTop, ...]:
+def flat(recorded: Change | None) -> tuple[ClippedChannel, ...]:
     """Flat tops of what is recorded of the base model."""
     case = elbow_case(seed=7, recorded=recorded)
-    return flat_tops(problem_of(case, system_of(case)))
+    return clipped_channels(problem_of(case, system_of(case)))
 
 
 def located(change: Change | None, recorded: Change | None = None) -> tuple[tuple[Cell, ...], tuple[Window, ...]]:

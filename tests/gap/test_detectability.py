@@ -6,7 +6,7 @@ import pytest
 
 from geocontact.gap.identifiability.detectability import POWER
 from tests.elsewhere import Elsewhere
-from tests.gap.told import powers, smallest
+from tests.gap.identifiability_cases import powers, smallest
 
 
 def test_power_is_that_of_a_noncentral_chi_square_and_grows(elsewhere: Elsewhere) -> None:

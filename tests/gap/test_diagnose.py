@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from geocontact.analyses.gap.diagnose.words import proposal_words, verdict_sentences
-from geocontact.data.diagnosis import Diagnosis
+from geocontact.analyses.gap.diagnose.words import verdict_sentences
+from geocontact.analyses.gap.words import proposal_words
+from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.case.problem import Noise, problem_of
 from geocontact.gap.diagnose import diagnose, estimates
 from geocontact.gap.selection.evidence import Judged
-from geocontact.identify.noise.noise_levels import Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import (
@@ -164,7 +165,7 @@ def test_a_number_on_its_bound_has_the_whole_range_for_an_interval() -> None:
     model = replace(problem.plain, values={**problem.plain.values, "x": p.upper}, whitened_jacobian=np.ones((n, 3)))
     one = np.ones(1)
     judged = Judged(
-        model, Noise(Levels(one, one[None], one[None], one), one, 0.0, ()), 0.0, 0.0, n, [], np.zeros((n, 0))
+        model, Noise(NoiseLevels(one, one[None], one[None], one), one, 0.0, ()), 0.0, 0.0, n, [], np.zeros((n, 0))
     )
     found = estimates(judged)
     assert found["x"].ci95 == (p.lower, p.upper) and not found["x"].identifiable

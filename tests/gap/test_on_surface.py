@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.data.cell_channels import CellChannels, CellTrial
 from geocontact.data.errors import InputError
-from geocontact.data.gap_case import GapCase
-from geocontact.data.surface_gap import SurfaceGap
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.cell_channels import CellChannels, CellTrial
+from geocontact.data.gap.surface_gap import SurfaceGap
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.problem import problem_of
 from geocontact.gap.diagnose import diagnose

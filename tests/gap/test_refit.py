@@ -22,8 +22,8 @@ def measured() -> tuple:
 
 
 def test_base_parameters_are_found_from_any_start() -> None:
-    system, data, weigh = measured()
-    best = refit(system, data, weigh, base_starts(system), 40)
+    system, data, whiten = measured()
+    best = refit(system, data, whiten, base_starts(system), 40)
     for name, value in TRUE.items():
         assert best.values[name] == pytest.approx(value, rel=0.1)
     for p in free(system):

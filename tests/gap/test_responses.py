@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
-from geocontact.gap.case.whitening import heard
+from geocontact.gap.case.whitening import propagated_input_noise
 from geocontact.gap.inputs.denoise import drawn as noise
 from geocontact.gap_benchmark.drawing import Lot, drawn
 from geocontact.identify.noise.input_noise import Lasting
@@ -42,7 +42,12 @@ def test_covariance_is_that_of_simulated_noise() -> None:
     together = np.array(made).transpose(0, 2, 1).reshape(400, -1)
     seen = together.T @ together / 400.0
     at, channel = np.tile(np.arange(200, 230), 2), np.repeat([0, 1], 30)
-    expected = SD**2 * heard(system, trial, values, dict.fromkeys(system.inputs, passed), {}).covariance(at, channel)[0]
+    expected = (
+        SD**2
+        * propagated_input_noise(system, trial, values, dict.fromkeys(system.inputs, passed), {}).covariance(
+            at, channel
+        )[0]
+    )
     for c in (0, 1):
         own = np.flatnonzero(channel == c)
         assert_allclose(np.diag(seen)[own], np.diag(expected)[own], rtol=0.35)
@@ -55,10 +60,12 @@ def test_without_a_motion_of_its_own_the_force_would_hardly_feel_it() -> None:
     """What a resting arm says is not what a shaken one does."""
     system, trial, values, passed = scene()
     at, channel = np.arange(200, 230), np.ones(30, int)
-    lasting = heard(system, trial, values, dict.fromkeys(system.inputs, passed), {}).covariance(at, channel)[0]
-    instant = heard(replace(system, dynamic=False), trial, values, dict.fromkeys(system.inputs, passed), {}).covariance(
+    lasting = propagated_input_noise(system, trial, values, dict.fromkeys(system.inputs, passed), {}).covariance(
         at, channel
     )[0]
+    instant = propagated_input_noise(
+        replace(system, dynamic=False), trial, values, dict.fromkeys(system.inputs, passed), {}
+    ).covariance(at, channel)[0]
     assert np.abs(np.diag(lasting) / np.diag(instant) - 1.0).min() > 0.3
 
 
@@ -70,7 +77,7 @@ def test_a_dropout_is_filled_from_both_sides() -> None:
     column = signals.channels.index("arm")
     gone[200:230, column] = np.nan
     broken = replace(trial, signals=replace(signals, values=gone))
-    found = heard(system, broken, values, dict.fromkeys(system.inputs, passed), {})
+    found = propagated_input_noise(system, broken, values, dict.fromkeys(system.inputs, passed), {})
     assert isinstance(found, Lasting)
     step = 1e-4
     moved = gone.copy()

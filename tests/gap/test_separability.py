@@ -7,7 +7,7 @@ import pytest
 
 from geocontact.gap.identifiability.separability import Separation, classes, table
 from tests.elsewhere import Elsewhere
-from tests.gap.told import (
+from tests.gap.identifiability_cases import (
     lag_against_delay,
     nats_asked_for,
     same_things,
@@ -37,8 +37,8 @@ def test_three_names_of_one_thing_at_a_strapped_on_site(elsewhere: Elsewhere) ->
     offsets = sorted({a for a, _ in apart if a.split(".")[0] in ("preload", "motion_offset", "sensor_offset")})
     assert len(offsets) >= 3
     for true in offsets:
-        for imitator in offsets:
-            assert apart[true, imitator] < 0.05, (true, imitator, apart[true, imitator])
+        for confounder in offsets:
+            assert apart[true, confounder] < 0.05, (true, confounder, apart[true, confounder])
     assert apart[next(a for a, _ in apart if a.startswith("damping")), offsets[0]] > 20.0
     assert any(set(offsets) <= set(group) for group in groups)
 
@@ -46,9 +46,9 @@ def test_three_names_of_one_thing_at_a_strapped_on_site(elsewhere: Elsewhere) ->
 def test_a_straight_step_is_as_good_as_a_refit_where_it_is_trusted(elsewhere: Elsewhere) -> None:
     found = elsewhere(straight_and_refitted)
     assert len(found) >= 4
-    for true, imitator, straight, fitted in found:
-        assert fitted <= straight + 1.0, (true, imitator)
-        assert straight == pytest.approx(fitted, rel=0.25, abs=1.5), (true, imitator)
+    for true, confounder, straight, fitted in found:
+        assert fitted <= straight + 1.0, (true, confounder)
+        assert straight == pytest.approx(fitted, rel=0.25, abs=1.5), (true, confounder)
 
 
 def test_amplitudes_have_the_nats_that_were_asked_for(elsewhere: Elsewhere) -> None:

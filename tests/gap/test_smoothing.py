@@ -28,7 +28,7 @@ def owed(problem: Problem, label: str, values: dict[str, float]) -> float:
     one = next(c for c in candidates(problem.system) if c.label == label)
     fitted = at(one.apply(problem.system), problem.calibration, None, {**base.model.values, **values})
     model = evaluated(problem, fitted)
-    return float(by_smoothing(problem, model, problem.weighings(base.noise, model)).sum())
+    return float(by_smoothing(problem, model, problem.whitenings(base.noise, model)).sum())
 
 
 def test_a_low_pass_owes_what_it_smooths(problem: Problem) -> None:
@@ -52,16 +52,16 @@ def test_no_trial_gains_by_what_another_owes(problem: Problem) -> None:
     base = base_contender(problem).judged
     model = base.model
     uneven = tuple((1.1 if i < 2 else 0.0) * part for i, part in enumerate(problem.passed_on))
-    owing = by_smoothing(problem, replace(model, passed_on=uneven), problem.weighings(base.noise, model))
+    owing = by_smoothing(problem, replace(model, passed_on=uneven), problem.whitenings(base.noise, model))
     assert (owing[:2] == 0.0).all()
     assert (owing[2:] > 0.0).all()
 
 
 def test_a_simulation_that_fails_says_nothing(problem: Problem) -> None:
     base = base_contender(problem).judged
-    weighings = problem.weighings(base.noise, base.model)
+    whitenings = problem.whitenings(base.noise, base.model)
     failed = replace(base.model, passed_on=tuple(np.full(part.shape, np.nan) for part in problem.passed_on))
-    assert not by_smoothing(problem, failed, weighings).any()
+    assert not by_smoothing(problem, failed, whitenings).any()
 
 
 def test_noise_that_is_added_is_that_of_the_inputs(problem: Problem) -> None:

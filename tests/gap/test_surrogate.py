@@ -77,6 +77,6 @@ def test_better_noise_alone_is_no_gain() -> None:
     model = base_contender(problem).judged
     loud = replace(model.noise.levels, white=3.0 * model.noise.levels.white)
     whiteners = tuple(layout.whitener(loud) for layout in problem.layouts)
-    poor = judged(problem, model.model, replace(model.noise, levels=loud, whiteners=whiteners), model.bends)
+    poor = judged(problem, model.model, replace(model.noise, levels=loud, whiteners=whiteners), model.discrepancy_basis)
     assert poor.nats < model.nats - 20.0
     assert surrogate(problem, poor).nats < 3.0

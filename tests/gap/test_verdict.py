@@ -19,10 +19,10 @@ from geocontact.gap.selection.verdict import (
     SURE,
     answer,
     borne_out,
-    standing,
+    ranking,
     with_mistake,
 )
-from geocontact.identify.noise.noise_levels import Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case
 
@@ -34,7 +34,7 @@ SHARE = 0.6
 def contender(nats: float, *labels: str, **values: float) -> Contender:
     """A model that gains so much, on calibration trials as much as on the others; effects where they set out."""
     one = np.ones(1)
-    noise = Noise(Levels(one, one[None], one[None], one), one, 0.0, ())
+    noise = Noise(NoiseLevels(one, one[None], one[None], one), one, 0.0, ())
     offered = tuple(OFFERED[label] for label in labels)
     there = {p.name: p.start for one in offered for p in one.parameters} | values
     model = Refit(SYSTEM, {**SYSTEM.start, **there}, [], [], np.zeros(10), np.zeros((10, 3)))
@@ -55,7 +55,7 @@ def said(
     rest: float = 0.0,
 ):
     counts = {one.name: 1 for one in OFFERED.values()} | (variants or {})
-    return answer(standing(contender(0.0), contenders, shares(*contenders), counts), unnamed, strange, rest)
+    return answer(ranking(contender(0.0), contenders, shares(*contenders), counts), unnamed, strange, rest)
 
 
 def test_a_gain_that_may_be_luck_is_no_gap() -> None:
@@ -78,15 +78,15 @@ def test_a_price_that_calibration_trials_paid_is_no_loss_in_all(share: float) ->
 def test_everyone_is_borne_out_by_what_it_changes_itself() -> None:
     one, other = contender(60.0, "damping"), contender(60.0, "dry_friction.rate")
     counts = {each.name: 1 for each in OFFERED.values()}
-    held = standing(contender(0.0), (one, other), {one.label: 1.0, other.label: SHARE}, counts)
+    held = ranking(contender(0.0), (one, other), {one.label: 1.0, other.label: SHARE}, counts)
     assert held.gains[one.label] < held.gains[other.label] == pytest.approx(60.0)
 
 
 def test_variants_share_what_is_believed_of_their_effect() -> None:
-    rivals = contender(30.0, "damping"), contender(30.0, "dry_friction.rate")
-    even = said(*rivals).probabilities
+    competitors = contender(30.0, "damping"), contender(30.0, "dry_friction.rate")
+    even = said(*competitors).probabilities
     assert even["damping"] == pytest.approx(even["dry_friction"])
-    odds = said(*rivals, variants={"dry_friction": 2}).probabilities
+    odds = said(*competitors, variants={"dry_friction": 2}).probabilities
     assert odds["damping"] / odds["dry_friction"] == pytest.approx(2.0 ** (1.0 / (1.0 + 30.0 * FORM)), rel=0.01)
 
 
@@ -173,7 +173,7 @@ def test_which_ends_of_an_amplitude_cut_a_search_short(label: str, end: str, cut
 def test_what_the_best_contender_leaves_is_asked_of_the_best_contender() -> None:
     """A pair leads by its nats, the single that is as likely without the pair's price is what is weighed."""
     single, pair = contender(200.0, "damping"), contender(205.0, "damping", "sensor_drift.force")
-    held = standing(contender(0.0), (pair, single), shares(pair, single), {one.name: 1 for one in OFFERED.values()})
+    held = ranking(contender(0.0), (pair, single), shares(pair, single), {one.name: 1 for one in OFFERED.values()})
     assert held.best is single
     assert held.leader is single
     assert said(single, unnamed=190.0, rest=150.0).verdict == "unknown"
@@ -189,7 +189,7 @@ def test_what_is_left_beside_an_effect_is_there_without_it() -> None:
 
 def test_of_contenders_that_gain_nothing_none_leads() -> None:
     base, worse = contender(0.0), contender(-3.0, "damping")
-    held = standing(base, (worse,), shares(worse), {one.name: 1 for one in OFFERED.values()})
+    held = ranking(base, (worse,), shares(worse), {one.name: 1 for one in OFFERED.values()})
     assert held.leader is base
     assert held.best is worse
 
@@ -209,10 +209,10 @@ def test_a_mistake_takes_what_speaks_for_nothing_else() -> None:
 
 
 def test_who_has_no_evidence_is_not_weighed() -> None:
-    rivals = contender(np.nan, "preload"), contender(50.0, "damping"), contender(np.nan, "damping", "preload")
-    held = standing(contender(0.0), rivals, shares(*rivals), {one.name: 1 for one in OFFERED.values()})
-    assert held.best is rivals[1]
-    assert said(*rivals).effects == ("damping",)
+    competitors = contender(np.nan, "preload"), contender(50.0, "damping"), contender(np.nan, "damping", "preload")
+    held = ranking(contender(0.0), competitors, shares(*competitors), {one.name: 1 for one in OFFERED.values()})
+    assert held.best is competitors[1]
+    assert said(*competitors).effects == ("damping",)
 
 
 @pytest.mark.parametrize("given", [{"rest": np.nan}, {"unnamed": np.nan}, {"strange": np.nan}])

@@ -18,7 +18,7 @@ def test_there_is_a_table() -> None:
 
 @pytest.mark.parametrize(("module", "name", "value"), ROWS, ids=[f"{module}.{name}" for module, name, _ in ROWS])
 def test_a_constant_is_what_the_page_says(module: str, name: str, value: str) -> None:
-    assert getattr(import_module(f"geocontact.{module if '.' in module else f'gap.{module}'}"), name) == float(value)
+    assert getattr(import_module(f"geocontact.{module}"), name) == float(value)
 
 
 def test_names_in_capitals_are_in_the_table() -> None:

@@ -86,7 +86,7 @@ def test_contracts_hold() -> None:
         ("gap_benchmark/synthetic/noise.py", "def late():\n    import geocontact.gap.case.refit", PLANTED),
         ("gap_benchmark/synthetic/cases.py", "import geocontact.gap_benchmark.score", PLANTED),
         ("gap/diagnose.py", "import geocontact.gap_benchmark.synthetic.label", WITHHELD),
-        ("analyses/gap/diagnose/many.py", "from geocontact.gap_benchmark.synthetic import plant", WITHHELD),
+        ("analyses/gap/diagnose/many.py", "from geocontact.gap_benchmark.synthetic import synthetic_case", WITHHELD),
     ],
 )
 def test_contract_fails_when_broken(copy: Path, module: str, line: str, contract: str) -> None:

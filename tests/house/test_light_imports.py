@@ -11,7 +11,7 @@ import pytest
 from cyclopts import App
 
 ROOT = Path(__file__).resolve().parents[2]
-HEAVY = {"casadi", "dask", "distributed", "ezc3d", "matplotlib", "open3d", "opensim", "pyvista", "trimesh", "vtk"}
+HEAVY = {"casadi", "ezc3d", "matplotlib", "open3d", "opensim", "pyvista", "trimesh", "vtk"}
 NUMERIC = {"fcl", "igl", "numba", "pandas", "scipy"}
 
 
@@ -35,8 +35,8 @@ def test_help_is_light(arguments: list[str]) -> None:
 
 def commands() -> list[list[str]]:
     """Words of every command, those of groups included."""
-    from geocontact.cli.elbow import elbow
-    from geocontact.cli.gap import gap
+    from geocontact.cli.elbow.group import elbow
+    from geocontact.cli.gap.group import gap
     from geocontact.cli.main import app
 
     def names(of: App) -> list[str]:

@@ -37,8 +37,9 @@ def test_quick_start_is_two_commands() -> None:
     assert "".join(blocks).split("\n") == ["make demo", "make test", ""]
 
 
-def test_vision_is_short() -> None:
-    assert len((ROOT / "VISION.md").read_text(encoding="utf-8").splitlines()) <= 10
+@pytest.mark.parametrize(("page", "lines"), [("VISION.md", 10), ("README.md", 120)])
+def test_it_is_short(page: str, lines: int) -> None:
+    assert len((ROOT / page).read_text(encoding="utf-8").splitlines()) <= lines
 
 
 @pytest.mark.parametrize("path", PAGES, ids=named)
@@ -81,6 +82,15 @@ def test_locks_hold_every_requirement() -> None:
         direct = [*wanted, *(line for extra in more for line in extras[extra] if not line.startswith("geocontact"))]
         names = {re.split(r"[^A-Za-z0-9-]", line)[0].lower() for line in direct}
         assert names <= {pin.partition("==")[0] for pin in pins(lock)}
+
+
+def test_every_extra_is_used() -> None:
+    """Each package that an extra of the program brings is imported somewhere; a probe of `doctor` does not count."""
+    extras = PROJECT["project"]["optional-dependencies"]
+    lines = [line for extra in set(extras) - {"all", "test", "oracle"} for line in extras[extra]]
+    texts = [file.read_text(encoding="utf-8") for file in ROOT.glob("geocontact/**/*.py") if file.stem != "doctor"]
+    imported = {name for text in texts for name in re.findall(r"^\s*(?:from|import) (\w+)", text, re.MULTILINE)}
+    assert {re.split(r"[^A-Za-z0-9-]", line)[0] for line in lines} <= imported
 
 
 def test_every_ignored_lint_rule_has_a_reason() -> None:

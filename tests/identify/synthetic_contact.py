@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.contact.area_hertz import READINGS, Reading
-from geocontact.elastic_modulus.area_force import MODULUS, AreaEvolution, AreaForce
+from geocontact.elastic_modulus.area_force import MODULUS, AreaForce, ThresholdAreas
 
 TRUE = 6.8e6  # Pa
 RADIUS, LENGTH, DURATION = 0.037, 0.06, 1.1
@@ -26,7 +26,7 @@ def synthetic_model(
 ) -> AreaForce:
     """The law on the frames of a step."""
     time = np.linspace(0.0, DURATION, frames)
-    evolution = AreaEvolution(time, THRESHOLDS, synthetic_areas(time), np.full(frames, RADIUS), LENGTH)
+    evolution = ThresholdAreas(time, THRESHOLDS, synthetic_areas(time), np.full(frames, RADIUS), LENGTH)
     law = READING[reading] if isinstance(reading, str) else reading
     return AreaForce(evolution, law, time[inner], 0.0, threshold)
 

@@ -6,12 +6,12 @@ import numpy as np
 
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.input_noise import Instant
-from geocontact.identify.noise.noise_levels import Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
 COUNT, STEP = 150, 0.02
-LEVELS = Levels(np.array([0.3, 0.2]), np.array([[0.5, 0.1]]), np.array([[0.1, 0.05]]), np.array([0.04]))
+LEVELS = NoiseLevels(np.array([0.3, 0.2]), np.array([[0.5, 0.1]]), np.array([[0.1, 0.05]]), np.array([0.04]))
 
 
 def exact(frequency: np.ndarray) -> np.ndarray:
@@ -30,7 +30,7 @@ def layout(present: np.ndarray | None = None) -> Layout:
     return Layout.of(time, there, Instant(time, to_value, to_rate, (PASSED,)))
 
 
-def noise_of(one: Layout, levels: Levels, rng: np.random.Generator) -> np.ndarray:
+def noise_of(one: Layout, levels: NoiseLevels, rng: np.random.Generator) -> np.ndarray:
     """A draw of one trial's residual."""
     flat, whitener = np.zeros(one.shape[0] * one.shape[1]), one.whitener(levels)
     flat[np.concatenate(whitener.rows)] = whitener.coloured(rng.standard_normal(len(one.rows)))

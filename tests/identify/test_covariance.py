@@ -7,8 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.signal import butter, filtfilt
 
-from geocontact.identify.noise.covariance import Block
-from geocontact.identify.noise.noise_levels import Levels
+from geocontact.identify.noise.covariance import NoiseBlock
+from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 from tests.identify.synthetic_noise import COUNT, LEVELS, PASSED, STEP, layout
@@ -18,7 +18,7 @@ def differences(frequency: np.ndarray) -> np.ndarray:
     return np.sin(2.0 * np.pi * frequency * 0.005) / 0.005
 
 
-def whole(block: Block) -> np.ndarray:
+def whole(block: NoiseBlock) -> np.ndarray:
     return block.covariance(LEVELS)
 
 
@@ -89,7 +89,7 @@ def test_derivatives_are_those_of_the_covariance() -> None:
 
 
 def test_a_covariance_without_a_factor_is_raised_until_it_has_one() -> None:
-    loud = Levels(np.full(2, 1e-9), np.full((1, 2), 1e-9), LEVELS.memory, np.array([1e3]))
+    loud = NoiseLevels(np.full(2, 1e-9), np.full((1, 2), 1e-9), LEVELS.memory, np.array([1e3]))
     assert np.isfinite(layout().whitener(loud).log_scale)
 
 

@@ -7,7 +7,7 @@ import pytest
 from jaxtyping import Float, Int
 from scipy.optimize import minimize
 
-from geocontact.identify.optimise.fisher_scoring import Batch, Found, Scored, least
+from geocontact.identify.optimise.fisher_scoring import Batch, Scored, ScoringResult, least
 
 AT = np.linspace(-1.0, 1.0, 60)
 TRUE = np.array([[0.3, -1.0], [-2.0, 0.5], [5.0, 2.0]])
@@ -21,7 +21,7 @@ def power() -> Float[np.ndarray, "3 60"]:
     return np.asarray(np.exp(TRUE[:, :1] + TRUE[:, 1:] * AT) * rng.exponential(size=(3, 60)))
 
 
-def found(power: Float[np.ndarray, "3 60"], start: Batch, low: Batch = LOW, high: Batch = HIGH) -> Found:
+def found(power: Float[np.ndarray, "3 60"], start: Batch, low: Batch = LOW, high: Batch = HIGH) -> ScoringResult:
     """Least of Whittle's -log likelihood."""
 
     def scored(x: Batch, which: Int[np.ndarray, " k"]) -> Scored:

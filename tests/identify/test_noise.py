@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import kstest
 
-from geocontact.identify.noise.autoregressive import Noise, noise_of
+from geocontact.identify.noise.autoregressive import AutoregressiveNoise, noise_of
 
 
 def covariance(time, sd, tau):
@@ -26,7 +26,7 @@ def test_whitening_is_the_inverse_square_root_of_the_covariance(sd, tau):
     values = np.eye(len(UNEVEN))[:, None, :].copy()
     values[7:11] = np.nan
     there = np.isfinite(values[:, 0, 0])
-    noise = Noise(np.array([sd]), np.array([tau]))
+    noise = AutoregressiveNoise(np.array([sd]), np.array([tau]))
     white = noise.whitened(UNEVEN, values)[:, there]
     inner = covariance(UNEVEN[there], sd, tau)
     np.testing.assert_allclose(white @ inner @ white.T, np.eye(there.sum()), atol=1e-9)
@@ -37,8 +37,8 @@ def test_whitening_is_the_inverse_square_root_of_the_covariance(sd, tau):
 def test_channels_are_whitened_each_by_its_own_noise_and_columns_alike():
     rng = np.random.default_rng(1)
     values = rng.normal(size=(60, 2, 3))
-    both = Noise(np.array([1.0, 5.0]), np.array([0.1, 0.0])).whitened(UNEVEN, values)
-    one = Noise(np.array([1.0]), np.array([0.1])).whitened(UNEVEN, values[:, :1])
+    both = AutoregressiveNoise(np.array([1.0, 5.0]), np.array([0.1, 0.0])).whitened(UNEVEN, values)
+    one = AutoregressiveNoise(np.array([1.0]), np.array([0.1])).whitened(UNEVEN, values[:, :1])
     np.testing.assert_allclose(both[:60], one)
     np.testing.assert_allclose(both[60:], values[:, 1] / 5.0)
 
@@ -68,6 +68,6 @@ def test_white_noise_is_found_to_be_white():
 def test_innovations_are_standard_normal():
     rng = np.random.default_rng(4)
     sample = drawn(UNEVEN, 3.0, 0.08, rng, count=100)
-    noise = Noise(np.array([3.0]), np.array([0.08]))
+    noise = AutoregressiveNoise(np.array([3.0]), np.array([0.08]))
     white = noise.whitened(UNEVEN, sample[:, None, :])
     assert kstest(white.ravel(), "norm").pvalue > 0.001

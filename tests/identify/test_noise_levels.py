@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from geocontact.identify.noise.noise_levels import BEYOND, Beliefs, Levels
+from geocontact.identify.noise.noise_levels import BEYOND, NoiseLevels, NoisePriors
 
-MIDDLE = Levels(np.array([0.3, 0.2]), np.array([[0.5, 0.1], [0.1, 0.2]]), np.full((2, 2), 0.1), np.array([0.04, 0.1]))
+MIDDLE = NoiseLevels(
+    np.array([0.3, 0.2]), np.array([[0.5, 0.1], [0.1, 0.2]]), np.full((2, 2), 0.1), np.array([0.04, 0.1])
+)
 SIZE = len(MIDDLE.logarithms())
 RNG = np.random.default_rng(0)
 FACTOR = np.tril(0.3 * RNG.standard_normal((SIZE, SIZE))) + np.eye(SIZE)
-LIMITED = Beliefs(MIDDLE, FACTOR, np.array([0.5, np.inf]), np.array([0.02, np.inf]))
+LIMITED = NoisePriors(MIDDLE, FACTOR, np.array([0.5, np.inf]), np.array([0.02, np.inf]))
 
 
 def points() -> list[np.ndarray]:
@@ -20,13 +22,13 @@ def points() -> list[np.ndarray]:
 
 
 def test_without_limits_logarithms_are_linear() -> None:
-    free = Beliefs(MIDDLE, FACTOR, np.full(2, np.inf), np.full(2, np.inf))
+    free = NoisePriors(MIDDLE, FACTOR, np.full(2, np.inf), np.full(2, np.inf))
     for x in points():
         assert_allclose(free.levels(x).logarithms(), MIDDLE.logarithms() + FACTOR @ x)
 
 
 def test_what_exceeds_its_limit_hardly_does_and_the_rest_is_as_it_was() -> None:
-    free = Beliefs(MIDDLE, FACTOR, np.full(2, np.inf), np.full(2, np.inf))
+    free = NoisePriors(MIDDLE, FACTOR, np.full(2, np.inf), np.full(2, np.inf))
     over = 0
     for x in points():
         held, loose = LIMITED.levels(x), free.levels(x)

@@ -10,15 +10,15 @@ from numpy.testing import assert_allclose
 
 from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.input_noise import Instant
-from geocontact.identify.noise.noise_levels import BEYOND, Beliefs, Levels
-from geocontact.identify.noise.noise_search import Place, Surface, most_likely, secant
+from geocontact.identify.noise.noise_levels import BEYOND, NoiseLevels, NoisePriors
+from geocontact.identify.noise.noise_search import CostSurface, SearchPoint, most_likely, secant
 from tests.identify.synthetic_noise import COUNT, LEVELS, PASSED, STEP, layout, noise_of
 
 
-def unlimited(prior: Levels) -> Beliefs:
+def unlimited(prior: NoiseLevels) -> NoisePriors:
     """Every logarithm is known to about one."""
     sensors, inputs = np.full(len(prior.white), np.inf), np.full(len(prior.inputs), np.inf)
-    return Beliefs(prior, np.eye(len(prior.logarithms())), sensors, inputs)
+    return NoisePriors(prior, np.eye(len(prior.logarithms())), sensors, inputs)
 
 
 def test_levels_are_found_again() -> None:
@@ -56,14 +56,14 @@ def test_a_slow_part_is_told_from_a_quick_one() -> None:
     nothing = np.zeros((400, 1, 1))
     heard = Instant(time, nothing, nothing, (PASSED,))
     layouts = [Layout.of(time, np.ones((400, 1), bool), heard) for _ in range(6)]
-    true = Levels(np.array([0.3]), np.array([[0.3], [0.25]]), np.array([[0.03], [0.5]]), np.array([1.0]))
+    true = NoiseLevels(np.array([0.3]), np.array([[0.3], [0.25]]), np.array([[0.03], [0.5]]), np.array([1.0]))
     residuals = [noise_of(each, true, rng) for each in layouts]
-    prior = Levels(np.array([0.3]), np.array([[0.3], [0.1]]), np.array([[0.04], [0.4]]), np.array([1.0]))
+    prior = NoiseLevels(np.array([0.3]), np.array([[0.3], [0.1]]), np.array([[0.04], [0.4]]), np.array([1.0]))
     none = [np.zeros((400, 1, 0)) for _ in layouts]
     found, _, nats = most_likely(layouts, residuals, none, unlimited(prior), prior)
     assert found.coloured[1, 0] == pytest.approx(0.25, rel=0.3)
     assert found.memory[1, 0] > 5.0 * found.memory[0, 0]
-    quick = Levels(prior.white, prior.coloured[:1], prior.memory[:1], prior.inputs)
+    quick = NoiseLevels(prior.white, prior.coloured[:1], prior.memory[:1], prior.inputs)
     assert nats > most_likely(layouts, residuals, none, unlimited(quick), quick)[2] + 10.0
 
 
@@ -73,9 +73,9 @@ def test_a_search_ends_where_it_does_not_matter_from_where_it_set_out() -> None:
     answers = np.full((300, 1, 1), 5.0)
     heard = Instant(time, answers, np.zeros((300, 1, 1)), (PASSED,))
     layouts = [Layout.of(time, np.ones((300, 1), bool), heard) for _ in range(6)]
-    true = Levels(np.array([0.002]), np.array([[0.1], [0.05]]), np.array([[0.03], [0.6]]), np.array([0.02]))
+    true = NoiseLevels(np.array([0.002]), np.array([[0.1], [0.05]]), np.array([[0.03], [0.6]]), np.array([0.02]))
     residuals = [noise_of(each, true, rng) for each in layouts]
-    prior = Levels(np.array([0.07]), np.array([[0.07], [0.02]]), np.array([[0.08], [0.4]]), np.array([0.005]))
+    prior = NoiseLevels(np.array([0.07]), np.array([[0.07], [0.02]]), np.array([[0.08], [0.4]]), np.array([0.005]))
     none = [np.zeros((300, 1, 0)) for _ in layouts]
     ends = [most_likely(layouts, residuals, none, unlimited(prior), start)[2] for start in (prior, true)]
     assert ends[0] == pytest.approx(ends[1], abs=0.05)
@@ -89,7 +89,7 @@ def drawn() -> tuple[list[Layout], list[np.ndarray], list[np.ndarray]]:
 
 def test_slope_is_that_of_the_cost() -> None:
     limited = replace(unlimited(LEVELS), sensors=0.6 * LEVELS.sensors, inputs=0.6 * LEVELS.inputs)
-    surface, x = Surface.of(*drawn(), limited), np.linspace(-0.3, 0.3, 7)
+    surface, x = CostSurface.of(*drawn(), limited), np.linspace(-0.3, 0.3, 7)
     exact = surface.at(x).gradient
     for k, each in enumerate(1e-5 * np.eye(7)):
         assert exact[k] == pytest.approx((surface.at(x + each).cost - surface.at(x - each).cost) / 2e-5, rel=1e-4)
@@ -98,7 +98,7 @@ def test_slope_is_that_of_the_cost() -> None:
 def test_information_is_what_its_formula_says() -> None:
     """½ rᵀ V⁻¹ V_k V⁻¹ V_l V⁻¹ r with all matrices written out, limits included."""
     limited = replace(unlimited(LEVELS), sensors=0.6 * LEVELS.sensors, inputs=0.6 * LEVELS.inputs)
-    surface, x = Surface.of(*drawn(), limited), np.linspace(-0.3, 0.3, 7)
+    surface, x = CostSurface.of(*drawn(), limited), np.linspace(-0.3, 0.3, 7)
     expected = np.eye(7)
     for piece in surface.pieces:
         inverse = np.linalg.inv(piece.block.covariance(limited.levels(x)) + piece.moved)
@@ -122,17 +122,17 @@ def test_a_secant_keeps_what_was_seen_and_stays_positive_definite() -> None:
 def test_a_search_from_noise_a_hundred_times_too_quiet_takes_few_evaluations(monkeypatch: pytest.MonkeyPatch) -> None:
     """Secants alone take four times as many; average information of the first place alone does not end in time."""
     evaluations: list[float] = []
-    at = Surface.at
+    at = CostSurface.at
 
-    def counted(self: Surface, x: np.ndarray) -> Place:
+    def counted(self: CostSurface, x: np.ndarray) -> SearchPoint:
         found = at(self, x)
         evaluations.append(found.cost)
         return found
 
-    monkeypatch.setattr(Surface, "at", counted)
+    monkeypatch.setattr(CostSurface, "at", counted)
     layouts, residuals, jitter = drawn()
     prior = LEVELS.at(LEVELS.logarithms() + 0.5)
-    loud = Beliefs(prior, 2.0 * np.eye(7), np.full(2, np.inf), np.full(1, np.inf))
+    loud = NoisePriors(prior, 2.0 * np.eye(7), np.full(2, np.inf), np.full(1, np.inf))
     quiet = LEVELS.times(np.full(2, 0.01), np.full(1, 0.01))
     _, _, nats = most_likely(layouts, residuals, jitter, loud, quiet)
     assert len(evaluations) < 30
@@ -147,7 +147,7 @@ def test_a_search_that_falls_far_again_takes_information_anew() -> None:
     jitter = [0.05 * np.ones((COUNT, 2, 1)) for _ in layouts]
     prior = LEVELS.at(LEVELS.logarithms() + rng.normal(0.0, 1.0, 7))
     limit = float(rng.uniform(0.4, 1.5))
-    beliefs = Beliefs(prior, 2.0 * np.eye(7), limit * LEVELS.sensors, limit * LEVELS.inputs)
+    beliefs = NoisePriors(prior, 2.0 * np.eye(7), limit * LEVELS.sensors, limit * LEVELS.inputs)
     start = LEVELS.at(LEVELS.logarithms() + rng.normal(0.0, 1.5, 7))
     there, _, nats = most_likely(layouts, residuals, jitter, beliefs, start)
     assert nats == pytest.approx(most_likely(layouts, residuals, jitter, beliefs, there)[2], abs=1e-3)
@@ -158,14 +158,14 @@ def test_a_search_ends_where_steps_no_longer_move(monkeypatch: pytest.MonkeyPatc
     """From the third place on every step leads uphill, as rounding may have it, however short it is."""
     layouts, residuals, jitter = drawn()
     near = most_likely(layouts, residuals, jitter, unlimited(LEVELS), LEVELS)[0]
-    at, count = Surface.at, [0]
+    at, count = CostSurface.at, [0]
 
-    def uphill(self: Surface, x: np.ndarray) -> Place:
+    def uphill(self: CostSurface, x: np.ndarray) -> SearchPoint:
         found = at(self, x)
         count[0] += 1
         return replace(found, cost=found.cost + count[0]) if count[0] > 2 else found
 
-    monkeypatch.setattr(Surface, "at", uphill)
+    monkeypatch.setattr(CostSurface, "at", uphill)
     start = near.times(np.full(2, 1.02), np.full(1, 1.02))
     found, _, nats = most_likely(layouts, residuals, jitter, unlimited(LEVELS), start, rounds=400)
     assert 10 < count[0] < 100

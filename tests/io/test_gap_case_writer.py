@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.data.cell_channels import CellChannels, CellTrial
 from geocontact.data.errors import InputWarning
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.cell_channels import CellChannels, CellTrial
 from geocontact.data.trial import Trial
-from geocontact.gap_benchmark.synthetic import plant
+from geocontact.gap_benchmark.synthetic import synthetic_case
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import DIGITS, write_gap_case
 from tests.io.gap_case_files import case_in
@@ -21,7 +21,7 @@ from tests.io.gap_case_files import case_in
 
 @cache
 def planted(system: str) -> GapCase:
-    return plant(system, "none", 5).case
+    return synthetic_case(system, "none", 5).case
 
 
 def again(case: GapCase, folder: Path, **options) -> GapCase:

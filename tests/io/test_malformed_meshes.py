@@ -18,6 +18,7 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.mesh import limits
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.mesh.ply_preflight import read_header
+from geocontact.io.text import file_preflight
 
 BALL = trimesh.creation.icosphere(subdivisions=1, radius=31.4159)
 STL = BALL.export(file_type="stl")
@@ -75,6 +76,7 @@ def ply_ascii(vertices: str, faces: str, vertex_count: int = 3, face_count: int 
     return head + (vertices + faces).encode()
 
 
+LINE = FACET.replace(b"0 50 0", b"20 0 0")
 VERTICES = "0 0 0\n50 0 0\n0 50 0\n"
 XYZ = tuple(f"property float {axis}" for axis in "xyz")
 LIST = "property list uchar int vertex_indices"
@@ -115,6 +117,14 @@ MALFORMED = {
     "no end.stl": (b"solid a\n" + FACET, "without 'endsolid'"),
     "cut in a facet.stl": (b"solid a\n" + FACET + FACET[:50], "without 'endsolid'"),
     "incomplete facet.stl": (b"solid a\n" + FACET + FACET[:50] + b"\nendsolid\n", "face 1"),
+    "no area.stl": (
+        STL[:80] + struct.pack("<I", 2) + 2 * struct.pack("<12fH", *[0] * 6, *[40, 30, 0], *[8, 6, 0], 0),
+        "none of its faces (2) has an area",
+    ),
+    "no area ascii.stl": (b"solid a\n" + 3 * LINE + b"endsolid\n", "none of its faces (3) has an area"),
+    "no area.ply": (ply_ascii("0 0 0\n50 0 0\n20 0 0\n", "3 0 1 2\n"), "none of its faces (1) has an area"),
+    "no area.obj": (b"v 0 0 0\nv 50 50 0\nf 1 2 2\nf 1 1 2\n", "none of its faces (2) has an area"),
+    "no area.vtp": (vtp(points="0 0 0 50 0 0 20 0 0"), "none of its faces (1) has an area"),
     "no facets.stl": (b"solid a\nendsolid a\n", "no faces"),
     "four vertices.stl": (
         b"solid a\n" + FACET.replace(b"endloop", b"vertex 1 1 1\nendloop") + b"endsolid\n",
@@ -264,7 +274,7 @@ def test_too_many_faces_are_refused(tmp_path, monkeypatch, name):
 def test_too_large_a_file_is_not_opened(tmp_path, monkeypatch):
     path = tmp_path / "ball.stl"
     path.write_bytes(STL)
-    monkeypatch.setattr(limits, "MAX_BYTES", 4083)
+    monkeypatch.setattr(file_preflight, "MAX_BYTES", 4083)
     with pytest.raises(InputError, match="4084 bytes, more than"):
         read_mesh(path, "mm")
 

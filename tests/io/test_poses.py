@@ -21,7 +21,7 @@ from geocontact.io.motion.poses import (
     read_pose,
 )
 from geocontact.io.opensim.osim import read_joint
-from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.tables import TextTable, read_table
 
 QUATERNION = "time [s],tx [mm],ty [cm],tz [m],qw,qx,qy,qz\n0,100,20,0.3,1,0,0,0\n1,0,0,0,0.6,0,0,0.8\n"
 EULER = "time [s],tx [mm],ty [mm],tz [mm],rx [deg],ry [rad],rz [deg]\n0,1,2,3,30,-0.4,50\n1,0,0,0,0,0,90\n"
@@ -107,7 +107,7 @@ def test_missing_euler_column_is_refused(tmp_path: Path) -> None:
         motion_from_csv(written(tmp_path, EULER.replace("ry", "y"), "gait.csv"), order="XYZ")
 
 
-def knee(folder: Path, text: str = KNEE) -> Table:
+def knee(folder: Path, text: str = KNEE) -> TextTable:
     return read_table(written(folder, text, "gait.mot"))
 
 
@@ -290,7 +290,9 @@ def test_knee_angle_columns_by_their_own_names(tmp_path: Path) -> None:
         motion_from_grood_suntay(knee(tmp_path), None, "right")
 
 
-@pytest.mark.parametrize(("side", "moving", "place"), [("both", "tibia", "`side`"), ("right", "child", "`moving_body`")])
+@pytest.mark.parametrize(
+    ("side", "moving", "place"), [("both", "tibia", "`side`"), ("right", "child", "`moving_body`")]
+)
 def test_side_and_moving_body_are_checked(tmp_path: Path, side: str, moving: str, place: str) -> None:
     with pytest.raises(InputError, match=place):
         motion_from_grood_suntay(knee(tmp_path), "flexion=fe,tx=ap", side, moving)

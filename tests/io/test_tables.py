@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.opensim.storage_header import unit_in_text
 from geocontact.io.text.columns import angles_of, lengths, parse_map, resolve
-from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.storage_header import unit_in_text
+from geocontact.io.text.tables import TextTable, read_table
 
 ROWS = "time\tknee\tknee_tx\n0.0\t10\t0.1\n0.5\t20\t0.2\n1.0\t30\t0.3\n"
 V1 = "Coordinates\nversion=1\nnRows=3\nnColumns=3\ninDegrees={flag}\n{text}endheader\n" + ROWS
@@ -25,7 +25,7 @@ BOTH = "If the header above contains a line with 'inDegrees', this indicates whe
 CSV = "time [s],knee [deg],knee_tx [mm]\n0.0,10,100\n0.5,20,200\n1.0,30,300\n"
 
 
-def table(folder: Path, text: str, name: str = "gait.mot") -> Table:
+def table(folder: Path, text: str, name: str = "gait.mot") -> TextTable:
     file = folder / name
     file.write_text(text, encoding="utf-8")
     return read_table(file)
@@ -219,7 +219,7 @@ def test_contradictory_units_are_refused_until_the_user_decides(
         np.testing.assert_array_equal(angles_of(read, ["knee"], "deg")[:, 0], np.radians([10.0, 20.0, 30.0]))
 
 
-def said_when_read(read: Table, columns: list[str], angles: str) -> list[str]:
+def said_when_read(read: TextTable, columns: list[str], angles: str) -> list[str]:
     """Warnings when the angles are read as the user says, after which the values are those of the file in that unit."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")

@@ -10,9 +10,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from benchmarks.pairs import PAIRS
-from geocontact.geometry.phong_offset import bulge, corner_normals
+from geocontact.geometry.phong_offset import corner_normals, phong_offset
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.surface_quadrature import pieces_of
+from geocontact.geometry.surface_quadrature import surface_quadrature
 from geocontact.geometry.thickness import thickness_below
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.loads.foundation import Layer, Pressed, Skin, pressed
@@ -38,7 +38,7 @@ def sample(name: str) -> Surface:
 
 def layer(body: Surface, edge: float, law: str = "linear", up: int = 1) -> Layer:
     """The top of a body, with the thickness that rays find."""
-    pieces = pieces_of(body, edge, body.face_normal[:, up] > 0.25)
+    pieces = surface_quadrature(body, edge, body.face_normal[:, up] > 0.25)
     halves = {"medial": pieces.point[:, 2] < 0.0, "lateral": pieces.point[:, 2] >= 0.0}
     return Layer(pieces, thickness_below(body, pieces.point, pieces.normal), M, law, halves)
 
@@ -66,7 +66,7 @@ def test_a_common_motion_of_both_bodies_moves_the_load_along() -> None:
     turn, shift = turned(40, -20, 100), np.array([0.3, -0.2, 0.1])
     body = slab()
     there = Surface(turn.apply(body.vertices) + shift, body.faces)
-    pieces = pieces_of(there, 0.5e-3, layer_faces(body))
+    pieces = surface_quadrature(there, 0.5e-3, layer_faces(body))
     moved = Layer(pieces, thickness_below(there, pieces.point, pieces.normal), M)
     offset = np.array([1e-3, R - D, -2e-3])
     first = pressed(layer(body, 0.5e-3), ball(40), np.eye(3), offset)
@@ -102,7 +102,7 @@ def smooth_knee(faces: int) -> tuple[float, float]:
     """Force on a synthetic knee of about so many faces a body, sunk 0.3 mm, with smooth facets and with flat ones."""
     pair = PAIRS["knee"](faces, 3)
     bed = layer(pair.fixed, np.inf)
-    heights = bulge(pair.fixed, corner_normals(pair.fixed), bed.pieces.face, bed.pieces.point)
+    heights = phong_offset(pair.fixed, corner_normals(pair.fixed), bed.pieces.face, bed.pieces.point)
     at = pair.rotation[1], pair.translation[1] - [0.0, 0.3 * MM, 0.0]
     smooth = pressed(replace(bed, height=heights), pair.moving, *at, Skin(corner_normals(pair.moving)))
     return smooth.load.pressing, pressed(bed, pair.moving, *at).load.pressing
@@ -141,7 +141,7 @@ def test_deep_overlap_is_measured_in_full() -> None:
 def test_the_far_side_of_something_thin_is_not_pressed() -> None:
     """A wafer 0.2 mm thin in the ball's skin: its underside is inside the ball as well, but looks away."""
     wafer = surface(cube((0.0, -0.1, 0.0), (2.0, 0.1, 2.0)))
-    pieces = pieces_of(wafer, 0.2e-3)
+    pieces = surface_quadrature(wafer, 0.2e-3)
     bed = Layer(pieces, np.full(len(pieces.area), 5e-3), M)
     found = pressed(bed, ball(80), np.eye(3), np.array([0.0, R - 1.5e-3, 0.0]))
     assert (found.pressure[pieces.normal[:, 1] > 0.5] > 0.0).all()

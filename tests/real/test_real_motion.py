@@ -15,7 +15,7 @@ from geocontact.io.motion.poses import motion_from_joint, motion_from_map
 from geocontact.io.opensim.osim import mesh_placements, read_joint
 from geocontact.io.opensim.osim_xml import read_model
 from geocontact.io.text.columns import angles_of
-from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.tables import TextTable, read_table
 from tests import opensim_oracle
 from tests.elsewhere import Elsewhere
 
@@ -41,7 +41,7 @@ TABLES: dict[str, tuple[int, int, str | None]] = {
 }
 
 
-def quietly(file: Path) -> Table:
+def quietly(file: Path) -> TextTable:
     """A real table; coordinates.sto says nColumns=40 and has 32, which is warned of."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "^.*nColumns=40.*", InputWarning)
@@ -72,7 +72,9 @@ def test_stale_column_count_is_said(data_dir: Path) -> None:
         read_table(data_dir / "opensim_walk/coordinates.sto")
 
 
-def assert_poses_agree(opensim: Elsewhere, file: Path, motions: dict[str, Motion], table: Table, degrees: bool) -> None:
+def assert_poses_agree(
+    opensim: Elsewhere, file: Path, motions: dict[str, Motion], table: TextTable, degrees: bool
+) -> None:
     """Child body in parent body of each joint at several frames, to 1e-9 m and 1e-9 in the matrix."""
     frames = np.linspace(0, len(table.time) - 1, 9).astype(int)
     joints = {name: read_joint(file, name) for name in motions}

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.chain.system import System
-from geocontact.data.gap_case import CaseMesh
+from geocontact.data.gap.case import CaseMesh
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial

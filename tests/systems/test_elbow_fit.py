@@ -10,17 +10,17 @@ import numpy as np
 import pytest
 
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
-from geocontact.axis_misalignment.end_stop import Stroke, curve_of, stiffness_by_displacement, stroke_of
+from geocontact.axis_misalignment.end_stop import RecordedStroke, bin_means, recorded_stroke, stiffness_by_displacement
 from geocontact.axis_misalignment.law import NAMES, ElbowLaw
 from geocontact.axis_misalignment.least_squares import (
-    Estimate,
+    ElbowFit,
     Prior,
     estimated,
     problem_of,
     r_squared,
 )
 from geocontact.axis_misalignment.residuals import normal_residuals, normality, standard_residuals
-from geocontact.axis_misalignment.scale import Scale, scale_of
+from geocontact.axis_misalignment.scale import DisplacementScale, displacement_scale
 from geocontact.axis_misalignment.synthetic import PAPER, Design, ideal, multisine
 from geocontact.axis_misalignment.uncertainty import (
     along_the_scale,
@@ -45,12 +45,12 @@ def noisy() -> Binned:
 
 
 @cache
-def three() -> Estimate:
+def three() -> ElbowFit:
     return estimated(problem_of(noisy(), parameters(LINK), {}))
 
 
 @cache
-def five() -> Estimate:
+def five() -> ElbowFit:
     return estimated(problem_of(noisy(), parameters({}), {}))
 
 
@@ -267,8 +267,8 @@ def test_noise_is_told_without_a_model() -> None:
 def test_the_joint_slides_where_the_force_levels_off() -> None:
     """The paper's Fig. 8: a negative force up to an angle at which the joint, until then at its end, starts to move."""
     stroke = (-0.010, 0.060)
-    free = curve_of(binned(trials(design=QUICK, stroke=stroke), WIDTH))
-    found = stroke_of(free)
+    free = bin_means(binned(trials(design=QUICK, stroke=stroke), WIDTH))
+    found = recorded_stroke(free)
     assert found is not None
     (stop,) = found.stops
     assert stop.side == "lower" and stop.position == pytest.approx(-0.010, abs=2e-4) and stop.force < -5.0
@@ -286,18 +286,18 @@ def test_the_joint_slides_where_the_force_levels_off() -> None:
 
 
 def test_an_extreme_of_a_joint_that_slides_is_no_end() -> None:
-    found = stroke_of(curve_of(binned(trials(design=QUICK, stroke=(-0.2, 0.2)), WIDTH)))
+    found = recorded_stroke(bin_means(binned(trials(design=QUICK, stroke=(-0.2, 0.2)), WIDTH)))
     assert found is not None and not found.stops
     (stuck,) = trials(design=QUICK, stroke=(0.0, 0.0), count=1)
-    assert stroke_of(curve_of(binned([stuck], WIDTH))) is None
+    assert recorded_stroke(bin_means(binned([stuck], WIDTH))) is None
 
 
 def test_free_displacement_and_locked_force_tell_the_stiffness() -> None:
     """The one number that angle and force alone leave open."""
     data = binned(trials(seed=3), WIDTH)
-    stroke = stroke_of(curve_of(binned(trials(seed=4, stroke=(-0.010, 0.060)), WIDTH)))
+    stroke = recorded_stroke(bin_means(binned(trials(seed=4, stroke=(-0.010, 0.060)), WIDTH)))
     assert stroke is not None
-    locked = [curve_of(data.only(k)) for k in range(6)]
+    locked = [bin_means(data.only(k)) for k in range(6)]
     found = stiffness_by_displacement(locked, stroke, WIDTH)
     assert found is not None and found.trials == 6
     assert abs(found.value - PAPER["k"]) < 4.0 * found.error and found.error < 0.05 * PAPER["k"]
@@ -306,11 +306,11 @@ def test_free_displacement_and_locked_force_tell_the_stiffness() -> None:
 FREE = (-0.010, 0.060)
 
 
-def free_scale(design: Design, seed: Sequence[int]) -> tuple[Scale, Stroke]:
+def free_scale(design: Design, seed: Sequence[int]) -> tuple[DisplacementScale, RecordedStroke]:
     data = binned(trials(design=design, seed=seed, stroke=FREE), WIDTH)
-    stroke = stroke_of(curve_of(data))
+    stroke = recorded_stroke(bin_means(data))
     assert stroke is not None
-    scale = scale_of([curve_of(data.only(trial)) for trial in range(6)], stroke, WIDTH)
+    scale = displacement_scale([bin_means(data.only(trial)) for trial in range(6)], stroke, WIDTH)
     assert scale is not None and scale.trials == 6
     return scale, stroke
 
@@ -341,7 +341,7 @@ def test_locked_forces_count_once_where_the_free_joint_sets_the_scale() -> None:
         scale, stroke = free_scale(quick, [73, run])
         e = estimated(problem_of(data, parameters({}), {}, scale), starts=0)
         assert not e.problem.scale_free
-        slope = stiffness_by_displacement([curve_of(data.only(k)) for k in range(6)], stroke, WIDTH)
+        slope = stiffness_by_displacement([bin_means(data.only(k)) for k in range(6)], stroke, WIDTH)
         assert slope is not None
         found[run] = e.named["k"], np.sqrt(covariance(data, e).matrix[0, 0]), slope.value
     spread = found.std(axis=0, ddof=1)
@@ -352,5 +352,5 @@ def test_locked_forces_count_once_where_the_free_joint_sets_the_scale() -> None:
 
 def test_one_free_trial_has_no_scale() -> None:
     data = binned(trials(design=QUICK, stroke=FREE, count=1), WIDTH)
-    stroke = stroke_of(curve_of(data))
-    assert stroke is not None and scale_of([stroke.curve], stroke, WIDTH) is None
+    stroke = recorded_stroke(bin_means(data))
+    assert stroke is not None and displacement_scale([stroke.curve], stroke, WIDTH) is None

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from geocontact.data.errors import InputError
-from geocontact.data.gap_case import CaseMesh, GapCase
+from geocontact.data.gap.case import CaseMesh, GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.geometry.contact_area.evolution import ContactPair, Settings
 from geocontact.geometry.plane import Plane

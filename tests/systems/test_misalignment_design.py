@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from geocontact.axis_misalignment.axis_drift import polynomial
 from geocontact.axis_misalignment.compensation import Compensation
 from geocontact.axis_misalignment.design import (
-    Task,
+    DesignTask,
     boundary,
     disc,
     force_band,
@@ -26,10 +26,10 @@ K, L, Z, X, Y = 222.43, 0.169, 0.127, 0.048, 0.059
 """The values identified in the source, one point of the line along which stiffness and lengths trade."""
 
 RANGE = np.radians([0.0, 120.0])
-LOCKED = Task(L, Z, *RANGE, 5.0, Compensation(K))
+LOCKED = DesignTask(L, Z, *RANGE, 5.0, Compensation(K))
 
 
-def peak(task: Task, x: float, y: float) -> float:
+def peak(task: DesignTask, x: float, y: float) -> float:
     return float(task.compensation.peak(task.extremes(np.array([[x, y]]))[0])[0])
 
 

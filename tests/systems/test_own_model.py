@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Effect
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
-from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
+from geocontact.data.gap.case import LISTED_SYSTEMS, GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import SimulatorError
@@ -21,8 +22,12 @@ from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import EFFECTS, candidates
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.program import program
+from geocontact.systems.base import Base
 from geocontact.systems.catalogue import SYSTEMS, system_of
+from geocontact.systems.elastic_joint import model as elastic_joint
+from geocontact.systems.external.python_model import python_base
 from geocontact.systems.external.simulator import PythonSimulator, Run
+from geocontact.systems.knee import full_chain
 from tests.systems.examples import elbow, foot, joint
 from tests.systems.test_command import Spring
 
@@ -30,10 +35,11 @@ MODEL = """
 from dataclasses import replace
 from types import SimpleNamespace
 
-from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Effect
 from geocontact.chain.single_deflection import SingleDeflection
 from geocontact.data.parameter import Parameter
-from geocontact.systems import elastic_joint
+from geocontact.systems.elastic_joint import model
 from geocontact.systems.base import Base
 
 def squared(angle, numbers):
@@ -46,7 +52,7 @@ def offer(system):
     return (Candidate("extra", "", "load", (extra,), link, {"extra.torque": 0.0}),)
 
 def build(parameters, constants, tables):
-    joint = elastic_joint.build(parameters, {}, tables)
+    joint = model.build(parameters, {}, tables)
     extra = Effect("extra", "load", ("mine",), offer, "this test")
     geometry = SingleDeflection("angle", squared)
     return replace(joint, name="mine", constants=dict(constants), geometry=geometry, own=(extra,))
@@ -109,6 +115,18 @@ def test_own_model_runs_and_has_its_own_effect_beside_the_others(here: Path, nam
 
 def test_a_model_of_the_package_is_one_like_any_other() -> None:
     assert system_of(case("geocontact.systems.elastic_joint.model:JOINT")).name == "elastic_joint"
+
+
+@pytest.mark.parametrize(
+    ("former", "expected"),
+    [
+        ("geocontact.systems.elastic_joint:JOINT", elastic_joint.JOINT),
+        ("geocontact.systems.knee_chain:CELLS", full_chain.CELLS),
+        ("geocontact.systems.knee_chain:SIDES", full_chain.SIDES),
+    ],
+)
+def test_a_case_may_name_a_model_of_the_package_as_before_it_moved(former: str, expected: Base) -> None:
+    assert python_base(case(former)) is expected
 
 
 @pytest.mark.parametrize(
@@ -201,13 +219,13 @@ def test_listed_names_are_those_of_the_systems() -> None:
 
 
 def blocks() -> list[str]:
-    """Python of the page for users, in order: the model, a look at it, a law, an effect."""
+    """Python of the page for users, in order: a simulator, the model, a look at it, a law, an effect, and two more."""
     page = Path(__file__).resolve().parents[2] / "docs" / "how-to" / "own_model.md"
     return re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
 
 
 def test_the_model_of_the_page_for_users_works(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    model, _, _, effect, _, _ = blocks()
+    _, model, _, _, effect, _, _ = blocks()
     monkeypatch.delitem(sys.modules, "own_orthosis", raising=False)
     text = effect + model.replace('"N m"},', '"N m"}, own=(SECOND_STRUT,),')
     (here / "own_orthosis.py").write_text(text, encoding="utf-8")

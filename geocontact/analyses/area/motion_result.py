@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from geocontact.analyses.area.pressure import PressureEvolution
+from geocontact.analyses.area.pressure.along import PressureEvolution
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.maps import DistanceMaps

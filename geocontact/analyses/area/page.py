@@ -10,7 +10,7 @@ from jaxtyping import Int
 
 from geocontact.analyses.area.meshes_table import meshes_table
 from geocontact.analyses.area.page_sections import Told, curves, in_mm, rows, scene, strip
-from geocontact.analyses.area.pressure_page import Pressures, headline, pressure_sections, pressure_words
+from geocontact.analyses.area.pressure.page import Pressures, headline, pressure_sections, pressure_words
 from geocontact.analyses.area.words import reviewers_words
 from geocontact.analyses.page_words import counted
 from geocontact.data.evolution import MM, MM2, AreaEvolution

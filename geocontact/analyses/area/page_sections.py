@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from geocontact.analyses.area.pressure_page import Pressures, face_map
+from geocontact.analyses.area.pressure.page import Pressures, face_map
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings

@@ -8,7 +8,7 @@ import pandas as pd
 from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.page import FRAMES
-from geocontact.analyses.area.pressure import pressure_evolution
+from geocontact.analyses.area.pressure.along import pressure_evolution
 from geocontact.analyses.area.read import Bodies
 from geocontact.analyses.area.reference_areas import Reference, compared, largest_difference
 from geocontact.analyses.area.result import AreaResult

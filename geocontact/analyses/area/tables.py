@@ -9,7 +9,7 @@ import pandas as pd
 
 from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
-from geocontact.analyses.area.pressure import PressureEvolution
+from geocontact.analyses.area.pressure.along import PressureEvolution
 from geocontact.data.motion import Motion
 from geocontact.loads.pressure_load import PressureLoad
 

@@ -14,9 +14,9 @@ from geocontact.analyses.area.figure import area_figure
 from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.page import write_report
-from geocontact.analyses.area.pressure import PressureEvolution
-from geocontact.analyses.area.pressure_figure import PressureMap, pressure_figure
-from geocontact.analyses.area.pressure_page import Pressures, shown_pressures
+from geocontact.analyses.area.pressure.along import PressureEvolution
+from geocontact.analyses.area.pressure.figure import PressureMap, pressure_figure
+from geocontact.analyses.area.pressure.page import Pressures, shown_pressures
 from geocontact.analyses.area.read import Bodies
 from geocontact.analyses.area.scene import write_paraview, write_stills
 from geocontact.analyses.area.tables import tables_of

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
 
+from geocontact.analyses.loadcells.recorded import Recorded
 from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.data.cell_regression import CellRegression
 from geocontact.loads.loadcells import CompartmentForces
@@ -19,32 +19,33 @@ CELLS = (
     "Each cell measures the force along its own axis. The sum is the axial force on the tray; how it is shared between "
     "the compartments is a regression, not a measurement, and shear and friction are in neither."
 )
+CYCLES, STYLES = "Cycles", "Difference to the first style (root mean square of the means)"
 ENSEMBLE = "Mean of the cycles of each style as a line, mean ± SD as a band; 0 to 100 % of each cycle's own duration."
 
 
 def write_loadcell_report(
     path: Path,
-    title: str,
-    cells: Mapping[str, Float[np.ndarray, " t"]],
-    forces: CompartmentForces,
+    recorded: Recorded,
     regression: CellRegression,
     ensemble: bytes | None,
-    tables: Sequence[Table] = (),
+    results: Sequence[Table] = (),
+    provenance: Sequence[Table] = (),
     warnings: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page of one recording; returns its size in bytes.
 
     Parameters
     ----------
-    cells, forces
-        Forces of the cells and of the compartments [N].
     ensemble
         Figure of the mean over the cycle (SVG), where cycles were asked for.
-    tables
-        Cycles and styles; inputs with hashes, options, versions.
+    results
+        Cycles and styles.
+    provenance
+        Inputs with hashes, options, versions.
     warnings
         Reservations that came up on the way.
     """
+    forces, cells = recorded.forces, recorded.by_cell(regression)
     every = -(-len(forces.time) // FRAMES)
     shown = np.arange(0, len(forces.time), every)
     sections: list[Section] = [
@@ -54,14 +55,14 @@ def write_loadcell_report(
     ]
     if ensemble is not None:
         sections.append(Picture("Over the cycle", ENSEMBLE, ensemble, wide=True))
-    sections += [*_first(tables), _weights(regression), *_rest(tables)]
+    sections += [*results, _weights(regression), *provenance]
     sections.append(Words("What the numbers do not contain", [CELLS, NOT_A_DEVICE]))
     if every > 1:
         warnings = [*warnings, f"the page shows every {every}th sample; forces.csv has them all"]
     if warnings:
         sections.append(Words("Reservations of this run", list(warnings)))
     page = Page(
-        title=title,
+        title=f"Load cells of {recorded.file.name}",
         subtitle=f"Tibial contact force from {len(cells)} load cells, weights '{regression.name}'",
         time=forces.time[shown],
         time_label="time [s]",
@@ -87,16 +88,3 @@ def _headline(forces: CompartmentForces) -> list[tuple[str, str]]:
 def _weights(r: CellRegression) -> Table:
     rows = [(c, f"{m:g}", f"{k:g}") for c, m, k in zip(r.cells, r.medial, r.lateral, strict=True)]
     return Table(f"Weights of the cells ({r.source})", ("cell", "medial", "lateral"), rows)
-
-
-def _first(tables: Sequence[Table]) -> Sequence[Table]:
-    """What tells results."""
-    return [table for table in tables if table.title in RESULTS]
-
-
-def _rest(tables: Sequence[Table]) -> Sequence[Table]:
-    return [table for table in tables if table.title not in RESULTS]
-
-
-CYCLES, STYLES = "Cycles", "Difference to the first style (root mean square of the means)"
-RESULTS = (CYCLES, STYLES)

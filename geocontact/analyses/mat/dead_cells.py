@@ -1,4 +1,4 @@
-"""Dead cells of a mat: found, told, and left as they are, left out or filled, as --dead says."""
+"""Dead cells of a mat: found, told, and left as they are, left out or filled, as is asked for."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def _warn(record: Record, read: PressureFrames, found: Bool[np.ndarray, "r c"], 
     named = ", ".join(cells[:NAMED]) + (f" and {len(cells) - NAMED} more" if len(cells) > NAMED else "")
     lost, whole = (float(read.cell_area[which].sum()) * MM2 for which in (found, read.valid))
     done = {
-        "warn": "used as they read; --dead mask leaves them out, --dead fill takes them from their neighbours",
+        "warn": "used as they read; `dead` mask leaves them out, `dead` fill takes them from their neighbours",
         "mask": f"left out, {lost:.0f} of {whole:.0f} mm²",
         "fill": "filled from their neighbours",
     }[way]

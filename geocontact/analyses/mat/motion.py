@@ -10,10 +10,9 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses.checks import refuse
+from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.recording import Recording
 from geocontact.analyses.run_record import Record
-from geocontact.cli.mat import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
@@ -48,59 +47,55 @@ class Travel:
         )
 
 
-def refuse_idle_motion(o: MatOptions) -> None:
-    """Refuse options of reading a motion that is not there, or that contradict each other."""
-    reading = {
-        "--osim": o.osim, "--joint": o.joint, "--moving": o.moving_body, "--map": o.map, "--order": o.order,
-        "--angles": o.angles,
-    }  # fmt: skip
-    refuse(
-        *((o.motion is None and value is not None, option, "does nothing without --motion", "give it too")
-          for option, value in reading.items()),
-        (o.map is not None and o.osim is not None, "--map", "beside --osim names the columns twice", "give one"),
-        (o.moving_body is not None and o.osim is None, "--moving", f"{o.moving_body} needs a joint",
-         "give --osim and --joint"),
-        (o.order is not None and o.osim is not None, "--order", "does nothing here: the joint gives the order",
-         "leave it out"),
-    )  # fmt: skip
-
-
-def followed(record: Record, seen: Recording, o: MatOptions) -> tuple[Recording, Travel | None]:
-    """The frames for which there is a pose, and the poses; all frames and None without --motion."""
+def read_segment_motion(record: Record, o: MatOptions) -> Motion | None:
+    """Poses of the segment over time; None where it is not said to move."""
     if o.motion is None:
+        return None
+    motion = read_motion(
+        o.motion,
+        osim=o.osim,
+        joint=o.joint,
+        moving=o.moving_body or "child",
+        mapping=o.map,
+        order=o.order,
+        angles=o.angles,
+    )
+    if motion.time_unit != "s":
+        raise InputError("", "`motion`", f"{o.motion} runs in {motion.time_unit}", "write its time in s")
+    if len(motion) < 2:
+        raise InputError("", "`motion`", f"{o.motion} holds one pose", "two are needed")
+    for name, value in (("order", o.order), ("angles", o.angles)):
+        if value is not None and name not in motion.heeded:
+            what = f"has no effect here: {o.motion} is read without it"
+            raise InputError("", f"`{name}`", what, "leave it out")
+    record.add_input("motion", o.motion, frames=len(motion), source=motion.source)
+    if o.osim is not None:
+        record.add_input("model", o.osim, joint=o.joint)
+    return motion
+
+
+def followed(record: Record, seen: Recording, motion: Motion | None, o: MatOptions) -> tuple[Recording, Travel | None]:
+    """The frames for which there is a pose, and the poses; all frames and None where nothing moves."""
+    if motion is None:
         return seen, None
-    motion = _motion(record, o)
     time, low, high = seen.frames.time, float(motion.time[0]), float(motion.time[-1])
     inside = (time >= low - TOUCH) & (time <= high + TOUCH)
     span = f"the mat has frames from {time[0]:g} to {time[-1]:g} s and the motion poses from {low:g} to {high:g} s"
     if not inside.any():
-        raise InputError(o.motion, "", f"no frame has a pose: {span}", "bring both to one clock")
-    if not inside.all():
-        record.warn(f"{int((~inside).sum())} of {len(time)} frames are left out, they have no pose: {span}")
+        raise InputError(o.motion or "", "", f"no frame has a pose: {span}", "bring both to one clock")
+    left_out = int((~inside).sum())
+    if left_out:
+        record.warn(f"{left_out} of {len(time)} frames are left out, they have no pose: {span}")
     poses = poses_at(motion.time, motion.poses, np.clip(time[inside], low, high))
     frame = o.frame or _name(o)
     record.results["motion"] = {
-        "source": motion.source, "frame": frame, "poses": len(motion), "frames_left_out": int((~inside).sum()),
-    }  # fmt: skip
+        "source": motion.source,
+        "frame": frame,
+        "poses": len(motion),
+        "frames_left_out": left_out,
+    }
     chosen = replace(seen, frames=_only(seen.frames, inside), read=_only(seen.read, inside))
     return chosen, Travel(poses, frame)
-
-
-def _motion(record: Record, o: MatOptions) -> Motion:
-    path = Path(str(o.motion))
-    motion = read_motion(
-        path, osim=o.osim, joint=o.joint, moving=o.moving_body or "child", mapping=o.map, order=o.order, angles=o.angles
-    )
-    refuse(
-        (motion.time_unit != "s", "--motion", f"{path} runs in {motion.time_unit}", "write its time in s"),
-        (len(motion) < 2, "--motion", f"{path} holds one pose", "two are needed"),
-        *((value is not None and name not in motion.heeded, f"--{name}", f"does nothing here: {path} asks for none",
-           "leave it out") for name, value in (("order", o.order), ("angles", o.angles))),
-    )  # fmt: skip
-    record.add_input("motion", path, frames=len(motion), source=motion.source)
-    if o.osim is not None:
-        record.add_input("model", o.osim, joint=o.joint)
-    return motion
 
 
 def _name(o: MatOptions) -> str:

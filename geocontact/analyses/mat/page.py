@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.mat.closest_point import ClosestPoint
+from geocontact.analyses.mat.findings import MatFindings
+from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.cells import Drape
-from geocontact.geometry.surface import Surface
-from geocontact.loads.mat.load import MatLoad
-from geocontact.loads.mat.map import MatMap
 from geocontact.view.page.content import (
     Body,
     Curve,
@@ -38,97 +36,80 @@ KPA, CM2, MM = 1e-3, 1e4, 1e3
 NEAR = 1e-3  # m; a scene asks for a distance, and nothing here has one
 FIGURE = "Force, pressure and area over time; right, the mat unrolled with the largest pressure of each cell."
 AXES: Mapping[str, Sequence[float]] = {
-    "+x": (1.0, 0.0, 0.0), "−x": (-1.0, 0.0, 0.0), "+y": (0.0, 1.0, 0.0), "−y": (0.0, -1.0, 0.0),
-    "+z": (0.0, 0.0, 1.0), "−z": (0.0, 0.0, -1.0),
-}  # fmt: skip
+    "+x": (1.0, 0.0, 0.0),
+    "−x": (-1.0, 0.0, 0.0),
+    "+y": (0.0, 1.0, 0.0),
+    "−y": (0.0, -1.0, 0.0),
+    "+z": (0.0, 0.0, 1.0),
+    "−z": (0.0, 0.0, -1.0),
+}
 
 
-@dataclass(frozen=True, eq=False)
-class MatStory:
-    """What the page tells; `pressure` is that of the cells of the map, `drawing` the static figure.
+def write_mat_report(path: Path, r: MatFindings, drawing: bytes) -> int:
+    """Write the self-contained page; returns its size in bytes. Long recordings are thinned out, as the page says.
 
-    `home` names the frame that the scene is in, which is not that of the loads where the segment moves.
+    `drawing` is the static figure.
     """
-
-    surface: Surface
-    frames: PressureFrames
-    map: MatMap
-    laid: Drape
-    pressure: Float[np.ndarray, "t n"]
-    whole: MatLoad
-    parts: Mapping[str, MatLoad]
-    covariance: Float[np.ndarray, "t six six"]
-    drawing: bytes
-    home: str = ""
-
-    @property
-    def heaviest(self) -> int:
-        """Frame with the largest force."""
-        return int(np.argmax(self.whole.pressing))
-
-
-def write_mat_report(
-    path: Path, title: str, story: MatStory, tables: Sequence[Table] = (), warnings: Sequence[str] = ()
-) -> int:
-    """Write the self-contained page; returns its size in bytes. Long recordings are thinned out, as the page says."""
     most = FRAMES
     while True:
-        every = -(-len(story.frames.time) // most)
-        shown = np.unique([*range(0, len(story.frames.time), every), story.heaviest])
-        size = write_page(mat_page(title, story, shown, tables, warnings), path)
+        every = -(-len(r.frames.time) // most)
+        shown = np.unique([*range(0, len(r.frames.time), every), r.heaviest])
+        size = write_page(mat_page(r, shown, drawing), path)
         most = len(shown) // 2
         if size <= LARGEST_FILE or most < FEWEST:
             return size
 
 
-def mat_page(
-    title: str, s: MatStory, shown: Int[np.ndarray, " k"], tables: Sequence[Table], warnings: Sequence[str]
-) -> Page:
+def mat_page(r: MatFindings, shown: Int[np.ndarray, " k"], drawing: bytes) -> Page:
     """The page before it becomes a file."""
-    sections: list[Section] = [_scene(s, shown), Readout(_rows(s, shown)), *_curves(s, shown)]
-    sections += [Picture("The mat", FIGURE, s.drawing, wide=True), *tables]
-    sections.append(Words("What the numbers rest on", [*_reservations(s), NOT_A_DEVICE]))
-    if len(shown) < len(s.frames.time):
-        warnings = [*warnings, f"the page shows {len(shown)} of {len(s.frames.time)} frames; wrench.csv has them all"]
+    sections: list[Section] = [_scene(r, shown), Readout(_rows(r, shown)), *_curves(r, shown)]
+    sections.append(Picture("The mat", FIGURE, drawing, wide=True))
+    if r.closest_point is not None:
+        sections.append(_two_ways(r, r.closest_point))
+    sections.append(options_table(r.record))
+    sections.append(Words("What the numbers rest on", [*_reservations(r), NOT_A_DEVICE]))
+    warnings = list(r.warnings)
+    if len(shown) < len(r.frames.time):
+        warnings.append(f"the page shows {len(shown)} of {len(r.frames.time)} frames; wrench.csv has them all")
     if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
+        sections.append(Words("Reservations of this run", warnings))
     return Page(
-        title=title,
-        subtitle=f"Pressure mat of {s.frames.rows} × {s.frames.columns} cells on a body scan",
-        time=s.frames.time[shown],
+        title=f"{r.frames.name} on {r.surface.name}",
+        subtitle=f"Pressure mat of {r.frames.rows} × {r.frames.columns} cells on a body scan",
+        time=r.frames.time[shown],
         time_label="time [s]",
-        headline=_headline(s),
-        start_frame=int(np.flatnonzero(shown == s.heaviest)[0]),
+        headline=_headline(r),
+        start_frame=int(np.flatnonzero(shown == r.heaviest)[0]),
         sections=tuple(sections),
         numbers=shown + 1,
-        total=len(s.frames.time),
+        total=len(r.frames.time),
     )
 
 
-def _scene(s: MatStory, shown: Int[np.ndarray, " k"]) -> Scene:
-    values = s.map.face_pressure(s.pressure[shown], s.surface.face_area) * KPA
+def _scene(r: MatFindings, shown: Int[np.ndarray, " k"]) -> Scene:
+    values = r.cells.face_pressure(r.pressure[shown], r.surface.face_area) * KPA
     return Scene(
-        bodies=(Body(s.surface.name, s.surface.vertices, s.surface.faces),),
+        bodies=(Body(r.surface.name, r.surface.vertices, r.surface.faces),),
         thresholds=(NEAR,),
         span=(0.0, NEAR),
         value_name="",
         directions=AXES,
-        view=tuple(_facing(s).tolist()),
+        view=tuple(_facing(r).tolist()),
         maps=(FaceMap("pressure on each face", "kPa", 0, values),),
     )
 
 
-def _facing(s: MatStory) -> Float[np.ndarray, " 3"]:
+def _facing(r: MatFindings) -> Float[np.ndarray, " 3"]:
     """Where the mat is seen from: against its mean normal; a belt has none, and is seen at the cell pressed most."""
-    if np.isfinite(s.whole.normal).all():
-        return s.whole.normal
-    row, column = s.map.cell[int(np.argmax(s.pressure[s.heaviest]))]
-    return np.asarray(s.laid.normal[row, column])
+    if np.isfinite(r.loads.normal).all():
+        return r.loads.normal
+    row, column = r.cells.cell[int(np.argmax(r.pressure[r.heaviest]))]
+    return np.asarray(r.drape.normal[row, column])
 
 
-def _rows(s: MatStory, shown: Int[np.ndarray, " k"]) -> list[Row]:
-    w = s.whole
-    sd = np.sqrt(np.maximum(np.diagonal(s.covariance, axis1=1, axis2=2), 0.0))[shown]
+def _rows(r: MatFindings, shown: Int[np.ndarray, " k"]) -> list[Row]:
+    w = r.loads
+    sd = r.deviation[shown]
     rows = [
         Row("force, perpendicular", "N", _texts(w.perpendicular[shown], 1)),
         *(Row(f"force {axis}", "N", _with(w.wrench.force[shown, k], sd[:, k], 1)) for k, axis in enumerate("xyz")),
@@ -141,12 +122,12 @@ def _rows(s: MatStory, shown: Int[np.ndarray, " k"]) -> list[Row]:
         Row("area", "cm²", _texts(w.area[shown] * CM2, 1)),
         *(Row(f"centre of pressure {axis}", "mm", _texts(w.centre[shown, k] * MM, 1)) for k, axis in enumerate("xyz")),
     ]
-    return rows + [Row(f"force, {name}", "N", _texts(part.pressing[shown], 1)) for name, part in s.parts.items()]
+    return rows + [Row(f"force, {name}", "N", _texts(part.pressing[shown], 1)) for name, part in r.segments.items()]
 
 
-def _curves(s: MatStory, shown: Int[np.ndarray, " k"]) -> list[Curves]:
-    w = s.whole
-    parts = [Curve(name, part.pressing[shown]) for name, part in s.parts.items()]
+def _curves(r: MatFindings, shown: Int[np.ndarray, " k"]) -> list[Curves]:
+    w = r.loads
+    parts = [Curve(name, part.pressing[shown]) for name, part in r.segments.items()]
     return [
         Curves(
             "Force on the body",
@@ -163,16 +144,16 @@ def _curves(s: MatStory, shown: Int[np.ndarray, " k"]) -> list[Curves]:
     ]
 
 
-def _headline(s: MatStory) -> list[tuple[str, str]]:
-    k, w = s.heaviest, s.whole
+def _headline(r: MatFindings) -> list[tuple[str, str]]:
+    k, w = r.heaviest, r.loads
     peak = int(np.argmax(w.peak))
     along = "" if np.isnan(w.perpendicular[k]) else f" ({w.perpendicular[k]:.0f} N perpendicular)"
     lines = [
         (
             "Largest force",
-            f"{w.pressing[k]:.0f} N at {s.frames.time[k]:.2f} s{along}",
+            f"{w.pressing[k]:.0f} N at {r.frames.time[k]:.2f} s{along}",
         ),
-        ("Largest pressure", f"{w.peak[peak] * KPA:.1f} kPa at {s.frames.time[peak]:.2f} s"),
+        ("Largest pressure", f"{w.peak[peak] * KPA:.1f} kPa at {r.frames.time[peak]:.2f} s"),
         ("Area under the largest force", f"{w.area[k] * CM2:.0f} cm²"),
     ]
     if np.isfinite(w.centre[k, 0]):
@@ -181,22 +162,44 @@ def _headline(s: MatStory) -> list[tuple[str, str]]:
     return lines
 
 
-def _reservations(s: MatStory) -> list[str]:
-    known = np.abs(s.laid.distortion[s.laid.covered])
-    sd = np.sqrt(np.trace(s.covariance[s.heaviest][:3, :3]))
-    met = s.laid.misses[np.isfinite(s.laid.misses)]
+def _reservations(r: MatFindings) -> list[str]:
+    known = np.abs(r.drape.distortion[r.drape.covered])
+    sd = np.sqrt(np.trace(r.uncertainty[r.heaviest][:3, :3]))
+    met = r.drape.misses[np.isfinite(r.drape.misses)]
     miss = f"{met.max() * MM:.1f} mm" if len(met) else "an unknown distance"
-    frame = s.whole.wrench.frame
-    still = "" if frame == s.home else f" The picture stands still in the frame {s.home}, with which the segment moves."
+    frame = r.loads.wrench.frame
+    still = "" if frame == r.home else f" The picture stands still in the frame {r.home}, with which the segment moves."
     return [
         f"Forces, moments and centres of pressure are in the frame {frame}.{still}",
         "A mat measures what is perpendicular to its cells. Friction along the skin is in none of these forces.",
         f"Cells are up to {known.max():.1%} larger or smaller on the scan than flat; each keeps its own sensing area.",
         f"Landmarks are missed by up to {miss}.",
         f"The errors that were stated make the largest force uncertain by {sd:.1f} N (standard deviation).",
-        "What was neither stated (--gain, --registration) nor told by a registration is not in that number.",
+        r.record.spell(
+            "What was neither stated (`gain`, `registration`) nor told by a registration is not in that number."
+        ),
         "The scan is one shape: where soft tissue gives way under the load, pressures sit where it was before.",
     ]
+
+
+def _two_ways(r: MatFindings, flat: ClosestPoint) -> Table:
+    """The mat as it is laid, and as closest points would lay it."""
+    at, drapes, both = flat.frame, (r.drape, flat.drape), (flat.used, flat.projected)
+    rows = [
+        ("area of a cell, largest change", *(f"{_largest(r, each):.1%}" for each in drapes)),
+        ("cells beside the scan", *(str(int((r.frames.valid & ~each.covered).sum())) for each in drapes)),
+        *((f"force {axis} [N]", *(f"{each.wrench.force[at, k]:.2f}" for each in both)) for k, axis in enumerate("xyz")),
+        *(
+            (f"centre of pressure {axis} [mm]", *(f"{each.centre[at, k] * MM:.1f}" for each in both))
+            for k, axis in enumerate("xyz")
+        ),
+    ]
+    title = f"Laid along the surface, and pushed straight down (frame {at + 1}, axes of the scan)"
+    return Table(title, ("", "along the surface (used)", "closest points"), rows)
+
+
+def _largest(r: MatFindings, laid: Drape) -> float:
+    return float(np.abs(laid.distortion[laid.covered & r.frames.valid]).max())
 
 
 def _texts(values: Float[np.ndarray, " k"], digits: int) -> list[str]:

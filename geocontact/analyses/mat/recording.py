@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.analyses import quantities
 from geocontact.analyses.mat.dead_cells import treated
+from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.run_record import Record
-from geocontact.cli.mat import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.identify.signals.zero_lag import zero_lag
@@ -53,23 +51,31 @@ class Recording:
         return np.asarray(clipping)
 
 
-def recording(record: Record, path: Path, o: MatOptions) -> Recording:
-    """The mat that is asked for."""
+def read_recording(record: Record, o: MatOptions) -> tuple[PressureFrames, tuple[tuple[int, int], ...]]:
+    """The mat that is asked for, and the cells that its layout lists as dead."""
     layout = None if o.layout is None else read_layout(o.layout)
     if o.layout is not None:
-        record.add_input("--layout", o.layout)
-    mats = read_mat(path, layout, o.kind)
-    read = _chosen(mats, o)
+        record.add_input("`layout`", o.layout)
+    read = _chosen(read_mat(o.frames, layout, o.kind), o)
     record.add_input(
-        "frames", path, mat=read.name, rows=read.rows, columns=read.columns, frames=len(read.time),
-        cells=int(read.valid.sum()), pitch_mm=[round(p * 1e3, 4) for p in read.pitch],
-    )  # fmt: skip
+        "frames",
+        o.frames,
+        mat=read.name,
+        rows=read.rows,
+        columns=read.columns,
+        frames=len(read.time),
+        cells=int(read.valid.sum()),
+        pitch_mm=[round(p * 1e3, 4) for p in read.pitch],
+    )
+    return read, layout.dead if layout else ()
+
+
+def made_ready(record: Record, read: PressureFrames, listed: tuple[tuple[int, int], ...], o: MatOptions) -> Recording:
+    """Frames without offset and dead cells, smoothed; `listed` are the cells that the layout lists as dead."""
     pressure = np.where(read.valid, read.pressure, 0.0)
     if o.unloaded is not None:
-        pressure = pressure - _zero(read, pressure, o).at(read.time)
-    sound = treated(
-        record, read, pressure, layout.dead if layout else (), o.dead, quantities.modulus(o.touched, "--touched")
-    )
+        pressure = pressure - _zero(read, pressure, o.unloaded).at(read.time)
+    sound = treated(record, read, pressure, listed, o.dead, o.touched)
     pressure, valid = _smooth(read, sound.pressure, o), sound.valid
     frames = replace(read, pressure=np.where(valid, pressure, np.nan), valid=valid)
     found = Recording(frames, read, sound.gaps)
@@ -81,39 +87,39 @@ def _chosen(mats: tuple[PressureFrames, ...], o: MatOptions) -> PressureFrames:
     names = [each.name for each in mats]
     if o.sensor is None:
         if len(mats) > 1:
-            raise InputError("", "--sensor", f"the recording holds {len(mats)} mats", f"choose {' or '.join(names)}")
+            raise InputError("", "`sensor`", f"the recording holds {len(mats)} mats", f"choose {' or '.join(names)}")
         return mats[0]
     if o.sensor not in names:
-        raise InputError("", "--sensor", f"there is no mat {o.sensor!r}", f"the recording holds {', '.join(names)}")
+        raise InputError("", "`sensor`", f"there is no mat {o.sensor!r}", f"the recording holds {', '.join(names)}")
     return mats[names.index(o.sensor)]
 
 
-def _zero(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOptions) -> Unloaded:
-    windows = quantities.windows(str(o.unloaded), "--unloaded")
+def _zero(
+    read: PressureFrames, pressure: Float[np.ndarray, "t r c"], windows: tuple[tuple[float, float], ...]
+) -> Unloaded:
     try:
         return unloaded(read.time, pressure, windows)
     except ValueError as error:
-        raise InputError(
-            "", "--unloaded", str(error), f"frames run from {read.time[0]:g} to {read.time[-1]:g} s"
-        ) from error
+        span = f"frames run from {read.time[0]:g} to {read.time[-1]:g} s"
+        raise InputError("", "`unloaded`", str(error), span) from error
 
 
 def _smooth(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOptions) -> Float[np.ndarray, "t r c"]:
     if o.cutoff == 0.0:
         return pressure
     if len(read.time) < 2:
-        raise InputError("", "--cutoff", "one frame cannot be filtered", "give --cutoff 0")
+        raise InputError("", "`cutoff`", "one frame cannot be filtered", "give `cutoff` 0")
     even = np.linspace(read.time[0], read.time[-1], len(read.time))
     step = float(even[1] - even[0])
     late = np.abs(read.time - even)
     if late.max() > UNEVEN * step:
         at = float(read.time[int(np.argmax(late))])
         what = f"frames are not evenly spaced (up to {late.max():.3g} s off a step of {step:.3g} s, near {at:g} s)"
-        raise InputError("", "--cutoff", what, "give --cutoff 0")
+        raise InputError("", "`cutoff`", what, "give `cutoff` 0")
     try:
         return zero_lag(pressure, step, o.cutoff)
     except ValueError as error:
-        raise InputError("", "--cutoff", str(error), "give a lower one, or 0 for none") from error
+        raise InputError("", "`cutoff`", str(error), "give a lower one, or 0 for none") from error
 
 
 def _say_what_is_odd(record: Record, seen: Recording, o: MatOptions) -> None:
@@ -133,7 +139,7 @@ def _say_what_is_odd(record: Record, seen: Recording, o: MatOptions) -> None:
     force = frames.force
     if o.unloaded is None and force.max(initial=0.0) > 0.0 and force.min() > RESTING * force.max():
         what = f"the mat never reads less than {force.min():.0f} N"
-        record.warn(f"{what}: if it was unloaded at some time, say when with --unloaded")
+        record.warn(f"{what}: if it was unloaded at some time, say when with `unloaded`")
 
 
 def _say_what_is_negative(record: Record, frames: PressureFrames) -> None:
@@ -143,4 +149,4 @@ def _say_what_is_negative(record: Record, frames: PressureFrames) -> None:
     lowest, least = float(pressure.min(initial=0.0)), float(below.min(initial=0.0))
     record.results["below_zero"] = {"lowest_Pa": lowest, "largest_force_N": -least}
     if -least > RESTING * float(np.abs(frames.force).max(initial=0.0)):
-        record.warn(f"cells that read below 0 sum to {least:.1f} N in one frame: check --unloaded and the offset")
+        record.warn(f"cells that read below 0 sum to {least:.1f} N in one frame: check `unloaded` and the offset")

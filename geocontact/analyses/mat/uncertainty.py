@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses import quantities
+from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.run_record import Record
-from geocontact.cli.mat import MatOptions
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.uncertainty import PoseCovariance
 from geocontact.loads.mat.errors import MatErrors
@@ -17,19 +16,18 @@ from geocontact.loads.mat.map import MatMap
 def stated_errors(
     record: Record, placed: MatMap, registration: Registration | None, slip: PoseCovariance | None, o: MatOptions
 ) -> MatErrors:
-    """Errors of cells, and of the place: as --registration states it, else as the residuals tell.
+    """Errors of cells, and of the place: as `registration` states it, else as the residuals tell.
 
     Those are of the registration, if there is one, and of the mat's landmarks (`slip`); they are independent.
     """
-    cell = quantities.fraction(o.accuracy, "--accuracy")
-    gain = 0.0 if o.gain is None else quantities.fraction(o.gain, "--gain")
-    told: dict[str, object] = {"cell": cell, "gain": gain, "place": "not stated: no --registration, and no residual"}
+    cell, gain = o.accuracy, o.gain or 0.0
+    nothing = record.spell("not stated: no `registration`, and no residual")
+    told: dict[str, object] = {"cell": cell, "gain": gain, "place": nothing}
     record.results["uncertainty"] = told
     if o.registration is not None:
-        shift, turn = quantities.registration(o.registration)
-        told.update(
-            {"place": "--registration", "sd_shift_mm": [shift * 1e3] * 3, "sd_turn_deg": [np.degrees(turn)] * 3}
-        )
+        shift, turn = o.registration
+        told["place"] = record.spell("`registration`")
+        told.update({"sd_shift_mm": [shift * 1e3] * 3, "sd_turn_deg": [np.degrees(turn)] * 3})
         return MatErrors(cell, gain, shift, turn)
     middle = (placed.area @ placed.centre) / placed.area.sum()
     known = None if registration is None else registration.covariance

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -15,8 +17,13 @@ if TYPE_CHECKING:
 __all__ = ["compare", "design", "identify", "population", "simulate"]
 
 
-def __getattr__(name: str) -> Any:
-    """Import the analysis that is asked for."""
-    if name in __all__:
-        return getattr(import_module(f"geocontact.analyses.misalignment.{name}.job"), name)
-    raise AttributeError(f"module 'geocontact.misalignment' has no attribute {name!r}")
+class _Analyses(ModuleType):
+    """The package, whose attributes are the analyses and not the sub-packages that have their names."""
+
+    def __getattribute__(self, name: str) -> Any:
+        if name in __all__:  # importing a sub-package sets an attribute, which would hide its analysis
+            return getattr(import_module(f"{__name__}.{name}.job"), name)
+        return super().__getattribute__(name)
+
+
+sys.modules[__name__].__class__ = _Analyses

@@ -1,69 +1,72 @@
-"""Numbers of the elbow's law as they are typed: k=222,x=48,y=59,l=169,z=127 in N/m and mm."""
+"""What is typed of the elbow's law, in SI: k=222,x=48,y=59,l=169,z=127 in N/m and mm."""
 
 from __future__ import annotations
 
 from geocontact.analyses import quantities
+from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, require_names
 from geocontact.data.errors import InputError
-from geocontact.io.text.units import DIMENSIONS
+from geocontact.io.text.units import ANGLE
 
-MMHG = DIMENSIONS["Pa"]["mmHg"]
-PER_SI = {"k": 1.0, "x": 1e3, "y": 1e3, "l": 1e3, "z": 1e3, "b": 1.0, "s": MMHG}
-"""How many of the unit typed one SI unit is."""
-TYPED = {"k": "N/m", "x": "mm", "y": "mm", "l": "mm", "z": "mm", "b": "N s/m", "s": "1/mmHg"}
 EXAMPLE = "l=169,z=127 (N/m, mm, N s/m, 1/mmHg)"
 
-SHORTEST_LINK = 20e-3  # m
+
+def numbers(text: str, option: str) -> dict[str, float]:
+    """ "l=169,z=127" to numbers in SI by name."""
+    return {name: _in_si(name, value, option) for name, value in _assignments(text, option).items()}
 
 
-def require_link(length: float, option: str) -> None:
-    """Refuse a link [m] that no arm wears: metres typed where mm are asked for."""
-    if 0.0 < length < SHORTEST_LINK:
-        what = f"l = {length * 1e3:g} mm is no link of an exoskeleton: are these metres?"
-        raise InputError("", option, what, f"give mm, such as {EXAMPLE.split(',', maxsplit=1)[0]}")
-
-
-def assignments(text: str | None, option: str) -> dict[str, str]:
-    """ "l=169,z=120:6" to what is written for each name."""
-    found: dict[str, str] = {}
-    for part in text.split(",") if text else ():
-        name, equals, value = (piece.strip() for piece in part.partition("="))
-        if name not in PER_SI or not equals or not value:
-            what = f"{part.strip()!r} is not name=value with one of {', '.join(PER_SI)}"
-            raise InputError("", option, what, f"write for example {EXAMPLE}")
-        if name in found:
-            raise InputError("", option, f"{name} is given twice", "give each once")
-        found[name] = value
+def pairs(text: str, option: str) -> dict[str, tuple[float, float]]:
+    """ "x=-60:60" to pairs of numbers in SI by name."""
+    found = {}
+    for name, value in _assignments(text, option).items():
+        first, last = _ends(value, option)
+        found[name] = _in_si(name, first, option), _in_si(name, last, option)
     return found
 
 
-def values(text: str | None, option: str) -> dict[str, float]:
-    """Numbers in SI units by name."""
-    return {name: quantities.number(value, option, EXAMPLE) / PER_SI[name]
-            for name, value in assignments(text, option).items()}  # fmt: skip
-
-
-def pairs(text: str | None, option: str) -> dict[str, tuple[float, float]]:
-    """Pairs of numbers in SI units by name, "x=-60:60"."""
-    return {name: tuple(end / PER_SI[name] for end in pair(value, option))  # type: ignore[misc]
-            for name, value in assignments(text, option).items()}  # fmt: skip
+def names(text: str, option: str) -> tuple[str, ...]:
+    """ "b,s" to names."""
+    return tuple(name.strip() for name in text.split(","))
 
 
 def pair(text: str, option: str) -> tuple[float, float]:
-    """ "-60:60" to two numbers."""
+    """ "0.05:0.35" to two numbers."""
+    first, last = (quantities.number(end, option, "5:95") for end in _ends(text, option))
+    return first, last
+
+
+def degrees(text: str, option: str) -> tuple[float, float]:
+    """ "8:92" in degrees to two angles [rad]."""
+    first, last = pair(text, option)
+    return first * ANGLE["deg"], last * ANGLE["deg"]
+
+
+def mercury(text: str, option: str) -> tuple[float, float]:
+    """ "10:60" in mmHg to two pressures [Pa]."""
+    first, last = pair(text, option)
+    return first * MMHG, last * MMHG
+
+
+def _assignments(text: str, option: str) -> dict[str, str]:
+    """ "l=169,z=120:6" to what is written for each name."""
+    found: dict[str, str] = {}
+    for part in text.split(","):
+        name, equals, value = (piece.strip() for piece in part.partition("="))
+        if not equals or not value:
+            raise InputError("", option, f"{part.strip()!r} is not name=value", f"write for example {EXAMPLE}")
+        if name in found:
+            raise InputError("", option, f"{name} is given twice", "give each once")
+        found[name] = value
+    require_names(found, option)
+    return found
+
+
+def _in_si(name: str, text: str, option: str) -> float:
+    return quantities.number(text, option, EXAMPLE) / PER_SI[name]
+
+
+def _ends(text: str, option: str) -> tuple[str, str]:
     first, colon, last = text.partition(":")
     if not colon:
         raise InputError("", option, f"{text!r} is not a pair of numbers", "write them with a colon, as in 5:95")
-    return quantities.number(first, option, "5:95"), quantities.number(last, option, "5:95")
-
-
-def interval(text: str, option: str) -> tuple[float, float]:
-    """The same, the first below the second."""
-    low, high = pair(text, option)
-    if not low < high:
-        raise InputError("", option, f"{text!r} has no room between its ends", "write lower:upper")
-    return low, high
-
-
-def unit_in_key(name: str) -> str:
-    """Unit of a number as part of a key: N_per_m."""
-    return TYPED[name].replace("1/", "per_").replace("/", "_per_").replace(" ", "_")
+    return first, last

@@ -1,105 +1,61 @@
-"""The identification of E*: reads, computes, writes, says what it found."""
+"""E* of a contact from the evolution of its area and measured forces."""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-import numpy as np
-
-from geocontact.analyses.modulus.inputs import (
-    Inputs,
-    inputs_given,
-    model_of,
-    poisson_ratios,
-    refuse_idle,
-    threshold_given,
-)
-from geocontact.analyses.modulus.prediction import Prediction, predictions
+from geocontact.analyses.modulus.identified import Identified
+from geocontact.analyses.modulus.model import model_of, threshold_given
+from geocontact.analyses.modulus.numbers import describe
+from geocontact.analyses.modulus.options import ModulusOptions
+from geocontact.analyses.modulus.prediction import predictions
+from geocontact.analyses.modulus.read import Inputs
+from geocontact.analyses.modulus.result import ModulusResult
+from geocontact.analyses.modulus.sensitivity import sensitivity
 from geocontact.analyses.modulus.unknowns import unknowns
-from geocontact.analyses.modulus.write import describe, write_results
-from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
-from geocontact.cli.modulus import ModulusOptions
-from geocontact.contact.area_hertz import READINGS
 from geocontact.data.errors import InputError
-from geocontact.elastic_modulus.area_force import MODULUS, THRESHOLD, AreaForce
-from geocontact.elastic_modulus.identify import STRONGEST, WEAKEST, Identification, agreement, identify
+from geocontact.data.parameter import Parameter
+from geocontact.elastic_modulus.area_force import MODULUS
+from geocontact.elastic_modulus.identify import Identification, agreement, identify
 from geocontact.elastic_modulus.threshold_calibration import Calibration, calibrated
-from geocontact.io.recordings.area_table import read_area_over_force
 
 FEW_BLOCKS = 5
 STRAYED = 0.3  # rms of the calibration's relative differences beyond which the table is not met
 
 
-@dataclass(frozen=True)
-class SensitivityRow:
-    """E* of one side, reading and threshold, all else equal; infinite where the reading sees no contact."""
-
-    side: str
-    reading: str
-    threshold: float
-    modulus: float
-    rmse: float
-    r2: float
-
-
-@dataclass(frozen=True, eq=False)
-class Identified:
-    """Everything found, by side; the first side is the headline."""
-
-    inputs: Inputs
-    sides: dict[str, Identification]
-    sensitivity: list[SensitivityRow]
-    calibration: Calibration | None
-    predictions: list[Prediction]
-    poisson: tuple[float, ...]
-
-
-def analyse(o: ModulusOptions) -> int:
-    """Run the whole analysis."""
-    record = Record("modulus", asdict(o))
-    refuse_idle(o)
-    with record.catching_warnings(), written_whole(o.out) as draft:
-        found = _identified(record, o)
-        record.results["modulus"] = describe(found)
-        write_results(record, found, o, draft)
-        record.write(draft)
-        written = sorted(file.name for file in draft.iterdir())
-    _tell(record, found)
-    record.say(f"results in {o.out}: {', '.join(written)}")
-    record.speak()
-    return 0
-
-
-def _identified(record: Record, o: ModulusOptions) -> Identified:
-    inputs = inputs_given(record, o)
-    calibration = None if o.calibrate is None else _calibrated(record, inputs, o.calibrate)
+def run(inputs: Inputs, o: ModulusOptions, record: Record) -> ModulusResult:
+    """E* of every side, with what it depends on, and the forces of a trial that was not used."""
+    calibration = _calibrated(record, inputs, o.calibrate)
     threshold = threshold_given(o, inputs.table) if calibration is None else calibration.threshold
     others = unknowns(o, inputs, threshold)
-    sides = {}
-    for side in inputs.sides:
-        model, measured = model_of(inputs, side, threshold, others)
-        if not model.per_modulus({}).any():
-            what = f"{side}: reading '{o.reading}' sees no contact at {threshold * 1e3:g} mm in any frame"
-            raise InputError(inputs.table.file, "", what, "give a larger --threshold or another --reading")
-        sides[side] = identify(model, measured, others, o.bootstrap)
-        _reserve(record, side, sides[side])
-    rows = [row for side, each in sides.items() for row in _sensitivity(side, each)]
-    told = predictions(record, o, inputs, sides)
-    return Identified(inputs, sides, rows, calibration, told, poisson_ratios(o))
+    sides = {side: _identified(record, inputs, side, threshold, others, o) for side in inputs.sides}
+    found = Identified(sides, sensitivity(sides), calibration, predictions(inputs, sides), o.poisson)
+    record.results["modulus"] = describe(found)
+    _tell(record, found)
+    return ModulusResult(record=record, options=o, found=found)
 
 
-def _calibrated(record: Record, inputs: Inputs, path: Path) -> Calibration:
+def _identified(
+    record: Record, inputs: Inputs, side: str, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
+) -> Identification:
+    model, measured = model_of(inputs, side, threshold, others)
+    if not model.per_modulus({}).any():
+        what = f"{side}: reading '{o.reading}' sees no contact at {threshold * 1e3:g} mm in any frame"
+        raise InputError(inputs.table.file, "", what, "give a larger `threshold` or another `reading`")
+    found = identify(model, measured, others, o.bootstrap)
+    _reserve(record, side, found)
+    return found
+
+
+def _calibrated(record: Record, inputs: Inputs, path: Path | None) -> Calibration | None:
     """Threshold with which the areas of the whole are those of the table at the same force."""
+    if path is None or inputs.measured_areas is None:
+        return None
     side = next(iter(inputs.evolutions))
-    if len(inputs.table.thresholds) < 3:
-        raise InputError(path, "", "calibrating needs areas at 3 thresholds or more", "see geocontact area --threshold")
-    record.add_input("--calibrate", path)
     model, measured = model_of(inputs, side, float(inputs.table.thresholds[0]), ())
-    measured_areas = read_area_over_force(path)
     try:
-        found = calibrated(inputs.evolutions[side], model.frames, measured, *measured_areas)
+        found = calibrated(inputs.evolutions[side], model.frames, measured, *inputs.measured_areas)
     except ValueError as error:
         raise InputError(path, "", str(error), "give areas at forces of the trial") from error
     if found.on_end:
@@ -107,29 +63,6 @@ def _calibrated(record: Record, inputs: Inputs, path: Path) -> Calibration:
     if found.rms > STRAYED:
         record.warn(f"{path.name}: areas differ by {found.rms:.0%} (rms) even at the best threshold")
     return found
-
-
-def _sensitivity(side: str, each: Identification) -> list[SensitivityRow]:
-    """Every reading at every threshold that was evaluated, and at the one used."""
-    used = each.fit.values.get(THRESHOLD, each.model.threshold)
-    levels = sorted({*map(float, each.model.evolution.thresholds), used})
-    rows = []
-    for reading in READINGS:
-        if reading.name == "strip" and not np.isfinite(each.model.evolution.length):
-            continue
-        for level in levels:
-            model = replace(each.model, reading=reading, threshold=level)
-            rows.append(_row(side, model, each, level))
-    return rows
-
-
-def _row(side: str, model: AreaForce, each: Identification, level: float) -> SensitivityRow:
-    held = {name: value for name, value in each.fit.values.items() if name not in (MODULUS, THRESHOLD)}
-    if not model.per_modulus(held).any():
-        return SensitivityRow(side, model.reading.name, level, np.inf, np.nan, np.nan)
-    modulus = float(model.refit(each.measured[None, :], held, (WEAKEST, STRONGEST))[0, 0])
-    rmse, r2 = agreement(each.measured, model.force({**held, MODULUS: modulus}))
-    return SensitivityRow(side, model.reading.name, level, modulus, rmse, r2)
 
 
 def _reserve(record: Record, side: str, each: Identification) -> None:

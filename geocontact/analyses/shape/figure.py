@@ -76,17 +76,13 @@ def _seen(fit: ShapeFit, points: Float[np.ndarray, "n 3"]) -> _Seen:
         return _of_sphere(*(offset @ (frame * np.sign(frame[2] @ pole or 1.0)).T).T)
     u, v, w = (offset @ across(fit.axis).T).T
     if fit.radius is None:
-        return _Seen(
-            np.column_stack([u, w]), ("in the plane [mm]", "above the plane [mm]"),
-            np.column_stack([u, v]), ("in the plane, u [mm]", "in the plane, v [mm]"),
-        )  # fmt: skip
+        labels, beside = ("in the plane [mm]", "above the plane [mm]"), ("in the plane, u [mm]", "in the plane, v [mm]")
+        return _Seen(np.column_stack([u, w]), labels, np.column_stack([u, v]), beside)
     angle = np.arctan2(v, u)
     middle = float(np.angle(np.exp(1j * angle).mean()))
     turned = np.degrees(np.angle(np.exp(1j * (angle - middle))))
-    return _Seen(
-        np.column_stack([u, v]), ("across, u [mm]", "across, v [mm]"),
-        np.column_stack([turned, w]), ("angle about the axis [°]", "along the axis [mm]"),
-    )  # fmt: skip
+    labels, beside = ("across, u [mm]", "across, v [mm]"), ("angle about the axis [°]", "along the axis [mm]")
+    return _Seen(np.column_stack([u, v]), labels, np.column_stack([turned, w]), beside)
 
 
 def _of_sphere(u: Float[np.ndarray, " n"], v: Float[np.ndarray, " n"], w: Float[np.ndarray, " n"]) -> _Seen:
@@ -94,10 +90,8 @@ def _of_sphere(u: Float[np.ndarray, " n"], v: Float[np.ndarray, " n"], w: Float[
     aside = np.hypot(u, v)
     polar = np.arctan2(aside, w)
     share = 2.0 * np.degrees(np.sin(0.5 * polar)) / np.maximum(aside, 1e-12)
-    return _Seen(
-        np.column_stack([aside, w]), ("off the pole [mm]", "along it [mm]"),
-        np.column_stack([share * u, share * v]), ("equal-area map, u [°]", "equal-area map, v [°]"),
-    )  # fmt: skip
+    labels, beside = ("off the pole [mm]", "along it [mm]"), ("equal-area map, u [°]", "equal-area map, v [°]")
+    return _Seen(np.column_stack([aside, w]), labels, np.column_stack([share * u, share * v]), beside)
 
 
 def _outline(axes: Axes, fit: ShapeFit, section: Float[np.ndarray, "n 2"]) -> None:

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float, Int
 
 from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.shape.fitting import Fitting
 from geocontact.geometry.fit.directions import across
 from geocontact.geometry.fit.found import OUTLYING, ShapeFit
-from geocontact.geometry.fit.profile import SagittalProfile
-from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Body, Page, Picture, Scene, Section, Table, Words
 from geocontact.view.page.write import write_page
 
@@ -45,21 +43,9 @@ INTERVAL = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class FittedSurface:
-    """What a page tells: a surface [m], its residual at the vertices (NaN off the patch), and what was fitted."""
-
-    surface: Surface
-    residual: Float[np.ndarray, " n"]
-    chosen: Bool[np.ndarray, " m"]
-    whole: ShapeFit
-    sides: Mapping[str, ShapeFit]
-    profiles: Mapping[str, SagittalProfile]
-
-
 def write_fit_report(
     path: Path,
-    fitted: FittedSurface,
+    fitted: Fitting,
     drawings: Mapping[str, bytes],
     title: str,
     provenance: Sequence[Table] = (),
@@ -80,7 +66,7 @@ def write_fit_report(
 
 
 def fit_page(
-    fitted: FittedSurface,
+    fitted: Fitting,
     drawings: Mapping[str, bytes],
     title: str,
     provenance: Sequence[Table] = (),
@@ -92,10 +78,11 @@ def fit_page(
     sections += [_fits(fitted), *provenance, Words("How far to trust it", _words(fitted))]
     if warnings:
         sections.append(Words("Reservations of this run", list(warnings)))
-    count = int(fitted.chosen.sum())
+    patch = fitted.patch
+    chosen = f"Fitted to {int(patch.faces.sum())} of {len(patch.faces)} faces of {patch.surface.name}"
     return Page(
         title=title,
-        subtitle=f"Fitted to {count} of {len(fitted.chosen)} faces of {fitted.surface.name}; the others are left grey",
+        subtitle=f"{chosen}; the others are left grey",
         time=np.zeros(1),
         time_label="time [s]",
         headline=_headline(fitted.whole),
@@ -117,11 +104,19 @@ def _headline(fit: ShapeFit) -> list[tuple[str, str]]:
     return lines
 
 
-def _scene(fitted: FittedSurface) -> Scene:
+def _scene(fitted: Fitting) -> Scene:
     shape = fitted.whole.shape
     limit = max(OUTLYING * fitted.whole.quality.noise, FINEST)
-    distance = np.where(np.isnan(fitted.residual), np.inf, np.abs(fitted.residual))
-    bodies = [Body(fitted.surface.name, fitted.surface.vertices, fitted.surface.faces, distance=distance[None])]
+    residual = fitted.residual
+    distance = np.where(np.isnan(residual), np.inf, np.abs(residual))
+    bodies = [
+        Body(
+            fitted.patch.surface.name,
+            fitted.patch.surface.vertices,
+            fitted.patch.surface.faces,
+            distance=distance[None],
+        )
+    ]
     vertices, faces = drawn(fitted)
     bodies.append(Body(SHAPE.format(shape), vertices, faces, opacity=0.2))
     return Scene(
@@ -133,10 +128,10 @@ def _scene(fitted: FittedSurface) -> Scene:
     )
 
 
-def drawn(fitted: FittedSurface) -> tuple[Float[np.ndarray, "k 3"], Int[np.ndarray, "l 3"]]:
+def drawn(fitted: Fitting) -> tuple[Float[np.ndarray, "k 3"], Int[np.ndarray, "l 3"]]:
     """Triangles of the shape [m], as far as the patch reaches."""
     fit = fitted.whole
-    offset = fitted.surface.vertices[np.isfinite(fitted.residual)] - fit.point
+    offset = fitted.patch.surface.vertices[np.isfinite(fitted.residual)] - fit.point
     frame = across(np.array([0.0, 0.0, 1.0]) if fit.axis is None else fit.axis)
     local = offset @ frame.T
     lower, upper = local.min(axis=0), local.max(axis=0)
@@ -159,22 +154,20 @@ def drawn(fitted: FittedSurface) -> tuple[Float[np.ndarray, "k 3"], Int[np.ndarr
     return grid.reshape(-1, 3) @ frame + fit.point, faces
 
 
-def _fits(fitted: FittedSurface) -> Table:
+def _fits(fitted: Fitting) -> Table:
     header = ("points", "radius [mm]", "95 % interval [mm]", "rms [mm]", "mean [mm]", "inliers", "arc [°]")
     rows = []
     for name, fit in {"whole patch": fitted.whole, **fitted.sides}.items():
         interval = fit.radius_interval
-        rows.append((
-            f"{name}: {len(fit.quality.residual)}",
-            "–" if fit.radius is None else f"{fit.radius * MM:.3f}",
-            "–" if interval is None else f"{interval[0] * MM:.3f} … {interval[1] * MM:.3f}",
-            f"{fit.rms * MM:.3f}", f"{fit.mean_abs * MM:.3f}", f"{int(fit.quality.inlier.sum())}",
-            f"{np.degrees(fit.arc):.0f}",
-        ))  # fmt: skip
+        radius = "–" if fit.radius is None else f"{fit.radius * MM:.3f}"
+        span = "–" if interval is None else f"{interval[0] * MM:.3f} … {interval[1] * MM:.3f}"
+        distances = (f"{fit.rms * MM:.3f}", f"{fit.mean_abs * MM:.3f}")
+        counts = (f"{int(fit.quality.inlier.sum())}", f"{np.degrees(fit.arc):.0f}")
+        rows.append((f"{name}: {len(fit.quality.residual)}", radius, span, *distances, *counts))
     return Table("Fitted shapes", header, rows)
 
 
-def _words(fitted: FittedSurface) -> list[str]:
+def _words(fitted: Fitting) -> list[str]:
     words = [DISTANCES]
     if fitted.whole.radius is not None:
         words.append(INTERVAL)

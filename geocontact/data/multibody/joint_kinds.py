@@ -1,4 +1,7 @@
-"""Joints of a tree made in Python: revolute, prismatic, gimbal, free, weld. Files have them and more (`io.opensim.osim`)."""
+"""Joints of a tree made in Python: revolute, prismatic, gimbal, free, weld.
+
+Files have these and more (`io.opensim.osim`).
+"""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from geocontact.chain.candidate import Candidate
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.links import RECORDING, Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.effects.parts import with_motion, with_sensor
@@ -15,11 +15,11 @@ MIX_UP, REVERSAL, SWAP = RECORDING + 10.0, RECORDING + 20.0, RECORDING + 30.0
 """Ranks of mistakes; all come after what a recording leaves out."""
 
 
-def output_fault(
+def output_error(
     name: str,
     variant: str,
     rank: float,
-    change: Callable[[Channels, Movement, Values], Channels],
+    change: Callable[[Channels, DifferentiatedInputs, Values], Channels],
     channel: str = "",
     factor: float = 1.0,
 ) -> Candidate:
@@ -32,10 +32,10 @@ def output_fault(
     return Candidate(name, variant, "data", (), somewhere(None), somewhere=somewhere, channel=channel, factor=factor)
 
 
-def input_fault(
+def input_error(
     name: str,
     variant: str,
-    change: Callable[[Movement, Movement, Values], Movement],
+    change: Callable[[DifferentiatedInputs, DifferentiatedInputs, Values], DifferentiatedInputs],
     channel: str = "",
     factor: float = 1.0,
 ) -> Candidate:

@@ -7,11 +7,12 @@ No parameter: discrete.
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.links import Channels, Values
 from geocontact.chain.system import System
-from geocontact.effects.data_errors.data_error import SWAP, output_fault
+from geocontact.effects.data_errors.data_error import SWAP, output_error
 from geocontact.effects.parts import load_channels
 
 
@@ -27,10 +28,10 @@ def swapped(system: System, a: str, b: str) -> Candidate:
     i, j = system.outputs.index(a), system.outputs.index(b)
     order[i], order[j] = j, i
 
-    def change(outputs: Channels, _: Movement, __: Values) -> Channels:
+    def change(outputs: Channels, _: DifferentiatedInputs, __: Values) -> Channels:
         return outputs[:, order]
 
-    return output_fault("side_swap", f"{a}_{b}", SWAP, change)
+    return output_error("side_swap", f"{a}_{b}", SWAP, change)
 
 
 SIDE_SWAP = Effect(

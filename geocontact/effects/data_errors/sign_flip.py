@@ -5,20 +5,21 @@ output → -output; an input is turned back before the model sees it. No paramet
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Effect
 from geocontact.chain.system import System
-from geocontact.effects.data_errors.data_error import REVERSAL, input_fault, output_fault
+from geocontact.effects.data_errors.data_error import REVERSAL, input_error, output_error
 from geocontact.effects.data_errors.unit_error import input_over, output_times
 
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate per channel."""
     outputs = [
-        output_fault("sign_flip", name, REVERSAL, output_times(column, -1.0), name, -1.0)
+        output_error("sign_flip", name, REVERSAL, output_times(column, -1.0), name, -1.0)
         for column, name in enumerate(system.outputs)
     ]
     inputs = [
-        input_fault("sign_flip", name, input_over(system.inputs.index(name), -1.0), name, -1.0)
+        input_error("sign_flip", name, input_over(system.inputs.index(name), -1.0), name, -1.0)
         for name in system.driving
     ]
     return (*outputs, *inputs)

@@ -12,11 +12,12 @@ from math import degrees
 
 import numpy as np
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.links import Channels, Values
 from geocontact.chain.system import System
-from geocontact.effects.data_errors.data_error import MIX_UP, input_fault, output_fault
+from geocontact.effects.data_errors.data_error import MIX_UP, input_error, output_error
 
 FACTORS = {
     "N": (1000.0, 9.80665, 4.4482216152605),
@@ -39,10 +40,10 @@ def factors(unit: str) -> dict[str, float]:
     return found
 
 
-def output_times(column: int, factor: float) -> Callable[[Channels, Movement, Values], Channels]:
+def output_times(column: int, factor: float) -> Callable[[Channels, DifferentiatedInputs, Values], Channels]:
     """Multiplies a column."""
 
-    def change(outputs: Channels, _: Movement, __: Values) -> Channels:
+    def change(outputs: Channels, _: DifferentiatedInputs, __: Values) -> Channels:
         out = outputs.copy()
         out[:, column] *= factor
         return out
@@ -50,10 +51,12 @@ def output_times(column: int, factor: float) -> Callable[[Channels, Movement, Va
     return change
 
 
-def input_over(row: int, factor: float) -> Callable[[Movement, Movement, Values], Movement]:
+def input_over(
+    row: int, factor: float
+) -> Callable[[DifferentiatedInputs, DifferentiatedInputs, Values], DifferentiatedInputs]:
     """Divides an input and its derivatives."""
 
-    def change(movement: Movement, _: Movement, __: Values) -> Movement:
+    def change(movement: DifferentiatedInputs, _: DifferentiatedInputs, __: Values) -> DifferentiatedInputs:
         by = np.ones((len(movement.inputs), 1))
         by[row] = 1.0 / factor
         return replace(
@@ -69,12 +72,12 @@ def input_over(row: int, factor: float) -> Callable[[Movement, Movement, Values]
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate per channel and factor."""
     found = [
-        output_fault("unit_error", f"{name}.{word}", MIX_UP, output_times(column, factor), name, factor)
+        output_error("unit_error", f"{name}.{word}", MIX_UP, output_times(column, factor), name, factor)
         for column, name in enumerate(system.outputs)
         for word, factor in factors(system.unit(name)).items()
     ]
     found += [
-        input_fault("unit_error", f"{name}.{word}", input_over(system.inputs.index(name), factor), name, factor)
+        input_error("unit_error", f"{name}.{word}", input_over(system.inputs.index(name), factor), name, factor)
         for name in system.driving
         for word, factor in factors(system.unit(name)).items()
     ]

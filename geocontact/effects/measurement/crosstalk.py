@@ -6,8 +6,9 @@ shape.
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -22,7 +23,7 @@ def coupled(system: System, source: str, target: str) -> Candidate:
     b, a = system.outputs.index(source), system.outputs.index(target)
     share = Parameter(f"crosstalk.{variant}.share", "-", 0.02, -0.5, 0.5)
 
-    def change(outputs: Channels, _: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, _: DifferentiatedInputs, values: Values) -> Channels:
         out = outputs.copy()
         out[:, a] += values[share.name] * outputs[:, b]
         return out

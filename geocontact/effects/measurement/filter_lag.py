@@ -7,8 +7,9 @@ signals is the amplitude, the order in 1..2 the shape; order 2 is critically dam
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.history import lagged
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
@@ -24,7 +25,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
     lag = Parameter("filter_lag.lag", "s", min(0.02, 0.2 * most), 0.0, most)
     order = Parameter("filter_lag.order", "-", 1.2, 1.0, 2.0)
 
-    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         return lagged(movement.time, outputs, values[lag.name], values[order.name])
 
     link = with_sensor(Modifier("filter_lag", RANK, change, apart=True))

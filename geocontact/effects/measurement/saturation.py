@@ -9,8 +9,9 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -37,7 +38,7 @@ def saturated(system: System, name: str) -> Candidate:
     level = Parameter(f"saturation.{name}.level", system.unit(name), 0.95 * most, 0.05 * most, most)
     softness = Parameter(f"saturation.{name}.softness", "-", 0.03, 0.0, 0.15)
 
-    def change(outputs: Channels, _: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, _: DifferentiatedInputs, values: Values) -> Channels:
         out = outputs.copy()
         out[:, column] = clipped(outputs[:, column], values[level.name], values[softness.name])
         return out

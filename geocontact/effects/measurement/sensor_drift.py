@@ -9,8 +9,9 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -33,7 +34,7 @@ def drifting(system: System, name: str) -> Candidate:
     rate = Parameter(f"sensor_drift.{name}.rate", f"{system.unit(name)}/s", 0.02 * most, -2.0 * most, 2.0 * most)
     bend = Parameter(f"sensor_drift.{name}.bend", "-", 0.0, 0.0, 10.0)
 
-    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         share = (movement.time - movement.time[0]) / whole
         by = values[rate.name] * whole * drift(share, values[bend.name])
         return np.asarray(outputs + by[:, None] * hit)

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -22,7 +23,7 @@ def scaled(system: System, variant: str, channels: tuple[str, ...]) -> Candidate
     hit = np.array([name in channels for name in system.outputs])
     gain = Parameter(f"sensor_gain.{variant}.gain", "-", 0.05, -0.8, 2.0)
 
-    def change(outputs: Channels, _: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, _: DifferentiatedInputs, values: Values) -> Channels:
         return outputs * (1.0 + values[gain.name] * hit)
 
     channel = channels[0] if len(channels) == 1 else ""

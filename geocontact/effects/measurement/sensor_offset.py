@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -23,7 +24,7 @@ def shifted(system: System, name: str) -> Candidate:
     most = system.scale.of(name)
     offset = Parameter(f"sensor_offset.{name}.offset", system.unit(name), 0.02 * most, -most, most)
 
-    def change(outputs: Channels, _: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, _: DifferentiatedInputs, values: Values) -> Channels:
         return outputs + values[offset.name] * hit
 
     link = with_sensor(Modifier(f"sensor_offset.{name}", RANK, change, apart=True))

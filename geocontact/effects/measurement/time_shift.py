@@ -6,8 +6,9 @@ first sample the output is taken to have run straight, within its range in the t
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.history import delayed
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
@@ -22,7 +23,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
     most = min(0.5, 0.25 * system.scale.duration)
     delay = Parameter("time_shift.delay", "s", min(0.02, 0.2 * most), 0.0, most)
 
-    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         return delayed(movement.time, outputs, values[delay.name])
 
     link = with_sensor(Modifier("time_shift", RANK, change, apart=True))

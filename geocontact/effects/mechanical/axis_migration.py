@@ -8,7 +8,8 @@ strapped-on site changes with the site's own rotation, which is small: by `LEVER
 
 from __future__ import annotations
 
-from geocontact.chain.candidate import Candidate, Effect
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.effect import Effect
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_geometry

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.history import lagged
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
@@ -32,7 +33,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
     tau = Parameter("event_load.tau", "s", 0.02, 0.0, SLOWEST)
     row, column = system.inputs.index(FLAG), system.outputs.index(loads[0])
 
-    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         flag = np.clip(movement.position[row], 0.0, 1.0)[:, None]
         out = outputs.copy()
         out[:, column] += values[push.name] * lagged(movement.time, flag, values[tau.name], 1.0)[:, 0]

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -49,7 +50,7 @@ def at_the_sensor(system: System, variant: str) -> tuple[Candidate, ...]:
     row = system.inputs.index(angles[0])
     hit = np.array([name in loads for name in system.outputs])
 
-    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         load = values[weight.name] * np.sin(movement.position[row] + values[phase.name])
         return np.asarray(outputs + load[:, None] * hit)
 

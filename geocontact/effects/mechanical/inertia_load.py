@@ -12,8 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.links import Channels, Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -31,7 +32,7 @@ def at_the_tip(system: System) -> Candidate:
     mass = Parameter("inertia_load.tip.mass", "kg", 0.2, -HEAVY, HEAVY)
     row = system.inputs.index("beta")
 
-    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         return np.asarray(outputs + values[mass.name] * values["l_ex"] * movement.acceleration[row][:, None])
 
     link = with_balance(Modifier("inertia_load.tip", RANK, change))
@@ -42,7 +43,7 @@ def at_the_attachment(system: System) -> Candidate:
     """Elbow: mass times second derivative of the deflection, as the geometry without further effects has it."""
     mass = Parameter("inertia_load.attachment.mass", "kg", 0.2, 0.0, HEAVY)
 
-    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         _, rate = system.geometry.deflection(movement, values)
         return np.asarray(outputs + values[mass.name] * np.gradient(rate[:, 0], movement.time)[:, None])
 
@@ -56,7 +57,7 @@ def in_the_foot(system: System) -> Candidate:
     ahead = Parameter("inertia_load.ahead", "m", 0.05, 0.0, 0.3)
     x, y, pitch = (system.inputs.index(name) for name in ("x", "y", "pitch"))
 
-    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         s, c = np.sin(movement.position[pitch]), np.cos(movement.position[pitch])
         turn, spin = movement.acceleration[pitch], movement.rate[pitch] ** 2
         m, arm = values[mass.name], values[ahead.name]
@@ -78,7 +79,7 @@ def of_the_input(system: System) -> tuple[Candidate, ...]:
     mass = Parameter("inertia_load.mass", unit, 0.2, 0.0, HEAVY)
     row, hit = system.inputs.index(moved), np.array([name in loads for name in system.outputs])
 
-    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         return np.asarray(outputs + values[mass.name] * movement.acceleration[row][:, None] * hit)
 
     link = with_balance(Modifier("inertia_load", RANK, change))
@@ -98,7 +99,7 @@ def at_the_cuff(system: System) -> Candidate:
     mass = Parameter("inertia_load.cuff.mass", "kg", 0.2, -HEAVY, HEAVY)
     row, column = system.inputs.index("arm"), system.outputs.index("force")
 
-    def change(outputs: Channels, movement: Movement, values: Values) -> Channels:
+    def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         out = outputs.copy()
         out[:, column] += values[mass.name] * values["L_h"] * movement.acceleration[row]
         return out

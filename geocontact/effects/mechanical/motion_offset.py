@@ -10,8 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from geocontact.chain.candidate import Candidate, Effect
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.candidate import Candidate
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.effect import Effect
 from geocontact.chain.links import Modifier, Values
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -35,7 +36,7 @@ def biased(system: System, name: str, unit: str, most: float) -> Candidate:
     row = system.inputs.index(name)
     offset = Parameter(f"motion_offset.{name}.offset", unit, 0.05 * most, -most, most)
 
-    def change(movement: Movement, _: Movement, values: Values) -> Movement:
+    def change(movement: DifferentiatedInputs, _: DifferentiatedInputs, values: Values) -> DifferentiatedInputs:
         bias = np.zeros((len(movement.inputs), 1))
         bias[row] = values[offset.name]
         return replace(movement, position=movement.position + bias)

@@ -9,21 +9,21 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import FAR, System
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap.case.refit import NO_VALUE, Measured, Refit, at, free, refit
-from geocontact.gap.case.whitening import Share, Weighing, layouts_of, sensitivity, usual_levels, varies_by
-from geocontact.gap.inputs.denoise import Filters, Left, denoised, left, loudest, seen_noise, shaken
+from geocontact.gap.case.whitening import Share, Whitening, layouts_of, sensitivity, usual_levels, varies_by
+from geocontact.gap.inputs.denoise import Filters, Left, denoised, highest_noise, left, seen_noise, shaken
 from geocontact.gap.inputs.filter_cutoff import filters_of, likely_noise
 from geocontact.gap.inputs.spectrum import switches
 from geocontact.identify.noise.covariance import Layout, Whitener
-from geocontact.identify.noise.noise_levels import Beliefs, Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_search import most_likely
 from geocontact.identify.noise.trial_variation import Products, variation
 
 REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own
 BARELY = 1.0  # trials that the usual variation counts as where the trials are to speak
-MEMORY = 2.0  # times its usual correlation time that quiet noise may remember
+MEMORY = 2.0  # times its usual correlation time that low noise may remember
 TAKEN_OFF = 1.25  # times what is believed of an input's noise, that is taken off it at the most
 SEED = 0  # of the noise that is added to inputs
 MOST_VARIATION = 3.0  # times what is usual; a trial that deviates more misses something else
@@ -66,7 +66,7 @@ class Problem:
     evaluation: Measured
     recorded: Measured
     layouts: tuple[Layout, ...]
-    beliefs: Beliefs
+    beliefs: NoisePriors
     usual: Float[np.ndarray, " q"]
     plain: Refit
     floor: Float[np.ndarray, " c"]
@@ -103,8 +103,8 @@ class Problem:
             raise ValueError("noise was not estimated")
         return Noise(levels, sd, surprise, self._whiteners(levels))
 
-    def quieter(self, noise: Noise) -> Noise:
-        """The same noise as far as it is not louder than could be expected.
+    def with_lower_noise(self, noise: Noise) -> Noise:
+        """The same noise as far as it is not higher than could be expected.
 
         Levels that were fitted to a model's residuals grow with what the model misses. Here outputs are no noisier than
         was told, and inputs of one unit no noisier than the best of them.
@@ -122,14 +122,14 @@ class Problem:
         x = self.beliefs.point(levels)
         return Noise(levels, np.minimum(noise.varies, self.usual), 0.5 * float(x @ x), self._whiteners(levels))
 
-    def _whiteners(self, levels: Levels) -> tuple[Whitener, ...]:
+    def _whiteners(self, levels: NoiseLevels) -> tuple[Whitener, ...]:
         return tuple(layout.whitener(levels) for layout in self.layouts)
 
-    def _variation(self, model: Refit, levels: Levels) -> Float[np.ndarray, " q"]:
+    def _variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
         found = variation(self._products(self.calibration_layouts, model, levels), self.usual)
-        return np.asarray(np.minimum(found.sd, MOST_VARIATION * self.usual))
+        return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
-    def _products(self, layouts: Sequence[Layout], model: Refit, levels: Levels) -> list[Products]:
+    def _products(self, layouts: Sequence[Layout], model: Refit, levels: NoiseLevels) -> list[Products]:
         products = []
         for layout, residual, jacobian in zip(layouts, model.residuals, model.jacobian, strict=False):
             whitener = layout.whitener(levels)
@@ -137,20 +137,20 @@ class Problem:
             products.append(Products.of(whitener(residual[..., None])[:, 0], design))
         return products
 
-    def seen_variation(self, model: Refit, levels: Levels) -> Float[np.ndarray, " q"]:
+    def seen_variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
         """How much all trials do differ, little believed beforehand, around parameters that were fitted to all."""
         found = variation(self._products(self.layouts, model, levels), self.usual, BARELY, spent=1.0)
-        return np.asarray(np.minimum(found.sd, MOST_VARIATION * self.usual))
+        return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
-    def fitting(self, noise: Noise, model: Refit) -> list[Weighing]:
+    def fitting(self, noise: Noise, model: Refit) -> list[Whitening]:
         """Whitening of the calibration trials."""
-        return self.weighings(noise, model)[: len(self.calibration.trials)]
+        return self.whitenings(noise, model)[: len(self.calibration.trials)]
 
-    def weighings(self, noise: Noise, model: Refit) -> list[Weighing]:
+    def whitenings(self, noise: Noise, model: Refit) -> list[Whitening]:
         """Whitening of the trials that a model was evaluated on: all of them, or those of the calibration."""
         count = len(self.usual)
         return [
-            Weighing.of(whitener, jacobian[..., :count] * noise.varies)
+            Whitening.of(whitener, jacobian[..., :count] * noise.varies)
             for whitener, jacobian in zip(noise.whiteners, model.jacobian, strict=False)
         ]
 
@@ -162,7 +162,7 @@ class Noise:
     `whiteners` are what these levels make of the layouts of all trials.
     """
 
-    levels: Levels
+    levels: NoiseLevels
     varies: Float[np.ndarray, " q"]
     surprise: float
     whiteners: tuple[Whitener, ...]
@@ -196,7 +196,7 @@ def problem_of(case: GapCase, system: System) -> Problem:
     noisy = [name for name in system.inputs if not switches(recorded.trials, name)]
     shown = {name: seen_noise(calibration.trials, name, passed[name]) for name in noisy}
     seen = {name: level or likely_noise(recorded.trials, name, passed[name]) for name, level in shown.items()}
-    most = {name: max(loudest(recorded.trials, name, passed[name]), seen[name]) for name in noisy}
+    most = {name: max(highest_noise(recorded.trials, name, passed[name]), seen[name]) for name in noisy}
     system = _rates(system, case, calibration, rough, passed, seen, most)
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
     floor, more = rough, everything
@@ -224,8 +224,8 @@ def problem_of(case: GapCase, system: System) -> Problem:
         )
         noise = problem.weighed(plain)
         if not last:
-            quiet = np.minimum(noise.levels.inputs, TAKEN_OFF * beliefs.middle.inputs)
-            levels = dict(zip(system.inputs, map(float, quiet), strict=True))
+            low_noise = np.minimum(noise.levels.inputs, TAKEN_OFF * beliefs.middle.inputs)
+            levels = dict(zip(system.inputs, map(float, low_noise), strict=True))
             sd = {name: shown[name] or levels[name] for name in noisy}
             calibration, evaluation = (_denoised(each, sd, passed) for each in (calibration, evaluation))
             rng = np.random.default_rng(SEED)
@@ -344,7 +344,7 @@ def floor_of(problem: Problem, noise: Noise, model: Refit) -> Float[np.ndarray, 
     return np.sqrt(squares / np.maximum(counts, 1))
 
 
-def noise_variance(layout: Layout, levels: Levels) -> Float[np.ndarray, "t c"]:
+def noise_variance(layout: Layout, levels: NoiseLevels) -> Float[np.ndarray, "t c"]:
     """Variance of sensor noise and input noise at every sample; 0 where nothing was measured."""
     total = np.zeros(layout.shape[0] * layout.shape[1])
     for block in layout.blocks:

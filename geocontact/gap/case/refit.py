@@ -1,4 +1,4 @@
-"""A model refitted to trials, base and effect parameters together, under a given weighing of the residuals."""
+"""A model refitted to trials, base and effect parameters together, under a given whitening of the residuals."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
-from geocontact.identify.optimise.bounded_gauss_newton import Found, least
+from geocontact.identify.optimise.bounded_gauss_newton import GaussNewtonResult, least
 
 STEP = 1e-5  # of a parameter's magnitude, for differences
 ENOUGH = 0.01  # nats that a search does not go on for
@@ -21,7 +21,7 @@ LITTLE = 0.05  # nats that another start must promise to be followed
 NO_VALUE = 3.0  # residual, in rough noise levels, where something was measured and the model has no value
 
 
-Weigh = Callable[[Float[np.ndarray, "t c p"]], Float[np.ndarray, "n p"]]
+Whiten = Callable[[Float[np.ndarray, "t c p"]], Float[np.ndarray, "n p"]]
 """Whitening of one trial's columns."""
 
 
@@ -94,10 +94,10 @@ class Refit:
         """Nothing whitened yet."""
         return cls(system, dict(values), residuals, jacobian, np.zeros(0), np.zeros((0, jacobian[0].shape[-1])))
 
-    def weighed(self, weighings: Sequence[Weigh]) -> Refit:
+    def weighed(self, whitenings: Sequence[Whiten]) -> Refit:
         """The same model and values, whitened otherwise."""
         both = [np.concatenate([r[..., None], j], axis=-1) for r, j in zip(self.residuals, self.jacobian, strict=True)]
-        whitened = np.concatenate([w(part) for w, part in zip(weighings, both, strict=True)])
+        whitened = np.concatenate([w(part) for w, part in zip(whitenings, both, strict=True)])
         return replace(self, whitened=whitened[:, 0], whitened_jacobian=whitened[:, 1:])
 
     @property
@@ -155,7 +155,7 @@ def moved_at_once(system: System, parameters: Sequence[Parameter]) -> list[list[
 def refit(
     system: System,
     measured: Measured,
-    weighings: Sequence[Weigh],
+    whitenings: Sequence[Whiten],
     starts: Sequence[Mapping[str, float]],
     rounds: int = 12,
     useful: float = np.inf,
@@ -166,8 +166,8 @@ def refit(
     those before it, and below the cost `useful`.
     """
     if not free(system):
-        return at(system, measured, weighings, {})
-    search = Search(system, measured, weighings)
+        return at(system, measured, whitenings, {})
+    search = RefitSearch(system, measured, whitenings)
     best, cost = None, np.inf
     for start in starts:
         found = search.from_start(start, rounds, min(useful, cost - LITTLE))
@@ -175,18 +175,18 @@ def refit(
             best, cost = search.reached(found.x), found.cost
     if best is None:
         raise ValueError("a search without a start")
-    return best.weighed(weighings)
+    return best.weighed(whitenings)
 
 
-class Search:
+class RefitSearch:
     """Least squares over the free parameters, each in its magnitude; nothing is simulated twice at one place."""
 
-    def __init__(self, system: System, measured: Measured, weighings: Sequence[Weigh]) -> None:
+    def __init__(self, system: System, measured: Measured, whitenings: Sequence[Whiten]) -> None:
         self.parameters = free(system)
         self.scale = np.array([magnitude(p) for p in self.parameters])
         self.lower = np.array([p.lower for p in self.parameters]) / self.scale
         self.upper = np.array([p.upper for p in self.parameters]) / self.scale
-        self.system, self.weighings = system, weighings
+        self.system, self.whitenings = system, whitenings
 
         @lru_cache(maxsize=2)  # where the search stands, and where it tries to go
         def residuals(point: bytes) -> list[Float[np.ndarray, "_ c"]]:
@@ -202,7 +202,7 @@ class Search:
         """Parameters by name."""
         return {p.name: float(v) for p, v in zip(self.parameters, z * self.scale, strict=True)}
 
-    def from_start(self, start: Mapping[str, float], rounds: int, useful: float = np.inf) -> Found:
+    def from_start(self, start: Mapping[str, float], rounds: int, useful: float = np.inf) -> GaussNewtonResult:
         """The least cost near a start, from the parameters' own where it says nothing."""
 
         def residual(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
@@ -221,11 +221,11 @@ class Search:
         return Refit.bare(self.system, self.values(z), self.residuals(point), self.slopes(point))
 
     def _weighed(self, parts: Sequence[Float[np.ndarray, "_ c p"]]) -> Float[np.ndarray, "n p"]:
-        return np.concatenate([w(part) for w, part in zip(self.weighings, parts, strict=True)])
+        return np.concatenate([w(part) for w, part in zip(self.whitenings, parts, strict=True)])
 
 
-def at(system: System, measured: Measured, weighings: Sequence[Weigh] | None, values: Mapping[str, float]) -> Refit:
-    """A model at given values, nothing fitted; without weighings nothing is whitened either."""
+def at(system: System, measured: Measured, whitenings: Sequence[Whiten] | None, values: Mapping[str, float]) -> Refit:
+    """A model at given values, nothing fitted; without whitenings nothing is whitened either."""
     residuals = measured.residuals(system, values)
     model = Refit.bare(system, values, residuals, derivatives(system, measured, values, residuals))
-    return model if weighings is None else model.weighed(weighings)
+    return model if whitenings is None else model.weighed(whitenings)

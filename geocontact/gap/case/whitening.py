@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.differentiated_inputs import Movement, rate_of_waves
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs, rate_of_waves
 from geocontact.chain.links import Modifier
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -17,7 +17,7 @@ from geocontact.data.trial import Trial
 from geocontact.gap.inputs.responses import responses
 from geocontact.identify.noise.covariance import Layout, Whitener
 from geocontact.identify.noise.input_noise import InputNoise, Instant
-from geocontact.identify.noise.noise_levels import Beliefs, Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
@@ -27,7 +27,7 @@ SHARE_VARIES = 0.04  # of any other parameter
 INPUT_NOISE = 2e-3  # of an input's half-range
 ALIKE, OWN = 0.8, 0.5  # standard deviations of the logarithm of input noise: of a unit, and of one input beyond that
 LOUDER = 2.0  # times what is believed of an input's noise that it may be
-SENSOR_LOUDER = 1.2  # times what was told of a sensor's
+SENSOR_LOUDER = 1.2  # times the stated noise of a sensor
 QUIETEST = 0.1  # of `INPUT_NOISE`, that an input's limit is at the least: resolution, slow errors
 Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 """Of power that is left, by frequency [Hz]."""
@@ -39,7 +39,7 @@ LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
 
 
 @dataclass(frozen=True)
-class Weighing:
+class Whitening:
     """Whitening of one trial: v → (I + B Q Bᵀ)^(-1/2) W v.
 
     Parameters
@@ -58,7 +58,7 @@ class Weighing:
     log_scale: float
 
     @classmethod
-    def of(cls, whitener: Whitener, varied: Float[np.ndarray, "t c q"]) -> Weighing:
+    def of(cls, whitener: Whitener, varied: Float[np.ndarray, "t c q"]) -> Whitening:
         """From the whitener and derivatives with respect to what varies, times its standard deviation."""
         if varied.shape[-1] == 0:
             return cls(whitener, np.zeros((sum(map(len, whitener.rows)), 0)), np.zeros(0), whitener.log_scale)
@@ -79,7 +79,7 @@ def varies_by(parameter: Parameter, value: float) -> float:
     return ANGLE_VARIES if parameter.unit == "rad" else SHARE_VARIES * abs(value)
 
 
-def heard(
+def propagated_input_noise(
     system: System, trial: Trial, values: Mapping[str, float], passed: Mapping[str, LowPass], left: Mapping[str, Share]
 ) -> InputNoise:
     """What noise of a trial's inputs makes of the outputs that a model predicts.
@@ -112,7 +112,9 @@ def sensitivity(
 
 
 def _bumped(system: System, kind: str, row: int, by: float) -> System:
-    def change(movement: Movement, _: Movement, __: Mapping[str, float]) -> Movement:
+    def change(
+        movement: DifferentiatedInputs, _: DifferentiatedInputs, __: Mapping[str, float]
+    ) -> DifferentiatedInputs:
         moved = getattr(movement, kind).copy()
         moved[row] += by
         return replace(movement, **{kind: moved})
@@ -122,22 +124,22 @@ def _bumped(system: System, kind: str, row: int, by: float) -> System:
 
 def usual_levels(
     system: System,
-    told: Mapping[str, float],
+    stated: Mapping[str, float],
     rough: Float[np.ndarray, " c"],
     seen: Mapping[str, float],
     most: Mapping[str, float],
-) -> Beliefs:
+) -> NoisePriors:
     """What is believed of the noise before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
     stands in and is believed less. Quick noise remembers a few samples, slow noise some tenths of a second. Inputs are
     known as well as their spectra show (`seen`), 0.2 % of their half-range at the least unless `most` is less, and
     those of one unit about equally well, since they come from the same markers. A sensor is hardly noisier than
-    `SENSOR_LOUDER` times what was told, an input than `LOUDER` times what is believed, or than `most` (a tenth of the
+    `SENSOR_LOUDER` times what was stated, an input than `LOUDER` times what is believed, or than `most` (a tenth of the
     0.2 % at the least); nothing more is believed of it than that.
     """
-    known = np.array([name in told for name in system.outputs])
-    sd = np.array([told.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
+    known = np.array([name in stated for name in system.outputs])
+    sd = np.array([stated.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
     units = [system.units.get(name, name) for name in system.inputs]
     alike = np.array([[a == b for b in units] for a in units])
     own = np.array([max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs])
@@ -150,11 +152,13 @@ def usual_levels(
     factor[: len(widths), : len(widths)] = np.diag(widths)
     factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
     memory = np.array([2.0 * system.scale.step * sure, SLOW * sure])
-    sensors = SENSOR_LOUDER * np.array([told.get(name, np.inf) for name in system.outputs])
-    loudest = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
-    loudest = np.maximum(loudest, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs])
-    inputs = np.minimum(inputs, loudest)
-    return Beliefs(Levels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, loudest)
+    sensors = SENSOR_LOUDER * np.array([stated.get(name, np.inf) for name in system.outputs])
+    highest_noise = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
+    highest_noise = np.maximum(
+        highest_noise, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs]
+    )
+    inputs = np.minimum(inputs, highest_noise)
+    return NoisePriors(NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, highest_noise)
 
 
 def layouts_of(
@@ -165,8 +169,8 @@ def layouts_of(
     passed: Mapping[str, LowPass],
     left: Mapping[str, Share],
 ) -> list[Layout]:
-    """One per trial, inputs' noise (see `heard`) seen through the model at `values`."""
+    """One per trial, inputs' noise (see `propagated_input_noise`) seen through the model at `values`."""
     return [
-        Layout.of(t.time, there, heard(system, t, values, passed, left))
+        Layout.of(t.time, there, propagated_input_noise(system, t, values, passed, left))
         for t, there in zip(trials, present, strict=True)
     ]

@@ -13,17 +13,17 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
-from geocontact.gap.data_errors.gross import Fault
+from geocontact.gap.data_errors.gross import DataError
 
 
-def mended(case: GapCase, fault: Fault) -> GapCase:
+def corrected(case: GapCase, data_error: DataError) -> GapCase:
     """The case as it would have been recorded without the mistake."""
     return replace(
         case,
-        calibration=tuple(_mended(trial, fault) for trial in case.calibration),
-        evaluation=tuple(_mended(trial, fault) for trial in case.evaluation),
+        calibration=tuple(_corrected(trial, data_error) for trial in case.calibration),
+        evaluation=tuple(_corrected(trial, data_error) for trial in case.evaluation),
     )
 
 
@@ -32,9 +32,9 @@ def mistaken(trial: Trial, one: Candidate) -> Trial:
     return _times(trial, one, one.factor)
 
 
-def _mended(trial: Trial, fault: Fault) -> Trial:
-    one = fault.candidate
-    return _times(trial, one, 1.0 / one.factor) if trial.name in fault.trials else trial
+def _corrected(trial: Trial, data_error: DataError) -> Trial:
+    one = data_error.candidate
+    return _times(trial, one, 1.0 / one.factor) if trial.name in data_error.trials else trial
 
 
 def _times(trial: Trial, one: Candidate, factor: float) -> Trial:
@@ -57,12 +57,12 @@ def exchanged(variant: str, channels: Sequence[str]) -> tuple[int, int]:
 
 
 def put_back(
-    fault: Fault | None, trial: str, outputs: Sequence[str], columns: Float[np.ndarray, "t c *p"]
+    data_error: DataError | None, trial: str, outputs: Sequence[str], columns: Float[np.ndarray, "t c *p"]
 ) -> Float[np.ndarray, "t c *p"]:
     """Residuals, or derivatives of predictions, as they are of what was recorded."""
-    if fault is None or trial not in fault.trials:
+    if data_error is None or trial not in data_error.trials:
         return columns
-    one = fault.candidate
+    one = data_error.candidate
     if one.channel and one.channel not in outputs:
         return columns
     out = columns.copy()

@@ -26,7 +26,7 @@ FEW = 4  # calibration trials of which every set is tried
 
 
 @dataclass(frozen=True)
-class Fault:
+class DataError:
     """A mistake, the trials that have it, and what of the misfit is left when it is undone."""
 
     candidate: Candidate
@@ -34,7 +34,7 @@ class Fault:
     left: float
 
 
-def fault_of(problem: Problem, candidates: Sequence[Candidate]) -> Fault | None:
+def data_error_of(problem: Problem, candidates: Sequence[Candidate]) -> DataError | None:
     """The mistake that explains a gross misfit, if one does.
 
     Looked for in the trials as they were recorded: what was taken for noise of an input may be the input, in another
@@ -61,12 +61,12 @@ def fault_of(problem: Problem, candidates: Sequence[Candidate]) -> Fault | None:
     return _over_all_trials(problem, one, some, float(cost / before))
 
 
-def recognised(problem: Problem, one: Candidate, model: Refit) -> Fault:
+def recognised(problem: Problem, one: Candidate, model: Refit) -> DataError:
     """A mistake that won by evidence against the effects; `model` is the base fitted with it."""
     names = [t.name for t in (*problem.calibration.trials, *problem.evaluation.trials)]
     before = _cost(problem, problem.system, problem.calibration, problem.plain.values).sum()
     after = _cost(problem, model.system, problem.calibration, model.values).sum()
-    return Fault(one, tuple(sorted(one.within or names)), float(after / before))
+    return DataError(one, tuple(sorted(one.within or names)), float(after / before))
 
 
 def gross(problem: Problem, measured: Measured, model: Refit) -> bool:
@@ -120,15 +120,15 @@ def _costs(problem: Problem, mistakes: list[Candidate], some: frozenset[str]) ->
     others = _part(measured, frozenset(t.name for t in measured.trials) - some)
     scale = problem.floor_of_noise
     if not others.trials:
-        weigh = [Plain(there, scale) for there in measured.present]
+        whiten = [Plain(there, scale) for there in measured.present]
         starts = base_starts(problem.system)[:2]
         found = []
         for one in mistakes:
-            model = refit(one.apply(problem.system), measured, weigh, starts, ROUNDS)
+            model = refit(one.apply(problem.system), measured, whiten, starts, ROUNDS)
             found.append((one, model.cost))
         return found
-    weigh = [Plain(there, scale) for there in others.present]
-    values = refit(problem.system, others, weigh, [{}, problem.plain.values], ROUNDS).values
+    whiten = [Plain(there, scale) for there in others.present]
+    values = refit(problem.system, others, whiten, [{}, problem.plain.values], ROUNDS).values
     known = float(_cost(problem, problem.system, others, values).sum())
     suspects = _part(measured, some)
     return [
@@ -137,19 +137,19 @@ def _costs(problem: Problem, mistakes: list[Candidate], some: frozenset[str]) ->
     ]
 
 
-def _over_all_trials(problem: Problem, one: Candidate, some: frozenset[str], left: float) -> Fault:
+def _over_all_trials(problem: Problem, one: Candidate, some: frozenset[str], left: float) -> DataError:
     """The same mistake in the held-out trials that are predicted better with it."""
     names = {t.name for t in problem.calibration.trials}
     candidate = one if some == names else one.only(some)
     system = candidate.apply(problem.system)
-    weigh = [Plain(there, problem.floor_of_noise) for there in problem.calibration.present]
-    values = refit(system, problem.calibration, weigh, [*base_starts(system)[:2], problem.plain.values], 20).values
+    whiten = [Plain(there, problem.floor_of_noise) for there in problem.calibration.present]
+    values = refit(system, problem.calibration, whiten, [*base_starts(system)[:2], problem.plain.values], 20).values
     also = frozenset(_better_with(problem, one, problem.system, values))
     everywhere = some | also
     held_out = {t.name for t in problem.evaluation.trials}
     if everywhere == names | held_out:
-        return Fault(one, tuple(sorted(everywhere)), left)
-    return Fault(one.only(everywhere), tuple(sorted(everywhere)), left)
+        return DataError(one, tuple(sorted(everywhere)), left)
+    return DataError(one.only(everywhere), tuple(sorted(everywhere)), left)
 
 
 def _better_with(problem: Problem, one: Candidate, system: System, values: dict[str, float]) -> list[str]:
@@ -160,12 +160,12 @@ def _better_with(problem: Problem, one: Candidate, system: System, values: dict[
     return [t.name for t, a, b in zip(trials, without, having, strict=True) if b < FIXED_BY * a]
 
 
-def _held_out_only(problem: Problem, mistakes: list[Candidate]) -> Fault | None:
+def _held_out_only(problem: Problem, mistakes: list[Candidate]) -> DataError | None:
     if not gross(problem, problem.evaluation, problem.plain):
         return None
     values = problem.plain.values
     before = _cost(problem, problem.system, problem.evaluation, values).sum()
-    best: Fault | None = None
+    best: DataError | None = None
     for one in mistakes:
         names = frozenset(_better_with(problem, one, problem.system, values))
         if not names:
@@ -173,5 +173,5 @@ def _held_out_only(problem: Problem, mistakes: list[Candidate]) -> Fault | None:
         candidate = one.only(names)
         after = _cost(problem, candidate.apply(problem.system), problem.evaluation, values).sum()
         if best is None or after / before < best.left:
-            best = Fault(candidate, tuple(sorted(names)), float(after / before))
+            best = DataError(candidate, tuple(sorted(names)), float(after / before))
     return best

@@ -1,6 +1,6 @@
 """Mistakes in the data that refitted parameters may hide, so that nothing about them is gross.
 
-Base parameters swallow a force that reads 9.8 times too much, a model that is nearly even in an input hardly tells
+Base parameters reproduce a force that reads 9.8 times too much, a model that is nearly even in an input hardly tells
 its sign, and two sides that carry much the same hardly tell that they were exchanged. Such mistakes compete with the
 effects, by evidence, and one that comes near is judged where it is undone.
 """
@@ -13,10 +13,10 @@ from dataclasses import replace
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap.case.problem import Problem, base_starts, problem_of
-from geocontact.gap.case.refit import Measured, Refit, Weigh, refit
-from geocontact.gap.data_errors.correction import mended
+from geocontact.gap.case.refit import Measured, Refit, Whiten, refit
+from geocontact.gap.data_errors.correction import corrected
 from geocontact.gap.data_errors.gross import gross, recognised
 from geocontact.gap.selection.evidence import Judged, by_smoothing
 from geocontact.gap.selection.model_comparison import Contender, base_contender
@@ -36,9 +36,9 @@ def hidden_mistakes(problem: Problem, base: Judged, candidates: Sequence[Candida
     found = [one for one in mistakes if one.factor != 1.0 and 1.0 / MODEST <= one.factor <= MODEST]
     reversed_ = [one for one in mistakes if one.factor < 0.0 and one.channel in problem.system.inputs]
     exchanged = [one for one in mistakes if not one.channel]
-    weighings = problem.weighings(problem.quieter(base.noise), base.model)
+    whitenings = problem.whitenings(problem.with_lower_noise(base.noise), base.model)
     for one in (*reversed_, *exchanged):
-        best = _where(problem, one, weighings)
+        best = _where(problem, one, whitenings)
         found += [] if best is None else [best]
     return tuple(found)
 
@@ -49,20 +49,22 @@ def undone(problem: Problem, case: GapCase, one: Contender) -> Contender:
     A wrong unit of an output is a change of variables: the densities differ by the factor, sample by sample.
     """
     mistake = one.candidates[0]
-    fault = recognised(problem, mistake, one.judged.model)
-    clean = problem_of(mended(case, fault), problem.system)
+    data_error = recognised(problem, mistake, one.judged.model)
+    clean = problem_of(corrected(case, data_error), problem.system)
     base = base_contender(clean).judged
     wide = np.log(abs(mistake.factor)) if mistake.channel in problem.system.outputs else 0.0
     column = problem.system.outputs.index(mistake.channel) if wide else 0
     calibration, evaluation = (
         wide
         * sum(
-            int(there[:, column].sum()) for t, there in zip(m.trials, m.present, strict=True) if t.name in fault.trials
+            int(there[:, column].sum())
+            for t, there in zip(m.trials, m.present, strict=True)
+            if t.name in data_error.trials
         )
         for m in (problem.calibration, problem.evaluation)
     )
     count = len(problem.calibration.trials)  # there nobody passes less on than the base; here everyone pays for it
-    owed = by_smoothing(problem, one.judged.model, problem.weighings(one.judged.noise, one.judged.model))
+    owed = by_smoothing(problem, one.judged.model, problem.whitenings(one.judged.noise, one.judged.model))
     there = replace(
         base,
         nats=base.nats - calibration - evaluation - float(owed.sum()),
@@ -75,12 +77,12 @@ def undone(problem: Problem, case: GapCase, one: Contender) -> Contender:
     )
 
 
-def _where(problem: Problem, one: Candidate, weighings: Sequence[Weigh]) -> Candidate | None:
+def _where(problem: Problem, one: Candidate, whitenings: Sequence[Whiten]) -> Candidate | None:
     """A reversal or an exchange in all calibration trials, or in those that differ from the others; what fits best."""
     calibration = problem.calibration
     every = frozenset(t.name for t in calibration.trials)
     alone = replace(calibration, trials=calibration.trials[:1], outputs=calibration.outputs[:1])
-    fitted = weighings[: len(calibration.trials)]
+    fitted = whitenings[: len(calibration.trials)]
     if gross(problem, alone, _fitted(problem, one, every, alone, fitted[:1])):
         return None
     start = _fitted(problem, one, frozenset(), alone, fitted[:1]).values
@@ -98,7 +100,7 @@ def _where(problem: Problem, one: Candidate, weighings: Sequence[Weigh]) -> Cand
     best, least = None, np.inf
     for some in patterns:
         model = _fitted(problem, one, some, calibration, fitted)
-        held_out = _turned(problem, one, problem.evaluation, weighings[len(fitted) :], model.values)
+        held_out = _turned(problem, one, problem.evaluation, whitenings[len(fitted) :], model.values)
         count = len(every) + len(problem.evaluation.trials)
         candidate = one if len(some | held_out) == count else one.only(some | held_out)
         ways = 1 if candidate is one else 2**count - 1
@@ -109,15 +111,15 @@ def _where(problem: Problem, one: Candidate, weighings: Sequence[Weigh]) -> Cand
 
 
 def _fitted(
-    problem: Problem, one: Candidate, some: frozenset[str], measured: Measured, weighings: Sequence[Weigh]
+    problem: Problem, one: Candidate, some: frozenset[str], measured: Measured, whitenings: Sequence[Whiten]
 ) -> Refit:
     """The base model with the mistake in some trials."""
     system = one.only(some).apply(problem.system)
-    return refit(system, measured, weighings, [*base_starts(problem.system)[:2], problem.plain.values], ROUNDS)
+    return refit(system, measured, whitenings, [*base_starts(problem.system)[:2], problem.plain.values], ROUNDS)
 
 
 def _turned(
-    problem: Problem, one: Candidate, measured: Measured, weighings: Sequence[Weigh], values: dict[str, float]
+    problem: Problem, one: Candidate, measured: Measured, whitenings: Sequence[Whiten], values: dict[str, float]
 ) -> frozenset[str]:
     """Trials that a model at these values predicts better with the mistake."""
     every = frozenset(t.name for t in measured.trials)
@@ -125,6 +127,6 @@ def _turned(
     pairs = zip(measured.residuals(problem.system, values), measured.residuals(mistaken, values), strict=True)
     return frozenset(
         t.name
-        for t, weigh, (a, b) in zip(measured.trials, weighings, pairs, strict=True)
-        if np.sum(weigh(b[..., None]) ** 2) < np.sum(weigh(a[..., None]) ** 2)
+        for t, whiten, (a, b) in zip(measured.trials, whitenings, pairs, strict=True)
+        if np.sum(whiten(b[..., None]) ** 2) < np.sum(whiten(a[..., None]) ** 2)
     )

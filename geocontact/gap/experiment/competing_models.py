@@ -4,8 +4,8 @@ Where A is true and B is fitted instead, B leaves
 
     ½ rᵀ (I + D S² Dᵀ)⁻¹ r,   r = A's prediction minus B's, whitened, D B's derivatives, S their prior spread
 
-to first order. B may do better than that by going further than derivatives reach; `kept` fits it to what A predicts,
-within bounds, its prior around where it started: min ½ |r(φ)|² + ½ |(φ - φ₀)/S|².
+to first order. B may do better than that by going further than derivatives reach; `remaining_nats` fits it to what A
+predicts, within bounds, its prior around where it started: min ½ |r(φ)|² + ½ |(φ - φ₀)/S|².
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
-from geocontact.gap.case.refit import Measured, Search, Weigh
+from geocontact.gap.case.refit import Measured, RefitSearch, Whiten
 from geocontact.gap.selection.evidence import prior_spread
 
 ROUNDS = 20  # of a refit
@@ -44,16 +44,16 @@ class Hypothesis:
 
 
 @dataclass(frozen=True)
-class Pair:
+class ModelPair:
     """Somebody who is true, and somebody who is fitted instead."""
 
     true: Hypothesis
-    imitator: Hypothesis
+    confounder: Hypothesis
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Whitened difference of a pair on some trials, and the imitator's directions in units of their prior spread."""
+    """Whitened difference of a pair on some trials, and the confounder's directions in units of their prior spread."""
 
     moved: Float[np.ndarray, " n"]
     directions: Float[np.ndarray, "n p"]
@@ -66,37 +66,37 @@ class Rows:
 
     @property
     def nats(self) -> float:
-        """What the imitator leaves."""
+        """What the confounder leaves."""
         part = self.directions.T @ self.moved
         inner = np.eye(len(part)) + self.directions.T @ self.directions
         return 0.5 * float(self.moved @ self.moved - part @ np.linalg.solve(inner, part))
 
 
 @dataclass(frozen=True)
-class Recording:
-    """Trials without noise that the true model would give, and the imitator as it is in them; each so many times."""
+class SimulatedTrials:
+    """Trials without noise that the true model would give, and the confounder as it is in them; each so many times."""
 
-    imitator: System
+    confounder: System
     measured: Measured
-    weighings: Sequence[Weigh]
+    whitenings: Sequence[Whiten]
     times: int = 1
 
 
-def kept(imitator: Hypothesis, recordings: Sequence[Recording]) -> float:
-    """What an imitator leaves where it is refitted to these recordings together, within bounds [nats]."""
+def remaining_nats(confounder: Hypothesis, recordings: Sequence[SimulatedTrials]) -> float:
+    """What a confounder leaves where it is refitted to these recordings together, within bounds [nats]."""
     from scipy.optimize import least_squares
 
-    searches = [Search(one.imitator, one.measured, one.weighings) for one in recordings]
+    searches = [RefitSearch(one.confounder, one.measured, one.whitenings) for one in recordings]
     roots = [float(np.sqrt(one.times)) for one in recordings]
     first = searches[0]
-    start = np.array([imitator.values[p.name] for p in first.parameters]) / first.scale
-    believed = np.divide(first.scale, imitator.spread, out=np.zeros(len(start)), where=imitator.spread > 0.0)
+    start = np.array([confounder.values[p.name] for p in first.parameters]) / first.scale
+    believed = np.divide(first.scale, confounder.spread, out=np.zeros(len(start)), where=confounder.spread > 0.0)
 
     def whitened(parts: list[list[Float[np.ndarray, "_ c p"]]]) -> Float[np.ndarray, "n p"]:
         rows = [
-            root * weigh(part)
+            root * whiten(part)
             for root, one, own in zip(roots, recordings, parts, strict=True)
-            for weigh, part in zip(one.weighings, own, strict=True)
+            for whiten, part in zip(one.whitenings, own, strict=True)
         ]
         return np.concatenate(rows)
 

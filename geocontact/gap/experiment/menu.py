@@ -14,7 +14,7 @@ from itertools import combinations
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.differentiated_inputs import Movement, recorded
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs, recorded
 from geocontact.chain.links import Modifier
 from geocontact.chain.system import System
 from geocontact.data.motion import Signals
@@ -177,7 +177,7 @@ def _weighed(system: System, still: Trial, loads: Sequence[int], on: int, length
 def bench(loads: Sequence[int], weights: Mapping[int, float]) -> Staging:
     """Models whose channels (columns) carry known weights, nothing where none is given; others have no value."""
 
-    def change(outputs: Float[np.ndarray, "t c"], _: Movement, __: object) -> Float[np.ndarray, "t c"]:
+    def change(outputs: Float[np.ndarray, "t c"], _: DifferentiatedInputs, __: object) -> Float[np.ndarray, "t c"]:
         made = np.full(outputs.shape, np.nan)
         made[:, list(loads)] = [weights.get(c, 0.0) for c in loads]
         return made
@@ -201,7 +201,7 @@ def _swapped(system: System, trial: Trial) -> tuple[Experiment, ...]:
 def swap(a: int, b: int) -> Staging:
     """Models whose channels a and b carry each other's load."""
 
-    def change(outputs: Float[np.ndarray, "t c"], _: Movement, __: object) -> Float[np.ndarray, "t c"]:
+    def change(outputs: Float[np.ndarray, "t c"], _: DifferentiatedInputs, __: object) -> Float[np.ndarray, "t c"]:
         made = outputs.copy()
         made[:, [a, b]] = outputs[:, [b, a]]
         return made

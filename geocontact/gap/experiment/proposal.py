@@ -1,10 +1,10 @@
 """The experiment to run next: the change to the trials that tells apart most surely what they cannot tell apart.
 
 For every change on the menu (`gap.experiment.menu`) the answers still in question are simulated on new trials, with the
-parameters that were fitted to the old ones. The least that one leaves of another (`gap.experiment.competing_models`), either way round, is
-what a change is worth: first order tells which changes promise most, and the first of these that keeps what is needed
-when rivals are refitted to old and new trials together is proposed. Where nothing was found, changes are judged by what
-they make visible of effects that base parameters swallow.
+parameters that were fitted to the old ones. The least that one leaves of another (`gap.experiment.competing_models`),
+either way round, is what a change is worth: first order tells which changes promise most, and the first of these that
+keeps what is needed when competing models are refitted to old and new trials together is proposed. Where nothing was
+found, changes are judged by what they make visible of effects that base parameters reproduce.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
-from geocontact.data.diagnosis import NextExperiment
+from geocontact.data.gap.diagnosis import NextExperiment
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, derivatives
-from geocontact.gap.case.whitening import Weighing, heard
-from geocontact.gap.experiment.competing_models import Hypothesis, Pair, Recording, Rows, kept
+from geocontact.gap.case.whitening import Whitening, propagated_input_noise
+from geocontact.gap.experiment.competing_models import Hypothesis, ModelPair, Rows, SimulatedTrials, remaining_nats
 from geocontact.gap.experiment.menu import Experiment, menu
 from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.model_comparison import Contender
@@ -30,7 +30,7 @@ TRIALS = 3  # of the new kind
 TELLS = 3.0  # times the smallest separation that a change must promise
 APART = 5.0  # nats that it must promise
 RIVALS = 3  # answers that are compared
-CHECKED = 4  # changes, the most promising ones, that are simulated with rivals refitted
+CHECKED = 4  # changes, the most promising ones, that are simulated with competing models refitted
 
 
 @dataclass(frozen=True)
@@ -39,13 +39,13 @@ class Proposal:
 
     said: NextExperiment
     experiment: Experiment
-    pairs: tuple[Pair, ...]
+    pairs: tuple[ModelPair, ...]
     lead: Judged
 
 
-def next_experiment(found: Attribution, swallowed: Sequence[Candidate] = ()) -> NextExperiment | None:
+def next_experiment(found: Attribution, confounded: Sequence[Candidate] = ()) -> NextExperiment | None:
     """The change that tells most; None where nothing is in question, or where nothing on the menu tells enough."""
-    one = proposed(found, swallowed)
+    one = proposed(found, confounded)
     return None if one is None else one.said
 
 
@@ -55,40 +55,40 @@ def first_of(offered: Sequence[Candidate], names: Sequence[str]) -> list[Candida
     return [one for some in firsts for one in some]
 
 
-def proposed(found: Attribution, swallowed: Sequence[Candidate] = ()) -> Proposal | None:
+def proposed(found: Attribution, confounded: Sequence[Candidate] = ()) -> Proposal | None:
     """The same with what it was chosen by.
 
     Parameters
     ----------
     found
         What was attributed.
-    swallowed
-        Candidates that the base parameters swallow, asked about where nothing was found.
+    confounded
+        Candidates that the base parameters reproduce, asked about where nothing was found.
     """
-    rivals = _rivals(found)
+    competitors = _competing_models(found)
     problem = found.clean
-    if len(rivals) > 1:
-        known = [_fitted(one) for one in rivals]
-        pairs = [Pair(a, b) for a in known for b in known if a is not b]
-        return _telling(found, problem, rivals[0].judged, pairs)
-    if found.answer.verdict == "no_gap" and swallowed:
+    if len(competitors) > 1:
+        known = [_fitted(one) for one in competitors]
+        pairs = [ModelPair(a, b) for a in known for b in known if a is not b]
+        return _telling(found, problem, competitors[0].judged, pairs)
+    if found.answer.verdict == "no_gap" and confounded:
         base = _fitted(found.base)
-        pairs = [Pair(_swallowed(problem, found.base.judged, one), base) for one in swallowed]
+        pairs = [ModelPair(_confounded(problem, found.base.judged, one), base) for one in confounded]
         return _unveiling(problem, found.base.judged, pairs)
     return None
 
 
-def _rivals(found: Attribution) -> list[Contender]:
-    """The best model of each answer still in question, what is named first; mistakes in the data are no rivals."""
+def _competing_models(found: Attribution) -> list[Contender]:
+    """The best model of each answer still in question, what is named first; mistakes in the data do not count."""
     said = found.answer
-    rivals = [said.chosen] if said.chosen.candidates and said.verdict != "unknown" else []
+    competitors = [said.chosen] if said.chosen.candidates and said.verdict != "unknown" else []
     for name in said.ambiguity:
-        if any(name in one.names for one in rivals):
+        if any(name in one.names for one in competitors):
             continue
         models = [c for c in found.contenders if name in c.names and len(c.names) <= max(len(said.effects), 1)]
         if models:
-            rivals.append(max(models, key=lambda c: c.judged.nats))
-    sound = [one for one in rivals if all(each.somewhere is None for each in one.candidates)]
+            competitors.append(max(models, key=lambda c: c.judged.nats))
+    sound = [one for one in competitors if all(each.somewhere is None for each in one.candidates)]
     return sound[:RIVALS]
 
 
@@ -97,7 +97,7 @@ def _fitted(one: Contender) -> Hypothesis:
     return Hypothesis("+".join(one.names), model.system, model.values, model.residuals, model.jacobian)
 
 
-def _swallowed(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
+def _confounded(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
     """An effect where a search for it sets out, on top of the fitted base."""
     system, values = one.apply(problem.system), {**base.model.values, **one.starts[0]}
     residuals = [
@@ -107,8 +107,8 @@ def _swallowed(problem: Problem, base: Judged, one: Candidate) -> Hypothesis:
     return Hypothesis(one.name, system, values, residuals, base.model.jacobian)
 
 
-def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Pair]) -> Proposal | None:
-    """The most promising change that raises the smallest separation enough once rivals are refitted."""
+def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[ModelPair]) -> Proposal | None:
+    """The most promising change that raises the smallest separation enough once competing models are refitted."""
     before = [_old(problem, lead, pair) for pair in pairs]
     least = min(rows.nats for rows in before)
     needed = max(TELLS * least, APART)
@@ -118,7 +118,7 @@ def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Pai
     ]
     promising = sorted((each for each in promised if each[0] > needed), key=lambda each: -each[0])
     for _, one in promising[:CHECKED]:
-        left = min(_kept(problem, lead, one, pair) for pair in pairs)
+        left = min(_remaining(problem, lead, one, pair) for pair in pairs)
         if left > needed:
             names = [
                 name for name in found.answer.ambiguity if any(name in pair.true.name.split("+") for pair in pairs)
@@ -128,8 +128,8 @@ def _telling(found: Attribution, problem: Problem, lead: Judged, pairs: list[Pai
     return None
 
 
-def _kept(problem: Problem, lead: Judged, one: Rehearsed, pair: Pair) -> float:
-    """What an imitator leaves of the truth where it is refitted to old trials and to new ones [nats]."""
+def _remaining(problem: Problem, lead: Judged, one: Rehearsed, pair: ModelPair) -> float:
+    """What a confounder leaves of the truth where it is refitted to old trials and to new ones [nats]."""
     old = (problem.calibration, problem.evaluation)
     outputs = [each for measured in old for each in measured.outputs]
     known = Measured(
@@ -140,17 +140,17 @@ def _kept(problem: Problem, lead: Judged, one: Rehearsed, pair: Pair) -> float:
     moved = one.experiment
     truth = np.where(one.present, moved.staged(pair.true.system).simulate(moved.trial, pair.true.values), np.nan)
     new = Measured((moved.trial,), (truth,), problem.calibration.rough)
-    return kept(
-        pair.imitator,
+    return remaining_nats(
+        pair.confounder,
         [
-            Recording(pair.imitator.system, known, problem.weighings(lead.noise, lead.model)),
-            Recording(moved.staged(pair.imitator.system), new, [one.weigh], TRIALS),
+            SimulatedTrials(pair.confounder.system, known, problem.whitenings(lead.noise, lead.model)),
+            SimulatedTrials(moved.staged(pair.confounder.system), new, [one.whiten], TRIALS),
         ],
     )
 
 
-def _unveiling(problem: Problem, base: Judged, pairs: list[Pair]) -> Proposal | None:
-    """The change that makes most effects visible that were swallowed, and of several the one that shows them best."""
+def _unveiling(problem: Problem, base: Judged, pairs: list[ModelPair]) -> Proposal | None:
+    """The change that makes most effects visible that were reproduced, and of several the one that shows them best."""
     before = [_old(problem, base, pair) for pair in pairs]
     best: tuple[int, float, Experiment, list[str]] | None = None
     for one in _new(problem, base, pairs):
@@ -172,51 +172,51 @@ def _said(one: Experiment, names: Sequence[str], gain: float) -> NextExperiment:
     return NextExperiment(tuple(names), f"record {TRIALS} trials: {one.words}", float(f"{gain:.3g}"))
 
 
-def _old(problem: Problem, lead: Judged, pair: Pair) -> Rows:
+def _old(problem: Problem, lead: Judged, pair: ModelPair) -> Rows:
     """A pair on the trials that exist, under the noise of the model that leads."""
-    weighings = problem.weighings(lead.noise, lead.model)
+    whitenings = problem.whitenings(lead.noise, lead.model)
     columns = [
-        np.concatenate([(b - a)[..., None], j * pair.imitator.spread], axis=-1)
-        for a, b, j in zip(pair.true.residuals, pair.imitator.residuals, pair.imitator.jacobian, strict=True)
+        np.concatenate([(b - a)[..., None], j * pair.confounder.spread], axis=-1)
+        for a, b, j in zip(pair.true.residuals, pair.confounder.residuals, pair.confounder.jacobian, strict=True)
     ]
-    white = np.concatenate([w(part) for w, part in zip(weighings, columns, strict=True)])
+    white = np.concatenate([w(part) for w, part in zip(whitenings, columns, strict=True)])
     return Rows(white[:, 0], white[:, 1:])
 
 
 @dataclass(frozen=True)
 class Rehearsed:
-    """One trial of an experiment as models predict it: its weighing, where it has values, and every pair on it."""
+    """One trial of an experiment as models predict it: its whitening, where it has values, and every pair on it."""
 
     experiment: Experiment
-    weigh: Weighing
+    whiten: Whitening
     present: np.ndarray
     rows: list[Rows]
 
 
-def _new(problem: Problem, lead: Judged, pairs: list[Pair]) -> list[Rehearsed]:
+def _new(problem: Problem, lead: Judged, pairs: list[ModelPair]) -> list[Rehearsed]:
     """Every pair on one trial of every change."""
     changes = menu(problem.system, problem.calibration.trials)
     return [_rehearsed(problem, lead, one, pairs) for one in changes]
 
 
-def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[Pair]) -> Rehearsed:
+def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[ModelPair]) -> Rehearsed:
     trial, rough = one.trial, problem.calibration.rough
-    hypotheses = {id(each): each for pair in pairs for each in (pair.true, pair.imitator)}
+    hypotheses = {id(each): each for pair in pairs for each in (pair.true, pair.confounder)}
     predicted = {key: one.staged(each.system).simulate(trial, each.values) for key, each in hypotheses.items()}
     present = np.isfinite(sum(predicted.values()))
     zero = Measured((trial,), (np.where(present, 0.0, np.nan),), rough)
     slopes = {
-        id(pair.imitator): derivatives(one.staged(pair.imitator.system), zero, pair.imitator.values)[0]
-        for pair in {id(pair.imitator): pair for pair in pairs}.values()
+        id(pair.confounder): derivatives(one.staged(pair.confounder.system), zero, pair.confounder.values)[0]
+        for pair in {id(pair.confounder): pair for pair in pairs}.values()
     }
     staged = one.staged(problem.system)
     base = {name: lead.model.values[name] for name in problem.plain.values}
-    layout = Layout.of(trial.time, present, heard(staged, trial, base, problem.passed, problem.left))
+    layout = Layout.of(trial.time, present, propagated_input_noise(staged, trial, base, problem.passed, problem.left))
     varied = derivatives(staged, zero, base)[0] * lead.noise.varies
-    weigh = Weighing.of(layout.whitener(lead.noise.levels), varied)
+    whiten = Whitening.of(layout.whitener(lead.noise.levels), varied)
     found = []
     for pair in pairs:
-        off = np.where(present, predicted[id(pair.true)] - predicted[id(pair.imitator)], 0.0)
-        white = weigh(np.concatenate([off[..., None], slopes[id(pair.imitator)] * pair.imitator.spread], axis=-1))
+        off = np.where(present, predicted[id(pair.true)] - predicted[id(pair.confounder)], 0.0)
+        white = whiten(np.concatenate([off[..., None], slopes[id(pair.confounder)] * pair.confounder.spread], axis=-1))
         found.append(Rows(white[:, 0], white[:, 1:]))
-    return Rehearsed(one, weigh, present, found)
+    return Rehearsed(one, whiten, present, found)

@@ -8,9 +8,10 @@ first order, what its model gains is
 Q the directions of its own parameters beyond the base's, D their derivatives at this amplitude, S their prior spread:
 half a noncentral chi-square with noncentrality 2 × the visible nats, less Occam's price. Other effects gain on the same
 residual, correlated with it, so chi-squares are drawn together, not looked up. Gains then pass what the verdict makes
-of them (`gap.selection.verdict`: borne out by calibration trials, tolerance of form, `SURE` for the base model), and the effect
-counts as seen where effects together outweigh "none". The seed is the same at every amplitude, so a bisection finds
-the amplitude. Noise levels are taken as known. That something is seen does not say that the right effect is named.
+of them (`gap.selection.verdict`: borne out by calibration trials, tolerance of form, `SURE` for the base model), and
+the effect counts as seen where effects together outweigh "none". The seed is the same at every amplitude, so a
+bisection finds the amplitude. Noise levels are taken as known. That something is seen does not say that the right
+effect is named.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from geocontact.chain.candidate import Candidate
 from geocontact.gap.case.refit import magnitude
 from geocontact.gap.identifiability.signatures import (
     ADDS,
-    Ground,
+    BaseState,
     Sized,
     at_nats,
     orthonormal,
@@ -87,18 +88,24 @@ class Gainer:
 
 
 def detectabilities(
-    ground: Ground, candidates: Sequence[Candidate], asked: Sequence[Candidate], step: Callable[[], None] = lambda: None
+    ground: BaseState,
+    candidates: Sequence[Candidate],
+    asked: Sequence[Candidate],
+    step: Callable[[], None] = lambda: None,
 ) -> tuple[Detectability, ...]:
     """Of those asked about, all of which and `candidates` may gain; `step` is called after each."""
-    variants, rivals = Counter(one.name for one in candidates if one.parameters), rivals_of(ground, candidates)
+    variants, competitors = (
+        Counter(one.name for one in candidates if one.parameters),
+        competitors_of(ground, candidates),
+    )
     found = []
     for one in asked:
-        found.append(detectability(ground, one, rivals, variants[one.name]))
+        found.append(detectability(ground, one, competitors, variants[one.name]))
         step()
     return tuple(found)
 
 
-def rivals_of(ground: Ground, candidates: Sequence[Candidate]) -> dict[str, list[Gainer]]:
+def competitors_of(ground: BaseState, candidates: Sequence[Candidate]) -> dict[str, list[Gainer]]:
     """Every candidate with a parameter where it starts from, by label."""
     known = [one for one in candidates if one.parameters]
     variants = Counter(one.name for one in known)
@@ -106,11 +113,11 @@ def rivals_of(ground: Ground, candidates: Sequence[Candidate]) -> dict[str, list
 
 
 def detectability(
-    ground: Ground, candidate: Candidate, rivals: dict[str, list[Gainer]], variants: int
+    ground: BaseState, candidate: Candidate, competitors: dict[str, list[Gainer]], variants: int
 ) -> Detectability:
     """Of one candidate; `rivals` are all that may gain, by label."""
     faint, clear = (at_nats(ground, candidate, nats) for nats in (FAINTEST, CLEAR))
-    others = [each for label, some in rivals.items() if label != candidate.label for each in some]
+    others = [each for label, some in competitors.items() if label != candidate.label for each in some]
 
     def seen(one: Sized) -> float:
         return power(ground, one, others, variants)
@@ -136,13 +143,13 @@ def _share(one: Sized) -> float:
     return max((one.amplitude - rest) / reach_of(one.candidate, start), 1e-9)
 
 
-def _at_share(ground: Ground, candidate: Candidate, share: float) -> Sized:
+def _at_share(ground: BaseState, candidate: Candidate, share: float) -> Sized:
     start, first = candidate.starts[0], candidate.parameters[0].name
     value = rest_of(candidate) + share * reach_of(candidate, start)
     return sized(ground, candidate, {**start, first: value})
 
 
-def power(ground: Ground, one: Sized, others: Sequence[Gainer], variants: int) -> float:
+def power(ground: BaseState, one: Sized, others: Sequence[Gainer], variants: int) -> float:
     """Share of repetitions in which effects outweigh "none" where this effect is there."""
     moved = ground.moved(one.candidate.apply(ground.system), {**ground.values, **one.values})
     own = _gainer(ground, one.candidate, one.values, moved, variants, present=True)
@@ -180,8 +187,8 @@ def _independent(gainers: Sequence[Gainer]) -> Float[np.ndarray, "n k"]:
     return orthonormal(np.hstack([part for one in gainers for part in (one.directions, one.calibration)]))
 
 
-def _starting(ground: Ground, candidate: Candidate, variants: int) -> list[Gainer]:
-    """A rival, at every start that it offers."""
+def _starting(ground: BaseState, candidate: Candidate, variants: int) -> list[Gainer]:
+    """A competing model, at every start that it offers."""
     system = candidate.apply(ground.system)
     return [
         _gainer(ground, candidate, start, ground.moved(system, {**ground.values, **start}), variants, present=False)
@@ -190,7 +197,7 @@ def _starting(ground: Ground, candidate: Candidate, variants: int) -> list[Gaine
 
 
 def _gainer(
-    ground: Ground,
+    ground: BaseState,
     candidate: Candidate,
     values: Mapping[str, float],
     moved: Float[np.ndarray, " n"],
@@ -199,7 +206,7 @@ def _gainer(
 ) -> Gainer:
     """A candidate near given values: the first direction is what it does there, the others its shape's.
 
-    Of a rival, `present` false, only the first: what its shape can do besides is in its other starts.
+    Of a competing model, `present` false, only the first: what its shape can do besides is in its other starts.
     """
     parameters = candidate.parameters if present else candidate.parameters[:1]
     slopes = own_slopes(ground, candidate, values, moved)[:, : len(parameters)]
@@ -224,7 +231,7 @@ def _gainer(
     )
 
 
-def _calibration_share(ground: Ground, moved: Float[np.ndarray, " n"]) -> float:
+def _calibration_share(ground: BaseState, moved: Float[np.ndarray, " n"]) -> float:
     """Part, in the calibration rows, of what is left of a change once the base is refitted to these."""
     inside = slice(0, ground.fitted_rows)
     size = np.linalg.norm(ground.slopes[inside], axis=0)

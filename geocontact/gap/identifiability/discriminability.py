@@ -9,22 +9,22 @@ from threadpoolctl import threadpool_limits
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import NextExperiment
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.diagnosis import NextExperiment
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, attribute
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.identifiability.detectability import Detectability, detectabilities
-from geocontact.gap.identifiability.non_identifiable import mistakes, shown, swallowed, visibilities
+from geocontact.gap.identifiability.non_identifiable import confounded, mistakes, shown, visibilities
 from geocontact.gap.identifiability.separability import Separation, classes, separations
-from geocontact.gap.identifiability.signatures import Ground, Sized, at_nats, ground_of
+from geocontact.gap.identifiability.signatures import BaseState, Sized, at_nats, base_state_of
 
 NATS = 50.0  # visible nats that effects are compared at
 
 
 @dataclass(frozen=True)
-class Confusion:
+class Discriminability:
     """What was found out about the trials of a case.
 
     Parameters
@@ -32,7 +32,7 @@ class Confusion:
     found
         The diagnosis that noise and base parameters are taken from.
     ground
-        Base model and weighing of all trials.
+        Base model and whitening of all trials.
     effects
         Every candidate asked about, as visible as asked for, or as its bounds let it be.
     separations, classes
@@ -40,7 +40,8 @@ class Confusion:
     detectabilities
         From which amplitude on each is seen.
     absorbed
-        Effects, and mistakes in the data, that refitted base parameters swallow, the most completely swallowed first.
+        Effects, and mistakes in the data, that refitted base parameters reproduce, the most completely reproduced
+        first.
     mistakes
         Names of mistakes in the data that would leave a gap in every variant, if made in all calibration trials.
     proposal
@@ -48,7 +49,7 @@ class Confusion:
     """
 
     found: Attribution
-    ground: Ground
+    ground: BaseState
     effects: tuple[Sized, ...]
     separations: tuple[Separation, ...]
     classes: tuple[tuple[str, ...], ...]
@@ -68,13 +69,13 @@ def known(system: System, names: Sequence[str] = ()) -> tuple[Candidate, ...]:
     return tuple(one for one in candidates(system) if not names or one.name in names or one.label in names)
 
 
-def confuse(
+def discriminability(
     case: GapCase,
     system: System,
     names: Sequence[str] = (),
     nats: float = NATS,
     step: Callable[[], None] = lambda: None,
-) -> Confusion:
+) -> Discriminability:
     """What the trials of a case tell of effects, on one core.
 
     Noise, deviations of trials and base parameters are those of the diagnosis' answer, so that a gap which is there
@@ -94,12 +95,12 @@ def confuse(
     with threadpool_limits(limits=1):
         found = attribute(admitted(case, system), system, candidates)
         problem, judged = found.clean, found.answer.chosen.judged
-        ground = ground_of(problem, judged.noise, judged.model.values)
+        ground = base_state_of(problem, judged.noise, judged.model.values)
         asked = offered(problem.system, names)
         effects = tuple(at_nats(ground, one, nats) for one in asked)
         apart = separations(ground, effects, step)
         wrong = mistakes(problem, known(problem.system, names))
-        hidden = tuple(each.name for each in swallowed((*visibilities(problem, asked), *wrong), ()))
+        hidden = tuple(each.name for each in confounded((*visibilities(problem, asked), *wrong), ()))
         seen = detectabilities(ground, offered(problem.system), asked, step)
         proposal = next_experiment(found, first_of(asked, hidden))
-    return Confusion(found, ground, effects, apart, classes(apart), seen, hidden, shown(wrong), proposal)
+    return Discriminability(found, ground, effects, apart, classes(apart), seen, hidden, shown(wrong), proposal)

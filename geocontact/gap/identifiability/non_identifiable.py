@@ -1,8 +1,8 @@
-"""Effects that these trials would not show, because refitted base parameters imitate them.
+"""Effects that these trials would not show, because refitted base parameters reproduce them.
 
 An effect at the size where a search for it sets out moves the prediction by s (each channel in noise levels); refitting
-the base leaves the part P⊥ s that no base parameter imitates. What is left of the energy, |P⊥ s|²/|s|², is the visible
-share: where it is small the effect makes wrong parameters instead of a gap.
+the base leaves the part P⊥ s that no base parameter reproduces. What is left of the energy, |P⊥ s|²/|s|², is the
+visible share: where it is small the effect makes wrong parameters instead of a gap.
 """
 
 from __future__ import annotations
@@ -35,20 +35,20 @@ class Visibility:
 
     @property
     def absorbed(self) -> bool:
-        """Whether base parameters swallow it."""
+        """Whether base parameters reproduce it."""
         return self.share < VISIBLE and self.nats < UNSEEN
 
 
 NOTHING = Visibility("", np.inf)
 
 
-def absorbed(problem: Problem, candidates: Sequence[Candidate], named: Sequence[str]) -> list[Visibility]:
-    """Effects and mistakes that the base parameters swallow, the most completely swallowed first."""
-    return swallowed((*visibilities(problem, candidates), *mistakes(problem, candidates)), named)
+def non_identifiable(problem: Problem, candidates: Sequence[Candidate], named: Sequence[str]) -> list[Visibility]:
+    """Effects and mistakes that the base parameters reproduce, the most completely reproduced first."""
+    return confounded((*visibilities(problem, candidates), *mistakes(problem, candidates)), named)
 
 
-def swallowed(seen: Sequence[Visibility], named: Sequence[str]) -> list[Visibility]:
-    """Those of them that base parameters swallow and nobody named, once each, the most completely swallowed first."""
+def confounded(seen: Sequence[Visibility], named: Sequence[str]) -> list[Visibility]:
+    """Those of them that base parameters reproduce and nobody named, once each, most completely reproduced first."""
     least: dict[str, Visibility] = {}
     for each in seen:
         if each.absorbed and each.name not in named and each.share < least.get(each.name, NOTHING).share:
@@ -67,9 +67,9 @@ def shown(seen: Sequence[Visibility]) -> tuple[str, ...]:
 def visibilities(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibility]:
     """Of every candidate with a parameter, at every start that it offers."""
     system, values, measured = problem.system, problem.plain.values, problem.calibration
-    weigh = [Plain(there, problem.floor_of_noise) for there in measured.present]
+    whiten = [Plain(there, problem.floor_of_noise) for there in measured.present]
     before = measured.residuals(system, values)
-    slopes = np.concatenate([w(j) for w, j in zip(weigh, derivatives(system, measured, values, before), strict=True)])
+    slopes = np.concatenate([w(j) for w, j in zip(whiten, derivatives(system, measured, values, before), strict=True)])
     basis = np.linalg.qr(slopes)[0]
     found = []
     for one in candidates:
@@ -78,7 +78,7 @@ def visibilities(problem: Problem, candidates: Sequence[Candidate]) -> list[Visi
         changed = one.apply(system)
         for start in one.starts:
             after = measured.residuals(changed, {**values, **start})
-            step = [w((a - b)[..., None])[:, 0] for w, a, b in zip(weigh, after, before, strict=True)]
+            step = [w((a - b)[..., None])[:, 0] for w, a, b in zip(whiten, after, before, strict=True)]
             moved = np.concatenate(step)
             energy = float(moved @ moved)
             if energy > 0.0:
@@ -101,13 +101,13 @@ def mistakes(problem: Problem, candidates: Sequence[Candidate]) -> list[Visibili
         if one.somewhere is None:
             continue
         floor = _written_down(problem, one)
-        weigh = [Plain(there, floor) for there in measured.present]
+        whiten = [Plain(there, floor) for there in measured.present]
         outputs = [o - r for o, r in zip(measured.outputs, measured.residuals(one.apply(system), values), strict=True)]
-        moved = [w((a - b)[..., None])[:, 0] for w, a, b in zip(weigh, outputs, still, strict=True)]
+        moved = [w((a - b)[..., None])[:, 0] for w, a, b in zip(whiten, outputs, still, strict=True)]
         energy = 0.5 * sum(float(each @ each) for each in moved)
         if energy > 0.0:
             trials = Measured(measured.trials, tuple(outputs), measured.rough)
-            left = refit(system, trials, weigh, starts, ROUNDS, useful=min(UNSEEN, VISIBLE * energy)).cost
+            left = refit(system, trials, whiten, starts, ROUNDS, useful=min(UNSEEN, VISIBLE * energy)).cost
             found.append(Visibility(one.name, left / energy, left))
     return found
 

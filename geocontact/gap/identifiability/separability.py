@@ -1,10 +1,10 @@
-"""Which effects these trials would tell apart: what is left of one when another, and the base, may imitate it.
+"""Which effects these trials would tell apart: what is left of one when another, and the base, may reproduce it.
 
 Suppose effect e is there at some amplitude and somebody fits effect f instead, base parameters with it. What f cannot
-imitate of e, ½ min |s_e - (s_f(φ) + base)|² in whitened units, are the nats by which e beats f on such trials.
+reproduce of e, ½ min |s_e - (s_f(φ) + base)|² in whitened units, are the nats by which e beats f on such trials.
 To first order that is what the directions of f's parameters at one of its starts leave of s_e; the point that this step
 leads to is simulated, and where it does not keep what it promises a short bounded refit takes its place. Where even a
-straight imitation leaves more than `FAR` nats nothing is simulated; the figure then tells that the two differ, and
+first-order fit leaves more than `FAR` nats nothing is simulated; the figure then tells that the two differ, and
 roughly how much.
 """
 
@@ -20,7 +20,7 @@ from jaxtyping import Float
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.gap.case.refit import free, refit
-from geocontact.gap.identifiability.signatures import Ground, Sized, orthonormal, own_slopes
+from geocontact.gap.identifiability.signatures import BaseState, Sized, orthonormal, own_slopes
 
 APART = 5.0  # nats from which two effects count as told apart
 FAR = 25.0  # nats from which a first-order figure is not checked
@@ -36,22 +36,22 @@ class Separation:
 
     Parameters
     ----------
-    true, imitator
-        Labels of the candidates; "none" for the base model alone as imitator.
+    true, confounder
+        Labels of the candidates; "none" for the base model alone as confounder.
     nats
-        What the imitator leaves.
+        What the confounder leaves.
     way
         How that was found.
     """
 
     true: str
-    imitator: str
+    confounder: str
     nats: float
     way: Way
 
 
 @dataclass(frozen=True)
-class Imitator:
+class Confounder:
     """A model that tries to look like others: where it may start from, and the directions that it has there.
 
     `slopes` and `directions` are those of all its parameters, the base's first.
@@ -64,12 +64,12 @@ class Imitator:
     directions: tuple[Float[np.ndarray, "n k"], ...]
 
 
-def base_alone(ground: Ground) -> Imitator:
+def base_alone(ground: BaseState) -> Confounder:
     """The base model, which can only be refitted."""
-    return Imitator(NONE, ground.system, (ground.values,), (ground.slopes,), (ground.base,))
+    return Confounder(NONE, ground.system, (ground.values,), (ground.slopes,), (ground.base,))
 
 
-def imitator_of(ground: Ground, candidate: Candidate) -> Imitator:
+def confounder_of(ground: BaseState, candidate: Candidate) -> Confounder:
     """The base model with a candidate, at every start that this offers."""
     system = candidate.apply(ground.system)
     starts = tuple({**ground.values, **start} for start in candidate.starts)
@@ -77,24 +77,24 @@ def imitator_of(ground: Ground, candidate: Candidate) -> Imitator:
         np.hstack([ground.slopes, own_slopes(ground, candidate, start, ground.moved(system, start))])
         for start in starts
     )
-    return Imitator(candidate.label, system, starts, slopes, tuple(orthonormal(each) for each in slopes))
+    return Confounder(candidate.label, system, starts, slopes, tuple(orthonormal(each) for each in slopes))
 
 
 def separations(
-    ground: Ground, effects: Sequence[Sized], step: Callable[[], None] = lambda: None
+    ground: BaseState, effects: Sequence[Sized], step: Callable[[], None] = lambda: None
 ) -> tuple[Separation, ...]:
     """Every effect against the base model and against every other; `step` is called after each effect."""
-    imitators = [base_alone(ground), *(imitator_of(ground, one.candidate) for one in effects)]
+    confounders = [base_alone(ground), *(confounder_of(ground, one.candidate) for one in effects)]
     found = []
     for one in effects:
         target = ground.moved(one.candidate.apply(ground.system), {**ground.values, **one.values})
-        found += [separation(ground, one, target, other) for other in imitators]
+        found += [separation(ground, one, target, other) for other in confounders]
         step()
     return tuple(found)
 
 
-def separation(ground: Ground, one: Sized, target: Float[np.ndarray, " n"], other: Imitator) -> Separation:
-    """What `other` leaves of `target`, which is what the effect does, `Ground.moved`."""
+def separation(ground: BaseState, one: Sized, target: Float[np.ndarray, " n"], other: Confounder) -> Separation:
+    """What `other` leaves of `target`, which is what the effect does, `BaseState.moved`."""
     names = one.candidate.label, other.label
     if names[0] == names[1]:
         return Separation(*names, 0.0, "itself")
@@ -110,7 +110,7 @@ def separation(ground: Ground, one: Sized, target: Float[np.ndarray, " n"], othe
 
 
 def _straight(
-    ground: Ground, target: Float[np.ndarray, " n"], other: Imitator, which: int
+    ground: BaseState, target: Float[np.ndarray, " n"], other: Confounder, which: int
 ) -> tuple[dict[str, float], float]:
     """Where one straight step to the target leads, within bounds, and what it leaves of the target there [nats]."""
     start, columns = other.starts[which], other.slopes[which]
@@ -124,7 +124,7 @@ def _straight(
     return values, 0.5 * float(off @ off)
 
 
-def refitted(ground: Ground, one: Sized, other: Imitator, start: Mapping[str, float]) -> float:
+def refitted(ground: BaseState, one: Sized, other: Confounder, start: Mapping[str, float]) -> float:
     """What a bounded least-squares fit of `other` leaves of trials that have the effect and no noise [nats]."""
     there = one.candidate.apply(ground.system)
     full = {**ground.values, **one.values}
@@ -133,11 +133,12 @@ def refitted(ground: Ground, one: Sized, other: Imitator, start: Mapping[str, fl
         for t, o in zip(ground.measured.trials, ground.measured.outputs, strict=True)
     ]
     measured = replace(ground.measured, outputs=tuple(outputs))
-    return refit(other.system, measured, ground.weighings, [start, *other.starts], REFITTED).cost
+    return refit(other.system, measured, ground.whitenings, [start, *other.starts], REFITTED).cost
 
 
 def classes(found: Sequence[Separation], least: float = APART) -> tuple[tuple[str, ...], ...]:
-    """Effects that these trials cannot tell apart: within a class each imitates every other to less than `least` nats.
+    """Effects that these trials cannot tell apart: within a class each reproduces every other to less than `least`
+    nats.
 
     Complete linkage; classes of one are left out. The base model is none of them.
     """
@@ -155,10 +156,10 @@ def classes(found: Sequence[Separation], least: float = APART) -> tuple[tuple[st
 
 
 def table(found: Sequence[Separation]) -> tuple[list[str], Float[np.ndarray, "e f"]]:
-    """Labels, and nats: a row per true effect, a column per imitator, the base model's first."""
+    """Labels, and nats: a row per true effect, a column per confounder, the base model's first."""
     labels = list(dict.fromkeys(each.true for each in found))
     columns = [NONE, *labels]
     matrix = np.full((len(labels), len(columns)), np.nan)
     for each in found:
-        matrix[labels.index(each.true), columns.index(each.imitator)] = each.nats
+        matrix[labels.index(each.true), columns.index(each.confounder)] = each.nats
     return labels, matrix

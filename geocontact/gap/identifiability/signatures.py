@@ -1,8 +1,8 @@
 """What an effect does to the predictions of given trials, in units of what noise and trial-to-trial variation hide.
 
 The base model stands at fitted values; an effect of an amplitude moves its prediction by s, whitened as the diagnosis
-whitens residuals (sensor noise, noise of the inputs, deviations of the trials). Refitted base parameters imitate all of
-it but P⊥ s: ½|s|² nats are there, ½|P⊥ s|² are **visible**, the rest is **absorbed**.
+whitens residuals (sensor noise, noise of the inputs, deviations of the trials). Refitted base parameters reproduce all
+of it but P⊥ s: ½|s|² nats are there, ½|P⊥ s|² are **visible**, the rest is **absorbed**.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.refit import STEP, Measured, Refit, at, magnitude
-from geocontact.gap.case.whitening import Weighing
+from geocontact.gap.case.whitening import Whitening
 
 ROUNDS, CLOSE = 16, 0.02  # steps to an amplitude of given nats, and how close these must be
 ADDS = 1e-9  # of the largest singular value, from which a direction counts
@@ -27,7 +27,7 @@ LEAST, FAINT = 1e-6, 1e-3  # of the way to the end of its bounds, and of the nat
 
 
 @dataclass(frozen=True)
-class Ground:
+class BaseState:
     """The base model on all trials of a case, calibration trials first, and what its residuals are weighed by.
 
     Parameters
@@ -36,7 +36,7 @@ class Ground:
         Base model and its free parameters.
     measured
         All trials.
-    weighings
+    whitenings
         One per trial.
     slopes
         Derivatives of the prediction with respect to the base parameters, whitened.
@@ -47,7 +47,7 @@ class Ground:
     system: System
     values: Mapping[str, float]
     measured: Measured
-    weighings: tuple[Weighing, ...]
+    whitenings: tuple[Whitening, ...]
     slopes: Float[np.ndarray, "n q"]
     fitted_rows: int
 
@@ -68,7 +68,7 @@ class Ground:
 
     def whitened(self, parts: Sequence[Float[np.ndarray, "_ c"]]) -> Float[np.ndarray, " n"]:
         """Of what is given for all samples of all trials."""
-        return np.concatenate([w(p[..., None])[:, 0] for w, p in zip(self.weighings, parts, strict=True)])
+        return np.concatenate([w(p[..., None])[:, 0] for w, p in zip(self.whitenings, parts, strict=True)])
 
     def moved(self, system: System, values: Mapping[str, float]) -> Float[np.ndarray, " n"]:
         """How far another model predicts from the base, whitened."""
@@ -76,11 +76,11 @@ class Ground:
         return self.whitened([a - b for a, b in zip(self.before, after, strict=True)])
 
     def left(self, moved: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-        """What refitted base parameters do not imitate of it, to first order."""
+        """What refitted base parameters do not reproduce of it, to first order."""
         return np.asarray(moved - self.base @ (self.base.T @ moved))
 
 
-def ground_of(problem: Problem, noise: Noise, values: Mapping[str, float]) -> Ground:
+def base_state_of(problem: Problem, noise: Noise, values: Mapping[str, float]) -> BaseState:
     """The base model of a problem at these values, under a noise."""
     both = (problem.calibration, problem.evaluation)
     measured = replace(
@@ -90,10 +90,10 @@ def ground_of(problem: Problem, noise: Noise, values: Mapping[str, float]) -> Gr
     )
     own = {name: values[name] for name in problem.plain.values}
     model: Refit = at(problem.system, measured, None, own)
-    weighings = problem.weighings(noise, model)
-    model = model.weighed(weighings)
-    rows = sum(len(w.directions) for w in weighings[: len(problem.calibration.trials)])
-    return Ground(problem.system, own, measured, tuple(weighings), model.whitened_jacobian, rows)
+    whitenings = problem.whitenings(noise, model)
+    model = model.weighed(whitenings)
+    rows = sum(len(w.directions) for w in whitenings[: len(problem.calibration.trials)])
+    return BaseState(problem.system, own, measured, tuple(whitenings), model.whitened_jacobian, rows)
 
 
 def orthonormal(columns: Float[np.ndarray, "n p"]) -> Float[np.ndarray, "n k"]:
@@ -143,11 +143,11 @@ class Sized:
 
     @property
     def absorbed(self) -> float:
-        """What refitted base parameters imitate [nats]."""
+        """What refitted base parameters reproduce [nats]."""
         return self.whole - self.visible
 
 
-def sized(ground: Ground, candidate: Candidate, values: Mapping[str, float]) -> Sized:
+def sized(ground: BaseState, candidate: Candidate, values: Mapping[str, float]) -> Sized:
     """An effect at given values of its parameters; where values are missing, those it starts from."""
     own = {**candidate.starts[0], **values}
     moved = ground.moved(candidate.apply(ground.system), {**ground.values, **own})
@@ -155,7 +155,7 @@ def sized(ground: Ground, candidate: Candidate, values: Mapping[str, float]) -> 
     return Sized(candidate, own, 0.5 * float(moved @ moved), 0.5 * float(left @ left))
 
 
-def at_nats(ground: Ground, candidate: Candidate, nats: float) -> Sized:
+def at_nats(ground: BaseState, candidate: Candidate, nats: float) -> Sized:
     """An effect at the amplitude at which so much of it is visible, or as near to it as its bounds let it come."""
     first, start = candidate.parameters[0].name, candidate.starts[0]
     rest, reach = rest_of(candidate), reach_of(candidate, start)
@@ -185,11 +185,11 @@ def _off(one: Sized, nats: float) -> float:
 
 
 def own_slopes(
-    ground: Ground, candidate: Candidate, values: Mapping[str, float], at_values: Float[np.ndarray, " n"]
+    ground: BaseState, candidate: Candidate, values: Mapping[str, float], at_values: Float[np.ndarray, " n"]
 ) -> Float[np.ndarray, "n p"]:
     """Derivatives of what an effect does with respect to its own parameters, whitened.
 
-    `at_values` is what it does at `values`, `Ground.moved`.
+    `at_values` is what it does at `values`, `BaseState.moved`.
     """
     system, known = candidate.apply(ground.system), {**ground.values, **values}
 

@@ -2,10 +2,10 @@
 
 A low-pass filter, an inertia or a damper that a model does not have can look useful merely because it smooths the noise
 of the inputs that the model is driven by. The noise of each input is read off its spectrum, or estimated from what the
-base model misses (`identify.noise.covariance`); its spectrum is that of the low-pass filter that motion usually has been
-through, and the Wiener filter 1 - N/P takes it off: P is the spectrum of the recording, N that of the noise. Both hold
-for a stretch of it: a movement that sets out sharply after a rest keeps its high frequencies, and the rest loses its
-noise. Where the signal stands far above the noise nothing changes.
+base model misses (`identify.noise.covariance`); its spectrum is that of the low-pass filter that motion usually has
+been through, and the Wiener filter 1 - N/P takes it off: P is the spectrum of the recording, N that of the noise. Both
+hold for a stretch of it: a movement that sets out sharply after a rest keeps its high frequencies, and the rest loses
+its noise. Where the signal stands far above the noise nothing changes.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from geocontact.identify.signals.low_pass import LowPass
 
 PLATEAU = (0.25, 0.42, 0.58, 0.75, 0.92)  # of the corner
 FLAT = 2.5  # largest over smallest power of a plateau
-CHANCE = 1e-3  # that the noise of an input is louder than the limit that its spectrum sets
+CHANCE = 1e-3  # that the noise of an input is higher than the limit that its spectrum sets
 BLACKMAN = 1.73  # bins as wide as one under the window (Harris 1978, Proc. IEEE 66:51)
 SMOOTH = 5  # bins that the spectrum of a stretch is averaged over
 PERIODS, FEWEST = 8.0, 8  # of the corner in a stretch, and samples in a quarter of it at the least
@@ -91,11 +91,11 @@ def seen_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float | N
     return plateau(_evenly(trials, name), passed)
 
 
-def loudest(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
-    """Standard deviation that an input's noise cannot well exceed: that of the quietest band of its spectrum.
+def highest_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
+    """Standard deviation that an input's noise cannot well exceed: that of the weakest band of its spectrum.
 
-    Movement only adds to what a band holds; how little noise may hold there by chance is told by a χ² of as many values
-    as are independent under the window. Bands are those of the plateau, below the corner and below that of most
+    Movement only adds to what a band holds; how little noise may hold there by chance is given by a χ² of as many
+    values as are independent under the window. Bands are those of the plateau, below the corner and below that of most
     laboratories, of which the one that allows more counts, since the corner may have come out too high. Infinite where
     no trial is long enough.
     """

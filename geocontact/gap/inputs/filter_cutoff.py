@@ -1,9 +1,9 @@
 """The low-pass filters that the inputs of a case came through, read off their spectra.
 
 Motion is slow; above its own frequencies a recording holds noise up to the corner of the filter and little beyond it.
-The spectrum of every input is taken apart into movement, noise and a white rest (`gap/inputs/spectrum_components.py`), with one f_c
-for all inputs that were filtered. Corners far from 6 Hz are believed less: where the movement hides the noise, f_c
-stays near that. Usually all inputs were filtered, or none; that some were and others not is believed least.
+The spectrum of every input is taken apart into movement, noise and a white rest (`gap/inputs/spectrum_components.py`),
+with one f_c for all inputs that were filtered. Corners far from 6 Hz are believed less: where the movement hides the
+noise, f_c stays near that. Usually all inputs were filtered, or none; that some were and others not is believed least.
 """
 
 from __future__ import annotations

@@ -63,8 +63,8 @@ def _lasting(
     for place in PLACES:
         at = int(place * count)
         answer = np.abs(_answer(system, trial, values, name, plain, np.array([at])))
-        loud: Bool[np.ndarray, " t"] = (answer > FADED * answer.max(axis=0)).any(axis=1) & (answer.max() > 0.0)
-        last = int(np.flatnonzero(loud)[-1]) if loud.any() else at
+        large: Bool[np.ndarray, " t"] = (answer > FADED * answer.max(axis=0)).any(axis=1) & (answer.max() > 0.0)
+        last = int(np.flatnonzero(large)[-1]) if large.any() else at
         longest = max(longest, last - at)
     return longest
 

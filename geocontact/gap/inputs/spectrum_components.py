@@ -4,8 +4,8 @@ S = A exp(-(f/b)^q) + B/(1 + (f/f_t)^4)² + N H²(f) + R, by Whittle's likelihoo
 B 15:125). The first term is a movement that falls off with frequency. The second, for which TAILED nats must speak, is
 the tail of one that is put together of pieces: where its third derivative jumps, the power falls off with the eighth
 power of the frequency (Bracewell, The Fourier Transform and Its Applications, 2000, ch. 8). H² is the filter
-(`identify.signals.low_pass`), R rounding. Noise much louder or quieter than usual is believed less, and so is a rest that is
-louder than rounding, so that noise which nobody filtered is not taken for it.
+(`identify.signals.low_pass`), R rounding. Noise much higher or lower than usual is believed less, and so is a rest that
+is higher than rounding, so that noise which nobody filtered is not taken for it.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
-"""How loud what a model misses is: in frequency bands over whole trials, and what is fast over the phase.
+"""How large what a model misses is: in frequency bands over whole trials, and what is fast over the phase.
 
 A mean over a bin does not see what swings inside it, and an energy over a whole trial hardly sees a burst. So there is
-a map of energies beside that of means (`gap.localise.gap_map`): in bands, and above `FAST` in each part of the phase. Both are
-compared with energies of noise drawn from the fitted levels; the largest over all channels, bands and phases of each
-draw makes the p-values hold for the family of all of them. Frequencies are those of the cosine transform, which has no
-jump where a trial ends that a slow residual could be taken for fast at; missing samples and uneven steps are bridged
-by straight lines, in the residual as in the noise.
+a map of energies beside that of means (`gap.localise.gap_map`): in bands, and above `FAST` in each part of the phase.
+Both are compared with energies of noise drawn from the fitted levels; the largest over all channels, bands and phases
+of each draw makes the p-values hold for the family of all of them. Frequencies are those of the cosine transform, which
+has no jump where a trial ends that a slow residual could be taken for fast at; missing samples and uneven steps are
+bridged by straight lines, in the residual as in the noise.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.fft import dct, idct
 
-from geocontact.data.gap_cell import BAND, FAST, FAST_PHASE, Cell, shares
+from geocontact.data.gap.cell import BAND, FAST, FAST_PHASE, Cell, shares
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.selection.evidence import Judged
 
@@ -35,15 +35,15 @@ def frequency_map(problem: Problem, base: Judged, residuals: list[Float[np.ndarr
     trials = problem.calibration.trials + problem.evaluation.trials
     channels = problem.system.outputs
     rng = np.random.default_rng(0)
-    loud, drawn = [], np.zeros((DRAWS, len(channels), len(BANDS) - 1 + PHASES))
+    observed, drawn = [], np.zeros((DRAWS, len(channels), len(BANDS) - 1 + PHASES))
     for trial, whitener, residual in zip(trials, base.noise.whiteners, residuals, strict=True):
         rows = np.concatenate(whitener.rows)
         without = ~np.isfinite(base.model.system.simulate(trial, base.model.values))
-        loud.append(energies(trial.time, _placed(residual.ravel()[rows], rows, without)))
+        observed.append(energies(trial.time, _placed(residual.ravel()[rows], rows, without)))
         for k in range(DRAWS):
             noise = _placed(whitener.coloured(rng.standard_normal(len(rows))), rows, without)
             drawn[k] += energies(trial.time, noise) / len(trials)
-    each = np.array(loud)
+    each = np.array(observed)
     seen = each.mean(axis=0)
     middle, spread = drawn.mean(axis=0), np.maximum(drawn.std(axis=0), 1e-300)
     largest = ((drawn - middle) / spread).max(axis=(1, 2))

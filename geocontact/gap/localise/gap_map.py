@@ -17,10 +17,10 @@ from jaxtyping import Float
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
-from geocontact.data.gap_cell import Cell, shares
+from geocontact.data.gap.cell import Cell, shares
 from geocontact.gap.case.problem import Problem, noise_variance
 from geocontact.gap.data_errors.correction import put_back
-from geocontact.gap.data_errors.gross import Fault
+from geocontact.gap.data_errors.gross import DataError
 from geocontact.gap.localise.frequency_map import frequency_map
 from geocontact.gap.selection.evidence import Judged
 
@@ -57,12 +57,12 @@ def windows(
     clean: Problem,
     base: Judged,
     after: Judged | None,
-    fault: Fault | None,
+    data_error: DataError | None,
     cells: tuple[Cell, ...],
 ) -> tuple[Window, ...]:
     """Channels with a gap, the one with most of it first, on the held-out trials.
 
-    `problem` is the case as it came, `clean` the one with the mistake `fault` undone. `base`, and `after` where
+    `problem` is the case as it came, `clean` the one with the mistake `data_error` undone. `base`, and `after` where
     something was named, were fitted to the latter.
 
     With a model that explains the gap it is the difference of the two predictions; without one it is the squared
@@ -71,7 +71,7 @@ def windows(
     count = len(problem.calibration.trials)
     phase = np.linspace(0.0, 1.0, GRID)
     curves = np.zeros((GRID, len(problem.system.outputs)))
-    gaps = missed(problem, after, fault)
+    gaps = missed(problem, after, data_error)
     for i, (trial, there) in enumerate(zip(problem.evaluation.trials, problem.evaluation.present, strict=True)):
         noise = 0.0 if after is not None else noise_variance(clean.layouts[count + i], base.noise.levels)
         square = gaps[i] ** 2 - noise
@@ -89,14 +89,14 @@ def windows(
     return tuple(sorted(found, key=lambda window: -window.share))
 
 
-def missed(problem: Problem, after: Judged | None, fault: Fault | None) -> list[Float[np.ndarray, "_ c"]]:
+def missed(problem: Problem, after: Judged | None, data_error: DataError | None) -> list[Float[np.ndarray, "_ c"]]:
     """What the base model misses of each held-out trial: what `after` adds, or without it the whole residual."""
     before = problem.evaluation.residuals(problem.system, problem.plain.values)
     if after is None:
         return before
     count = len(problem.calibration.trials)
     return [
-        own - put_back(fault, trial.name, problem.system.outputs, left)
+        own - put_back(data_error, trial.name, problem.system.outputs, left)
         for trial, own, left in zip(problem.evaluation.trials, before, after.model.residuals[count:], strict=True)
     ]
 
@@ -155,13 +155,13 @@ def _means(problem: Problem, base: Judged, residuals: list[Float[np.ndarray, "_ 
                 np.add.at(sums[i], (blocks[i][rows], own[rows]), residual[rows, c])
                 np.add.at(counts[i], (blocks[i][rows], own[rows]), 1.0)
                 total += float((residual[rows, c] ** 2).sum())
-            cells += [_Sums(name, axis, edges, sums, counts, total)]
+            cells += [_GapSums(name, axis, edges, sums, counts, total)]
     p_values = _family_wise([each.sums.reshape(-1, each.sums.shape[-1]) for each in cells])
     return [cell for each, p in zip(cells, p_values, strict=True) for cell in each.cells(p, rng)]
 
 
 @dataclass(frozen=True)
-class _Sums:
+class _GapSums:
     """Residual of a channel along an axis: sums and counts of the bins, block by block, and its sum of squares."""
 
     channel: str
@@ -183,11 +183,18 @@ class _Sums:
         mean = self.sums.sum(axis=(0, 1)) / np.maximum(count, 1.0)
         return [
             Cell(
-                self.channel, self.axis, float(self.edges[b]), float(self.edges[b + 1]), float(mean[b]),
-                float(share[b]), float(p_values[b]), (float(low[b]), float(high[b])), floor,
+                self.channel,
+                self.axis,
+                float(self.edges[b]),
+                float(self.edges[b + 1]),
+                float(mean[b]),
+                float(share[b]),
+                float(p_values[b]),
+                (float(low[b]), float(high[b])),
+                floor,
             )
             for b in np.flatnonzero(count)
-        ]  # fmt: skip
+        ]
 
 
 def systematic(sums: Float[np.ndarray, "i k b"], counts: Float[np.ndarray, "i k b"]) -> Float[np.ndarray, " b"]:

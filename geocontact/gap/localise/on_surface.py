@@ -10,10 +10,10 @@ a covariance: parts add up to 1, noise of single cells averages out, and a load 
 as far as it does so when the gap is there. A part may be negative: that cell is off the other way. As g serves what the
 named effect adds, which is free of noise, or the smoothed residual where nothing was named.
 
-A gap that is spread as the load is has cᵢ⁰ = sᵢ/Σ sᵢ. Whether another spread can be told is asked of dᵢ = rᵢ - cᵢ⁰ r in
-two ways, the largest over all cells one family, the smaller p-value doubled: by flipping the signs of dᵢg over blocks
-inside trials, as on the map over phase, which tells a gap that comes again and again; and by turning g round in time
-within its trials, all by the same part, which tells a gap that comes once.
+A gap that is spread as the load is has cᵢ⁰ = sᵢ/Σ sᵢ. Whether another spread can be identified is tested on dᵢ = rᵢ -
+cᵢ⁰ r in two ways, the largest over all cells one family, the smaller p-value doubled: by flipping the signs of dᵢg over
+blocks inside trials, as on the map over phase, which tells a gap that comes again and again; and by turning g round in
+time within its trials, all by the same part, which tells a gap that comes once.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.cell_channels import CellChannels
-from geocontact.data.surface_gap import SurfaceGap
+from geocontact.data.gap.cell_channels import CellChannels
+from geocontact.data.gap.surface_gap import SurfaceGap
 from geocontact.data.trial import Trial
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.data_errors.gross import Fault
+from geocontact.gap.data_errors.gross import DataError
 from geocontact.gap.localise.gap_map import BLOCKS, FLIPS, HOLDS, missed, smoothed
 from geocontact.gap.selection.evidence import Judged
 
@@ -40,7 +40,7 @@ Seen = list[tuple[Float[np.ndarray, "_ n"], Float[np.ndarray, " _"]]]
 
 
 def on_surface(
-    problem: Problem, after: Judged | None, fault: Fault | None, cells: Mapping[str, CellChannels]
+    problem: Problem, after: Judged | None, data_error: DataError | None, cells: Mapping[str, CellChannels]
 ) -> tuple[SurfaceGap, ...]:
     """Every site whose cells show the gap of its channel, where trials on both sides have cells.
 
@@ -48,12 +48,12 @@ def on_surface(
     ----------
     problem
         The case as it came.
-    after, fault
+    after, data_error
         As for `locate.windows`.
     cells
         By site.
     """
-    gaps = missed(problem, after, fault)
+    gaps = missed(problem, after, data_error)
     found = []
     for site, own in cells.items():
         one = _site(problem, site, own, gaps, after is not None)

@@ -1,11 +1,11 @@
 """How far the gap shrinks on trials that were not used once the effect is in the model.
 
 What is asked for is the reduction on fresh trials of the same kind, of which the held-out ones are a few, against the
-model with the effect at its true values. Where these lie is best told by all trials together. The error that stays, a²,
-is what that best fit leaves of each trial and what it bent towards it, with what the fitted noise levels imply counted
-as part of a trial more. The error that goes, g², is how far the base model, fitted to few trials, is from the truth on
-the held-out ones: from the best fit, and what that errs by itself; and what noise of the inputs makes of the one error
-beyond the other, which may be less than nothing. Then
+model with the effect at its true values. Where these lie is best estimated from all trials together. The error that
+stays, a², is what that best fit leaves of each trial and what it bent towards it, with what the fitted noise levels
+imply counted as part of a trial more. The error that goes, g², is how far the base model, fitted to few trials, is from
+the truth on the held-out ones: from the best fit, and what that errs by itself; and what noise of the inputs makes of
+the one error beyond the other, which may be less than nothing. Then
 
     reduction = 1 - rmse_after / rmse_before = 1 - (1 + g²/a²)^(-1/2).
 
@@ -20,8 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.data_errors.gross import Fault
-from geocontact.gap.reduction.raw_input_errors import Errors, errors_as_measured, misjudged, passed_on
+from geocontact.gap.data_errors.gross import DataError
+from geocontact.gap.reduction.raw_input_errors import RawInputErrors, misjudged, passed_on, raw_input_errors
 from geocontact.gap.selection.evidence import Judged
 
 FORM = 0.04  # relative standard deviation of g² for the form of the effect
@@ -35,7 +35,7 @@ TELLING = 2.0  # times the squared floor that the squared error before must be, 
 
 
 @dataclass(frozen=True)
-class Shrinkage:
+class ErrorReduction:
     """One channel's gap.
 
     Parameters
@@ -59,9 +59,9 @@ class Shrinkage:
     unexplained: float | None
 
 
-def shrinkage(
-    problem: Problem, clean: Problem, after: Judged, named: bool, fault: Fault | None = None
-) -> dict[str, Shrinkage]:
+def error_reduction(
+    problem: Problem, clean: Problem, after: Judged, named: bool, data_error: DataError | None = None
+) -> dict[str, ErrorReduction]:
     """Of every channel.
 
     Parameters
@@ -72,16 +72,22 @@ def shrinkage(
         The model with what was named, fitted to the clean case, or the base where nothing was.
     named
         Whether anything was.
-    fault
+    data_error
         The mistake. Calibration trials that have it while others have not tell nothing of what stays on others.
     """
+    return error_reduction_of(raw_input_errors(problem, clean, after, data_error), problem, after, named, data_error)
+
+
+def error_reduction_of(
+    errors: RawInputErrors, problem: Problem, after: Judged, named: bool, data_error: DataError | None
+) -> dict[str, ErrorReduction]:
+    """Of every channel, from its errors; see `error_reduction`."""
     from scipy.stats import t
 
-    errors = errors_as_measured(problem, clean, after, fault)
     count, present = len(problem.calibration.trials), problem.recorded.present
     student = float(t.ppf(0.975, max(errors.told_by - 1, 1)))  # a spread that is known from as few trials
     heard = np.zeros(len(problem.system.outputs))
-    if named and fault is None:  # beside a mistake in the data noise of the inputs is nothing
+    if named and data_error is None:  # beside a mistake in the data noise of the inputs is nothing
         base = (problem.system.as_measured(), errors.values, errors.before[count:])
         own = (after.model.system.as_measured(), after.model.values, errors.after[count:])
         heard = passed_on(problem, after, [base, own])
@@ -91,7 +97,7 @@ def shrinkage(
         stays = _mean_square(errors.after[count:], present[count:], c)
         floor = float(np.mean([f[c] for f in errors.implied[count:]]))
         if not named:
-            found[name] = Shrinkage(error**0.5, error**0.5, floor**0.5, 0.0, 0.0, 0.0, None)
+            found[name] = ErrorReduction(error**0.5, error**0.5, floor**0.5, 0.0, 0.0, 0.0, None)
             continue
         (gone, gone_sd), (left, left_sd) = _gone(problem, errors, c), errors.left[c]
         gone += float(heard[c])
@@ -101,7 +107,7 @@ def shrinkage(
         share = None
         if error >= TELLING * floor:
             share = min(max(left - floor, 0.0) / (left + gone - floor), 1.0) if left + gone > floor else 0.0
-        found[name] = Shrinkage(error**0.5, stays**0.5, floor**0.5, float(middle), float(low), float(high), share)
+        found[name] = ErrorReduction(error**0.5, stays**0.5, floor**0.5, float(middle), float(low), float(high), share)
     return found
 
 
@@ -122,7 +128,7 @@ def _mean_square(residuals: list[np.ndarray], present: tuple[np.ndarray, ...], c
     return float(np.mean(values**2)) if len(values) else 0.0
 
 
-def _gone(problem: Problem, errors: Errors, c: int) -> tuple[float, float]:
+def _gone(problem: Problem, errors: RawInputErrors, c: int) -> tuple[float, float]:
     """Mean square that the base model's error has beyond what stays, and its standard deviation.
 
     The base model, fitted to few trials, misses the truth by d + e, d the difference to the best fit with the effect, e

@@ -43,14 +43,14 @@ def leave_one_out(problem: Problem, base: Judged, named: Judged) -> tuple[TrialG
 
 def predictive(problem: Problem, one: Judged, under: Judged) -> Float[np.ndarray, " i"]:
     """Logarithm of each trial's predictive density given all others, without the constant [nats]."""
-    weighings = problem.weighings(under.noise, one.model)
+    whitenings = problem.whitenings(under.noise, one.model)
     spread = prior_spread(one.model.system, one.model.values)
     whitened = [
-        weigh(np.concatenate([residual[..., None], jacobian * spread], axis=-1))
-        for weigh, residual, jacobian in zip(weighings, one.model.residuals, one.model.jacobian, strict=True)
+        whiten(np.concatenate([residual[..., None], jacobian * spread], axis=-1))
+        for whiten, residual, jacobian in zip(whitenings, one.model.residuals, one.model.jacobian, strict=True)
     ]
     densities = left_out([each[:, 0] for each in whitened], [each[:, 1:] for each in whitened])
-    return np.asarray(densities - [weigh.log_scale for weigh in weighings])
+    return np.asarray(densities - [whiten.log_scale for whiten in whitenings])
 
 
 def left_out(

@@ -14,7 +14,7 @@ from geocontact.chain.system import System
 from geocontact.gap.case.problem import Plain, Problem, differences, noise_variance
 from geocontact.gap.case.refit import refit
 from geocontact.gap.data_errors.correction import put_back
-from geocontact.gap.data_errors.gross import Fault
+from geocontact.gap.data_errors.gross import DataError
 from geocontact.gap.inputs.denoise import changed, drawn
 from geocontact.gap.inputs.spectrum import switches
 from geocontact.gap.selection.evidence import Judged, prior_spread
@@ -25,7 +25,7 @@ NOTHING = 1e-300  # mean square of a channel that is never measured
 
 
 @dataclass(frozen=True)
-class Errors:
+class RawInputErrors:
     """Residuals per trial, calibration first, of what was recorded, mistakes in the data included.
 
     Parameters
@@ -36,7 +36,8 @@ class Errors:
         The answer at its values, fitted to the calibration trials.
     best
         The answer where all trials together put it (to first order), its effects bent as they may be otherwise than
-        their candidates (`gap.selection.model_discrepancy`): nearest to the truth, not to be reported as an error on trials it was fitted to.
+        their candidates (`gap.selection.model_discrepancy`): nearest to the truth, not to be reported as an error on
+        trials it was fitted to.
     derivatives
         Of the answer's predictions, with respect to its parameters and to how its effects are bent.
     known
@@ -62,7 +63,7 @@ class Errors:
     values: dict[str, float]
 
 
-def errors_as_measured(problem: Problem, clean: Problem, answer: Judged, fault: Fault | None) -> Errors:
+def raw_input_errors(problem: Problem, clean: Problem, answer: Judged, data_error: DataError | None) -> RawInputErrors:
     """Errors of a case: as it came (`problem`), and with a mistake in its data undone (`clean`).
 
     For the base fit channels are divided by the floors that the answer leaves: those that suit the base model would
@@ -70,23 +71,23 @@ def errors_as_measured(problem: Problem, clean: Problem, answer: Judged, fault: 
     """
     whole, outputs = problem.recorded, problem.system.outputs
     names, count = [trial.name for trial in whole.trials], len(problem.calibration.trials)
-    derivatives = [put_back(fault, n, outputs, d) for n, d in zip(names, directions(answer), strict=True)]
+    derivatives = [put_back(data_error, n, outputs, d) for n, d in zip(names, directions(answer), strict=True)]
     model = answer.model
     predicted = clean.recorded.residuals(model.system.as_measured(), model.values)
-    after = [put_back(fault, name, outputs, each) for name, each in zip(names, predicted, strict=True)]
-    varies = seen(clean, answer)
+    after = [put_back(data_error, name, outputs, each) for name, each in zip(names, predicted, strict=True)]
+    varies = observed_variation(clean, answer)
     shift, known = from_all_trials(clean, answer, varies)
     best = [r - j @ shift for r, j in zip(after, derivatives, strict=True)]
-    implied = _implied(clean, answer, varies, fault)
-    sound = [fault is None or name not in fault.trials for name in names[:count]]
+    implied = _implied(clean, answer, varies, data_error)
+    sound = [data_error is None or name not in data_error.trials for name in names[:count]]
     used = [*(sound if any(sound) else [True] * count), *(True for _ in names[count:])]
     left = tuple(_left(problem, derivatives, known, used, best, implied, c) for c in range(len(outputs)))
     first = replace(whole, trials=whole.trials[:count], outputs=whole.outputs[:count])
-    weigh = [Plain(there, np.sqrt([value for value, _ in left])) for there in first.present]
+    whiten = [Plain(there, np.sqrt([value for value, _ in left])) for there in first.present]
     base = problem.system.as_measured()
-    values = refit(base, first, weigh, [problem.plain.values], 20).values
+    values = refit(base, first, whiten, [problem.plain.values], 20).values
     before = whole.residuals(base, values)
-    return Errors(before, after, best, derivatives, known, implied, left, sum(used), values)
+    return RawInputErrors(before, after, best, derivatives, known, implied, left, sum(used), values)
 
 
 def passed_on(
@@ -96,7 +97,7 @@ def passed_on(
 
     Per channel, on the held-out trials: what it makes of the square of the base model's error beyond the answer's, less
     the square of the difference of the two. `pair` are the base model and the answer, as they see what was measured:
-    system, values, residuals on those trials. Noise is drawn, as loud as the answer has it, and added to what was
+    system, values, residuals on those trials. Noise is drawn, as high as the answer has it, and added to what was
     recorded (simulation extrapolation: Cook & Stefanski 1994, J. Am. Stat. Assoc. 89:1314). A draw in which a
     simulation fails tells nothing.
     """
@@ -115,11 +116,11 @@ def passed_on(
         product = [2.0 * a * (b - a) for a, b in zip(own, base, strict=True)]
         sums = [np.where(there, each, 0.0).sum(axis=0) for each, there in zip(product, held_out.present, strict=True)]
         found.append(sum(sums) / np.maximum(sum(there.sum(axis=0) for there in held_out.present), 1))
-    told = [each for each in found if np.isfinite(each).all()]
-    return np.asarray(np.mean(told, axis=0) if told else np.zeros(len(problem.system.outputs)))
+    finite = [each for each in found if np.isfinite(each).all()]
+    return np.asarray(np.mean(finite, axis=0) if finite else np.zeros(len(problem.system.outputs)))
 
 
-def seen(clean: Problem, after: Judged) -> Float[np.ndarray, " q"]:
+def observed_variation(clean: Problem, after: Judged) -> Float[np.ndarray, " q"]:
     """How much the base parameters differ between trials, around the best fit to all of them."""
     shift, _ = from_all_trials(clean, after, after.noise.varies)
     moved = [r - d @ shift for r, d in zip(after.model.residuals, directions(after), strict=True)]
@@ -129,28 +130,30 @@ def seen(clean: Problem, after: Judged) -> Float[np.ndarray, " q"]:
 def from_all_trials(
     clean: Problem, after: Judged, varies: np.ndarray
 ) -> tuple[Float[np.ndarray, " p"], Float[np.ndarray, "p p"]]:
-    """How parameters and bends move when the held-out trials tell of them too, and their covariance then.
+    """How parameters and discrepancies move when the held-out trials tell of them too, and their covariance then.
 
     Nothing that is fitted is reported of a trial it was fitted to; this is where the true values are believed to lie.
     Trials vary as much as they are seen to, so that few of them tell less than many samples would.
     """
     noise = replace(after.noise, varies=varies)
-    weighings = clean.weighings(noise, after.model)
-    model = after.model.weighed(weighings)
-    bent = np.concatenate([weigh(b) for weigh, b in zip(weighings, after.bends, strict=True)])
-    spread = np.concatenate([prior_spread(model.system, model.values), np.ones(bent.shape[1])])
-    scaled = np.concatenate([model.whitened_jacobian, bent], axis=1) * spread
+    whitenings = clean.whitenings(noise, after.model)
+    model = after.model.weighed(whitenings)
+    whitened_basis = np.concatenate([whiten(b) for whiten, b in zip(whitenings, after.discrepancy_basis, strict=True)])
+    spread = np.concatenate([prior_spread(model.system, model.values), np.ones(whitened_basis.shape[1])])
+    scaled = np.concatenate([model.whitened_jacobian, whitened_basis], axis=1) * spread
     covariance = np.linalg.inv(np.eye(len(spread)) + scaled.T @ scaled)
     return spread * (covariance @ (scaled.T @ model.whitened)), spread[:, None] * covariance * spread
 
 
 def directions(one: Judged) -> list[Float[np.ndarray, "_ c k"]]:
-    """Per trial, what is free to move: derivatives with respect to parameters, then bends."""
-    pairs = zip(one.model.jacobian, one.bends, strict=True)
-    return [np.concatenate([jacobian, bends], axis=-1) for jacobian, bends in pairs]
+    """Per trial, what is free to move: derivatives with respect to parameters, then the discrepancy basis."""
+    pairs = zip(one.model.jacobian, one.discrepancy_basis, strict=True)
+    return [np.concatenate([jacobian, discrepancy_basis], axis=-1) for jacobian, discrepancy_basis in pairs]
 
 
-def _implied(clean: Problem, after: Judged, varies: np.ndarray, fault: Fault | None) -> list[Float[np.ndarray, " c"]]:
+def _implied(
+    clean: Problem, after: Judged, varies: np.ndarray, data_error: DataError | None
+) -> list[Float[np.ndarray, " c"]]:
     """Mean square per channel of what no model can predict, trial by trial.
 
     Sensor noise, noise that inputs bring in, what smoothing them would take off, and trial-to-trial variation.
@@ -162,7 +165,7 @@ def _implied(clean: Problem, after: Judged, varies: np.ndarray, fault: Fault | N
     )
     for trial, (layout, jacobian, there, smooth, rough) in zip(clean.recorded.trials, everything, strict=True):
         own = noise_variance(layout, after.noise.levels) + _varied(jacobian, varies) + (smooth - rough) ** 2
-        own = put_back(fault, trial.name, clean.system.outputs, np.sqrt(own)) ** 2
+        own = put_back(data_error, trial.name, clean.system.outputs, np.sqrt(own)) ** 2
         found.append(np.where(there, own, 0.0).sum(axis=0) / np.maximum(there.sum(axis=0), 1))
     return found
 

@@ -15,8 +15,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap.case.problem import Problem
+from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.inputs.quantisation import resolution
-from geocontact.gap.inputs.recorded_steps import measured_columns
 
 ROUND_TOP = 1.0 / (np.sqrt(2.0) - 1.0)
 NEXT = 5  # values below the extreme that it is compared with
@@ -26,7 +26,7 @@ SUREST = 20.0  # nats that it may speak for saturation
 
 
 @dataclass(frozen=True)
-class FlatTop:
+class ClippedChannel:
     """A level [the channel's unit] that is never passed, how many samples lie there, and how sure that is [nats]."""
 
     channel: str
@@ -40,7 +40,7 @@ class FlatTop:
         return f"{self.count} samples lie at the same extreme, {self.level:.4g}"
 
 
-def flat_tops(problem: Problem) -> tuple[FlatTop, ...]:
+def clipped_channels(problem: Problem) -> tuple[ClippedChannel, ...]:
     """Channels whose recordings end at a level, either way, all trials together."""
     outputs = problem.system.outputs
     looks = np.log(2.0 * len(outputs))
@@ -54,7 +54,7 @@ def flat_tops(problem: Problem) -> tuple[FlatTop, ...]:
         for side in (1.0, -1.0):
             level, count, nats = pile(side * values, step)
             if level > OUTER * most and nats - looks > SURE_OF_IT:
-                found.append(FlatTop(name, side * level, count, min(float(nats - looks), SUREST)))
+                found.append(ClippedChannel(name, side * level, count, min(float(nats - looks), SUREST)))
     return tuple(found)
 
 

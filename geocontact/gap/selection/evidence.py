@@ -18,7 +18,7 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.refit import Refit, free, magnitude
-from geocontact.gap.case.whitening import Weighing
+from geocontact.gap.case.whitening import Whitening
 
 AT_BOUND = 1e-4  # of a parameter's magnitude
 FLATTEST = 1e-4  # curvature over a range below which it makes no difference
@@ -41,7 +41,7 @@ class Judged:
         The same for the calibration trials alone.
     fitted_rows
         How many of the whitened rows, the first, are of calibration trials.
-    bends
+    discrepancy_basis
         What the effects may do otherwise than their candidates, per trial, and the same whitened.
     """
 
@@ -50,28 +50,28 @@ class Judged:
     nats: float
     calibration: float
     fitted_rows: int
-    bends: list[Float[np.ndarray, "_ c m"]]
-    whitened_bends: Float[np.ndarray, "n m"]
+    discrepancy_basis: list[Float[np.ndarray, "_ c m"]]
+    whitened_basis: Float[np.ndarray, "n m"]
 
     @property
     def loose(self) -> Float[np.ndarray, "n k"]:
-        """Everything that is free to move, in units of its prior spread: parameters, then bends."""
+        """Everything that is free to move, in units of its prior spread: parameters, then the discrepancy basis."""
         spread = prior_spread(self.model.system, self.model.values)
-        return np.concatenate([self.model.whitened_jacobian * spread, self.whitened_bends], axis=1)
+        return np.concatenate([self.model.whitened_jacobian * spread, self.whitened_basis], axis=1)
 
 
-def judged(problem: Problem, model: Refit, noise: Noise, bends: list[Float[np.ndarray, "_ c m"]]) -> Judged:
+def judged(problem: Problem, model: Refit, noise: Noise, discrepancy_basis: list[Float[np.ndarray, "_ c m"]]) -> Judged:
     """A model evaluated on all trials, under a noise."""
-    weighings = problem.weighings(noise, model)
-    model = model.weighed(weighings)
+    whitenings = problem.whitenings(noise, model)
+    model = model.weighed(whitenings)
     spread = prior_spread(model.system, model.values)
-    rows = sum(len(w.directions) for w in weighings[: len(problem.calibration.trials)])
-    scales = np.array([w.log_scale for w in weighings])
-    bent = np.concatenate([w(b) for w, b in zip(weighings, bends, strict=True)])
-    design = np.concatenate([model.whitened_jacobian, bent], axis=1)
-    spread = np.concatenate([spread, np.ones(bent.shape[1])])
+    rows = sum(len(w.directions) for w in whitenings[: len(problem.calibration.trials)])
+    scales = np.array([w.log_scale for w in whitenings])
+    whitened_basis = np.concatenate([w(b) for w, b in zip(whitenings, discrepancy_basis, strict=True)])
+    design = np.concatenate([model.whitened_jacobian, whitened_basis], axis=1)
+    spread = np.concatenate([spread, np.ones(whitened_basis.shape[1])])
     fitted = scales[: len(problem.calibration.trials)].sum() + noise.surprise
-    smoothed = by_smoothing(problem, model, weighings)
+    smoothed = by_smoothing(problem, model, whitenings)
     return Judged(
         model,
         noise,
@@ -85,24 +85,24 @@ def judged(problem: Problem, model: Refit, noise: Noise, bends: list[Float[np.nd
         - float(smoothed[: len(problem.calibration.trials)].sum())
         - float(fitted),
         rows,
-        bends,
-        bent,
+        discrepancy_basis,
+        whitened_basis,
     )
 
 
-def by_smoothing(problem: Problem, model: Refit, weighings: Sequence[Weighing]) -> Float[np.ndarray, " k"]:
+def by_smoothing(problem: Problem, model: Refit, whitenings: Sequence[Whitening]) -> Float[np.ndarray, " k"]:
     """What each trial's squared residual owes to passing less noise of the inputs on than the base model does [nats].
 
     A low-pass or a damper has smaller residuals for it without being any better. The half square of what more noise
     makes of the prediction says by how much (corrected likelihood: Nakamura 1990, Biometrika 77:127; by noise added in
     simulation: Cook & Stefanski 1994, J. Am. Stat. Assoc. 89:1314). Whoever passes more of it on gains nothing by it.
     """
-    owed = np.zeros(len(weighings))
-    for i, (weigh, own, base) in enumerate(zip(weighings, model.passed_on, problem.passed_on, strict=False)):
+    owed = np.zeros(len(whitenings))
+    for i, (whiten, own, base) in enumerate(zip(whitenings, model.passed_on, problem.passed_on, strict=False)):
         if np.isfinite(own).all() and np.isfinite(base).all():
-            owed[i] = 0.5 * float((weigh(base[..., None]) ** 2).sum() - (weigh(own[..., None]) ** 2).sum())
+            owed[i] = 0.5 * float((whiten(base[..., None]) ** 2).sum() - (whiten(own[..., None]) ** 2).sum())
     total, positive = float(owed.sum()), np.maximum(owed, 0.0)
-    return np.asarray(positive * (total / positive.sum())) if total > 0.0 else np.zeros(len(weighings))
+    return np.asarray(positive * (total / positive.sum())) if total > 0.0 else np.zeros(len(whitenings))
 
 
 def settled(problem: Problem, one: Judged, noises: Sequence[Noise]) -> Judged:
@@ -111,7 +111,7 @@ def settled(problem: Problem, one: Judged, noises: Sequence[Noise]) -> Judged:
     Noise levels are found by a search of its own, on blocks and on calibration trials; models that differ by a few nats
     are compared under each other's as well.
     """
-    others = [judged(problem, one.model, noise, one.bends) for noise in noises if noise is not one.noise]
+    others = [judged(problem, one.model, noise, one.discrepancy_basis) for noise in noises if noise is not one.noise]
     return max([one, *others], key=lambda each: each.nats)
 
 
@@ -175,9 +175,9 @@ def prior_spread(system: System, values: dict[str, float]) -> Float[np.ndarray, 
     return np.array(spread)
 
 
-def bent_off(one: Judged) -> list[Float[np.ndarray, "_ c"]]:
+def without_discrepancy(one: Judged) -> list[Float[np.ndarray, "_ c"]]:
     """Residuals without what the effects most probably do otherwise than their candidates."""
     loose = one.loose
     weights = np.linalg.solve(np.eye(loose.shape[1]) + loose.T @ loose, loose.T @ one.model.whitened)
-    own = weights[loose.shape[1] - one.whitened_bends.shape[1] :]
-    return [r - b @ own for r, b in zip(one.model.residuals, one.bends, strict=True)]
+    own = weights[loose.shape[1] - one.whitened_basis.shape[1] :]
+    return [r - b @ own for r, b in zip(one.model.residuals, one.discrepancy_basis, strict=True)]

@@ -11,13 +11,13 @@ from jaxtyping import Float
 from geocontact.chain.candidate import Candidate
 from geocontact.gap.case.problem import Noise, Problem, evaluated
 from geocontact.gap.case.refit import Refit, free, refit
-from geocontact.gap.case.whitening import Weighing
-from geocontact.gap.selection.evidence import Judged, bent_off, judged
-from geocontact.gap.selection.model_discrepancy import forms
+from geocontact.gap.case.whitening import Whitening
+from geocontact.gap.selection.evidence import Judged, judged, without_discrepancy
+from geocontact.gap.selection.model_discrepancy import discrepancy_basis
 
 SECOND = 18  # candidates that are fitted again under the noise that suits the best
 FINALISTS = 6
-FORERUNNERS = 3  # leading under quiet noise
+FORERUNNERS = 3  # leading under low noise
 MATE_TRIALS = 6  # second effects that are fitted on top of a first
 PAIRS = 6  # of two effects each that get noise of their own
 ROUNDS, ENOUGH = 4, 0.05  # times that noise and parameters of a leader are fitted in turn; nats from which it goes on
@@ -68,17 +68,17 @@ def finished(problem: Problem, candidates: tuple[Candidate, ...], model: Refit, 
     noise = problem.weighed(model, before)
     again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], rounds=6)
     everywhere = evaluated(problem, again)
-    one = judged(problem, everywhere, noise, forms(problem, candidates, everywhere))
+    one = judged(problem, everywhere, noise, discrepancy_basis(problem, candidates, everywhere))
     return Contender(candidates, one)
 
 
 def settled_in(problem: Problem, one: Contender) -> Contender:
     """A contender after its parameters and its noise have come to terms.
 
-    Each is fitted in turn, the noise to what the bends of the effects leave, until nothing is gained any more.
+    Each is fitted in turn, the noise to what the discrepancies of the effects leave, until nothing is gained any more.
     """
     for _ in range(ROUNDS):
-        model = replace(one.judged.model, residuals=bent_off(one.judged))
+        model = replace(one.judged.model, residuals=without_discrepancy(one.judged))
         other = replace(one, judged=finished(problem, one.candidates, model, one.judged.noise).judged)
         if other.judged.nats < one.judged.nats + ENOUGH:
             return one if other.judged.nats < one.judged.nats else other
@@ -89,16 +89,16 @@ def settled_in(problem: Problem, one: Contender) -> Contender:
 def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) -> list[Contender]:
     """The most likely candidates, best first.
 
-    Noise fitted to the base model explains away what it misses, so all are fitted under quieter noise first, then under
+    Noise fitted to the base model explains away what it misses, so all are fitted under lower noise first, then under
     the noise that suits the best of them; the leading ones of both rounds get noise of their own. What does not promise
     to be among those that go on is not fitted to the end.
     """
     reference = base.judged.model
-    noise = problem.quieter(base.judged.noise)
+    noise = problem.with_lower_noise(base.judged.noise)
     rounds: list[dict[str, Refit]] = []
     entered = candidates
     for kept in (SECOND, FINALISTS):
-        weighings = problem.fitting(noise, reference)
+        whitenings = problem.fitting(noise, reference)
         found: dict[str, Refit] = {}
         for one in entered:
             if rounds:
@@ -108,7 +108,7 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
                 if len(free(problem.system)) < FEW and one.parameters:
                     starts.append(one.starts[0])
             useful = to_undercut(found.values(), kept)
-            found[one.label] = refit(one.apply(problem.system), problem.calibration, weighings, starts, useful=useful)
+            found[one.label] = refit(one.apply(problem.system), problem.calibration, whitenings, starts, useful=useful)
         rounds.append(found)
         entered = sorted(entered, key=lambda one: found[one.label].cost)[:kept]
         reference = min(found.values(), key=lambda model: model.cost)
@@ -127,24 +127,24 @@ def singles(problem: Problem, base: Contender, candidates: Sequence[Candidate]) 
 def pairs(problem: Problem, firsts: Sequence[Contender], candidates: Sequence[Candidate]) -> list[Contender]:
     """Leading contenders with a second candidate, the best pair of each two effects, best first.
 
-    Noise that was fitted to one effect explains away what the other does, so all pairs are fitted under noise no louder
-    than was told, the same for all, and the search for their own noise sets out from there; one linear step tells which
-    to fit, and those that do not promise to be among the `PAIRS` best are not fitted to the end.
+    Noise that was fitted to one effect explains away what the other does, so all pairs are fitted under noise no higher
+    than was stated, the same for all, and the search for their own noise sets out from there; one linear step tells
+    which to fit, and those that do not promise to be among the `PAIRS` best are not fitted to the end.
     """
-    quiet = problem.quieter(firsts[0].judged.noise)
+    low_noise = problem.with_lower_noise(firsts[0].judged.noise)
     best: dict[tuple[str, ...], tuple[tuple[Candidate, ...], Refit]] = {}
     for first in firsts:
         model = first.judged.model
-        weighings = problem.fitting(quiet, model)
-        for one in promising(problem, first, weighings, candidates):
+        whitenings = problem.fitting(low_noise, model)
+        for one in promising(problem, first, whitenings, candidates):
             starts = [{**model.values, **start} for start in one.starts]
             useful = to_undercut([pair for _, pair in best.values()], PAIRS)
-            both = refit(one.apply(model.system), problem.calibration, weighings, starts, useful=useful)
+            both = refit(one.apply(model.system), problem.calibration, whitenings, starts, useful=useful)
             names = tuple(sorted((*first.names, one.name)))
             if names not in best or both.cost < best[names][1].cost:
                 best[names] = ((*first.candidates, one), both)
     leading = sorted(best.values(), key=lambda pair: pair[1].cost)[:PAIRS]
-    done = [finished(problem, together, model, quiet) for together, model in leading]
+    done = [finished(problem, together, model, low_noise) for together, model in leading]
     return sorted(done, key=lambda c: -c.judged.nats)
 
 
@@ -155,15 +155,15 @@ def to_undercut(models: Iterable[Refit], kept: int) -> float:
 
 
 def promising(
-    problem: Problem, first: Contender, weighings: Sequence[Weighing], candidates: Sequence[Candidate]
+    problem: Problem, first: Contender, whitenings: Sequence[Whitening], candidates: Sequence[Candidate]
 ) -> list[Candidate]:
     """Second candidates whose first step explains most of what a contender leaves, base and first refitted."""
     model = first.judged.model
-    before = model.residuals[: len(weighings)]
-    fitted = np.linalg.qr(_whitened(weighings, model.jacobian[: len(weighings)]))[0]
+    before = model.residuals[: len(whitenings)]
+    fitted = np.linalg.qr(_whitened(whitenings, model.jacobian[: len(whitenings)]))[0]
 
     def net(parts: Sequence[Float[np.ndarray, "_ c"]]) -> Float[np.ndarray, " n"]:
-        whole = _whitened(weighings, [part[..., None] for part in parts])[:, 0]
+        whole = _whitened(whitenings, [part[..., None] for part in parts])[:, 0]
         return np.asarray(whole - fitted @ (fitted.T @ whole))
 
     left = net(before)
@@ -183,5 +183,5 @@ def promising(
     return [one for _, one in ranked[:MATE_TRIALS]]
 
 
-def _whitened(weighings: Sequence[Weighing], parts: Sequence[Float[np.ndarray, "_ c p"]]) -> Float[np.ndarray, "n p"]:
-    return np.concatenate([w(part) for w, part in zip(weighings, parts, strict=True)])
+def _whitened(whitenings: Sequence[Whitening], parts: Sequence[Float[np.ndarray, "_ c p"]]) -> Float[np.ndarray, "n p"]:
+    return np.concatenate([w(part) for w, part in zip(whitenings, parts, strict=True)])

@@ -20,22 +20,28 @@ from geocontact.gap.case.refit import Refit
 
 BENT = 0.15  # root mean square of the bending, as a share of the effect's
 POWERS = ((1, 0), (2, 0), (0, 1), (0, 2), (1, 1))  # of an input's position and of its rate
-TIMES = (1, 2, 3, 4, 5)  # of time within a trial: two turns of a slow wander
-FAINT = 1e-6  # of the largest singular value, below which a bend adds nothing
+TIMES = (1, 2, 3, 4, 5)  # of time within a trial: two turns of a slow drift
+FAINT = 1e-6  # of the largest singular value, below which a direction adds nothing
 
 
-def forms(problem: Problem, candidates: tuple[Candidate, ...], model: Refit) -> list[Float[np.ndarray, "_ c m"]]:
-    """Bends of each effect of a model in all trials, calibration first; weights have the standard deviation 1."""
+def discrepancy_basis(
+    problem: Problem, candidates: tuple[Candidate, ...], model: Refit
+) -> list[Float[np.ndarray, "_ c m"]]:
+    """Discrepancy basis of each effect of a model in all trials, calibration first; weights have the standard deviation
+    1.
+    """
     everything = [*problem.calibration.trials, *problem.evaluation.trials]
     floor, base = problem.floor, len(problem.usual)
     jacobian = np.concatenate([(j[..., :base] / floor[:, None]).reshape(-1, base) for j in model.jacobian])
-    bends = _monomials(problem)
+    monomials = _monomials(problem)
     made: list[list[np.ndarray]] = [[] for _ in everything]
     system = problem.system
     for one in candidates:
         after = one.apply(system)
         if one.somewhere is None:
-            for parts, columns in zip(made, _bent(problem, model, system, after, jacobian, bends), strict=True):
+            for parts, columns in zip(
+                made, _of_one_effect(problem, model, system, after, jacobian, monomials), strict=True
+            ):
                 parts.append(columns)
         system = after
     channels = len(floor)
@@ -45,13 +51,13 @@ def forms(problem: Problem, candidates: tuple[Candidate, ...], model: Refit) -> 
     ]
 
 
-def _bent(
+def _of_one_effect(
     problem: Problem,
     model: Refit,
     before: System,
     after: System,
     jacobian: Float[np.ndarray, "n q"],
-    bends: list[Float[np.ndarray, "_ m"]],
+    monomials: list[Float[np.ndarray, "_ m"]],
 ) -> list[Float[np.ndarray, "_ c k"]]:
     added = []
     for measured in (problem.calibration, problem.evaluation):
@@ -61,7 +67,7 @@ def _bent(
     whole = whole - jacobian @ np.linalg.lstsq(jacobian, whole, rcond=None)[0]
     channels = len(problem.floor)
     net = whole.reshape(-1, channels)
-    every = np.concatenate(bends)
+    every = np.concatenate(monomials)
     columns = np.zeros((len(net), channels, channels, every.shape[1]))
     for c in range(channels):
         columns[:, c, c] = net[:, c, None] * every
@@ -70,7 +76,7 @@ def _bent(
     kept = left[:, singular > FAINT * max(singular[0], 1e-300)]
     size = BENT * float(np.linalg.norm(whole)) / np.sqrt(max(kept.shape[1], 1))
     out = (kept * size).reshape(len(net), channels, -1) * problem.floor[:, None]
-    return np.split(out, np.cumsum([len(b) for b in bends])[:-1])
+    return np.split(out, np.cumsum([len(b) for b in monomials])[:-1])
 
 
 def _monomials(problem: Problem) -> list[Float[np.ndarray, "_ m"]]:

@@ -15,10 +15,10 @@ from jaxtyping import Bool, Float
 
 from geocontact.data.trial import Trial
 from geocontact.gap.case.problem import Problem
+from geocontact.gap.case.recorded_steps import measured_columns
 from geocontact.gap.inputs.quantisation import resolution
-from geocontact.gap.inputs.recorded_steps import measured_columns
 from geocontact.gap.inputs.spectrum import switches
-from geocontact.gap.selection.evidence import Judged, bent_off
+from geocontact.gap.selection.evidence import Judged, without_discrepancy
 
 WINDOWS = (4, 8, 16, 32, 64)  # samples
 SHORTEST = 64  # samples of a trial whose spectrum is looked at
@@ -33,7 +33,7 @@ COARSE, SURELY = 0.33, 12.0  # steps, in noise levels, that are coarse, and how 
 
 
 @dataclass(frozen=True)
-class Oddity:
+class ResidualAnomaly:
     """In words what is odd, where, and how sure that is [nats]."""
 
     words: str
@@ -41,32 +41,34 @@ class Oddity:
     nats: float
 
 
-def oddities(problem: Problem, judged: Judged) -> list[Oddity]:
+def residual_anomalies(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
     """Every check, the surest first."""
     found = [
         *lines(problem, judged),
         *ringing(problem, judged),
         *bursts(problem, judged),
-        *held(problem),
+        *held_samples(problem),
         *steps(problem),
     ]
     return sorted(found, key=lambda each: -each.nats)
 
 
 def innovations(problem: Problem, judged: Judged) -> list[list[Float[np.ndarray, " _"]]]:
-    """Whitened residual of each channel of each trial in the order of time, without what bends make up for."""
-    weighings = problem.weighings(judged.noise, judged.model)
+    """Whitened residual of each channel of each trial in the order of time, without what the discrepancy basis makes up
+    for.
+    """
+    whitenings = problem.whitenings(judged.noise, judged.model)
     channels = len(problem.floor)
     out = []
-    for weighing, residual in zip(weighings, bent_off(judged), strict=True):
-        white = weighing(residual[..., None])[:, 0]
+    for whitening, residual in zip(whitenings, without_discrepancy(judged), strict=True):
+        white = whitening(residual[..., None])[:, 0]
         flat = np.full(residual.size, np.nan)
-        flat[np.concatenate(weighing.whitener.rows)] = white
+        flat[np.concatenate(whitening.whitener.rows)] = white
         out.append([column[np.isfinite(column)] for column in flat.reshape(-1, channels).T])
     return out
 
 
-def lines(problem: Problem, judged: Judged) -> list[Oddity]:
+def lines(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
     """A narrow line in the spectrum: power at one frequency against that of its neighbours, trials taken together.
 
     At frequencies of the movement a model misses something, and nothing is odd. What only goes on and off has all
@@ -95,7 +97,7 @@ def lines(problem: Problem, judged: Judged) -> list[Oddity]:
         peak = int(np.argmax(doubt))
         nats = -float(gamma.logsf(doubt[peak], len(series))) - float(np.log(len(grid)))
         hertz = grid[peak] / problem.system.scale.step
-        found.append(Oddity(f"a line at {hertz:.3g} Hz", name, max(nats, 0.0)))
+        found.append(ResidualAnomaly(f"a line at {hertz:.3g} Hz", name, max(nats, 0.0)))
     return found
 
 
@@ -124,7 +126,7 @@ def _around(power: Float[np.ndarray, " f"]) -> tuple[Float[np.ndarray, " f"], Fl
     return (power[np.where(there, at, 0)] * there).sum(axis=1) / count, count
 
 
-def ringing(problem: Problem, judged: Judged) -> list[Oddity]:
+def ringing(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
     """An oscillation that comes at the same phase of every trial and dies away: power there against that elsewhere.
 
     Of one frequency, beyond what all frequencies gain there.
@@ -146,12 +148,12 @@ def ringing(problem: Problem, judged: Judged) -> list[Oddity]:
             others = (usual * frames - together) / (frames - 1)
             freedom = 2 * len(spectra)
             ratio = together / others
-            ratio /= np.maximum(np.median(ratio, axis=1, keepdims=True), 1.0)  # louder at all frequencies is no ringing
+            ratio /= np.maximum(np.median(ratio, axis=1, keepdims=True), 1.0)  # higher at all frequencies is no ringing
             nats = -f.logsf(ratio, freedom, freedom * frames // 2) - np.log(ratio.size * len(PACKETS))
             frame, at = np.unravel_index(int(np.argmax(nats)), nats.shape)
             if nats[frame, at] > best:
                 best, hertz = float(nats[frame, at]), (at + CYCLES) / (width * problem.system.scale.step)
-        found.append(Oddity(f"ringing at {hertz:.3g} Hz at the same phase of every trial", name, best))
+        found.append(ResidualAnomaly(f"ringing at {hertz:.3g} Hz at the same phase of every trial", name, best))
     return found
 
 
@@ -167,7 +169,7 @@ def _along(power: Float[np.ndarray, "m f"], grid: Float[np.ndarray, " p"]) -> Fl
     return np.asarray(power[np.round(grid * (len(power) - 1)).astype(int)])
 
 
-def bursts(problem: Problem, judged: Judged) -> list[Oddity]:
+def bursts(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
     """A stretch of one trial in which the residual is far larger than there and then in the other trials."""
     from scipy.stats import f
 
@@ -185,7 +187,7 @@ def bursts(problem: Problem, judged: Judged) -> list[Oddity]:
                 usual = np.maximum(np.median(others, axis=0), 1.0) if others else np.ones(len(energy))
                 best = max(best, float((-f.logsf(energy / usual, width, OTHERS * width)).max()))
                 looked += 2 * len(energy) // width
-        found.append(Oddity("a burst", name, max(best - float(np.log(max(looked, 1))), 0.0)))
+        found.append(ResidualAnomaly("a burst", name, max(best - float(np.log(max(looked, 1))), 0.0)))
     return found
 
 
@@ -195,7 +197,7 @@ def _energy(values: Float[np.ndarray, " n"], width: int) -> Float[np.ndarray, " 
     return np.asarray((total[width:] - total[:-width]) / width)
 
 
-def held(problem: Problem) -> list[Oddity]:
+def held_samples(problem: Problem) -> list[ResidualAnomaly]:
     """Samples that repeat the one before, away from the ends of the range, where saturation would hold them.
 
     By chance as many repeat as the resolution of the recording and the size of its steps suggest.
@@ -217,11 +219,11 @@ def held(problem: Problem) -> list[Oddity]:
         if share > chance:
             rest = np.log(max(1.0 - share, 1e-12) / max(1.0 - chance, 1e-12))
             nats = count * (share * np.log(share / chance) + (1.0 - share) * rest)
-            found.append(Oddity(f"{100.0 * share:.1f} % of the samples repeat the last", name, float(nats)))
+            found.append(ResidualAnomaly(f"{100.0 * share:.1f} % of the samples repeat the last", name, float(nats)))
     return found
 
 
-def steps(problem: Problem) -> list[Oddity]:
+def steps(problem: Problem) -> list[ResidualAnomaly]:
     """A recording that comes in steps that are coarse against its noise."""
     found = []
     for c, name in enumerate(problem.system.outputs):
@@ -231,5 +233,5 @@ def steps(problem: Problem) -> list[Oddity]:
         distinct = len(np.unique(np.round(np.concatenate(columns) / max(step, 1e-300)))) if values else 0
         coarse = step / problem.floor_of_noise[c]
         if coarse > COARSE and distinct < values:
-            found.append(Oddity(f"it comes in steps of {step:.3g}", name, SURELY * coarse / COARSE))
+            found.append(ResidualAnomaly(f"it comes in steps of {step:.3g}", name, SURELY * coarse / COARSE))
     return found

@@ -1,4 +1,4 @@
-"""A flexible stand-in for whatever a model misses: bumps over position, rate, both, and time, changing parameters.
+"""A flexible surrogate for whatever a model misses: bumps over position, rate, both, and time, changing parameters.
 
 A discrepancy as of Kennedy & O'Hagan (2001, J. R. Stat. Soc. B 63:425), on a grid of radial functions of which only
 those are taken, one by one, that are worth their price (matching pursuit: Mallat & Zhang, IEEE Trans. Signal Process.
@@ -27,7 +27,7 @@ CLOSER = 2  # times as close as bumps are wide they stand, so that none falls in
 STRETCHES = 8  # of a trial, that parameters may differ between
 NARROWEST = 1.5  # steps, in noise levels of the channel, that are looked for
 FEWEST_STAIRS, MOST_STAIRS = 8, 200  # half waves over the range of a channel
-RENEWED = 2  # times that the noise is estimated anew with the stand-in in place
+RENEWED = 2  # times that the noise is estimated anew with the surrogate in place
 DEEPEST = 24  # bumps that are taken at most
 RIDGE = 1e-6  # against parameters that do nothing
 SIZES = (0.3, 1.0, 3.0, 10.0, 30.0)  # standard deviation of the weights, in noise levels of the channel
@@ -64,22 +64,22 @@ class Surrogate:
 
 
 def surrogate(problem: Problem, judged: Judged) -> Surrogate:
-    """The family that gains most on top of a model, under the noise that suits model and stand-in together.
+    """The family that gains most on top of a model, under the noise that suits model and surrogate together.
 
-    Noise that was fitted to what a model misses explains it away. So the stand-in is chosen under the model's own noise
-    and under quieter noise, and noise levels are estimated anew from what the latter's choice leaves over.
+    Noise that was fitted to what a model misses explains it away. So the surrogate is chosen under the model's own
+    noise and under lower noise, and noise levels are estimated anew from what the latter's choice leaves over.
     """
     spread = prior_spread(judged.model.system, judged.model.values)
     made = [*families(problem), *lonely(problem, judged)]
     price = float(np.log(len(made) * (2 + RENEWED)))
 
     def under(one: Judged) -> Surrogate:
-        weighings = problem.weighings(one.noise, one.model)
-        unbent = _without(one.whitened_bends)
+        whitenings = problem.whitenings(one.noise, one.model)
+        unbent = _without(one.whitened_basis)
         known, residual = unbent(one.model.whitened_jacobian * spread), unbent(one.model.whitened[:, None])[:, 0]
         best = Surrogate("", 0.0, 0.0, 0.0, tuple(np.zeros_like(each) for each in one.model.residuals))
         for name, features in made:
-            white = unbent(np.concatenate([w(part) for w, part in zip(weighings, features, strict=True)]))
+            white = unbent(np.concatenate([w(part) for w, part in zip(whitenings, features, strict=True)]))
             found = chosen(residual, white, known, one.fitted_rows, price)
             if found.gain - found.price > best.nats:
                 shift = spread * found.shift
@@ -90,16 +90,16 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
                 best = Surrogate(name, found.gain, found.calibration, found.price, predicted)
         return best
 
-    quiet = judged_as(problem, judged.model, problem.quieter(judged.noise), judged.bends)
-    found = [(judged, under(judged)), (quiet, under(quiet))]
+    low_noise = judged_as(problem, judged.model, problem.with_lower_noise(judged.noise), judged.discrepancy_basis)
+    found = [(judged, under(judged)), (low_noise, under(low_noise))]
     for _ in range(RENEWED):
         if not found[-1][1].family:
             break
         left = [a - b for a, b in zip(judged.model.residuals, found[-1][1].predicted, strict=True)]
-        noise = problem.weighed(replace(judged.model, residuals=left), quiet.noise)
-        other = judged_as(problem, judged.model, noise, judged.bends)
+        noise = problem.weighed(replace(judged.model, residuals=left), low_noise.noise)
+        other = judged_as(problem, judged.model, noise, judged.discrepancy_basis)
         found.append((other, under(other)))
-    bare = max((one for one, _ in found), key=lambda one: one.nats)  # better noise alone is no gain of the stand-in
+    bare = max((one for one, _ in found), key=lambda one: one.nats)  # better noise alone is no gain of the surrogate
     gained = [
         replace(
             best,
@@ -111,11 +111,13 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
     return max(gained, key=lambda each: each.nats)
 
 
-def _without(bends: Float[np.ndarray, "n m"]) -> Callable[[Float[np.ndarray, "n k"]], Float[np.ndarray, "n k"]]:
-    """v → (I + B Bᵀ)^(-1/2) v: what the bends of an effect may explain weighs less."""
-    if not bends.shape[1]:
+def _without(
+    discrepancy_basis: Float[np.ndarray, "n m"],
+) -> Callable[[Float[np.ndarray, "n k"]], Float[np.ndarray, "n k"]]:
+    """v → (I + B Bᵀ)^(-1/2) v: what the discrepancy of an effect may explain weighs less."""
+    if not discrepancy_basis.shape[1]:
         return lambda values: values
-    left, singular, _ = np.linalg.svd(bends, full_matrices=False)
+    left, singular, _ = np.linalg.svd(discrepancy_basis, full_matrices=False)
     gains = 1.0 - 1.0 / np.sqrt(1.0 + singular**2)
     return lambda values: values - left @ (gains[:, None] * (left.T @ values))
 

@@ -23,7 +23,7 @@ LEFT_OVER = 0.2  # of all there is to explain may be left by the effect that is 
 PAIR = 0.12  # of what is explained that a second effect must add
 ALIVE = 0.03  # least probability of a candidate that is still in question
 BEYOND = 0.3  # part of what a gain exceeds that by that counts
-STRANGER = 3.0  # nats more that something without a name must gain: a stand-in also finds what models smooth away
+STRANGER = 3.0  # nats more that something without a name must gain: a surrogate also finds what models smooth away
 ANY_FORM = 0.1  # of what something without a name gains, it gains because it has any form
 LEAST = 0.02  # share of what changes below which their gain counts for no more: fifty times as much at the most
 ALLOWED = 4.0  # nats that luck may add on held-out trials
@@ -58,7 +58,7 @@ def gain_of(one: Contender, over: Contender, share: float) -> float:
 
 
 @dataclass(frozen=True)
-class Standing:
+class Ranking:
     """Who is weighed, and what each gains over the base, its choice paid for [nats], by label.
 
     `best` gains most, less than nothing perhaps; the base where nobody is weighed.
@@ -79,9 +79,9 @@ class Standing:
         return self.best if self.gains.get(self.best.label, 0.0) > 0.0 else self.base
 
 
-def standing(
+def ranking(
     base: Contender, contenders: Sequence[Contender], shares: Mapping[str, float], variants: Mapping[str, int]
-) -> Standing:
+) -> Ranking:
     """What the contenders gain; a pair is weighed where it adds enough to the best single.
 
     Who has no evidence that is a number is not weighed.
@@ -108,10 +108,10 @@ def standing(
     pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]
     living = (*single, *pairs)
     gains = {c.label: over_base[c.label] - (needed if len(c.candidates) == 2 else 0.0) for c in living}
-    return Standing(base, living, gains)
+    return Ranking(base, living, gains)
 
 
-def answer(held: Standing, unnamed: float, strange: float, rest: float) -> Answer:
+def answer(held: Ranking, unnamed: float, strange: float, rest: float) -> Answer:
     """The verdict; FloatingPointError where what is given is not a number.
 
     Parameters
@@ -119,12 +119,12 @@ def answer(held: Standing, unnamed: float, strange: float, rest: float) -> Answe
     held
         Who is weighed.
     unnamed
-        What a stand-in for anything unknown gains over the base [nats].
+        What a surrogate for anything unknown gains over the base [nats].
     strange
         How sure it is that something is odd about the residual of the leader [nats].
     rest
-        What the stand-in gains on top of the best contender, with what is odd [nats]. What is there beside an effect is
-        there without it as well: no more of it is believed than what it gains over the base.
+        What the surrogate gains on top of the best contender, with what is odd [nats]. What is there beside an effect
+        is there without it as well: no more of it is believed than what it gains over the base.
     """
     base, living, gains = held.base, held.living, held.gains
     rest = min(rest, max(unnamed, 0.0) + strange)

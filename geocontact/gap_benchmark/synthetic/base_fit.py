@@ -9,7 +9,7 @@ from jaxtyping import Float
 from scipy.optimize import least_squares
 
 from geocontact.gap_benchmark.synthetic.hooks import Values
-from geocontact.gap_benchmark.synthetic.scene import Scene
+from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
 
 Model = Callable[[Values], Values]
 
@@ -25,7 +25,7 @@ def jacobian(model: Model, theta: Float[np.ndarray, " p"]) -> Float[np.ndarray, 
 
 
 def refit(
-    scene: Scene,
+    scene: SyntheticScene,
     models: Sequence[Model],
     measured: Sequence[Values],
     floor: Float[np.ndarray, " c"],
@@ -63,7 +63,7 @@ def refit(
     return np.asarray(min(fits, key=lambda fit: float(fit.cost)).x)
 
 
-def starts(scene: Scene, rng: np.random.Generator) -> list[Float[np.ndarray, " p"]]:
+def starts(scene: SyntheticScene, rng: np.random.Generator) -> list[Float[np.ndarray, " p"]]:
     """Where the parameters begin, the nominal ones, and some out of the scene's box, where it has one."""
     begin = [np.array([p.start for p in scene.parameters]), scene.theta]
     if scene.begin is not None:

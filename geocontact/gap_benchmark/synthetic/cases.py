@@ -9,42 +9,42 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial as CaseTrial
 from geocontact.gap_benchmark.synthetic.base_fit import refit, starts
-from geocontact.gap_benchmark.synthetic.catalogue import NO_GAP, SWALLOWED, plans
+from geocontact.gap_benchmark.synthetic.catalogue import CONFOUNDED, NO_GAP, plans
 from geocontact.gap_benchmark.synthetic.course import Path
-from geocontact.gap_benchmark.synthetic.data_errors import draw_fault
+from geocontact.gap_benchmark.synthetic.data_errors import draw_data_error
 from geocontact.gap_benchmark.synthetic.data_errors import words as fault_words
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs
 from geocontact.gap_benchmark.synthetic.ideal import ideal
-from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, Planted
-from geocontact.gap_benchmark.synthetic.magnitudes import scale_of
-from geocontact.gap_benchmark.synthetic.outside.catalogue import outsiders
-from geocontact.gap_benchmark.synthetic.plan import Draw, NotFoundError, Plan, Scale
+from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, SyntheticCase
+from geocontact.gap_benchmark.synthetic.magnitudes import magnitudes_of
+from geocontact.gap_benchmark.synthetic.outside.catalogue import unknown_effects
+from geocontact.gap_benchmark.synthetic.plan import Draw, NotFoundError, Plan, SyntheticMagnitudes
 from geocontact.gap_benchmark.synthetic.reach import Reach, reach
-from geocontact.gap_benchmark.synthetic.scene import Rng, Scene
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.scenes import SCENES
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError
 from geocontact.gap_benchmark.synthetic.trials import (
-    NO_FAULT,
-    Fault,
-    Recording,
+    NO_DATA_ERROR,
+    DataError,
+    SyntheticTrial,
     as_measured,
     fine_enough,
     record,
     truth,
 )
-from geocontact.gap_benchmark.synthetic.visibility import Sight, Trial, floor, sight, whitener
+from geocontact.gap_benchmark.synthetic.visibility import Sight, WhitenedTrial, floor, sight, whitener
 
 FRESH = 40
 """Fresh trials on which the true reduction is measured."""
 FAINTEST, BRIGHTEST = 3.0, 8000.0
 """Range of visibility of single effects [nats]."""
 HIDDEN, SHARE_HIDDEN, WHOLE = 1.5, 0.97, 40.0
-"""An absorbed effect shows less than this [nats], base parameters swallow at least this share of it, and before they do
-it is at least this large [nats]."""
+"""An absorbed effect shows less than this [nats], base parameters reproduce at least this share of it, and before
+they do it is at least this large [nats]."""
 ALIKE, APART = 0.9, 10.0
 """Of a pair: largest cosine between the visible signatures; what each shows at least beside the other [nats]."""
 ATTEMPTS = 60
@@ -54,46 +54,46 @@ ATTEMPTS = 60
 class Stage:
     """A scene with its calibration movements, ready to tell how visible something is."""
 
-    scene: Scene
-    trials: tuple[Trial, ...]
+    scene: SyntheticScene
+    trials: tuple[WhitenedTrial, ...]
     floor: Float[np.ndarray, " c"]
-    scale: Scale
+    scale: SyntheticMagnitudes
 
-    def sight(self, hooks: Hooks, faults: Sequence[Fault] = ()) -> Sight:
+    def sight(self, hooks: Hooks, data_errors: Sequence[DataError] = ()) -> Sight:
         """Visibility of what is hooked in and of mistakes in the data, by calibration trial."""
         planted: list[Outputs] = []
         trials = list(self.trials)
         for i, one in enumerate(self.trials):
-            fault = faults[i] if faults else NO_FAULT
-            if fault.channel in self.scene.inputs:
+            data_error = data_errors[i] if data_errors else NO_DATA_ERROR
+            if data_error.channel in self.scene.inputs:
                 course = one.path(np.arange(one.count) * self.scene.step)
                 wrong = replace(
                     course,
-                    position=fault.inputs(self.scene, course.position),
-                    rate=fault.inputs(self.scene, course.rate),
+                    position=data_error.inputs(self.scene, course.position),
+                    rate=data_error.inputs(self.scene, course.rate),
                 )
                 trials[i] = replace(one, model=self.scene.base_model(wrong))
             clean = truth(self.scene, one.path, one.count, self.scene.theta, hooks, self.scene.body.fine)
-            planted.append(fault.outputs(self.scene, clean))
+            planted.append(data_error.outputs(self.scene, clean))
         return sight(self.scene, trials, planted, self.floor)
 
 
 @dataclass(frozen=True)
-class Found:
+class DrawnCase:
     """What is to be planted: hooks or a mistake, and how visible each effect is alone."""
 
     effects: tuple[str, ...] = ()
     words: str = "nothing is left out"
     hooks: Hooks = BASE
     sights: Mapping[str, Sight] | None = None
-    fault: Fault = NO_FAULT
+    data_error: DataError = NO_DATA_ERROR
     faulty: frozenset[int] = frozenset()
     details: Mapping[str, str | float] | None = None
 
 
-def plant(
+def synthetic_case(
     system: str, kind: str, seed: int | np.random.SeedSequence, effect: str | None = None, nats: float | None = None
-) -> Planted:
+) -> SyntheticCase:
     """A labelled case; synthetic.
 
     Parameters
@@ -128,7 +128,7 @@ def name_of(system: str, sequence: np.random.SeedSequence) -> str:
     return f"{system}_{int(sequence.generate_state(1)[0]):08x}"
 
 
-def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: float | None, name: str) -> Planted:
+def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: float | None, name: str) -> SyntheticCase:
     """One draw; raises where it does not give what the kind asks for."""
     scene = SCENES[system](rng, shifted=kind == "shift")
     learn, hold = [(3, 2), (3, 2), (3, 2), (4, 2), (3, 3)][rng.integers(5)]
@@ -138,13 +138,18 @@ def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: floa
         raise NotFoundError(f"{found.words}: how visible it is cannot be told")
     fine = fine_enough(scene, stage.trials[0].path, found.hooks)
     gaps = lost_rows if rng.random() < 0.2 else None
-    faults = [found.fault if i in found.faulty else NO_FAULT for i in range(learn + hold)]
+    data_errors = [found.data_error if i in found.faulty else NO_DATA_ERROR for i in range(learn + hold)]
     paths = [one.path for one in stage.trials] + [scene.later(rng, i) for i in range(hold)]
-    recordings = [record(scene, p, rng, found.hooks, f, fine, gaps) for p, f in zip(paths, faults, strict=True)]
-    share = sum(f is not NO_FAULT for f in faults[learn:]) / hold
+    recordings = [record(scene, p, rng, found.hooks, f, fine, gaps) for p, f in zip(paths, data_errors, strict=True)]
+    share = sum(f is not NO_DATA_ERROR for f in data_errors[learn:]) / hold
     fresh = [
         record(
-            scene, scene.later(rng, i), rng, found.hooks, found.fault if (i + 0.5) / FRESH < share else NO_FAULT, fine
+            scene,
+            scene.later(rng, i),
+            rng,
+            found.hooks,
+            found.data_error if (i + 0.5) / FRESH < share else NO_DATA_ERROR,
+            fine,
         )
         for i in range(FRESH)
     ]
@@ -154,29 +159,29 @@ def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: floa
     label = label_of(kind, found, how_far, scene, stage, names)
     if not all(true is None or math.isfinite(true) for true in label.reduction.values()):
         raise NotFoundError(f"{found.words}: how far the gap shrinks cannot be told")
-    return Planted(case, label, ideal(scene, stage.trials, found.hooks, fine))
+    return SyntheticCase(case, label, ideal(scene, stage.trials, found.hooks, fine))
 
 
-def prepared(scene: Scene, paths: Sequence[Path], kind: Kind) -> Stage:
+def prepared(scene: SyntheticScene, paths: Sequence[Path], kind: Kind) -> Stage:
     """Whitened calibration trials and the magnitudes in them."""
     trials = tuple(whitener(scene, path) for path in paths)
-    return Stage(scene, trials, floor(scene, trials), scale_of(scene, trials, 0.1 if kind == "absorbed" else 1.0))
+    return Stage(scene, trials, floor(scene, trials), magnitudes_of(scene, trials, 0.1 if kind == "absorbed" else 1.0))
 
 
 def fitted(
-    scene: Scene, recordings: Sequence[Recording], floors: Float[np.ndarray, " c"], rng: Rng
+    scene: SyntheticScene, recordings: Sequence[SyntheticTrial], floors: Float[np.ndarray, " c"], rng: Rng
 ) -> Float[np.ndarray, " p"]:
     """The base refitted to recorded trials."""
     models = [scene.base_model(as_measured(one)) for one in recordings]
     return refit(scene, models, [one.outputs for one in recordings], floors, starts(scene, rng))
 
 
-def nothing(_: Rng, __: Stage, ___: str | None, ____: float | None) -> Found:
+def nothing(_: Rng, __: Stage, ___: str | None, ____: float | None) -> DrawnCase:
     """No effect."""
-    return Found()
+    return DrawnCase()
 
 
-def single(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> Found:
+def single(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> DrawnCase:
     """One effect of the vocabulary, its visibility spread evenly over the decades."""
     known = [one for one in plans(stage.scene.system) if one.name == effect or effect is None]
     if not known:
@@ -189,13 +194,13 @@ def single(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> Fo
     return chosen(stage, plan, plan.drawn(rng, stage.scale), target, least=FAINTEST if nats is None else 0.7 * nats)
 
 
-def chosen(stage: Stage, plan: Plan, draw: Draw, target: float, least: float) -> Found:
+def chosen(stage: Stage, plan: Plan, draw: Draw, target: float, least: float) -> DrawnCase:
     """The amplitude that is as visible as `target`."""
     size, seen = amplitude(stage, draw, target)
     if seen.nats < least:
         raise NotFoundError(f"{plan.name} shows {seen.nats:.2g} nats at most")
     details: dict[str, str | float] = {"variant": draw.variant, "amplitude": size}
-    return Found((plan.name,), draw.words(size), draw.hooks(size), {plan.name: seen}, details=details)
+    return DrawnCase((plan.name,), draw.words(size), draw.hooks(size), {plan.name: seen}, details=details)
 
 
 def amplitude(stage: Stage, draw: Draw, target: float) -> tuple[float, Sight]:
@@ -221,8 +226,8 @@ def amplitude(stage: Stage, draw: Draw, target: float) -> tuple[float, Sight]:
     return math.exp(best[0]), best[2]
 
 
-def pair(rng: Rng, stage: Stage, _: str | None, __: float | None) -> Found:
-    """Two effects that are visible about alike, none of which the base parameters swallow."""
+def pair(rng: Rng, stage: Stage, _: str | None, __: float | None) -> DrawnCase:
+    """Two effects that are visible about alike, none of which the base parameters reproduce."""
     hard = NO_GAP.get(stage.scene.system, ())
     known = [one for one in plans(stage.scene.system) if one.name not in hard]
     first, second = (known[i] for i in rng.choice(len(known), 2, replace=False))
@@ -244,12 +249,12 @@ def pair(rng: Rng, stage: Stage, _: str | None, __: float | None) -> Found:
     for one in found:
         details |= {f"{one.effects[0]}.{key}": value for key, value in (one.details or {}).items()}
     words = " and ".join(one.words for one in found)
-    return Found((first.name, second.name), words, hooks, {**alone[0], **alone[1]}, details=details)
+    return DrawnCase((first.name, second.name), words, hooks, {**alone[0], **alone[1]}, details=details)
 
 
-def outside(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> Found:
+def outside(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> DrawnCase:
     """Something that the vocabulary has no word for."""
-    known = [one for one in outsiders(stage.scene.system) if one.name == effect or effect is None]
+    known = [one for one in unknown_effects(stage.scene.system) if one.name == effect or effect is None]
     plan = known[rng.integers(len(known))]
     target = nats or float(np.exp(rng.uniform(np.log(10.0), np.log(BRIGHTEST))))
     found = chosen(stage, plan, plan.drawn(rng, stage.scale), target, least=min(10.0, 0.7 * target))
@@ -260,9 +265,9 @@ def outside(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> F
     )
 
 
-def absorbed(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> Found:
-    """An effect of some size that refitted base parameters swallow on these trials."""
-    known = [one for one in plans(stage.scene.system) if one.name in SWALLOWED[stage.scene.system]]
+def confounded(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> DrawnCase:
+    """An effect of some size that refitted base parameters reproduce on these trials."""
+    known = [one for one in plans(stage.scene.system) if one.name in CONFOUNDED[stage.scene.system]]
     known = [one for one in known if one.name == effect or effect is None]
     plan = known[rng.integers(len(known))]
     draw = plan.drawn(rng, stage.scale)
@@ -273,13 +278,13 @@ def absorbed(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> Fou
     if seen.nats > HIDDEN or seen.swallowed < SHARE_HIDDEN or seen.whole < WHOLE:
         raise NotFoundError(f"{plan.name}: {seen.nats:.2g} of {seen.whole:.2g} nats, {seen.swallowed:.1%} swallowed")
     details: dict[str, str | float] = {"variant": draw.variant, "amplitude": size}
-    return Found((plan.name,), draw.words(size), draw.hooks(size), {plan.name: seen}, details=details)
+    return DrawnCase((plan.name,), draw.words(size), draw.hooks(size), {plan.name: seen}, details=details)
 
 
-def mistake(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> Found:
+def mistake(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> DrawnCase:
     """A mistake in the data of all trials or of some; visible, or it would be an absorbed one."""
-    fault = draw_fault(rng, stage.scene)
-    if effect is not None and fault.effect != effect:
+    data_error = draw_data_error(rng, stage.scene)
+    if effect is not None and data_error.effect != effect:
         raise NotFoundError("another mistake is asked for")
     count = len(stage.trials)
     everywhere = frozenset(range(count + 3))
@@ -289,22 +294,28 @@ def mistake(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> Foun
         faulty = frozenset(int(i) for i in some)
     if not faulty & set(range(count)):
         raise NotFoundError("no calibration trial is concerned")
-    seen = stage.sight(BASE, [fault if i in faulty else NO_FAULT for i in range(count)])
+    seen = stage.sight(BASE, [data_error if i in faulty else NO_DATA_ERROR for i in range(count)])
     if seen.nats < 10.0:
         raise NotFoundError("the mistake does not show")
     where = "" if faulty is everywhere else ", in some trials only"
-    details: dict[str, str | float] = {"channel": fault.channel, "factor": fault.factor}
-    return Found(
-        (fault.effect,), fault_words(fault, stage.scene) + where, BASE, {fault.effect: seen}, fault, faulty, details
+    details: dict[str, str | float] = {"channel": data_error.channel, "factor": data_error.factor}
+    return DrawnCase(
+        (data_error.effect,),
+        fault_words(data_error, stage.scene) + where,
+        BASE,
+        {data_error.effect: seen},
+        data_error,
+        faulty,
+        details,
     )
 
 
-FINDERS: Mapping[Kind, Callable[[Rng, Stage, str | None, float | None], Found]] = {
+FINDERS: Mapping[Kind, Callable[[Rng, Stage, str | None, float | None], DrawnCase]] = {
     "none": nothing,
     "single": single,
     "pair": pair,
     "outside": outside,
-    "absorbed": absorbed,
+    "absorbed": confounded,
     "fault": mistake,
     "shift": single,
 }
@@ -321,9 +332,9 @@ def lost_rows(rng: Rng, count: int) -> Int[np.ndarray, " s"]:
 
 
 def case_of(
-    rng: Rng, scene: Scene, recordings: Sequence[Recording], learn: int, name: str
+    rng: Rng, scene: SyntheticScene, recordings: Sequence[SyntheticTrial], learn: int, name: str
 ) -> tuple[GapCase, tuple[str, ...]]:
-    """The recordings as a case that does not tell what was planted."""
+    """The recordings as a case that does not tell what was injected."""
     trials = []
     for i, one in enumerate(recordings):
         outputs = one.outputs.copy()
@@ -352,7 +363,9 @@ def case_of(
     return case, tuple(one.name for one in trials)
 
 
-def label_of(kind: Kind, found: Found, how_far: Reach, scene: Scene, stage: Stage, names: tuple[str, ...]) -> Label:
+def label_of(
+    kind: Kind, found: DrawnCase, how_far: Reach, scene: SyntheticScene, stage: Stage, names: tuple[str, ...]
+) -> Label:
     """What is true of the case."""
     sights = found.sights or {}
     before, after = how_far.before, how_far.after

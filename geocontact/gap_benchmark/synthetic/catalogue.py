@@ -1,4 +1,4 @@
-"""Every planted effect of the vocabulary; mistakes in the data are exact and stand in `faults`."""
+"""Every injected effect of the vocabulary; mistakes in the data are exact and stand in `data_errors`."""
 
 from __future__ import annotations
 
@@ -53,10 +53,7 @@ PLANS: tuple[Plan, ...] = (
     CROSSTALK,
 )
 
-TABLE: tuple[tuple[str, str, str], ...] = tuple((one.name, one.planted, one.candidate) for one in PLANS)
-"""Name, equation planted, equation of the candidate: no two are alike."""
-
-SWALLOWED = {
+CONFOUNDED = {
     "elbow": (
         "series_compliance",
         "preload",
@@ -71,9 +68,9 @@ SWALLOWED = {
     "knee": ("sensor_gain",),
     "sit_to_stand": ("sensor_gain", "series_compliance"),
 }
-"""Effects that base parameters imitate nearly, if they are of a plain form."""
+"""Effects that base parameters reproduce nearly, if they are of a plain form."""
 
-NO_GAP = {"elbow": SWALLOWED["elbow"], "sit_to_stand": ("sensor_gain",)}
+NO_GAP = {"elbow": CONFOUNDED["elbow"], "sit_to_stand": ("sensor_gain",)}
 """Those that leave no visible gap of their own kind at all: never planted as a single one or in a pair."""
 
 

@@ -11,7 +11,7 @@ from scipy.interpolate import CubicSpline
 
 
 @dataclass(frozen=True)
-class Course:
+class InputCourse:
     """Inputs along a time grid with two derivatives, one row per input, SI.
 
     `duration` is that of the trial; `phase` in 0..2 pi differs from trial to trial and no model can know it;
@@ -27,7 +27,7 @@ class Course:
     setting: Mapping[str, float] = field(default_factory=dict)
 
 
-Path = Callable[[Float[np.ndarray, " t"]], Course]
+Path = Callable[[Float[np.ndarray, " t"]], InputCourse]
 """A movement: its course along any time grid."""
 
 
@@ -41,7 +41,7 @@ def through(
     """Path through samples."""
     spline = CubicSpline(time, rows, axis=1)
 
-    def along(grid: Float[np.ndarray, " t"]) -> Course:
-        return Course(grid, spline(grid), spline(grid, 1), spline(grid, 2), duration, phase, setting or {})
+    def along(grid: Float[np.ndarray, " t"]) -> InputCourse:
+        return InputCourse(grid, spline(grid), spline(grid, 1), spline(grid, 2), duration, phase, setting or {})
 
     return along

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 
 Values = Float[np.ndarray, "..."]
 """Over time; at the foot one row per sample and one column per sphere."""
@@ -70,7 +70,7 @@ class Hooks:
         What is hooked in at one interface of several only.
     """
 
-    motion: tuple[Callable[[Course], Course], ...] = ()
+    motion: tuple[Callable[[InputCourse], InputCourse], ...] = ()
     axis: tuple[Callable[[Values], Values], ...] = ()
     attachment: tuple[Callable[[Float[np.ndarray, " t"], Values, float], Values], ...] = ()
     play: tuple[Callable[[Values], Values], ...] = ()
@@ -78,9 +78,9 @@ class Hooks:
     beside: tuple[Callable[[Pull], Values], ...] = ()
     series: tuple[Callable[[Values], Values], ...] = ()
     hinge: tuple[Callable[[Swing], Values], ...] = ()
-    load: tuple[Callable[[Course, Mapping[str, float]], Outputs], ...] = ()
-    sensor: tuple[tuple[float, Callable[[Course, Outputs], Outputs]], ...] = ()
-    recorder: tuple[Callable[[Course, Outputs], Outputs], ...] = ()
+    load: tuple[Callable[[InputCourse, Mapping[str, float]], Outputs], ...] = ()
+    sensor: tuple[tuple[float, Callable[[InputCourse, Outputs], Outputs]], ...] = ()
+    recorder: tuple[Callable[[InputCourse, Outputs], Outputs], ...] = ()
 
     places: Mapping[str, Hooks] = field(default_factory=dict)
 
@@ -112,14 +112,14 @@ class Hooks:
 BASE = Hooks()
 
 
-def read(hooks: Hooks, course: Course, outputs: Outputs) -> Outputs:
+def read(hooks: Hooks, course: InputCourse, outputs: Outputs) -> Outputs:
     """What the sensors make of the outputs."""
     for _, change in sorted(hooks.sensor, key=lambda one: one[0]):
         outputs = change(course, outputs)
     return outputs
 
 
-def written_down(hooks: Hooks, course: Course, outputs: Outputs) -> Outputs:
+def written_down(hooks: Hooks, course: InputCourse, outputs: Outputs) -> Outputs:
     """What the recorder makes of samples."""
     for change in hooks.recorder:
         outputs = change(course, outputs)

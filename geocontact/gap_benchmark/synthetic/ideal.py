@@ -13,9 +13,9 @@ from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial as CaseTrial
 from geocontact.gap_benchmark.synthetic.base_fit import jacobian
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.scene import Scene
+from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import truth
-from geocontact.gap_benchmark.synthetic.visibility import Trial
+from geocontact.gap_benchmark.synthetic.visibility import WhitenedTrial
 
 
 @dataclass(frozen=True)
@@ -50,12 +50,12 @@ class IdealTrial:
         return np.asarray(white - self.directions @ (self.gains[:, None] * (self.directions.T @ white)))
 
 
-def ideal(scene: Scene, trials: Sequence[Trial], hooks: Hooks, fine: int) -> tuple[IdealTrial, ...]:
+def ideal(scene: SyntheticScene, trials: Sequence[WhitenedTrial], hooks: Hooks, fine: int) -> tuple[IdealTrial, ...]:
     """What is hooked in, as a perfect laboratory would see it."""
     return tuple(_ideal(scene, one, hooks, fine, f"t{i + 1:02d}") for i, one in enumerate(trials))
 
 
-def _ideal(scene: Scene, one: Trial, hooks: Hooks, fine: int, name: str) -> IdealTrial:
+def _ideal(scene: SyntheticScene, one: WhitenedTrial, hooks: Hooks, fine: int, name: str) -> IdealTrial:
     grid = np.arange(one.count) * scene.step
     outputs = truth(scene, one.path, one.count, scene.theta, hooks, fine)
     without = truth(scene, one.path, one.count, scene.theta, BASE, fine)

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal, get_args
 
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.gap_benchmark.synthetic.ideal import IdealTrial
 
 Kind = Literal["none", "single", "pair", "outside", "absorbed", "fault", "shift"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 """none: nothing left out. single, pair: one or two rows of the vocabulary. outside: no row of it. absorbed: a row that
-base parameters swallow. fault: a discrete mistake in the data. shift: single, evaluation trials faster or larger."""
+base parameters reproduce. fault: a discrete mistake in the data. shift: single, evaluation trials faster or larger."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Label:
     kind
         Which sort of case.
     effects
-        Names of the vocabulary; () for none and outside, also where base parameters swallow an effect they are named.
+        Names of the vocabulary; () for none and outside, also where base parameters reproduce an effect they are named.
     words
         What was planted, for people.
     nats
@@ -45,7 +45,7 @@ class Label:
     faulty
         Names of the trials that hold a mistake in the data.
     imitated
-        Whether some candidate imitates an effect outside the table; who scores fills it in.
+        Whether some candidate reproduces an effect outside the table; who scores fills it in.
     """
 
     kind: Kind
@@ -69,7 +69,7 @@ class Label:
 
 
 @dataclass(frozen=True)
-class Planted:
+class SyntheticCase:
     """A synthetic case, the truth about it, and its calibration trials without noise."""
 
     case: GapCase

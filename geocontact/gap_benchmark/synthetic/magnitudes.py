@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap_benchmark.synthetic.course import Course
-from geocontact.gap_benchmark.synthetic.plan import Scale
-from geocontact.gap_benchmark.synthetic.scene import Scene
-from geocontact.gap_benchmark.synthetic.visibility import Trial
+from geocontact.gap_benchmark.synthetic.course import InputCourse
+from geocontact.gap_benchmark.synthetic.plan import SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
+from geocontact.gap_benchmark.synthetic.visibility import WhitenedTrial
 
 
-def scale_of(scene: Scene, trials: Sequence[Trial], departure: float) -> Scale:
+def magnitudes_of(scene: SyntheticScene, trials: Sequence[WhitenedTrial], departure: float) -> SyntheticMagnitudes:
     """Of the whole system, and of each interface where an effect may sit alone."""
     courses = [one.path(np.arange(one.count) * scene.step) for one in trials]
     pairs = [scene.motion(course) for course in courses]
@@ -24,7 +24,7 @@ def scale_of(scene: Scene, trials: Sequence[Trial], departure: float) -> Scale:
     low, stroke, high, rate = extremes(pairs)
     begin, end = ends(courses, 0)
     acceleration = np.concatenate([course.acceleration[0] for course in courses])
-    whole = Scale(
+    whole = SyntheticMagnitudes(
         scene.system,
         max(most[scene.outputs[row]] for row in scene.body.normal),
         stroke,
@@ -66,7 +66,7 @@ def extremes(
     return float(u.min()), float(np.abs(u).max()), float(u.max()), float(np.sqrt(np.mean(rate**2)))
 
 
-def ends(courses: Sequence[Course], row: int) -> tuple[float, float]:
+def ends(courses: Sequence[InputCourse], row: int) -> tuple[float, float]:
     """Least and greatest value of an input."""
     values = np.concatenate([course.position[row] for course in courses])
     return float(values.min()), float(values.max())

@@ -1,4 +1,4 @@
-"""What every planted effect says of itself, and where it is drawn to sit."""
+"""What every injected effect says of itself, and where it is drawn to sit."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class NotFoundError(RuntimeError):
 
 
 @dataclass(frozen=True)
-class Scale:
+class SyntheticMagnitudes:
     """Magnitudes of a case in the base model.
 
     force, stroke [m], rate [m/s]: largest load, largest deflection, rms rate of deflection; low, high: its extremes;
@@ -44,7 +44,7 @@ class Scale:
     departure: float = 1.0
     span: float = 1.0
     loads: tuple[int, ...] = (0,)
-    places: Mapping[str, Scale] = field(default_factory=dict)
+    places: Mapping[str, SyntheticMagnitudes] = field(default_factory=dict)
 
     def load(self, rng: Rng) -> int:
         """One of the outputs that are forces, by row."""
@@ -64,7 +64,7 @@ class Draw:
 
 @dataclass(frozen=True)
 class Plan:
-    """A planted effect: name of the vocabulary, the equation planted, the candidate's, and how to draw one.
+    """An injected effect: name of the vocabulary, the equation planted, the candidate's, and how to draw one.
 
     Of several interfaces one that is `placed` sits at one, or, where it may stand `together`, now and then at all.
     """
@@ -73,11 +73,11 @@ class Plan:
     systems: tuple[str, ...]
     planted: str
     candidate: str
-    draw: Callable[[Rng, Scale], Draw]
+    draw: Callable[[Rng, SyntheticMagnitudes], Draw]
     placed: bool = False
     together: bool = False
 
-    def drawn(self, rng: Rng, scale: Scale) -> Draw:
+    def drawn(self, rng: Rng, scale: SyntheticMagnitudes) -> Draw:
         """Shape, and the place where there are several."""
         if not self.placed or not scale.places:
             return self.draw(rng, scale)

@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.scene import Scene
-from geocontact.gap_benchmark.synthetic.trials import Recording, as_measured, predicted
+from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
+from geocontact.gap_benchmark.synthetic.trials import SyntheticTrial, as_measured, predicted
 
 BINS = 100
 """Of the phase of a trial."""
@@ -29,8 +29,8 @@ class Reach:
 
 
 def reach(
-    scene: Scene,
-    fresh: Sequence[Recording],
+    scene: SyntheticScene,
+    fresh: Sequence[SyntheticTrial],
     theta: Float[np.ndarray, " p"],
     hooks: Hooks,
     fine: int,

@@ -10,16 +10,16 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap_benchmark.synthetic.course import Course, Path
+from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
+from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Values
 from geocontact.gap_benchmark.synthetic.noise import Coloured
-from geocontact.gap_benchmark.synthetic.systems.body import Body
 
 Rng = np.random.Generator
 
 
 @dataclass(frozen=True)
-class Scene:
+class SyntheticScene:
     """Everything that is true of a case but the effect.
 
     Parameters
@@ -55,22 +55,24 @@ class Scene:
     corner: float
     path: Callable[[Rng, int], Path]
     later: Callable[[Rng, int], Path]
-    body: Body
+    body: SyntheticSystem
     begin: tuple[tuple[float, ...], tuple[float, ...]] | None = None
 
     def numbers(self, theta: Float[np.ndarray, " p"]) -> dict[str, float]:
         """Constants and parameters by name."""
         return {**self.constants, **{p.name: float(v) for p, v in zip(self.parameters, theta, strict=True)}}
 
-    def respond(self, course: Course, theta: Float[np.ndarray, " p"], hooks: Hooks = BASE) -> Float[np.ndarray, "c t"]:
+    def respond(
+        self, course: InputCourse, theta: Float[np.ndarray, " p"], hooks: Hooks = BASE
+    ) -> Float[np.ndarray, "c t"]:
         """The truth along a course."""
         return self.body.respond(course, self.numbers(theta), hooks)
 
-    def base_model(self, course: Course) -> Callable[[Values], Values]:
+    def base_model(self, course: InputCourse) -> Callable[[Values], Values]:
         """The base model along a course as a function of its parameters."""
         return self.body.base_model(course, self.constants)
 
-    def motion(self, course: Course) -> tuple[Values, Values]:
+    def motion(self, course: InputCourse) -> tuple[Values, Values]:
         """Deflections in the base model and their rates, one row per interface."""
         return self.body.motion(course, self.numbers(self.theta))
 

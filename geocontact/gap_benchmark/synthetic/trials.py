@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.gap_benchmark.synthetic.course import Course, Path, through
+from geocontact.gap_benchmark.synthetic.course import InputCourse, Path, through
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs, written_down
 from geocontact.gap_benchmark.synthetic.noise import smooth_noise
-from geocontact.gap_benchmark.synthetic.scene import Rng, Scene
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError
 
 FINEST = 80
@@ -20,7 +20,7 @@ AGREE, AT_MOST = 0.03, 0.25
 
 
 @dataclass(frozen=True)
-class Fault:
+class DataError:
     """A mistake in the data: factor on a column of inputs or outputs, or two outputs exchanged."""
 
     effect: str
@@ -28,15 +28,15 @@ class Fault:
     factor: float = 1.0
     swap: tuple[int, int] | None = None
 
-    def inputs(self, scene: Scene, rows: Outputs) -> Outputs:
+    def inputs(self, scene: SyntheticScene, rows: Outputs) -> Outputs:
         """What is recorded of the inputs."""
         return self.times(scene.inputs, rows, self.factor)
 
-    def mended(self, scene: Scene, rows: Outputs) -> Outputs:
+    def corrected(self, scene: SyntheticScene, rows: Outputs) -> Outputs:
         """The inputs that were recorded, put right."""
         return self.times(scene.inputs, rows, 1.0 / self.factor)
 
-    def outputs(self, scene: Scene, rows: Outputs) -> Outputs:
+    def outputs(self, scene: SyntheticScene, rows: Outputs) -> Outputs:
         """What is recorded of the outputs."""
         if self.swap is None:
             return self.times(scene.outputs, rows, self.factor)
@@ -52,11 +52,11 @@ class Fault:
         return out
 
 
-NO_FAULT = Fault("", "")
+NO_DATA_ERROR = DataError("", "")
 
 
 @dataclass(frozen=True)
-class Recording:
+class SyntheticTrial:
     """One trial as recorded and what it really was.
 
     `rows` are the samples that were kept; `clean` is the truth at the nominal parameters without noise.
@@ -69,28 +69,32 @@ class Recording:
     outputs: Float[np.ndarray, "c s"]
     duration: float
     phase: float
-    fault: Fault = field(default=NO_FAULT)
+    data_error: DataError = field(default=NO_DATA_ERROR)
     setting: Mapping[str, float] = field(default_factory=dict)
 
 
-def truth(scene: Scene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int) -> Outputs:
+def truth(
+    scene: SyntheticScene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int
+) -> Outputs:
     """What would be written down at `count` samples without noise; no centre of pressure off the ground."""
     outputs = scene.body.recorded(sensed(scene, path, count, theta, hooks, fine))
     return scene.body.recorded(written_down(hooks, path(np.arange(count) * scene.step), outputs))
 
 
-def sensed(scene: Scene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int) -> Outputs:
+def sensed(
+    scene: SyntheticScene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int
+) -> Outputs:
     """What the sensors give at `count` samples without noise, from steps `fine` times as short."""
     grid = np.arange((count - 1) * fine + 1) * (scene.step / fine)
     return scene.respond(path(grid), theta, hooks)[:, ::fine]
 
 
-def samples(scene: Scene, path: Path) -> int:
+def samples(scene: SyntheticScene, path: Path) -> int:
     """How many samples a trial has at full rate."""
     return int(path(np.zeros(1)).duration / scene.step + 1e-9) + 1
 
 
-def fine_enough(scene: Scene, path: Path, hooks: Hooks) -> int:
+def fine_enough(scene: SyntheticScene, path: Path, hooks: Hooks) -> int:
     """Steps per sample at which the truth no longer depends on them; raises when even the finest do not do."""
     count = samples(scene, path)
     fine = scene.body.fine
@@ -106,14 +110,14 @@ def fine_enough(scene: Scene, path: Path, hooks: Hooks) -> int:
 
 
 def record(
-    scene: Scene,
+    scene: SyntheticScene,
     path: Path,
     rng: Rng,
     hooks: Hooks = BASE,
-    fault: Fault = NO_FAULT,
+    data_error: DataError = NO_DATA_ERROR,
     fine: int | None = None,
     gaps: Callable[[Rng, int], Int[np.ndarray, " s"]] | None = None,
-) -> Recording:
+) -> SyntheticTrial:
     """One trial: its own base parameters, noise on outputs and inputs, rows that got lost."""
     count = samples(scene, path)
     theta = vary(scene, rng)
@@ -124,36 +128,36 @@ def record(
     noise = [smooth_noise(rng, sd, count, scene.step, scene.corner) for sd in scene.input_noise]
     inputs = course.position + np.array(noise)
     rows = np.arange(count) if gaps is None else gaps(rng, count)
-    return Recording(
+    return SyntheticTrial(
         path,
         rows,
         rows * scene.step,
-        fault.inputs(scene, inputs)[:, rows],
-        fault.outputs(scene, outputs)[:, rows],
+        data_error.inputs(scene, inputs)[:, rows],
+        data_error.outputs(scene, outputs)[:, rows],
         course.duration,
         course.phase,
-        fault,
+        data_error,
         course.setting,
     )
 
 
-def vary(scene: Scene, rng: Rng) -> Float[np.ndarray, " p"]:
+def vary(scene: SyntheticScene, rng: Rng) -> Float[np.ndarray, " p"]:
     """Base parameters of one trial, within what can be: at least a tenth of the nominal ones, of their sign."""
     theta = rng.multivariate_normal(scene.theta, scene.spread, method="cholesky")
     least = 0.1 * scene.theta
     return np.where(least > 0.0, np.maximum(theta, least), np.minimum(theta, least))
 
 
-def as_measured(recording: Recording) -> Course:
+def as_measured(recording: SyntheticTrial) -> InputCourse:
     """The recorded inputs at the recorded samples."""
     path = through(recording.time, recording.inputs, recording.duration, recording.phase, recording.setting)
     return path(recording.time)
 
 
-def predicted(scene: Scene, recording: Recording, hooks: Hooks, fine: int) -> Outputs:
+def predicted(scene: SyntheticScene, recording: SyntheticTrial, hooks: Hooks, fine: int) -> Outputs:
     """What the true simulator at its nominal parameters makes of the recorded inputs."""
-    mended = recording.fault.mended(scene, recording.inputs)
-    path = through(recording.time, mended, recording.duration, recording.phase, recording.setting)
+    corrected = recording.data_error.corrected(scene, recording.inputs)
+    path = through(recording.time, corrected, recording.duration, recording.phase, recording.setting)
     count = int(recording.rows[-1]) + 1
     outputs = truth(scene, path, count, scene.theta, hooks, fine)[:, recording.rows]
-    return recording.fault.outputs(scene, outputs)
+    return recording.data_error.outputs(scene, outputs)

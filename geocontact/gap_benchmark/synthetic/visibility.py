@@ -10,11 +10,11 @@ from jaxtyping import Bool, Float
 from scipy.linalg import cho_factor, cho_solve, solve_triangular
 
 from geocontact.gap_benchmark.synthetic.base_fit import Model, jacobian, refit
-from geocontact.gap_benchmark.synthetic.course import Course, Path
+from geocontact.gap_benchmark.synthetic.body import Numbers
+from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
 from geocontact.gap_benchmark.synthetic.hooks import Outputs, Values
 from geocontact.gap_benchmark.synthetic.noise import smooth_covariance
-from geocontact.gap_benchmark.synthetic.scene import Scene
-from geocontact.gap_benchmark.synthetic.systems.body import Numbers
+from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import samples
 
 FAINT = 1e-7
@@ -24,7 +24,7 @@ HIDDEN = 1e6
 
 
 @dataclass(frozen=True)
-class Trial:
+class WhitenedTrial:
     """A calibration trial as it is whitened: base model, its outputs, Cholesky factor of noise and input noise."""
 
     path: Path
@@ -48,7 +48,7 @@ class Sight:
     theta: Float[np.ndarray, " p"]
 
 
-def whitener(scene: Scene, path: Path) -> Trial:
+def whitener(scene: SyntheticScene, path: Path) -> WhitenedTrial:
     """Covariance of what is measured in one trial at given base parameters: sensor noise and propagated input noise."""
     count = samples(scene, path)
     course = path(np.arange(count) * scene.step)
@@ -82,11 +82,11 @@ def whitener(scene: Scene, path: Path) -> Trial:
     diagonal = np.diag(total).reshape(outputs.shape).copy()
     sd_all = np.repeat([one.sd for one in scene.noise], count)
     total[np.diag_indices(size)] += np.where(gone.ravel(), (HIDDEN * sd_all) ** 2, (1e-3 * sd_all) ** 2)
-    return Trial(path, count, model, outputs, np.linalg.cholesky(total), diagonal)
+    return WhitenedTrial(path, count, model, outputs, np.linalg.cholesky(total), diagonal)
 
 
 def passed_on(
-    scene: Scene, course: Course, i: int, respond: Callable[[Course, Numbers, int, Values], Values]
+    scene: SyntheticScene, course: InputCourse, i: int, respond: Callable[[InputCourse, Numbers, int, Values], Values]
 ) -> Float[np.ndarray, "n q"]:
     """What the base model makes of the noise of input i where it remembers: each column times a number from N(0, 1)."""
     count = len(course.time)
@@ -96,7 +96,7 @@ def passed_on(
     return np.asarray(passed.reshape(-1, count))
 
 
-def slopes(scene: Scene, path: Path, count: int, i: int) -> tuple[Outputs, Outputs]:
+def slopes(scene: SyntheticScene, path: Path, count: int, i: int) -> tuple[Outputs, Outputs]:
     """Derivatives of the base outputs by input i and by its rate, at every sample."""
     grid = np.arange(count) * scene.step
     course = path(grid)
@@ -113,7 +113,7 @@ def slopes(scene: Scene, path: Path, count: int, i: int) -> tuple[Outputs, Outpu
     return found[0], found[1]
 
 
-def floor(scene: Scene, trials: Sequence[Trial]) -> Float[np.ndarray, " c"]:
+def floor(scene: SyntheticScene, trials: Sequence[WhitenedTrial]) -> Float[np.ndarray, " c"]:
     """Noise, input noise and trial-to-trial variation of each channel together, root mean square over the trials."""
     squares = []
     for one in trials:
@@ -124,8 +124,8 @@ def floor(scene: Scene, trials: Sequence[Trial]) -> Float[np.ndarray, " c"]:
 
 
 def sight(
-    scene: Scene,
-    trials: Sequence[Trial],
+    scene: SyntheticScene,
+    trials: Sequence[WhitenedTrial],
     planted: Sequence[Values],
     floors: Float[np.ndarray, " c"],
     start: Float[np.ndarray, " p"] | None = None,
@@ -165,7 +165,7 @@ def sight(
     return Sight(0.5 * max(visible, 0.0), float(np.clip(share, 0.0, 1.0)), 0.5 * raw, theta)
 
 
-def movable(scene: Scene, theta: Float[np.ndarray, " p"]) -> Bool[np.ndarray, " p"]:
+def movable(scene: SyntheticScene, theta: Float[np.ndarray, " p"]) -> Bool[np.ndarray, " p"]:
     """Which parameters are not at a bound."""
     low = np.array([p.lower for p in scene.parameters])
     high = np.array([p.upper for p in scene.parameters])

@@ -100,7 +100,7 @@ class _Pieces:
 
 
 @dataclass
-class _Sums:
+class _AreaSums:
     """Running totals of what is settled; moment about the other surface's centre."""
 
     area: float = 0.0
@@ -111,8 +111,8 @@ class _Sums:
     negative: float = 0.0
     moment: Float[np.ndarray, " 3"] = field(default_factory=lambda: np.zeros(3))
 
-    def with_(self, pieces: _Pieces) -> _Sums:
-        return _Sums(
+    def with_(self, pieces: _Pieces) -> _AreaSums:
+        return _AreaSums(
             self.area + float(pieces.part.sum()),
             self.lower + float(pieces.lower @ pieces.area),
             self.upper + float(pieces.upper @ pieces.area),
@@ -140,7 +140,7 @@ def area_within(
     whole, doubtful = totals(lower, upper, sampled.area, sampled.moment, sampled.negative)
     faces, points = compact(sampled.faces[doubtful], d)
     edges, areas = sampled.edges[doubtful], sampled.area[doubtful]
-    start = _Sums(whole[0], whole[0], whole[0], negative=whole[4])
+    start = _AreaSums(whole[0], whole[0], whole[0], negative=whole[4])
     pieces = _cut(faces, points, edges, areas, lower[doubtful], upper[doubtful], threshold)
     sums = _refined(start, pieces, points, other, threshold, refinement)
     # the pieces' moment is about the other's centre and in its axes
@@ -176,8 +176,8 @@ def _cut(
 
 
 def _refined(
-    settled: _Sums, pieces: _Pieces, points: Distances, other: Surface, threshold: float, rule: Refinement
-) -> _Sums:
+    settled: _AreaSums, pieces: _Pieces, points: Distances, other: Surface, threshold: float, rule: Refinement
+) -> _AreaSums:
     """Divide the pieces as long as `rule` asks for it and return the totals."""
     gaps: list[float] = []
     left = rule.pieces
@@ -213,7 +213,7 @@ def _error(parent: _Pieces, child: _Pieces) -> Float[np.ndarray, " k"]:
     return np.asarray(np.where(blind, BLIND * child.gap, np.minimum(np.repeat(0.25 * moved, 4), child.gap)))
 
 
-def _wanted(now: _Sums, pieces: _Pieces, rule: Refinement, first: bool) -> Bool[np.ndarray, " k"]:
+def _wanted(now: _AreaSums, pieces: _Pieces, rule: Refinement, first: bool) -> Bool[np.ndarray, " k"]:
     """Which pieces to divide: all once, then those that hold more than their share of what is too much."""
     if now.upper < SMALLEST or len(pieces.area) == 0:
         return np.zeros(len(pieces.area), bool)

@@ -13,9 +13,9 @@ from jaxtyping import Bool, Float
 from geocontact.data.evolution import AreaEvolution, SideAreas
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import AS_GIVEN, AreaWithin, Refinement, area_within
+from geocontact.geometry.contact_area.depth import lowest_signed_distance
 from geocontact.geometry.contact_area.rules import CLIP, REFINED, RULES, counted_area
 from geocontact.geometry.contact_area.sampled import Distances, Sampled
-from geocontact.geometry.depth import lowest_signed_distance
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.separation import Collider
 from geocontact.geometry.surface import Surface

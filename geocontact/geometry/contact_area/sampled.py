@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int8
 
-from geocontact.geometry.inside_outside import resolve_sides
+from geocontact.geometry.inside_outside import resolve_inside_outside
 from geocontact.geometry.kernels.batch import chunk_spheres, move, signed_distances
 from geocontact.geometry.kernels.clip import fraction_below
 from geocontact.geometry.plane import Plane
@@ -62,7 +62,6 @@ class Sampled:
     surface: Surface
     points: Float[np.ndarray, "n 3"]
     faces: Int[np.ndarray, "m 3"]
-    face_index: Int[np.ndarray, " m"]
     across: Float[np.ndarray, " n"]
     edges: Float[np.ndarray, "m 3"]
     area: Float[np.ndarray, " m"]
@@ -95,7 +94,6 @@ class Sampled:
             surface=surface,
             points=points,
             faces=faces,
-            face_index=index,
             across=across,
             edges=surface.edge_length[index],
             area=area,
@@ -128,7 +126,7 @@ def measure(
         spheres = chunk_spheres(points, limit)
     signed = other.closed and other.normals_trusted
     distance, side, slot, closest = signed_distances(other.tree, points, limit, spheres, signed)
-    side, undecided = resolve_sides(other, points, side, distance)
+    side, undecided = resolve_inside_outside(other, points, side, distance)
     across = np.ones(len(points)) if across is None else across
     return Distances(points, distance, side, slot, closest, across, undecided)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.geometry.drape.geodesics import Geodesics, Places
+from geocontact.geometry.drape.geodesics import Geodesics, SurfacePoints
 from geocontact.geometry.drape.mat import Marks, Mat
 from geocontact.geometry.drape.spread import Anchor, Way, spread
 
@@ -92,7 +92,7 @@ def _size(miss: Float[np.ndarray, " n"]) -> float:
     return length if np.isfinite(length) else np.inf
 
 
-def _aimed(geodesics: Geodesics, mat: Mat, marks: Marks, goals: Places, k: int) -> Anchor:
+def _aimed(geodesics: Geodesics, mat: Mat, marks: Marks, goals: SurfacePoints, k: int) -> Anchor:
     """The anchor that puts mark k onto its point and the nearest other one of the mat into its direction."""
     arms = mat.away(marks.cells) - mat.away(marks.cells)[k]
     far = np.linalg.norm(arms, axis=1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.drape.geodesics import Geodesics, Places
+from geocontact.geometry.drape.geodesics import Geodesics, SurfacePoints
 from geocontact.geometry.drape.mat import Mat
 from geocontact.geometry.drape.spread import Way
 
@@ -16,7 +16,7 @@ class NotAroundError(ValueError):
     """A belt that does not close on itself where it was put."""
 
 
-def closed(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way) -> Places:
+def closed(geodesics: Geodesics, mat: Mat, nodes: SurfacePoints, belt: Way) -> SurfacePoints:
     """Corners of a spread belt shifted along it, each in proportion to its way from the middle, until the ends meet.
 
     Every ring takes up its own difference between the length of the belt and the way around, so that the belt is where
@@ -38,11 +38,13 @@ def closed(geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way) -> Places:
     ahead /= np.maximum(np.linalg.norm(ahead, axis=2, keepdims=True), 1e-300)
     share = np.linspace(0.5, -0.5, len(point))[:, None]
     shift = np.nan_to_num((share * past)[..., None] * ahead)
-    moved = geodesics.moved(Places(face.ravel(), point.reshape(-1, 3)), shift.reshape(-1, 3))
+    moved = geodesics.moved(SurfacePoints(face.ravel(), point.reshape(-1, 3)), shift.reshape(-1, 3))
     on = moved.on
     face = np.where(on, moved.face, face.ravel()).reshape(face.shape)
     point = np.where(on[:, None], moved.point, point.reshape(-1, 3)).reshape(point.shape)
-    return Places(np.ascontiguousarray(np.moveaxis(face, 0, along)), np.ascontiguousarray(np.moveaxis(point, 0, along)))
+    return SurfacePoints(
+        np.ascontiguousarray(np.moveaxis(face, 0, along)), np.ascontiguousarray(np.moveaxis(point, 0, along))
+    )
 
 
 def _goes_around(geodesics: Geodesics, mat: Mat, belt: Way, gap: float, past: float) -> None:

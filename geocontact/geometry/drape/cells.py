@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial import cKDTree
 
-from geocontact.geometry.drape.geodesics import Geodesics, Joins, Places
+from geocontact.geometry.drape.geodesics import Geodesics, Joins, SurfacePoints
 from geocontact.geometry.drape.mat import Mat
 
 APART = 0.5  # of the smaller pitch: centres nearer to each other belong to cells that lie on one another
@@ -56,7 +56,9 @@ class Drape:
         return np.asarray(_vector_area(self.nodes) * np.sign(_dot(_vector_area(self.nodes), self.normal))[..., None])
 
 
-def measured(geodesics: Geodesics, mat: Mat, nodes: Places, misses: Float[np.ndarray, " k"] | None = None) -> Drape:
+def measured(
+    geodesics: Geodesics, mat: Mat, nodes: SurfacePoints, misses: Float[np.ndarray, " k"] | None = None
+) -> Drape:
     """The drape with these corners.
 
     A cell's area is that of the two triangles into which a diagonal of straightest lines parts it, the mean of both
@@ -64,7 +66,7 @@ def measured(geodesics: Geodesics, mat: Mat, nodes: Places, misses: Float[np.nda
     the flat one with the same sides plus e (a^2 + b^2 + c^2) / 24 (Gauss 1828, sec. 26-28): exact where the surface can
     be laid flat, with an error of the sixth power of the sides elsewhere.
     """
-    corners = [Places(nodes.face[a, b].ravel(), nodes.point[a, b].reshape(-1, 3)) for a, b in CORNERS]
+    corners = [SurfacePoints(nodes.face[a, b].ravel(), nodes.point[a, b].reshape(-1, 3)) for a, b in CORNERS]
     covered = np.logical_and.reduce([corner.on for corner in corners])
     joins = {pair: geodesics.joined(corners[pair[0]], corners[pair[1]]) for pair in PAIRS}
     area = np.where(covered, _area(joins, [corner.point for corner in corners]), np.nan)

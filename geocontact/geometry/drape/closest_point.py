@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.geometry.boundary import on_rim
+from geocontact.geometry.boundary import on_boundary
 from geocontact.geometry.drape.cells import Drape, measured
-from geocontact.geometry.drape.geodesics import Geodesics, Places
+from geocontact.geometry.drape.geodesics import Geodesics, SurfacePoints
 from geocontact.geometry.drape.mat import Marks, Mat
 from geocontact.geometry.drape.positions import between
 from geocontact.geometry.register.landmarks import fit_landmarks
@@ -42,9 +42,9 @@ def project(geodesics: Geodesics, mat: Mat, at: Marks | RigidTransform) -> Drape
     normal = geodesics.normal(places)
     off = points - places.point
     beside = np.linalg.norm(off - np.einsum("ij,ij->i", off, normal)[:, None] * normal, axis=1)
-    lost = (beside > ASIDE * min(mat.pitch)) & on_rim(geodesics.surface, places.point, places.face)
+    lost = (beside > ASIDE * min(mat.pitch)) & on_boundary(geodesics.surface, places.point, places.face)
     face = np.where(lost, -1, places.face).reshape(flat.shape[:2])
     point = np.where(lost[:, None], np.nan, places.point).reshape(flat.shape)
-    nodes = Places(face, point)
+    nodes = SurfacePoints(face, point)
     misses = np.linalg.norm(between(nodes, at.cells) - at.points, axis=1) if isinstance(at, Marks) else None
     return measured(geodesics, mat, nodes, misses)

@@ -14,7 +14,7 @@ from geocontact.geometry.surface import Surface
 
 
 @dataclass(frozen=True, eq=False)
-class Places:
+class SurfacePoints:
     """Points of a surface, each with the face it lies on.
 
     Parameters
@@ -95,18 +95,18 @@ class Geodesics:
         faces = np.ascontiguousarray(self.surface.faces[self._wide])
         return Surface(self.surface.vertices, faces, self.surface.name, self.surface.assume_closed)
 
-    def nearest(self, points: Float[np.ndarray, "n 3"]) -> Places:
+    def nearest(self, points: Float[np.ndarray, "n 3"]) -> SurfacePoints:
         """The places nearest to points [m]."""
         found = self._ground.proximity(points)
-        return Places(self._wide[found.face].astype(np.int64), found.closest)
+        return SurfacePoints(self._wide[found.face].astype(np.int64), found.closest)
 
-    def normal(self, places: Places) -> Float[np.ndarray, "*n 3"]:
+    def normal(self, places: SurfacePoints) -> Float[np.ndarray, "*n 3"]:
         """Outward unit normals of their faces; NaN off the surface."""
         return np.asarray(np.where(places.on[..., None], self.surface.face_normal[places.face], np.nan))
 
     def along(
-        self, start: Places, direction: Float[np.ndarray, "n 3"], stations: Float[np.ndarray, " s"]
-    ) -> tuple[Places, Float[np.ndarray, "n s 3"]]:
+        self, start: SurfacePoints, direction: Float[np.ndarray, "n 3"], stations: Float[np.ndarray, " s"]
+    ) -> tuple[SurfacePoints, Float[np.ndarray, "n s 3"]]:
         """Places at signed lengths [m] along the straightest line through each start, and the line's directions there.
 
         `direction` is turned into the plane of the start's face. Negative lengths lie behind; directions point ahead
@@ -124,19 +124,18 @@ class Geodesics:
         for sign in (1.0, -1.0):
             side = np.flatnonzero(stations >= 0.0 if sign > 0.0 else stations < 0.0)
             side = side[np.argsort(np.abs(stations[side]), kind="stable")]
-            face[:, side], point[:, side], way = traced(
-                self.surface.vertices, self.faces, self.neighbour, start.face, start.point, sign * ahead,
-                np.abs(stations[side])
-            )  # fmt: skip
+            mesh = self.surface.vertices, self.faces, self.neighbour
+            ray = start.face, start.point, sign * ahead
+            face[:, side], point[:, side], way = traced(*mesh, *ray, np.abs(stations[side]))
             heading[:, side] = sign * way
-        return Places(face, point), heading
+        return SurfacePoints(face, point), heading
 
-    def moved(self, start: Places, shift: Float[np.ndarray, "n 3"]) -> Places:
+    def moved(self, start: SurfacePoints, shift: Float[np.ndarray, "n 3"]) -> SurfacePoints:
         """Places reached by a straightest line of the length and direction of each shift [m], along its face."""
         face, point = moved(self.surface.vertices, self.faces, self.neighbour, start.face, start.point, shift)
-        return Places(face, point)
+        return SurfacePoints(face, point)
 
-    def joined(self, start: Places, goal: Places) -> Joins:
+    def joined(self, start: SurfacePoints, goal: SurfacePoints) -> Joins:
         """Straightest lines from places to near ones: where the surface turns little between them."""
         return Joins(
             *joined(self.surface.vertices, self.faces, self.neighbour, start.face, start.point, goal.face, goal.point)

@@ -22,7 +22,7 @@ def lay(geodesics: Geodesics, mat: Mat, at: Marks | Anchor, belt: Way | None = N
         Two marks or more of the mat on the body, or where its middle lies and which way its rows run.
     belt
         The direction of the mat that goes once around the body and meets itself; its end is put onto its beginning.
-        None: the mat has two ends, which may lie on each other on a thin body; such cells are told as folded.
+        None: the mat has two ends, which may lie on each other on a thin body; such cells are reported as folded.
     settle
         Whether the spread mat is evened out. Where the surface can be laid flat there is nothing to even out.
     """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.geometry.drape.geodesics import Places
+from geocontact.geometry.drape.geodesics import SurfacePoints
 
 
 def corners_at(
@@ -18,7 +18,7 @@ def corners_at(
     return index, np.stack([(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t], axis=1)
 
 
-def between(nodes: Places, cells: Float[np.ndarray, "k 2"]) -> Float[np.ndarray, "k 3"]:
+def between(nodes: SurfacePoints, cells: Float[np.ndarray, "k 2"]) -> Float[np.ndarray, "k 3"]:
     """Points at positions counted in cells [m], linear between the corners of their cell; NaN where it is not there."""
     index, share = corners_at(nodes.face.shape, cells)
     corners = nodes.point.reshape(-1, 3)[index]

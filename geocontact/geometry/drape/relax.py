@@ -10,8 +10,8 @@ from scipy.sparse import coo_array, csr_array, eye_array
 from scipy.sparse.linalg import spsolve
 
 from geocontact.geometry.drape.belt import closed
-from geocontact.geometry.drape.geodesics import Geodesics, Joins, Places
-from geocontact.geometry.drape.held import Held, held
+from geocontact.geometry.drape.geodesics import Geodesics, Joins, SurfacePoints
+from geocontact.geometry.drape.landmark_constraints import LandmarkConstraints, landmark_constraints
 from geocontact.geometry.drape.mat import Marks, Mat
 from geocontact.geometry.drape.spread import Way
 
@@ -37,8 +37,8 @@ class Springs:
 
 
 def relaxed(
-    geodesics: Geodesics, mat: Mat, nodes: Places, belt: Way | None = None, marks: Marks | None = None
-) -> Places:
+    geodesics: Geodesics, mat: Mat, nodes: SurfacePoints, belt: Way | None = None, marks: Marks | None = None
+) -> SurfacePoints:
     """Corners moved along the surface until sides differ least from the pitch, and diagonals, weakly, from theirs.
 
     Least squares over all corners that lie on the surface, by damped Gauss-Newton. A straightest line of length L from
@@ -50,12 +50,12 @@ def relaxed(
     """
     if belt is not None:
         nodes = closed(geodesics, mat, nodes, belt)
-    flat = Places(nodes.face.ravel(), nodes.point.reshape(-1, 3))
+    flat = SurfacePoints(nodes.face.ravel(), nodes.point.reshape(-1, 3))
     owner = _owner(nodes.face.shape, belt)
     springs = _springs(mat, nodes.face.shape, flat, owner)
     damping = DAMPING
     spread_to = flat.point
-    hold = None if marks is None else held(geodesics, mat, nodes, marks, owner, belt)
+    hold = None if marks is None else landmark_constraints(geodesics, mat, nodes, marks, owner, belt)
     residual, joins = _residual(geodesics, springs, flat)
     for _ in range(ROUNDS):
         if not len(residual) or np.abs(residual / springs.rest).max() < EVEN:
@@ -66,7 +66,9 @@ def relaxed(
         size = float(np.linalg.norm(shift, axis=1).max())
         shift *= min(1.0, STRIDE * min(mat.pitch) / size) if size > 0.0 else 1.0
         trial = geodesics.moved(flat, shift)
-        trial = Places(np.where(trial.on, trial.face, flat.face), np.where(trial.on[:, None], trial.point, flat.point))
+        trial = SurfacePoints(
+            np.where(trial.on, trial.face, flat.face), np.where(trial.on[:, None], trial.point, flat.point)
+        )
         after, joins_after = _residual(geodesics, springs, trial)
         before, now = (_energy(r, p.point, spread_to, hold) for r, p in ((residual, flat), (after, trial)))
         if not now < before:
@@ -78,8 +80,8 @@ def relaxed(
         flat, residual, joins, damping = trial, after, joins_after, max(0.1 * damping, DAMPING)
         if little or size < SETTLED * min(mat.pitch):
             break
-    flat = Places(flat.face[owner], flat.point[owner])
-    return Places(flat.face.reshape(nodes.face.shape), flat.point.reshape(nodes.point.shape))
+    flat = SurfacePoints(flat.face[owner], flat.point[owner])
+    return SurfacePoints(flat.face.reshape(nodes.face.shape), flat.point.reshape(nodes.point.shape))
 
 
 def _owner(shape: tuple[int, ...], belt: Way | None) -> Int[np.ndarray, " n"]:
@@ -92,7 +94,7 @@ def _owner(shape: tuple[int, ...], belt: Way | None) -> Int[np.ndarray, " n"]:
     return index.ravel()
 
 
-def _springs(mat: Mat, shape: tuple[int, ...], flat: Places, owner: Int[np.ndarray, " n"]) -> Springs:
+def _springs(mat: Mat, shape: tuple[int, ...], flat: SurfacePoints, owner: Int[np.ndarray, " n"]) -> Springs:
     """Sides and diagonals between nodes that are on the surface, each once."""
     index = np.arange(shape[0] * shape[1]).reshape(shape)
     diagonal = float(np.hypot(*mat.pitch))
@@ -113,16 +115,16 @@ def _springs(mat: Mat, shape: tuple[int, ...], flat: Places, owner: Int[np.ndarr
     return Springs(start[first], goal[first], rest[first], weight[first])
 
 
-def _residual(geodesics: Geodesics, springs: Springs, flat: Places) -> tuple[Float[np.ndarray, " e"], Joins]:
+def _residual(geodesics: Geodesics, springs: Springs, flat: SurfacePoints) -> tuple[Float[np.ndarray, " e"], Joins]:
     """Weighted change of each spring's length [m]; 0 where no straightest line was found."""
     joins = geodesics.joined(
-        Places(flat.face[springs.start], flat.point[springs.start]),
-        Places(flat.face[springs.goal], flat.point[springs.goal]),
+        SurfacePoints(flat.face[springs.start], flat.point[springs.start]),
+        SurfacePoints(flat.face[springs.goal], flat.point[springs.goal]),
     )
     return np.nan_to_num(springs.weight * (joins.length - springs.rest)), joins
 
 
-def _axes(geodesics: Geodesics, flat: Places) -> Float[np.ndarray, "n 2 3"]:
+def _axes(geodesics: Geodesics, flat: SurfacePoints) -> Float[np.ndarray, "n 2 3"]:
     """Two unit vectors along the surface at each place; zero off it."""
     normal = np.nan_to_num(geodesics.normal(flat))
     least = np.eye(3)[np.abs(normal).argmin(axis=1)]
@@ -153,7 +155,10 @@ def _step(
 
 
 def _pulls(
-    hold: Held | None, flat: Places, axes: Float[np.ndarray, "n 2 3"], astray: Float[np.ndarray, "n 3"]
+    hold: LandmarkConstraints | None,
+    flat: SurfacePoints,
+    axes: Float[np.ndarray, "n 2 3"],
+    astray: Float[np.ndarray, "n 3"],
 ) -> tuple[csr_array, Float[np.ndarray, " two_n"]]:
     """Stiffness and force [m] of what holds the corners: each where it was spread, and all of them at the marks."""
     stiffness = csr_array(STAYS**2 * eye_array(2 * len(axes), format="csr"))
@@ -168,7 +173,7 @@ def _energy(
     residual: Float[np.ndarray, " e"],
     points: Float[np.ndarray, "n 3"],
     spread_to: Float[np.ndarray, "n 3"],
-    hold: Held | None,
+    hold: LandmarkConstraints | None,
 ) -> float:
     """Of all springs and of the holds [m^2]."""
     miss = np.zeros(0) if hold is None else hold.miss(points)

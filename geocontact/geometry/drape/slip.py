@@ -1,4 +1,4 @@
-"""How far a mat may lie elsewhere on the surface, told by how far its own marks miss."""
+"""How far a mat may lie elsewhere on the surface, estimated from how far its own marks miss."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from geocontact.geometry.drape.positions import corners_at, directions
 from geocontact.geometry.drape.spread import Way
 from geocontact.geometry.register.uncertainty import PoseCovariance
 
-TOLD = 1e-6  # of the firmest motion: what marks tell less of is not told
+TOLD = 1e-6  # of the firmest motion: what marks tell less of is not identified
 
 
 def slip_covariance(mat: Mat, laid: Drape, marks: Marks, belt: Way | None = None) -> PoseCovariance | None:

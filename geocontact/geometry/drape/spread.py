@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.geometry.drape.geodesics import Geodesics, Places
+from geocontact.geometry.drape.geodesics import Geodesics, SurfacePoints
 from geocontact.geometry.drape.mat import Mat
 
 Way = Literal["rows", "columns"]
@@ -26,7 +26,7 @@ class Anchor:
         Unit direction of increasing row there, in the plane of the place's face.
     """
 
-    place: Places
+    place: SurfacePoints
     heading: Float[np.ndarray, " 3"]
 
     @classmethod
@@ -54,7 +54,7 @@ class Anchor:
             return self
         way = self.turned(geodesics, float(np.arctan2(aside, ahead)))
         places, headings = geodesics.along(self.place, way.heading[None], np.array([far]))
-        there = Places(places.face[0], places.point[0])
+        there = SurfacePoints(places.face[0], places.point[0])
         if not there.on[0]:
             return Anchor(there, headings[0, 0])
         return Anchor(there, headings[0, 0]).turned(geodesics, -float(np.arctan2(aside, ahead)))
@@ -67,7 +67,7 @@ def spread(
     ahead: Float[np.ndarray, " a"],
     aside: Float[np.ndarray, " b"],
     spine: Way = "rows",
-) -> Places:
+) -> SurfacePoints:
     """Places of all mat positions (ahead, aside) [m] from the anchor, along rows and along columns; shape (a, b).
 
     The spine runs along the rows (or columns) through the anchor; from each of its stations a rib leaves at a right
@@ -82,9 +82,9 @@ def spread(
     else:
         nodes, heading = geodesics.along(anchor.place, columns[None], aside)
         ribs, sense = ahead, -mat.hand
-    base = Places(nodes.face[0], nodes.point[0])
+    base = SurfacePoints(nodes.face[0], nodes.point[0])
     out = sense * np.cross(geodesics.normal(base), heading[0])
     places, _ = geodesics.along(base, out, ribs)
     if spine == "rows":
         return places
-    return Places(np.ascontiguousarray(places.face.T), np.ascontiguousarray(places.point.transpose(1, 0, 2)))
+    return SurfacePoints(np.ascontiguousarray(places.face.T), np.ascontiguousarray(places.point.transpose(1, 0, 2)))

@@ -25,7 +25,7 @@ class Quality:
     residual
         Signed distance of every point to the shape [m]: positive outside a cylinder or sphere, above a plane.
     noise
-        Standard deviation of the residuals told by their median size [m]; without outliers that of normal noise.
+        Standard deviation of the residuals estimated from their median size [m]; without outliers that of normal noise.
     inlier
         Points within three times `noise`.
     names, covariance

@@ -33,7 +33,7 @@ Same = TypeVar("Same")
 
 
 @runtime_checkable
-class Model(Protocol):
+class ShapeModel(Protocol):
     """A shape in coordinates of its own, with the names of its parameters and which of them are lengths."""
 
     names: ClassVar[tuple[str, ...]]
@@ -57,7 +57,7 @@ class Model(Protocol):
         ...
 
 
-M = TypeVar("M", bound=Model)
+M = TypeVar("M", bound=ShapeModel)
 Loss = Literal["linear", "cauchy", "biweight"]
 
 
@@ -139,5 +139,5 @@ def biweight(square: Float[np.ndarray, " n"]) -> Float[np.ndarray, "3 n"]:
 
 
 def spread(residual: Float[np.ndarray, " n"]) -> float:
-    """Standard deviation of normal residuals about zero, told by their median size: outliers hardly matter."""
+    """Standard deviation of normal residuals about zero, estimated from their median size: outliers hardly matter."""
     return max(NORMAL * float(np.median(np.abs(residual))), FINEST)

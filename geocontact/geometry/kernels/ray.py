@@ -26,8 +26,9 @@ def exits(tree, points, directions, limit, outside):
     slot = np.full(n, -1)
     nodes = np.empty(STACK, np.int64)
     for i in range(n):
-        distance[i], place = _exit(tree.boxes, tree.child, tree.leaves, tree.fill, points[i], directions[i], limit,
-                                   outside, nodes)  # fmt: skip
+        distance[i], place = _exit(
+            tree.boxes, tree.child, tree.leaves, tree.fill, points[i], directions[i], limit, outside, nodes
+        )
         if place >= 0:
             slot[i] = tree.slots[place]
     return distance, slot

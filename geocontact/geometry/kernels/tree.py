@@ -14,7 +14,7 @@ from geocontact.geometry.kernels.triangle import LEAF, U, closest_point
 from geocontact.geometry.kernels.wide import FAN, ROWS, STACK, box_distances, leaf_distances
 
 
-class Tree(NamedTuple):
+class BoxTree(NamedTuple):
     """Arrays of the tree; triangles are numbered by *slot*, their order along the leaves.
 
     root (6,) lower and upper corner of everything; boxes, child, leaves, slots, fill as `widen` makes them, a *place*

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.geometry.boundary import on_rim
+from geocontact.geometry.boundary import on_boundary
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.samples import samples
 from geocontact.geometry.surface import Surface
@@ -21,7 +21,7 @@ FEW = 12  # partners that a pose takes at least
 
 
 @dataclass(frozen=True)
-class Search:
+class IcpSearch:
     """How shapes are brought together.
 
     Parameters
@@ -58,16 +58,16 @@ class Partners:
     height: Float[np.ndarray, " n"]
 
 
-def icp(moving: Surface, fixed: Surface, start: RigidTransform, search: Search | None = None) -> Registration:
+def icp(moving: Surface, fixed: Surface, start: RigidTransform, search: IcpSearch | None = None) -> Registration:
     """The pose X_BA near `start` at which the moving surface A lies best on the fixed surface B.
 
     Every round, points spread evenly over A get partners: the nearest points of B. Partners on the rim of B, across a
-    limb or out of reach are dropped, and what remains is weighted by Tukey's biweight with the scale told by the
+    limb or out of reach are dropped, and what remains is weighted by Tukey's biweight with the scale estimated from the
     median, so A and B need not cover the same part. The motion that brings the points to the planes of their partners
     in the sense of least squares is a 6 x 6 system (Chen and Medioni 1992); nothing moves along what the shapes leave
     open. The faces of both surfaces must agree on what is outside.
     """
-    search = search or Search()
+    search = search or IcpSearch()
     points, normals = samples(moving, search.points)
     pose = start
     converged, rounds = False, 0
@@ -85,7 +85,7 @@ def judged(
     points: Float[np.ndarray, "n 3"],
     normals: Float[np.ndarray, "n 3"],
     pose: RigidTransform,
-    search: Search,
+    search: IcpSearch,
     converged: bool,
     rounds: int,
 ) -> Registration:
@@ -100,7 +100,7 @@ def judged(
 
 
 def partners_on(
-    fixed: Surface, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], search: Search
+    fixed: Surface, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], search: IcpSearch
 ) -> Partners:
     """Partners on B of points of A with their outward normals; refused where there are too few."""
     found = fixed.proximity(points, search.reach)
@@ -108,7 +108,7 @@ def partners_on(
     face, closest = found.face[near], found.closest[near]
     plane = fixed.face_normal[face]
     kept: Bool[np.ndarray, " k"] = np.einsum("ij,ij->i", plane, normals[near]) > SAME_SIDE
-    kept &= ~on_rim(fixed, closest, face)
+    kept &= ~on_boundary(fixed, closest, face)
     if kept.sum() < FEW:
         raise ValueError(
             f"{kept.sum()} of {len(points)} points find a partner on {fixed.name} within {search.reach:g} m that faces "

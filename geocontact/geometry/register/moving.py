@@ -1,20 +1,10 @@
-"""A registration that travels with its segment."""
+"""Poses of a segment between the recorded times."""
 
 from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Slerp
-
-
-def carried(X_BA: RigidTransform, X_GB: RigidTransform) -> RigidTransform:
-    """X_GA, the poses in the lab G of what is registered (X_BA, one pose) to segment B, from the segment's poses X_GB.
-
-    The bond is rigid: X_GA = X_GB X_BA, one for each of the segment's poses.
-    """
-    if not X_BA.single:
-        raise ValueError(f"a registration is one pose, not {len(X_BA)}; it is carried along by those of the segment")
-    return X_GB * X_BA
 
 
 def poses_at(time: Float[np.ndarray, " t"], poses: RigidTransform, at: Float[np.ndarray, " s"]) -> RigidTransform:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.geometry.register.icp import BIWEIGHT, Search, judged
+from geocontact.geometry.register.icp import BIWEIGHT, IcpSearch, judged
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.samples import samples
 from geocontact.geometry.surface import Surface
@@ -19,7 +19,7 @@ AGAIN = 30  # rounds of a search begun again from the result
 STANDS = 2e-6  # m, motion at the points in these, below which the result stands
 
 
-def open3d_icp(moving: Surface, fixed: Surface, start: RigidTransform, search: Search | None = None) -> Registration:
+def open3d_icp(moving: Surface, fixed: Surface, start: RigidTransform, search: IcpSearch | None = None) -> Registration:
     """The pose X_BA of `icp`, found by open3d's point-to-plane search with Tukey's weights.
 
     B is a dense cloud to it, so partners on the rim cannot be dropped: pairs are bounded by the reach first, and by
@@ -27,7 +27,7 @@ def open3d_icp(moving: Surface, fixed: Surface, start: RigidTransform, search: S
     it converged: a search begun again from the result must not move it.
     """
     o3d: Any = _open3d()
-    search = search or Search()
+    search = search or IcpSearch()
     points, normals = samples(moving, search.points)
     clouds = []
     for positions, directions in ((points, normals), samples(fixed, DENSE)):

@@ -27,7 +27,7 @@ def compare_landmarks(
     """Scale between the same landmarks of A and B [m], by the root mean square distances from their centroids.
 
     A ratio outside 1/2 to 2 is refused, with the unit named that would explain it; one that is off by more than 15 % is
-    told as a warning: the bodies differ, or a landmark is the wrong one.
+    reported as a warning: the bodies differ, or a landmark is the wrong one.
     """
     a, b = (float(np.sqrt(((p - p.mean(axis=0)) ** 2).sum(axis=1).mean())) for p in (moving, fixed))
     if not (a > 0.0 and b > 0.0):

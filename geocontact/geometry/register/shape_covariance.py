@@ -7,7 +7,7 @@ from jaxtyping import Float
 from scipy.sparse import coo_array
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.geometry.register.icp import BIWEIGHT, FINEST, NORMAL, Partners, Search, partners_on, system
+from geocontact.geometry.register.icp import BIWEIGHT, FINEST, NORMAL, IcpSearch, Partners, partners_on, system
 from geocontact.geometry.register.samples import sampled
 from geocontact.geometry.register.uncertainty import PoseCovariance
 from geocontact.geometry.surface import Surface
@@ -19,7 +19,7 @@ def shape_covariance(
     moving: Surface,
     fixed: Surface,
     pose: RigidTransform,
-    search: Search | None = None,
+    search: IcpSearch | None = None,
     start: PoseCovariance | None = None,
 ) -> PoseCovariance:
     """Covariance of the pose X_BA that `icp` found.
@@ -32,7 +32,7 @@ def shape_covariance(
     The noise is taken as independent from vertex to vertex, and as the scan's alone: a scan that is bent, or that was
     smoothed, is further off than this says.
     """
-    search = search or Search()
+    search = search or IcpSearch()
     face, corner = sampled(moving, search.points)
     points = np.einsum("nk,nki->ni", corner, moving.vertices[moving.faces[face]])
     partners = partners_on(fixed, pose.apply(points), pose.rotation.apply(moving.face_normal[face]), search)

@@ -1,4 +1,4 @@
-"""How far a registered pose may be off, told by the residual of what it was found from."""
+"""How far a registered pose may be off, estimated from the residual of what it was found from."""
 
 from __future__ import annotations
 

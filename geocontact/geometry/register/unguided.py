@@ -9,24 +9,24 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.geometry.register.icp import Search, icp
+from geocontact.geometry.register.icp import IcpSearch, icp
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.samples import samples
 from geocontact.geometry.surface import Surface
 
 TWISTS = 12  # turns about the longest axis that are tried, both ways up
-ROUGH = Search(points=400, rounds=25, settled=1e-5)
+ROUGH = IcpSearch(points=400, rounds=25, settled=1e-5)
 POINTS = 4000  # that principal axes are taken from
 BEST = 3  # starts that are followed to the end
 PLAINLY = 0.9  # another start must fit that much better than the scans as they stand
 
 
-def unguided(moving: Surface, fixed: Surface, search: Search | None = None) -> Registration:
+def unguided(moving: Surface, fixed: Surface, search: IcpSearch | None = None) -> Registration:
     """The pose X_BA at which a scan A lies best on another scan B of the same body.
 
     Starts are A as it stands, and A with its centroid and longest principal axis on those of B, turned about that axis
     in steps of 30 degrees, both ways up. Each is followed roughly by `icp`, the best three to the end. What fits is
-    told by the median residual, so that a part that only one scan has does not count. Bodies that are alike from
+    estimated from the median residual, so that a part that only one scan has does not count. Bodies that are alike from
     several sides have several answers: the one that needs no turn is preferred.
     """
     rated = []

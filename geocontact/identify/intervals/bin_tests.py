@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.signals.angle_bins import Visits
+from geocontact.identify.signals.angle_bins import AngleBins
 
 LEVEL = 0.05
 FEWEST = 3  # visits of a bin that is compared
@@ -47,10 +47,10 @@ class Normality:
     @property
     def words(self) -> str:
         """What the p-value says."""
-        told = f"{self.shown}, by simulated normal noise with the memory of the recorded one"
+        test = f"{self.shown}, by simulated normal noise with the memory of the recorded one"
         if self.p < LEVEL:
-            return f"not normal: Lilliefors' test rejects it ({told}; a small p speaks against)"
-        return f"no evidence against normal residuals (Lilliefors, {told}; this does not prove them)"
+            return f"not normal: Lilliefors' test rejects it ({test}; a small p speaks against)"
+        return f"no evidence against normal residuals (Lilliefors, {test}; this does not prove them)"
 
     @property
     def shown(self) -> str:
@@ -58,7 +58,7 @@ class Normality:
         return "p < 0.001" if self.p < 1e-3 else f"p = {self.p:.3f}"
 
 
-def between_bins(v: Visits, channel: int) -> BinTest | None:
+def between_bins(v: AngleBins, channel: int) -> BinTest | None:
     """Kruskal-Wallis test of one channel's visit means between bins; None where fewer than two bins have enough.
 
     Samples of a recording follow each other, and a test that counts each of them finds anything. A visit (one stretch
@@ -79,7 +79,7 @@ def between_bins(v: Visits, channel: int) -> BinTest | None:
 
 
 @dataclass(frozen=True)
-class Pair:
+class BinPair:
     """Mann-Whitney test of a channel between two bins, by their places, and its p after Holm's correction."""
 
     places: tuple[int, int]
@@ -88,7 +88,7 @@ class Pair:
     p_holm: float
 
 
-def between_neighbours(v: Visits, channel: int) -> list[Pair]:
+def between_neighbours(v: AngleBins, channel: int) -> list[BinPair]:
     """Mann-Whitney test of each bin against the next one, over visit means as `between_bins`.
 
     Which bins differ, where the omnibus test says only that some do. Holm (1979), Scandinavian Journal of Statistics 6,
@@ -101,8 +101,8 @@ def between_neighbours(v: Visits, channel: int) -> list[Pair]:
     pairs = [(k, k + 1) for k in groups if min(len(groups[k]), len(groups.get(k + 1, ()))) >= FEWEST]
     tests = [mannwhitneyu(groups[a], groups[b]) for a, b in pairs]
     holm = _holm(np.array([float(test.pvalue) for test in tests]))
-    return [Pair(pair, float(test.statistic), float(test.pvalue), float(p))
-            for pair, test, p in zip(pairs, tests, holm, strict=True)]  # fmt: skip
+    found = zip(pairs, tests, holm, strict=True)
+    return [BinPair(pair, float(test.statistic), float(test.pvalue), float(p)) for pair, test, p in found]
 
 
 def _holm(p: Float[np.ndarray, " m"]) -> Float[np.ndarray, " m"]:

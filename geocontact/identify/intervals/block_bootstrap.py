@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.noise.autocorrelation import Memory
-from geocontact.identify.noise.autoregressive import Noise
+from geocontact.identify.noise.autocorrelation import Autocorrelation
+from geocontact.identify.noise.autoregressive import AutoregressiveNoise
 
 CORRELATIONS = 3.0  # correlation times in a block: exp(-3) is left of the correlation
 FEWEST = 4  # blocks
@@ -49,7 +49,7 @@ def block_bootstrap(
     time: Float[np.ndarray, " n"],
     predicted: Float[np.ndarray, " n"],
     residual: Float[np.ndarray, " n"],
-    memory: Memory,
+    memory: Autocorrelation,
     refit: Callable[[Float[np.ndarray, "b n"]], Float[np.ndarray, "b p"]],
     count: int,
     level: float = 0.95,
@@ -89,7 +89,7 @@ def _blackened(
 ) -> Float[np.ndarray, "b n"]:
     """Resampled residuals: blocks of the innovations with random places and signs, given the memory back."""
     n = len(time)
-    innovations = Noise(np.ones(1), np.array([tau])).whitened(time, residual[:, None, None])[:, 0]
+    innovations = AutoregressiveNoise(np.ones(1), np.array([tau])).whitened(time, residual[:, None, None])[:, 0]
     blocks = -(-n // length)
     first = rng.integers(0, n, (count, blocks))
     places = ((first[:, :, None] + np.arange(length)) % n).reshape(count, -1)[:, :n]

@@ -17,7 +17,7 @@ from jaxtyping import Float
 from scipy.optimize import brentq
 
 from geocontact.data.parameter import Parameter
-from geocontact.identify.noise.autocorrelation import Memory, sandwich, spread
+from geocontact.identify.noise.autocorrelation import Autocorrelation, sandwich, spread
 from geocontact.identify.optimise.least_squares import Fit, Predict
 from geocontact.identify.optimise.least_squares import fit as least_squares
 
@@ -64,7 +64,7 @@ def profile(
     time: Float[np.ndarray, " n"],
     parameters: Sequence[Parameter],
     fit: Fit,
-    memory: Memory,
+    memory: Autocorrelation,
     name: str,
     level: float = 0.95,
     points: int = POINTS,

@@ -14,7 +14,7 @@ CONFIDENCE = 0.95
 
 
 @dataclass(frozen=True)
-class Estimate:
+class IntervalEstimate:
     """A number and its interval of 95 %."""
 
     value: float
@@ -22,7 +22,7 @@ class Estimate:
     upper: float
 
 
-def quantile(ordered: Float[np.ndarray, " n"], share: float) -> Estimate:
+def quantile(ordered: Float[np.ndarray, " n"], share: float) -> IntervalEstimate:
     """Value that `share` of the population does not exceed, from samples in rising order.
 
     The interval is between two of the samples: the number of samples under the true quantile is binomial (David &
@@ -34,14 +34,14 @@ def quantile(ordered: Float[np.ndarray, " n"], share: float) -> Estimate:
     first, last = int(binom.ppf(tail, n, share)), int(binom.ppf(1.0 - tail, n, share)) + 1
     lower = float(ordered[first - 1]) if first >= 1 else -np.inf
     upper = float(ordered[last - 1]) if last <= n else np.inf
-    return Estimate(float(ordered[max(int(np.ceil(share * n)), 1) - 1]), lower, upper)
+    return IntervalEstimate(float(ordered[max(int(np.ceil(share * n)), 1) - 1]), lower, upper)
 
 
-def probability(count: int, of: int) -> Estimate:
+def probability(count: int, of: int) -> IntervalEstimate:
     """Probability of what happened `count` times in `of`, with the exact interval of Clopper and Pearson (1934)."""
     from scipy.stats import beta
 
     tail = 0.5 * (1.0 - CONFIDENCE)
     lower = float(beta.ppf(tail, count, of - count + 1)) if count else 0.0
     upper = float(beta.ppf(1.0 - tail, count + 1, of - count)) if count < of else 1.0
-    return Estimate(count / of, lower, upper)
+    return IntervalEstimate(count / of, lower, upper)

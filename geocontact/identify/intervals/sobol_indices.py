@@ -43,14 +43,15 @@ def variance_shares(
 
     spread: list[bool] = []
 
-    def told(shares: Float[np.ndarray, "f n"]) -> Float[np.ndarray, "1 n"]:
+    def evaluated(shares: Float[np.ndarray, "f n"]) -> Float[np.ndarray, "1 n"]:
         found = of(np.ascontiguousarray(shares[:factors].T))
         spread.append(bool(np.isfinite(found).all() and (found != found[0]).any()))
         return (found if spread[-1] else shares[0])[None, :]
 
     dists: list[Any] = [uniform()] * max(factors, 2)  # scipy takes two or more; a second one may do nothing
     runs = [
-        sobol_indices(func=told, n=POINTS, dists=dists, rng=rng) for rng in np.random.default_rng(seed).spawn(REPEATS)
+        sobol_indices(func=evaluated, n=POINTS, dists=dists, rng=rng)
+        for rng in np.random.default_rng(seed).spawn(REPEATS)
     ]
     if not all(spread):
         return None

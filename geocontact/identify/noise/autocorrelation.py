@@ -18,17 +18,17 @@ from jaxtyping import Float
 from scipy.optimize import brentq
 from scipy.stats import t as student
 
-from geocontact.identify.noise.autoregressive import Noise
+from geocontact.identify.noise.autoregressive import AutoregressiveNoise
 
 GRID = 30  # correlation times
 SHORTEST = 0.2  # of a step: no memory at all
-LONGEST = 1.0 / 3.0  # of the duration: more cannot be told from a wrong model
+LONGEST = 1.0 / 3.0  # of the duration: more cannot be distinguished from a wrong model
 PAUSE = 20.0  # usual steps: a longer one is a pause and does not count as duration
 LEAST = 1e-8  # of the largest singular value: below, parameters act as one
 
 
 @dataclass(frozen=True, eq=False)
-class Memory:
+class Autocorrelation:
     """Correlation times, their weights, and the residual's variance with each.
 
     Parameters
@@ -67,9 +67,9 @@ class Memory:
         return float(brentq(missing, 0.0, 1.001 * far, rtol=1e-10))
 
 
-def memory_of(
+def autocorrelation_of(
     time: Float[np.ndarray, " n"], residual: Float[np.ndarray, " n"], jacobian: Float[np.ndarray, "n p"]
-) -> Memory:
+) -> Autocorrelation:
     """Weights of the correlation times by the restricted likelihood of what the fit left over."""
     n, p = jacobian.shape
     steps = np.diff(time)
@@ -79,7 +79,7 @@ def memory_of(
     logs, variance = np.empty(GRID), np.empty(GRID)
     both = np.column_stack([residual, jacobian / np.linalg.norm(jacobian, axis=0)])[:, None, :]
     for k, each in enumerate(tau):
-        noise = Noise(np.ones(1), np.array([each]))
+        noise = AutoregressiveNoise(np.ones(1), np.array([each]))
         white = noise.whitened(time, both)
         off, design = white[:, 0], white[:, 1:]
         rest = off - design @ np.linalg.lstsq(design, off, rcond=None)[0]
@@ -90,11 +90,11 @@ def memory_of(
         likelihood = -0.5 * (n - p) * np.log(square) - noise.log_scale(time, residual[:, None])
         logs[k] = likelihood - 0.5 * information + _log_prior(time, each)
     weight = np.exp(logs - logs.max())
-    return Memory(tau, weight / weight.sum(), variance, n - p)
+    return Autocorrelation(tau, weight / weight.sum(), variance, n - p)
 
 
 def sandwich(
-    memory: Memory, time: Float[np.ndarray, " n"], jacobian: Float[np.ndarray, "n p"]
+    memory: Autocorrelation, time: Float[np.ndarray, " n"], jacobian: Float[np.ndarray, "n p"]
 ) -> Float[np.ndarray, "g p p"]:
     """Covariance of the least-squares estimates for each correlation time."""
     decay = np.exp(-np.diff(time)[:, None] / memory.tau)

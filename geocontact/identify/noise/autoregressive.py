@@ -7,11 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-SHORTEST = 1e-6  # of a step; correlation times below this are no correlation
-
 
 @dataclass(frozen=True)
-class Noise:
+class AutoregressiveNoise:
     """Stationary noise of each channel: standard deviation and correlation time.
 
     The correlation of two samples a time h apart is exp(-h / tau): the Ornstein-Uhlenbeck process, which on equally
@@ -64,7 +62,7 @@ def _new_share(h: Float[np.ndarray, " n"], tau: float) -> Float[np.ndarray, " n"
     return np.asarray(-np.expm1(-2.0 * h / tau)) if tau > 0.0 else np.ones_like(h)
 
 
-def noise_of(times: list[Float[np.ndarray, " _"]], residuals: list[Float[np.ndarray, "_ c"]]) -> Noise:
+def noise_of(times: list[Float[np.ndarray, " _"]], residuals: list[Float[np.ndarray, "_ c"]]) -> AutoregressiveNoise:
     """Noise that makes these residuals most likely, channel by channel over all trials.
 
     The standard deviation follows from the correlation time in closed form, the correlation time from a bounded
@@ -84,7 +82,7 @@ def noise_of(times: list[Float[np.ndarray, " _"]], residuals: list[Float[np.ndar
         found = minimize_scalar(cost, bounds=(np.log(0.02 * step), np.log(200.0 * step)), method="bounded")
         tau[c] = np.exp(found.x)
         sd[c] = _profile(series, tau[c])[1]
-    return Noise(np.maximum(sd, np.finfo(float).tiny), tau)
+    return AutoregressiveNoise(np.maximum(sd, np.finfo(float).tiny), tau)
 
 
 def _profile(series: list[tuple[np.ndarray, np.ndarray]], tau: float) -> tuple[float, float]:

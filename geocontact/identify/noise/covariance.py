@@ -23,7 +23,7 @@ from scipy.linalg import lapack
 
 from geocontact.identify.noise.block_sums import carried, pulled, summed
 from geocontact.identify.noise.input_noise import InputNoise
-from geocontact.identify.noise.noise_levels import Levels
+from geocontact.identify.noise.noise_levels import NoiseLevels
 
 BLOCK_ROWS = 120  # of a covariance matrix: cost grows with the square of it
 RAISED = 1e-7  # of the diagonal, first try where a covariance has no factor
@@ -31,7 +31,7 @@ JITTER = 1e-9  # of the diagonal, so that a factor always exists
 
 
 @dataclass(frozen=True)
-class Block:
+class NoiseBlock:
     """Rows of one stretch of a trial and the parts that its covariance is summed from.
 
     Parameters
@@ -49,12 +49,12 @@ class Block:
     channel: Int[np.ndarray, " n"]
     inputs: Float[np.ndarray, "j n n"]
 
-    def covariance(self, levels: Levels) -> Float[np.ndarray, "n n"]:
+    def covariance(self, levels: NoiseLevels) -> Float[np.ndarray, "n n"]:
         """At these levels."""
         powers = (levels.white**2, levels.coloured**2, levels.memory, levels.inputs**2)
         return summed(self.time, self.channel, self.inputs, *powers, 1.0 + JITTER)
 
-    def pulls(self, levels: Levels, pull: Float[np.ndarray, "n n"]) -> Float[np.ndarray, " h"]:
+    def pulls(self, levels: NoiseLevels, pull: Float[np.ndarray, "n n"]) -> Float[np.ndarray, " h"]:
         """Sum of `pull` times the derivative of the covariance with respect to each logarithm of a level.
 
         `pull` is symmetric; its upper half is read.
@@ -63,13 +63,13 @@ class Block:
         sums = np.concatenate([white, coloured.ravel(), lagged.ravel(), inputs])
         return np.asarray(_per_logarithm(levels) * sums)
 
-    def derivatives_times(self, levels: Levels, values: Float[np.ndarray, " n"]) -> Float[np.ndarray, "h n"]:
+    def derivatives_times(self, levels: NoiseLevels, values: Float[np.ndarray, " n"]) -> Float[np.ndarray, "h n"]:
         """Derivative of the covariance with respect to each logarithm of a level, times `values`."""
         moved = carried(self.time, self.channel, self.inputs, levels.memory, values)
         return np.asarray(_per_logarithm(levels)[:, None] * moved)
 
 
-def _per_logarithm(levels: Levels) -> Float[np.ndarray, " h"]:
+def _per_logarithm(levels: NoiseLevels) -> Float[np.ndarray, " h"]:
     """What the parts of a covariance, or its coloured ones' slopes by 1/τ, are multiplied by for its derivatives."""
     coloured = levels.coloured**2
     parts = (
@@ -86,7 +86,7 @@ class Layout:
     """One trial cut into blocks; rows are its measured samples, channel after channel within a block."""
 
     shape: tuple[int, int]
-    blocks: tuple[Block, ...]
+    blocks: tuple[NoiseBlock, ...]
 
     @classmethod
     def of(
@@ -101,7 +101,7 @@ class Layout:
         blocks = [_block(time, present, heard, a, b) for a, b in pairwise(edges)]
         return cls(present.shape, tuple(block for block in blocks if len(block.rows)))
 
-    def whitener(self, levels: Levels) -> Whitener:
+    def whitener(self, levels: NoiseLevels) -> Whitener:
         """What turns noise of these levels into independent numbers of unit variance."""
         factors = [factor_of(block.covariance(levels)) for block in self.blocks]
         inverses = tuple(lapack.dtrtri(factor, lower=1)[0] for factor, _ in factors)
@@ -143,14 +143,14 @@ def _block(
     heard: InputNoise,
     first: int,
     last: int,
-) -> Block:
+) -> NoiseBlock:
     sample, channel = [], []
     for c in range(present.shape[1]):
         own = first + np.flatnonzero(present[first:last, c])
         sample.append(own)
         channel.append(np.full(len(own), c))
     at, which = np.concatenate(sample), np.concatenate(channel)
-    return Block(at * present.shape[1] + which, time[at], which, heard.covariance(at, which))
+    return NoiseBlock(at * present.shape[1] + which, time[at], which, heard.covariance(at, which))
 
 
 def factor_of(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:

@@ -1,6 +1,6 @@
 """Levels of noise, and what is believed of them before residuals are looked at.
 
-Noise that is estimated grows with whatever the model misses, so that a strong gap passes for loud noise. What is known
+Noise that is estimated grows with whatever the model misses, so that a strong gap passes for high noise. What is known
 of it beforehand is therefore a belief and, where there is one, a limit: of the whole noise of a sensor, and of that of
 an input.
 """
@@ -17,7 +17,7 @@ REACHABLE = 1.0 - 1e-6  # share of that, at which levels are taken to be that ex
 
 
 @dataclass(frozen=True)
-class Levels:
+class NoiseLevels:
     """Standard deviations and correlation times that make up the covariance.
 
     Parameters
@@ -42,15 +42,15 @@ class Levels:
         parts = (self.white, self.coloured.ravel(), self.memory.ravel(), self.inputs)
         return np.asarray(np.log(np.concatenate(parts)))
 
-    def at(self, logarithms: Float[np.ndarray, " h"]) -> Levels:
+    def at(self, logarithms: Float[np.ndarray, " h"]) -> NoiseLevels:
         """Levels of the same shape from such a vector."""
         sizes = np.cumsum([self.white.size, self.coloured.size, self.memory.size])
         white, coloured, memory, inputs = np.split(np.exp(logarithms), sizes)
-        return Levels(white, coloured.reshape(self.coloured.shape), memory.reshape(self.memory.shape), inputs)
+        return NoiseLevels(white, coloured.reshape(self.coloured.shape), memory.reshape(self.memory.shape), inputs)
 
-    def times(self, sensors: Float[np.ndarray, " c"], inputs: Float[np.ndarray, " j"]) -> Levels:
-        """All noise of each output channel, and that of each input, so many times as loud."""
-        return Levels(self.white * sensors, self.coloured * sensors, self.memory, self.inputs * inputs)
+    def times(self, sensors: Float[np.ndarray, " c"], inputs: Float[np.ndarray, " j"]) -> NoiseLevels:
+        """All noise of each output channel, and that of each input, so many times as high."""
+        return NoiseLevels(self.white * sensors, self.coloured * sensors, self.memory, self.inputs * inputs)
 
     @property
     def sensors(self) -> Float[np.ndarray, " c"]:
@@ -59,7 +59,7 @@ class Levels:
 
 
 @dataclass(frozen=True)
-class Beliefs:
+class NoisePriors:
     """Log-normal beliefs, and limits, of levels.
 
     Unlimited levels have the logarithms m + F x with x standard normal. Where the whole noise of a sensor, or that of
@@ -76,12 +76,12 @@ class Beliefs:
         Limits of the whole noise of each output channel and of each input, infinite where there is none.
     """
 
-    middle: Levels
+    middle: NoiseLevels
     factor: Float[np.ndarray, "h h"]
     sensors: Float[np.ndarray, " c"]
     inputs: Float[np.ndarray, " j"]
 
-    def levels(self, x: Float[np.ndarray, " h"]) -> Levels:
+    def levels(self, x: Float[np.ndarray, " h"]) -> NoiseLevels:
         """Levels at a point of the search."""
         return self._limited(self._free(x))
 
@@ -98,20 +98,20 @@ class Beliefs:
         back[..., pull.shape[-1] - len(inputs) :] *= _steepness(inputs)
         return np.asarray(back @ self.factor)
 
-    def point(self, levels: Levels) -> Float[np.ndarray, " h"]:
+    def point(self, levels: NoiseLevels) -> Float[np.ndarray, " h"]:
         """Where in the search levels are; those beyond what can be reached are taken as just within."""
         sensors, inputs = (_released(each) for each in self._excess(levels))
         free = levels.times(np.exp(sensors), np.exp(inputs))
         return np.linalg.solve(self.factor, free.logarithms() - self.middle.logarithms())
 
-    def _free(self, x: Float[np.ndarray, " h"]) -> Levels:
+    def _free(self, x: Float[np.ndarray, " h"]) -> NoiseLevels:
         return self.middle.at(self.middle.logarithms() + self.factor @ x)
 
-    def _limited(self, free: Levels) -> Levels:
+    def _limited(self, free: NoiseLevels) -> NoiseLevels:
         sensors, inputs = (_held(each) for each in self._excess(free))
         return free.times(np.exp(sensors), np.exp(inputs))
 
-    def _excess(self, levels: Levels) -> tuple[Float[np.ndarray, " c"], Float[np.ndarray, " j"]]:
+    def _excess(self, levels: NoiseLevels) -> tuple[Float[np.ndarray, " c"], Float[np.ndarray, " j"]]:
         return np.log(levels.sensors) - np.log(self.sensors), np.log(levels.inputs) - np.log(self.inputs)
 
 

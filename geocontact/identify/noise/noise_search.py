@@ -1,7 +1,7 @@
 """Levels of noise that make residuals most likely, searched with average information.
 
 Far from the end, curvature is the average of observed and expected information (Gilmour, Thompson & Cullis 1995,
-Biometrics 51:1440), which needs no product of matrices and takes no step too far where noise is much too quiet. From
+Biometrics 51:1440), which needs no product of matrices and takes no step too far where noise is much too low. From
 where a step gains less than `NEAR`, secants amend it (BFGS, damped as by Powell 1978, Lecture Notes in Mathematics
 630:144), since it leaves out how variances bend with their logarithms.
 """
@@ -15,9 +15,18 @@ import numpy as np
 from jaxtyping import Float
 from scipy.linalg import lapack
 
-from geocontact.identify.noise.covariance import Block, Layout, factor_of
-from geocontact.identify.noise.noise_levels import Beliefs, Levels
-from geocontact.identify.optimise.bounded_gauss_newton import BROKEN, DAMPED, KEPT, LEAST, LOWER, MOST, RAISE, Bend
+from geocontact.identify.noise.covariance import Layout, NoiseBlock, factor_of
+from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
+from geocontact.identify.optimise.bounded_gauss_newton import (
+    BROKEN,
+    DAMPED,
+    KEPT,
+    LEAST,
+    LOWER,
+    MOST,
+    RAISE,
+    QuadraticModel,
+)
 
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
 ENOUGH = 1e-6  # nats that a step of the search must gain for another
@@ -26,23 +35,23 @@ CURVED = 0.2  # of what was expected, curvature along a step that a secant is be
 
 
 @dataclass(frozen=True)
-class Piece:
+class ResidualBlock:
     """One block of a trial: its residual, and the covariance that variation from trial to trial makes."""
 
-    block: Block
+    block: NoiseBlock
     residual: Float[np.ndarray, " n"]
     moved: Float[np.ndarray, "n n"]
 
 
 @dataclass(frozen=True)
-class Place:
+class SearchPoint:
     """Minus the logarithm of what is maximised at a point of the search, and its slope.
 
     `factors`, `solved` are of each piece: the covariance's lower factor, and its inverse times the residual.
     """
 
     x: Float[np.ndarray, " h"]
-    levels: Levels
+    levels: NoiseLevels
     cost: float
     gradient: Float[np.ndarray, " h"]
     factors: tuple[Float[np.ndarray, "_ _"], ...]
@@ -50,11 +59,11 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Surface:
+class CostSurface:
     """What is searched: the pieces of all trials, and what was believed of the levels."""
 
-    pieces: tuple[Piece, ...]
-    beliefs: Beliefs
+    pieces: tuple[ResidualBlock, ...]
+    beliefs: NoisePriors
 
     @classmethod
     def of(
@@ -62,18 +71,18 @@ class Surface:
         layouts: Sequence[Layout],
         residuals: Sequence[Float[np.ndarray, "_ c"]],
         jitter: Sequence[Float[np.ndarray, "_ c q"]],
-        beliefs: Beliefs,
-    ) -> Surface:
+        beliefs: NoisePriors,
+    ) -> CostSurface:
         """From what `most_likely` is given."""
         pieces = []
         for layout, residual, moved in zip(layouts, residuals, jitter, strict=True):
             flat = moved.reshape(residual.size, moved.shape[-1])
             for block in layout.blocks:
                 own = flat[block.rows]
-                pieces.append(Piece(block, residual.ravel()[block.rows], own @ own.T))
+                pieces.append(ResidualBlock(block, residual.ravel()[block.rows], own @ own.T))
         return cls(tuple(pieces), beliefs)
 
-    def at(self, x: Float[np.ndarray, " h"]) -> Place:
+    def at(self, x: Float[np.ndarray, " h"]) -> SearchPoint:
         """Cost and slope at a point."""
         levels = self.beliefs.levels(x)
         total, pull, factors, solved = 0.5 * float(x @ x), np.zeros(len(x)), [], []
@@ -85,9 +94,9 @@ class Surface:
             pull += piece.block.pulls(levels, inverse.T - np.outer(eased, eased))
             factors.append(root)
             solved.append(eased)
-        return Place(x, levels, total, x + 0.5 * self.beliefs.slope(x, pull), tuple(factors), tuple(solved))
+        return SearchPoint(x, levels, total, x + 0.5 * self.beliefs.slope(x, pull), tuple(factors), tuple(solved))
 
-    def information(self, place: Place) -> Float[np.ndarray, "h h"]:
+    def information(self, place: SearchPoint) -> Float[np.ndarray, "h h"]:
         """Average information of the residuals at a place, and that of the beliefs.
 
         With the covariance V, its derivatives V_k and the residual r it is ½ rᵀ V⁻¹ V_k V⁻¹ V_l V⁻¹ r.
@@ -105,10 +114,10 @@ def most_likely(
     layouts: Sequence[Layout],
     residuals: Sequence[Float[np.ndarray, "_ c"]],
     jitter: Sequence[Float[np.ndarray, "_ c q"]],
-    beliefs: Beliefs,
-    start: Levels,
+    beliefs: NoisePriors,
+    start: NoiseLevels,
     rounds: int = 80,
-) -> tuple[Levels, float, float]:
+) -> tuple[NoiseLevels, float, float]:
     """Levels that make the residuals most likely, given what was believed of them.
 
     With them half their squared surprise, and the logarithm of what was maximised. What is found is a local best.
@@ -126,12 +135,12 @@ def most_likely(
     rounds
         Evaluations of the likelihood at the most.
     """
-    surface = Surface.of(layouts, residuals, jitter, beliefs)
+    surface = CostSurface.of(layouts, residuals, jitter, beliefs)
     here = surface.at(np.clip(beliefs.point(start), -FARTHEST, FARTHEST))
     curvature, damping, near = surface.information(here), DAMPED, False
     for _ in range(rounds - 1):
         low, high = -FARTHEST - here.x, FARTHEST - here.x
-        bend = Bend.within(here.gradient, curvature, low, high)
+        bend = QuadraticModel.within(here.gradient, curvature, low, high)
         if bend.promise(bend.step(0.0, low, high)) < ENOUGH:
             break
         step = bend.step(damping, low, high)

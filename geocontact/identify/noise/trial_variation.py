@@ -33,26 +33,14 @@ class Products:
         return cls(float(residual @ residual), design.T @ residual, design.T @ design)
 
 
-@dataclass(frozen=True)
-class Variation:
-    """Standard deviation of each varying parameter, and what trials deviate by.
-
-    deviations (trials, q) are conditional means of b_i; covariances (trials, q, q) their uncertainty.
-    """
-
-    sd: Float[np.ndarray, " q"]
-    deviations: Float[np.ndarray, "i q"]
-    covariances: Float[np.ndarray, "i q q"]
-
-
 def variation(
     trials: Sequence[Products],
     prior_sd: Float[np.ndarray, " q"],
     weight: float = 4.0,
     spent: float = 0.0,
     rounds: int = 50,
-) -> Variation:
-    """Most likely variation, with a prior worth `weight` trials of standard deviation `prior_sd`.
+) -> Float[np.ndarray, " q"]:
+    """Most likely standard deviation of each varying parameter; the prior is worth `weight` trials of `prior_sd`.
 
     `spent` trials count as used up, 1 where the parameters' means were fitted to the same trials, as far as the trials
     tell of a parameter's deviations at all.
@@ -62,29 +50,18 @@ def variation(
         pairs = [_conditional(trial, sd) for trial in trials]
         unsure = sum(np.diag(cov) for _, cov in pairs)
         squares = unsure + sum(mean**2 for mean, _ in pairs)
-        told = 1.0 - unsure / np.maximum(len(trials) * sd**2, 1e-300)
-        new = np.sqrt((weight * prior_sd**2 + squares) / (weight + len(trials) - spent * told))
+        identified = 1.0 - unsure / np.maximum(len(trials) * sd**2, 1e-300)
+        new = np.sqrt((weight * prior_sd**2 + squares) / (weight + len(trials) - spent * identified))
         done = bool(np.allclose(new, sd, rtol=1e-6))
         sd = new
         if done:
             break
-    pairs = [_conditional(trial, sd) for trial in trials]
-    return Variation(sd, np.array([mean for mean, _ in pairs]), np.array([cov for _, cov in pairs]))
+    return sd
 
 
 def deviations(trial: Products, sd: Float[np.ndarray, " q"]) -> Float[np.ndarray, " q"]:
     """Most likely deviation of one trial."""
     return _conditional(trial, sd)[0]
-
-
-def misfit(trials: Sequence[Products], sd: Float[np.ndarray, " q"]) -> float:
-    """Twice the negative log likelihood of the whitened residuals, without the constant: quadratic form and log|.|."""
-    total = 0.0
-    for trial in trials:
-        scaled = sd[:, None] * trial.gram * sd + np.eye(len(sd))
-        part = sd * trial.mixed
-        total += trial.square - float(part @ np.linalg.solve(scaled, part)) + float(np.linalg.slogdet(scaled)[1])
-    return total
 
 
 def _conditional(

@@ -33,7 +33,7 @@ Slope = Callable[[Float[np.ndarray, " p"]], Float[np.ndarray, "n p"]]
 
 
 @dataclass(frozen=True)
-class Found:
+class GaussNewtonResult:
     """Where a search ended, half the sum of squares there, and whether it was finished rather than given up."""
 
     x: Float[np.ndarray, " p"]
@@ -42,7 +42,7 @@ class Found:
 
 
 @dataclass(frozen=True)
-class Bend:
+class QuadraticModel:
     """A cost to second order: gradient and curvature, and which unknowns may move."""
 
     gradient: Float[np.ndarray, " p"]
@@ -56,7 +56,7 @@ class Bend:
         curvature: Float[np.ndarray, "p p"],
         low: Float[np.ndarray, " p"],
         high: Float[np.ndarray, " p"],
-    ) -> Bend:
+    ) -> QuadraticModel:
         """With unknowns held that the gradient pushes against where there is no room: `low` ≤ 0 ≤ `high` is left."""
         return cls(gradient, curvature, ~(((low >= 0.0) & (gradient > 0.0)) | ((high <= 0.0) & (gradient < 0.0))))
 
@@ -100,7 +100,7 @@ def least(
     rounds: int,
     enough: float,
     useful: float = np.inf,
-) -> Found:
+) -> GaussNewtonResult:
     """Unknowns within bounds that make half the sum of squared residuals least, near a start.
 
     Parameters
@@ -122,9 +122,9 @@ def least(
     while spent < rounds:
         promise = bend.promise(bend.step(0.0, lower - x, upper - x))
         if promise < enough:
-            return Found(x, cost, True)
+            return GaussNewtonResult(x, cost, True)
         if cost - TRUSTED * promise > useful:
-            return Found(x, cost, False)
+            return GaussNewtonResult(x, cost, False)
         step = bend.step(damping, lower - x, upper - x)
         there = np.clip(x + step, lower, upper)
         tried = residual(there)
@@ -138,11 +138,11 @@ def least(
         if fall > 0.0:
             x, cost = there, cost - fall
             if fall < enough and kept > BROKEN:
-                return Found(x, cost, True)
+                return GaussNewtonResult(x, cost, True)
             bend = _bend(x, tried, slope(x), lower, upper)
         elif damping > MOST:
             break
-    return Found(x, cost, spent < rounds)
+    return GaussNewtonResult(x, cost, spent < rounds)
 
 
 def _bend(
@@ -151,5 +151,5 @@ def _bend(
     slope: Float[np.ndarray, "n p"],
     lower: Float[np.ndarray, " p"],
     upper: Float[np.ndarray, " p"],
-) -> Bend:
-    return Bend.within(slope.T @ residual, slope.T @ slope, lower - x, upper - x)
+) -> QuadraticModel:
+    return QuadraticModel.within(slope.T @ residual, slope.T @ slope, lower - x, upper - x)

@@ -25,7 +25,7 @@ Scored: TypeAlias = tuple[Float[np.ndarray, " k"], Batch, Float[np.ndarray, "k p
 
 
 @dataclass(frozen=True)
-class Found:
+class ScoringResult:
     """Where each problem ended, (k, p), and its value there."""
 
     at: Batch
@@ -38,7 +38,7 @@ def least(
     low: Float[np.ndarray, " p"],
     high: Float[np.ndarray, " p"],
     rounds: int = ROUNDS,
-) -> Found:
+) -> ScoringResult:
     """The least values near the starts.
 
     Parameters
@@ -80,7 +80,7 @@ def least(
         going = going[(idle[going] < TWICE) & (damping[going] < STUCK)]
         if not len(going):
             break
-    return Found(at, value)
+    return ScoringResult(at, value)
 
 
 def _step(

@@ -25,7 +25,7 @@ FIRST, HARDEST = 1e-3, 1e12  # damping to begin with, and from which on no step 
 
 
 @dataclass(frozen=True, eq=False)
-class Search:
+class LevenbergMarquardtResult:
     """Where a search ended: the parameters, half the sum of squares, and whether it ended by itself."""
 
     values: Float[np.ndarray, " p"]
@@ -41,7 +41,7 @@ def levenberg_marquardt(
     lower: Float[np.ndarray, " p"],
     upper: Float[np.ndarray, " p"],
     scale: Float[np.ndarray, " p"],
-) -> Search:
+) -> LevenbergMarquardtResult:
     """Least squares from one start; `scale` is the magnitude of each parameter."""
     z = np.clip(start, lower, upper)
     off = residual(z)
@@ -53,7 +53,7 @@ def levenberg_marquardt(
         widest = np.maximum(widest, np.diag(hessian))
         free = ~(((z <= lower) & (gradient > 0.0)) | ((z >= upper) & (gradient < 0.0)))
         if not free.any() or not np.abs(gradient[free]).max() > 0.0:
-            return Search(z, cost, True, count)
+            return LevenbergMarquardtResult(z, cost, True, count)
         while True:
             tried = _stepped(z, hessian, gradient, free, damping * widest, lower, upper, scale)
             moved = float(np.abs((tried - z) / scale).max())
@@ -63,13 +63,13 @@ def levenberg_marquardt(
                 break
             damping *= 4.0
         if not lower_cost < cost:
-            return Search(z, cost, True, count)
+            return LevenbergMarquardtResult(z, cost, True, count)
         gain = cost - lower_cost
         z, off, cost, damping = tried, there, lower_cost, max(damping / 9.0, 1e-15)
         if gain <= SMALL_GAIN * (cost + gain) or moved <= SMALL_STEP:
-            return Search(z, cost, True, count)
+            return LevenbergMarquardtResult(z, cost, True, count)
         slopes = jacobian(z) * scale
-    return Search(z, cost, False, MOST)
+    return LevenbergMarquardtResult(z, cost, False, MOST)
 
 
 def _stepped(

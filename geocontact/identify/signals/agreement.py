@@ -14,7 +14,7 @@ NAN = float("nan")
 LONGEST = 0.5  # s, of the lags that are looked at
 LONG_ENOUGH = 20  # samples of a stretch that tells a lag
 RANGE = 0.25  # of the shortest stretch: the lags that are looked at in it
-SHARP = 0.02  # that the correlation falls on both sides of a lag that is told
+SHARP = 0.02  # that the correlation falls on both sides of a lag that is reported
 OVERLAP = 0.5  # of the samples that a lag must leave to both
 
 
@@ -89,8 +89,8 @@ def over_stretches(
 ) -> Agreement:
     """The same over several stretches taken together, as a phase that comes back in every cycle.
 
-    A lag is told where the stretches are long enough: each has at least `LONG_ENOUGH` samples; lags up to `RANGE` of
-    the shortest are looked at; and the correlation, of pairs inside the stretches only, is largest within that range
+    A lag is reported where the stretches are long enough: each has at least `LONG_ENOUGH` samples; lags up to `RANGE`
+    of the shortest are looked at; and the correlation, of pairs inside the stretches only, is largest within that range
     and `SHARP` above both of its ends. A phase in which the load only rises or only falls steadily tells none: it is
     NaN then, and the correlation is that without lag.
 

@@ -17,7 +17,7 @@ LEAST_SECONDS = 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class Visits:
+class AngleBins:
     """Means of the channels over the samples of one trial, stretch and bin.
 
     Parameters
@@ -67,22 +67,22 @@ def edges_over(angles: Sequence[Float[np.ndarray, " _"]], width: float) -> Float
     return width * np.arange(first, last + 1)
 
 
-def places(angle: Float[np.ndarray, " t"], edges: Float[np.ndarray, " edges"]) -> Int[np.ndarray, " t"]:
+def bin_numbers(angle: Float[np.ndarray, " t"], edges: Float[np.ndarray, " edges"]) -> Int[np.ndarray, " t"]:
     """Bin of each sample, the last one's upper edge included."""
     return np.clip(np.searchsorted(edges, angle, side="right") - 1, 0, len(edges) - 2)
 
 
-def visits(
+def angle_bins(
     times: Sequence[Float[np.ndarray, " _"]],
     channels: Sequence[Float[np.ndarray, "_ c"]],
     edges: Float[np.ndarray, " edges"],
     stretch: float,
-) -> Visits:
+) -> AngleBins:
     """Visits of several trials; the first channel is binned, a stretch is `stretch` [s] long."""
     parts, first = [], 0
     bins = len(edges) - 1
     for trial, (time, values) in enumerate(zip(times, channels, strict=True)):
-        place = places(values[:, 0], edges)
+        place = bin_numbers(values[:, 0], edges)
         number = np.floor((time - time[0]) / stretch).astype(int)
         key = number * bins + place
         count = np.bincount(key)
@@ -91,9 +91,9 @@ def visits(
         step = float(np.median(np.diff(time)))
         enough = np.bincount(place, minlength=bins) * step >= LEAST_SECONDS
         kept = enough[there % bins]
-        means = sums[kept] / count[there[kept], None]
-        parts.append((np.full(kept.sum(), trial), first + there[kept] // bins, there[kept] % bins,
-                      count[there[kept]].astype(float), means))  # fmt: skip
+        cell = there[kept]
+        means = sums[kept] / count[cell, None]
+        parts.append((np.full(len(cell), trial), first + cell // bins, cell % bins, count[cell].astype(float), means))
         first += int(number[-1]) + 1
     trial_of, stretch_of, place_of, count_of, means_of = (np.concatenate(p) for p in zip(*parts, strict=True))
-    return Visits(edges, trial_of, stretch_of, place_of, count_of, means_of)
+    return AngleBins(edges, trial_of, stretch_of, place_of, count_of, means_of)

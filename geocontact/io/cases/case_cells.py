@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.data.cell_channels import CellChannels, CellTrial
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.gap.cell_channels import CellChannels, CellTrial
 from geocontact.io.cases.case_folder import SETTINGS, TRIALS, inside
 from geocontact.io.cases.case_settings import CaseSettings
 from geocontact.io.cases.trial_table import TrialTable, read_trial

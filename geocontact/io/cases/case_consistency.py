@@ -8,7 +8,7 @@ from os import fspath
 from pathlib import Path
 
 from geocontact.data.errors import InputError
-from geocontact.data.gap_case import COMMAND, LISTED_SYSTEMS
+from geocontact.data.gap.case import COMMAND, LISTED_SYSTEMS
 from geocontact.data.parameter import Parameter
 from geocontact.io.cases.case_settings import CaseSettings, ParameterSettings
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pandas as pd
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.gap_case import CaseMesh, GapCase
+from geocontact.data.gap.case import CaseMesh, GapCase
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.io.cases.case_cells import read_cells

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from geocontact.data.cell_channels import CellChannels
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.cell_channels import CellChannels
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.io.cases.case_cells import AREA, PLACE, cells_file, channel_name
@@ -31,7 +31,7 @@ def write_gap_case(
     Parameters
     ----------
     case
-        SI units; every channel's unit must be told.
+        SI units; every channel's unit must be given.
     folder
         Made if it is not there.
     units
@@ -54,7 +54,7 @@ def write_trials(case: GapCase, home: Path, units: Mapping[str, str] | None = No
     """Write trials/<id>.csv only, over those that are there."""
     (home / TRIALS).mkdir(parents=True, exist_ok=True)
     for trial in (*case.calibration, *case.evaluation):
-        table = _trial_table(trial, units or {})
+        table = trial_table(trial, units)
         file = home / TRIALS / f"{trial.name}.csv"
         table.to_csv(file, index=False, float_format=f"%.{digits}g", lineterminator="\n")
 
@@ -79,10 +79,11 @@ def _layout_file(site: str) -> str:
     return f"{site}_layout.csv"
 
 
-def _trial_table(trial: Trial, units: Mapping[str, str]) -> pd.DataFrame:
+def trial_table(trial: Trial, units: Mapping[str, str] | None = None) -> pd.DataFrame:
+    """`time [s]` and a column per channel, in SI units or in those that are given."""
     columns: dict[str, np.ndarray] = {"time [s]": trial.time}
     for name, si in zip(trial.signals.channels, trial.signals.units, strict=True):
-        unit = units.get(name, si)
+        unit = (units or {}).get(name, si)
         columns[f"{name} [{unit}]"] = trial.column(name) / _per_unit(name, si, unit)
     return pd.DataFrame(columns)
 

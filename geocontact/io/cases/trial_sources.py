@@ -9,12 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from geocontact.data.errors import InputError
+from geocontact.io.cases.storage_trial import is_storage
 
 EXAMPLE = '[from.t01] with inputs = "t01.csv" and thigh = "results/t01_thigh"'
 GOES_WITH = {"plate": "plates", "belt": "plates", "areas": "forces", "threshold": "areas", "force_unit": "forces"}
 """A key that says nothing without another."""
 NUMBERS = ("belt", "threshold")
-WORDS = ("inputs", "plates", "plate", "areas", "forces", "force_unit")
+WORDS = ("inputs", "outputs", "plates", "plate", "areas", "forces", "force_unit")
 
 
 @dataclass(frozen=True)
@@ -41,9 +42,13 @@ class SidesSource:
 
 @dataclass(frozen=True)
 class Source:
-    """Where one trial comes from: the file of its inputs, and what is measured beside them."""
+    """Where one trial comes from: the file of its inputs, and what is measured beside them.
+
+    `outputs` is a .mot or .sto file.
+    """
 
     inputs: Path
+    outputs: Path | None
     mats: Mapping[str, Path]
     plate: PlateSource | None
     sides: SidesSource | None
@@ -53,7 +58,7 @@ def source_of(path: Path, trial: str, given: Any) -> Source:
     """Source of a trial from its table in the file `path`; paths in it are meant from the folder of that file."""
     place = f"[from.{trial}]"
     if not isinstance(given, dict) or "inputs" not in given or len(given) < 2:
-        raise InputError(path, place, "names no inputs and no mat, plates or forces", f"write {EXAMPLE}")
+        raise InputError(path, place, "names no inputs and no mat, plates, forces or outputs", f"write {EXAMPLE}")
     for key, value in given.items():
         _check(path, f"{place} {key}", key, value)
     for key, other in GOES_WITH.items():
@@ -66,7 +71,10 @@ def source_of(path: Path, trial: str, given: Any) -> Source:
     if "forces" in given:
         areas = path.parent / given["areas"] if "areas" in given else None
         sides = SidesSource(areas, given.get("threshold"), path.parent / given["forces"], given.get("force_unit"))
-    return Source(path.parent / given["inputs"], sites, plate, sides)
+    outputs = path.parent / given["outputs"] if "outputs" in given else None
+    if outputs is not None and not is_storage(outputs):
+        raise InputError(path, f"{place} outputs", f"'{outputs.suffix}' is not read here", "give a .mot or .sto file")
+    return Source(path.parent / given["inputs"], outputs, sites, plate, sides)
 
 
 def _check(path: Path, place: str, key: str, value: Any) -> None:

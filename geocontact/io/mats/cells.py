@@ -36,7 +36,7 @@ _CLIPPED = 1.0 - 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Recording:
+class MatRecording:
     """Frames as one file has them, and what the file says of the mat; None for what it does not say.
 
     Parameters
@@ -72,7 +72,7 @@ class Recording:
     rate: float | None = None
 
 
-def frames_of(found: Recording, layout: MatLayout) -> PressureFrames:
+def frames_of(found: MatRecording, layout: MatLayout) -> PressureFrames:
     """Cells on the grid, in SI; what the file leaves open is taken from the layout, what they disagree on is refused.
 
     Pressures below zero are kept, with one warning that counts them: the noise of an offset that may be taken off yet.
@@ -99,7 +99,7 @@ def frames_of(found: Recording, layout: MatLayout) -> PressureFrames:
     return PressureFrames(time, pressure, pitch, valid, areas, level, found.name)
 
 
-def _settled(found: Recording, key: str, said: T | None, declared: T | None) -> T | None:
+def _settled(found: MatRecording, key: str, said: T | None, declared: T | None) -> T | None:
     """What the file says or the layout declares; they may not disagree."""
     if said is not None and declared is not None and not math.isclose(said, declared, rel_tol=_CLOSE):
         what = f"the file says {said:g} where the layout says {declared:g} (SI)"
@@ -107,14 +107,14 @@ def _settled(found: Recording, key: str, said: T | None, declared: T | None) -> 
     return declared if said is None else said
 
 
-def _needed(found: Recording, key: str, said: T | None, declared: T | None) -> T:
+def _needed(found: MatRecording, key: str, said: T | None, declared: T | None) -> T:
     value = _settled(found, key, said, declared)
     if value is None:
         raise InputError(found.file, "", f"does not say the {key} of the mat", f"write {key} in the layout file")
     return value
 
 
-def _sizes(found: Recording, layout: MatLayout) -> tuple[tuple[float, float], tuple[float, ...] | None]:
+def _sizes(found: MatRecording, layout: MatLayout) -> tuple[tuple[float, float], tuple[float, ...] | None]:
     """Pitch [m] and areas [m^2] of the cells: one for all, one for each value, or None for what the pitch gives."""
     areas = tuple(area * 1e-6 for area in layout.cell_area_mm2)
     if len(areas) < 2:
@@ -136,7 +136,7 @@ def _sizes(found: Recording, layout: MatLayout) -> tuple[tuple[float, float], tu
     return (rows, columns), areas or None
 
 
-def _times(found: Recording, layout: MatLayout) -> Float[np.ndarray, " t"]:
+def _times(found: MatRecording, layout: MatLayout) -> Float[np.ndarray, " t"]:
     if found.time is None:
         return np.arange(len(found.lines)) / _needed(found, "rate_Hz", found.rate, layout.rate_Hz)
     time = np.asarray(found.time, dtype=np.float64)
@@ -159,7 +159,7 @@ def _times(found: Recording, layout: MatLayout) -> Float[np.ndarray, " t"]:
 
 
 def _places(
-    found: Recording, layout: MatLayout, rows: int, columns: int
+    found: MatRecording, layout: MatLayout, rows: int, columns: int
 ) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"]]:
     """Row and column of each value of a frame in the returned grid."""
     count = len(found.values) // max(len(found.lines), 1)
@@ -196,7 +196,7 @@ def _places(
 
 
 def _within(
-    row: Int[np.ndarray, " n"], column: Int[np.ndarray, " n"], rows: int, columns: int, found: Recording
+    row: Int[np.ndarray, " n"], column: Int[np.ndarray, " n"], rows: int, columns: int, found: MatRecording
 ) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"]]:
     if row.max() >= rows or column.max() >= columns:
         what = f"sensors.{found.name} of the layout leaves the {rows} x {columns} grid"
@@ -204,7 +204,7 @@ def _within(
     return row, column
 
 
-def _valid(found: Recording, layout: MatLayout, pressure: Float[np.ndarray, "t r c"]) -> Bool[np.ndarray, "r c"]:
+def _valid(found: MatRecording, layout: MatLayout, pressure: Float[np.ndarray, "t r c"]) -> Bool[np.ndarray, "r c"]:
     """Cells that have a value in every frame and that the layout takes for sound; gaps in a recording are refused."""
     gaps = np.isnan(pressure)
     valid: Bool[np.ndarray, "r c"] = np.asarray(~gaps.all(axis=0))
@@ -235,7 +235,7 @@ def _first(marked: Bool[np.ndarray, "t r c"]) -> tuple[int, int, int]:
     return int(frame), int(row), int(column)
 
 
-def _tell_negative(pressure: Float[np.ndarray, "t r c"], unit: float, found: Recording) -> None:
+def _tell_negative(pressure: Float[np.ndarray, "t r c"], unit: float, found: MatRecording) -> None:
     """Say once how many are below zero; mostly negative pressures are refused."""
     below = pressure < 0.0
     if not below.any():

@@ -15,7 +15,7 @@ import numpy as np
 
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
-from geocontact.io.mats.cells import Recording, frames_of
+from geocontact.io.mats.cells import MatRecording, frames_of
 from geocontact.io.mats.layout import MatLayout
 from geocontact.io.mats.text import MatText, Notation, notation_of, shown
 from geocontact.io.mats.units import pressure_unit
@@ -65,7 +65,7 @@ def read_grid(text: MatText, layout: MatLayout | None) -> tuple[PressureFrames, 
     if not lines:
         raise InputError(text.file, f"line {header[0]}", "no rows below the header", "is the export complete?")
     complete = None if ids == list(range(layout.rows * layout.columns)) else ids
-    found = Recording(text.file, "mat", time if time_scale is not None else None, lines, values, unit, complete)
+    found = MatRecording(text.file, "mat", time if time_scale is not None else None, lines, values, unit, complete)
     return (frames_of(found, layout),)
 
 

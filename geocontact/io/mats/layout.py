@@ -71,7 +71,6 @@ Turned = Literal["rows", "columns", "both"]
 """What runs backwards: each row, each column, or each of both."""
 
 Count = Annotated[int, Field(ge=1, le=MOST_LINES)]
-Positive = Annotated[float, PlainValidator(_positive)]
 Cells = Annotated[tuple[tuple[int, int], ...], PlainValidator(_cells)]
 
 

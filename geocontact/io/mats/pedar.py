@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.pressure_frames import PressureFrames
-from geocontact.io.mats.cells import Recording, frames_of
+from geocontact.io.mats.cells import MatRecording, frames_of
 from geocontact.io.mats.layout import LARGEST, SMALLEST, MatLayout
 from geocontact.io.mats.text import MatText, notation_of, shown
 from geocontact.io.mats.units import pressure_unit
@@ -34,7 +34,7 @@ _LABELS = re.compile(r"time\s*\[\s*secs?\s*\]", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
-class Header:
+class PedarHeader:
     """What stands above the frames; `sides` has each insole's sensors in the order of the columns, from 1."""
 
     line: int
@@ -75,20 +75,22 @@ def read_pedar(text: MatText, layout: MatLayout | None) -> tuple[PressureFrames,
     _check_end(header, time, text.file)
     return tuple(
         frames_of(
-            Recording(text.file, side, time, lines, values[side], header.unit, [k - 1 for k in ids], rate=header.rate),
+            MatRecording(
+                text.file, side, time, lines, values[side], header.unit, [k - 1 for k in ids], rate=header.rate
+            ),
             layout or MatLayout(),
         )
         for side, ids in header.sides.items()
     )
 
 
-def _header(rows: Iterator[tuple[int, str]], file: str) -> Header:
+def _header(rows: Iterator[tuple[int, str]], file: str) -> PedarHeader:
     """Lines down to the labels of the columns."""
     unit = rate = total = None
     listed: dict[str, tuple[int, ...]] = {}
     for number, line in rows:
         if _LABELS.match(line):
-            return Header(number, unit, rate, total, _sides(line, listed, file, f"line {number}"))
+            return PedarHeader(number, unit, rate, total, _sides(line, listed, file, f"line {number}"))
         if found := _UNIT.match(line):
             unit = pressure_unit(found["unit"])
             if unit is None:
@@ -134,7 +136,7 @@ def _sides(line: str, listed: dict[str, tuple[int, ...]], file: str, place: str)
     return sides
 
 
-def _require_places(header: Header, layout: MatLayout | None, file: str) -> None:
+def _require_places(header: PedarHeader, layout: MatLayout | None, file: str) -> None:
     """An insole is no rectangle: without a table of its sensors there is no place for them."""
     for side in header.sides:
         if layout is None or side not in layout.sensors:
@@ -143,7 +145,7 @@ def _require_places(header: Header, layout: MatLayout | None, file: str) -> None
             raise InputError(file, "", what, remedy)
 
 
-def _check_end(header: Header, time: array[float], file: str) -> None:
+def _check_end(header: PedarHeader, time: array[float], file: str) -> None:
     """Frames may stop before the total time that the header promises."""
     if header.total is None or header.rate is None or time[-1] >= header.total - 2.5 / header.rate:
         return

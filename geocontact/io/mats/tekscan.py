@@ -15,7 +15,7 @@ from itertools import dropwhile, islice
 
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
-from geocontact.io.mats.cells import Recording, frames_of
+from geocontact.io.mats.cells import MatRecording, frames_of
 from geocontact.io.mats.layout import LARGEST, MOST_LINES, SMALLEST, MatLayout, Turned
 from geocontact.io.mats.text import MatText, Notation, notation_of, shown
 from geocontact.io.mats.units import area_unit, length_unit, pressure_unit
@@ -53,7 +53,7 @@ def read_tekscan(text: MatText, layout: MatLayout | None) -> tuple[PressureFrame
     seconds = _quantity(keys, "SECONDS_PER_FRAME", None, text.file) or (layout.rate_Hz and 1.0 / layout.rate_Hz)
     unit = _unit(keys, text.file)
     spacing = [_quantity(keys, key, length_unit, text.file) for key in ("ROW_SPACING", "COL_SPACING")]
-    found = Recording(
+    found = MatRecording(
         text.file,
         "mat",
         None if seconds is None else [(number - 1) * seconds for number in numbers],

@@ -13,8 +13,8 @@ from pathlib import Path
 
 from geocontact.data.errors import InputError
 from geocontact.io.mats.layout import MatLayout
-from geocontact.io.mesh.file_preflight import UNKNOWN, looks_like, read_bytes
-from geocontact.io.mesh.text_lines import BYTE_ORDER_MARK, lines
+from geocontact.io.text.file_preflight import UNKNOWN, looks_like, read_bytes
+from geocontact.io.text.text_lines import BYTE_ORDER_MARK, lines
 
 LARGEST_RECORDING = 512_000_000
 """Bytes of one file."""

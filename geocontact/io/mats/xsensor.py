@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 
 from geocontact.data.errors import InputError
 from geocontact.data.pressure_frames import PressureFrames
-from geocontact.io.mats.cells import Recording, frames_of
+from geocontact.io.mats.cells import MatRecording, frames_of
 from geocontact.io.mats.layout import MOST_LINES, MatLayout
 from geocontact.io.mats.text import MatText, Notation, notation_of, shown
 from geocontact.io.mats.units import area_unit, length_unit
@@ -180,11 +180,11 @@ def _seconds(said: tuple[int, str, str], file: str) -> float:
     raise InputError(file, f"line {line}", f"Time is '{shown(text)}'", "expected hours:minutes:seconds")
 
 
-def _recording(name: str, sensor: _Sensor, start: tuple[float, int], layout: MatLayout, file: str) -> Recording:
+def _recording(name: str, sensor: _Sensor, start: tuple[float, int], layout: MatLayout, file: str) -> MatRecording:
     keys = sensor.keys
     width, height = (size_of(keys, key, length_unit, file) for key in SIZES[:2])
     unit = pascals(keys.get("units"), file)
-    return Recording(
+    return MatRecording(
         file,
         name,
         _times(sensor, start, layout),

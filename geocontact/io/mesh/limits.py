@@ -1,11 +1,8 @@
-"""The largest files and meshes that are read; checked before anything of that size is allocated."""
+"""The largest meshes that are read; checked before anything of that size is allocated."""
 
 from __future__ import annotations
 
 from geocontact.data.errors import InputError
-
-MAX_BYTES = 4 * 2**30
-"""Largest mesh file [bytes]."""
 
 MAX_FACES = 20_000_000
 """Most triangles of one mesh; a binary STL of that size has 1 GB."""

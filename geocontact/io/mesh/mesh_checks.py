@@ -59,9 +59,16 @@ def metres_per(unit: str, file: str) -> float:
     return LENGTH[unit]
 
 
-def warn_about_faces(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"], file: str) -> None:
-    """Warn about faces without area and faces with the same three vertices as an earlier one."""
-    _warn(degenerate(vertices, faces), "degenerate faces (zero area), ignored in areas", file)
+def check_faces(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"], file: str) -> None:
+    """Refuse a mesh none of whose faces has an area.
+
+    Some faces without area, and faces with the same three vertices as an earlier one, are warned about.
+    """
+    flat = degenerate(vertices, faces)
+    if flat.all():
+        what = f"none of its faces ({len(faces)}) has an area: the corners of each lie on one line"
+        raise InputError(file, "", what, "export the surface again")
+    _warn(flat, "degenerate faces (zero area), ignored in areas", file)
     _warn(repeated(faces), "duplicate faces (same three vertices as an earlier face)", file)
 
 

@@ -12,13 +12,13 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import Mesh
-from geocontact.io.mesh.file_preflight import read_bytes
 from geocontact.io.mesh.merge import merge_coincident
-from geocontact.io.mesh.mesh_checks import metres_per, require_finite, require_plausible, warn_about_faces
+from geocontact.io.mesh.mesh_checks import check_faces, metres_per, require_finite, require_plausible
 from geocontact.io.mesh.obj import read_obj
 from geocontact.io.mesh.ply import read_ply
 from geocontact.io.mesh.stl import read_stl
 from geocontact.io.mesh.vtp import read_vtp
+from geocontact.io.text.file_preflight import read_bytes
 
 _Reader = Callable[[bytes, str], tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]]
 READERS: dict[str, _Reader] = {".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".vtp": read_vtp}
@@ -44,7 +44,8 @@ def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, f
     Raises
     ------
     InputError
-        The file cannot be used: not there, damaged, not finite, without faces, too large (`limits`), absurd unit.
+        The file cannot be used: not there, damaged, not finite, without faces or area, too large (`limits`),
+        absurd unit.
     """
     name = Path(fspath(path)).name
     scale = metres_per(unit, name)
@@ -63,5 +64,5 @@ def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, f
         raise InputError(name, "", "does not fit into memory", "decimate the mesh first") from error
     require_plausible(vertices, unit, plausible, name)
     metres = vertices.astype(np.float64) * scale
-    warn_about_faces(metres, faces, name)
+    check_faces(metres, faces, name)
     return Mesh(metres, faces, name, unit, sha256)

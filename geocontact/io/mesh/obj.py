@@ -18,9 +18,9 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
 from geocontact.io.mesh import limits
-from geocontact.io.mesh.file_preflight import not_a
 from geocontact.io.mesh.polygons import triangles
-from geocontact.io.mesh.text_lines import BYTE_ORDER_MARK, as_integers, lines, require_numbers, shown, warn_open_end
+from geocontact.io.text.file_preflight import not_a
+from geocontact.io.text.text_lines import BYTE_ORDER_MARK, as_integers, lines, require_numbers, shown, warn_open_end
 
 _PASSED_OVER = frozenset(
     b"vt vn vp l p g o s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj trace_obj cstype deg "

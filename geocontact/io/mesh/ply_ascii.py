@@ -9,16 +9,16 @@ from itertools import islice
 import numpy as np
 
 from geocontact.data.errors import InputError
-from geocontact.io.mesh.ply_preflight import Element, Header, Property, plain_header
+from geocontact.io.mesh.ply_preflight import Element, PlyHeader, Property, plain_header
 from geocontact.io.mesh.polygons import triangles
-from geocontact.io.mesh.text_lines import as_integers, integer, lines, require_numbers, warn_open_end
+from geocontact.io.text.text_lines import as_integers, integer, lines, require_numbers, warn_open_end
 
 _AGAIN = "the file is cut off or damaged, export or download it again"
 _AXES = ("x", "y", "z")
 _Row = tuple[int, list[bytes]]
 
 
-def plain_ascii(data: bytes, header: Header, index_list: str, file: str) -> bytes:
+def plain_ascii(data: bytes, header: PlyHeader, index_list: str, file: str) -> bytes:
     """The file as one of `x y z` and `3 a b c` rows; every row was found complete and made of numbers.
 
     Every element takes one line; blank lines do not count.

@@ -9,16 +9,16 @@ import numpy as np
 from jaxtyping import Int
 
 from geocontact.data.errors import InputError
-from geocontact.io.mesh.ply_preflight import Element, Header, Property, plain_header
+from geocontact.io.mesh.ply_preflight import Element, PlyHeader, Property, plain_header
 from geocontact.io.mesh.polygons import triangles
-from geocontact.io.mesh.text_lines import as_integers
+from geocontact.io.text.text_lines import as_integers
 
 _AGAIN = "the file is cut off or damaged, export or download it again"
 _Lists = tuple[Int[np.ndarray, " k"], Int[np.ndarray, " p"]]
 _STRUCT = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "f4": "f", "f8": "d"}
 
 
-def plain_binary(data: bytes, header: Header, index_list: str, file: str) -> bytes:
+def plain_binary(data: bytes, header: PlyHeader, index_list: str, file: str) -> bytes:
     """The file as one of vertices and triangles alone; its rows end where it ends.
 
     Rows are handed on as they are; only faces that are not all triangles are written anew, cut into triangles.

@@ -8,8 +8,8 @@ import numpy as np
 
 from geocontact.data.errors import InputError
 from geocontact.io.mesh import limits
-from geocontact.io.mesh.file_preflight import not_a
-from geocontact.io.mesh.text_lines import shown
+from geocontact.io.text.file_preflight import not_a
+from geocontact.io.text.text_lines import shown
 
 BYTE_ORDER = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 """numpy's sign for the byte order of each format; empty for text."""
@@ -46,7 +46,7 @@ class Element:
 
 
 @dataclass(frozen=True)
-class Header:
+class PlyHeader:
     """Elements in the order of the file, numpy's byte order (empty for text), and the byte where the data begin."""
 
     byte_order: str
@@ -54,7 +54,7 @@ class Header:
     body: int
 
 
-def read_header(data: bytes, file: str) -> Header:
+def read_header(data: bytes, file: str) -> PlyHeader:
     """Header of a PLY file; its element counts are possible for a file of this size and within `limits`."""
     lines, body = _header_lines(data, file)
     byte_order = _byte_order(lines[1] if len(lines) > 1 else "", file)
@@ -65,7 +65,7 @@ def read_header(data: bytes, file: str) -> Header:
         except (ValueError, KeyError, IndexError, TypeError) as error:
             what = f"bad PLY header line {shown(line.encode())}"
             raise InputError(file, f"line {number}", what, _AGAIN) from error
-    header = Header(byte_order, elements, body)
+    header = PlyHeader(byte_order, elements, body)
     _require_possible(header, len(data) - body, file)
     return header
 
@@ -127,7 +127,7 @@ def _add(words: list[str], byte_order: str, elements: list[Element]) -> None:
             raise ValueError(words)
 
 
-def _require_possible(header: Header, body_bytes: int, file: str) -> None:
+def _require_possible(header: PlyHeader, body_bytes: int, file: str) -> None:
     counts = {element.name: element.rows for element in header.elements}
     limits.require_count(counts.get("face", 0), limits.MAX_FACES, "faces", file)
     limits.require_count(counts.get("vertex", 0), limits.MAX_VERTICES, "vertices", file)

@@ -17,8 +17,8 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
 from geocontact.io.mesh import limits
-from geocontact.io.mesh.file_preflight import UNKNOWN, looks_like, not_a
-from geocontact.io.mesh.text_lines import BLOCK, BYTE_ORDER_MARK, is_number, require_numbers, shown
+from geocontact.io.text.file_preflight import UNKNOWN, looks_like, not_a
+from geocontact.io.text.text_lines import BLOCK, BYTE_ORDER_MARK, is_number, require_numbers, shown
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 """One facet of a binary STL file, 50 bytes."""

@@ -13,8 +13,8 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from jaxtyping import Int
 
-from geocontact.io.mesh.text_lines import count_of_numbers
 from geocontact.io.mesh.vtp_preflight import Document, Encoding
+from geocontact.io.text.text_lines import count_of_numbers
 
 _TYPES = {f"{kind}{8 * size}": f"{kind[0].lower()}{size}" for kind in ("Int", "UInt", "Float") for size in (1, 2, 4, 8)}
 _TYPES = {name: code for name, code in _TYPES.items() if code not in ("f1", "f2")}

@@ -16,7 +16,7 @@ from defusedxml.ElementTree import fromstring  # type: ignore[import-untyped]
 
 from geocontact.data.errors import InputError
 from geocontact.io.mesh import limits
-from geocontact.io.mesh.file_preflight import not_a
+from geocontact.io.text.file_preflight import not_a
 
 _RAW = re.compile(rb"<AppendedData\b[^>]*\bencoding\s*=\s*[\"']raw[\"'][^>]*>\s*_")
 _RAW_END = b"</AppendedData>"

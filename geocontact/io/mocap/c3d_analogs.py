@@ -11,11 +11,11 @@ from os import PathLike, fspath
 import numpy as np
 
 from geocontact.io.mocap.c3d_plates import Arrays, read_apart
-from geocontact.io.opensim.storage_header import AngleEvidence
-from geocontact.io.text.tables import Table
+from geocontact.io.text.storage_header import AngleEvidence
+from geocontact.io.text.tables import TextTable
 
 
-def read_c3d_analogs(path: str | PathLike[str]) -> Table:
+def read_c3d_analogs(path: str | PathLike[str]) -> TextTable:
     """Table of the analog channels, each with the unit that the file says."""
     arrays = read_apart(path, __name__)
     values = np.asarray(arrays["values"], float)
@@ -23,7 +23,7 @@ def read_c3d_analogs(path: str | PathLike[str]) -> Table:
     names = tuple(str(name) for name in arrays["names"])
     units = tuple(str(unit) for unit in arrays["units"])
     lines = np.arange(1, len(values) + 1, dtype=np.int64)
-    return Table(time, values, names, units, fspath(path), lines, AngleEvidence(), opensim=False)
+    return TextTable(time, values, names, units, fspath(path), lines, AngleEvidence(), opensim=False)
 
 
 def analogs_of(path: str) -> Arrays:

@@ -16,7 +16,7 @@ from typing import Literal
 import numpy as np
 
 from geocontact.data.errors import InputError
-from geocontact.io.mesh.file_preflight import read_bytes
+from geocontact.io.text.file_preflight import read_bytes
 
 PATIENCE = 8.0, 2e-7
 """Seconds for a file: to start, and per byte; several times what whole files take."""

@@ -14,7 +14,7 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.wrench import Wrench
 from geocontact.io.mocap.c3d_plates import Arrays, read_c3d_plates
-from geocontact.io.text.tables import Table, listed, read_table
+from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import LENGTH
 
 OPENSIM_FRAME = "ground of the .mot (OpenSim, y up)"
@@ -95,7 +95,7 @@ def plate_named(plates: tuple[ForcePlate, ...], name: str | None, path: Path, op
     raise InputError(path, option, f"no plate {name!r}", remedy)
 
 
-def _from_table(table: Table) -> tuple[ForcePlate, ...]:
+def _from_table(table: TextTable) -> tuple[ForcePlate, ...]:
     """Every `…force…vx, vy, vz` with its points `…force…px` and torques `…torque…x` or `…moment…x`."""
     found = [(name, match) for name in table.channels if (match := _FORCE.fullmatch(name))]
     if not found:
@@ -104,7 +104,7 @@ def _from_table(table: Table) -> tuple[ForcePlate, ...]:
     return tuple(_plate(table, match["head"], match["tail"]) for _, match in found)
 
 
-def _plate(table: Table, head: str, tail: str) -> ForcePlate:
+def _plate(table: TextTable, head: str, tail: str) -> ForcePlate:
     name = f"{head}force{tail}".strip("_")
     force = _three(table, f"{head}force{tail}v")
     point = _three(table, f"{head}force{tail}p")
@@ -123,7 +123,7 @@ def _plate(table: Table, head: str, tail: str) -> ForcePlate:
     return ForcePlate(name, table.time, wrench, surface, np.array([0.0, 1.0, 0.0]))
 
 
-def _three(table: Table, stem: str) -> Float[np.ndarray, "t 3"]:
+def _three(table: TextTable, stem: str) -> Float[np.ndarray, "t 3"]:
     names = tuple(f"{stem}{axis}" for axis in "xyz")
     for name in names:
         if table.channels.count(name) != 1:

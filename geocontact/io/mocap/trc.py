@@ -16,7 +16,7 @@ from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.io.mesh.file_preflight import read_bytes
+from geocontact.io.text.file_preflight import read_bytes
 from geocontact.io.text.table_rows import read_rows
 from geocontact.io.text.units import LENGTH
 

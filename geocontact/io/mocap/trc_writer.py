@@ -9,8 +9,15 @@ import numpy as np
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 
 ASKED = (
-    "DataRate", "CameraRate", "NumFrames", "NumMarkers", "Units", "OrigDataRate", "OrigDataStartFrame", "OrigNumFrames",
-)  # fmt: skip
+    "DataRate",
+    "CameraRate",
+    "NumFrames",
+    "NumMarkers",
+    "Units",
+    "OrigDataRate",
+    "OrigDataStartFrame",
+    "OrigNumFrames",
+)
 
 
 def write_trc(path: Path, markers: MarkerTrajectories) -> None:

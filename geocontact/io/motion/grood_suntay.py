@@ -1,7 +1,7 @@
 """Knee angles of Grood and Suntay in a table: flexion, adduction and internal rotation as poses.
 
-Axes and signs stand in `data.multibody.knee_angles`. Sources differ in what they call positive (abduction, valgus, external
-rotation): negate with `-name` in the map.
+Axes and signs stand in `data.multibody.knee_angles`. Sources differ in what they call positive (abduction, valgus,
+external rotation): negate with `-name` in the map.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.multibody.knee_angles import SIGN, tibia_in_femur
 from geocontact.io.text.columns import mapped, parse_map
-from geocontact.io.text.tables import Table
+from geocontact.io.text.tables import TextTable
 
 _ANGLES = ("flexion", "adduction", "rotation")
 _SHIFTS = ("tx", "ty", "tz")
 
 
 def motion_from_grood_suntay(
-    table: Table,
+    table: TextTable,
     mapping: str | None,
     side: str,
     moving: str = "tibia",

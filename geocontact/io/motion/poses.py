@@ -16,7 +16,7 @@ from geocontact.data.multibody.joint import JointModel
 from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of, warn_of_defaults
 from geocontact.io.text.columns import angles_of, lengths, mapped, parse_map
-from geocontact.io.text.tables import Table, listed, read_table
+from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import LENGTH
 
 __all__ = ["motion_from_csv", "motion_from_grood_suntay", "motion_from_joint", "motion_from_map", "read_pose"]
@@ -56,7 +56,7 @@ def motion_from_csv(path: str | PathLike[str], order: str | None = None, angles:
     return Motion(table.time, poses, table.file, table.time_unit, heeded=heeded)
 
 
-def motion_from_joint(table: Table, joint: JointModel, moving: str = "child", angles: str | None = None) -> Motion:
+def motion_from_joint(table: TextTable, joint: JointModel, moving: str = "child", angles: str | None = None) -> Motion:
     """Motion of a joint's child body in its parent body; `moving="parent"` gives the parent in the child.
 
     Columns are coordinates by name or by path (`/jointset/joint/name/value`). A coordinate without a column keeps its
@@ -75,7 +75,7 @@ def motion_from_joint(table: Table, joint: JointModel, moving: str = "child", an
     return Motion(table.time, poses, source, table.time_unit, heeded=frozenset(heeded))
 
 
-def motion_from_map(table: Table, mapping: str, order: str | None = None, angles: str | None = None) -> Motion:
+def motion_from_map(table: TextTable, mapping: str, order: str | None = None, angles: str | None = None) -> Motion:
     """Motion from named columns: `"rz=knee_flexion,rx=knee_adduction,ry=-knee_rotation,tx=knee_tx"`.
 
     Rotations are intrinsic in the order in which the r* entries are written (`rz,rx,ry` is R = Rz Rx Ry) unless
@@ -148,7 +148,7 @@ def _in_order(turned: Float[np.ndarray, "t 3"], order: str) -> Float[np.ndarray,
     return turned[:, ["XYZ".index(axis) for axis in order.upper()]]
 
 
-def _quaternions(table: Table) -> Rotation:
+def _quaternions(table: TextTable) -> Rotation:
     missing = [name for name in _QUATERNION if name not in table.channels]
     if missing:
         what = f"no column {', '.join(missing)}"

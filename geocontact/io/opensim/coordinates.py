@@ -13,10 +13,10 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.joint import Coordinate, JointModel
 from geocontact.data.multibody.model import Multibody
 from geocontact.io.text.columns import angles_of, lengths, resolve
-from geocontact.io.text.tables import Table, listed
+from geocontact.io.text.tables import TextTable, listed
 
 
-def motion_of(table: Table, model: Multibody, angles: str | None = None) -> Float[np.ndarray, "t n"]:
+def motion_of(table: TextTable, model: Multibody, angles: str | None = None) -> Float[np.ndarray, "t n"]:
     """All coordinates of a model in its order [rad, m]; those without a column at their default, with a warning."""
     columns = columns_of(table, model.joints)
     found = coordinates_of(table, model.coordinates, columns, angles)
@@ -25,7 +25,7 @@ def motion_of(table: Table, model: Multibody, angles: str | None = None) -> Floa
     return np.column_stack([found.get(c.name, np.full(frames, c.default)) for c in model.coordinates])
 
 
-def columns_of(table: Table, joints: Sequence[JointModel]) -> dict[str, str]:
+def columns_of(table: TextTable, joints: Sequence[JointModel]) -> dict[str, str]:
     """Columns by the coordinates that they hold; a table with none of those that there are is refused."""
     named = [(joint, c) for joint in joints for c in joint.coordinates]
     columns = {c.name: column for joint, c in named if (column := resolve(table, c.name, joint.name))}
@@ -36,7 +36,7 @@ def columns_of(table: Table, joints: Sequence[JointModel]) -> dict[str, str]:
     return columns
 
 
-def warn_of_defaults(table: Table, coordinates: Sequence[Coordinate], columns: Mapping[str, str], of: str) -> None:
+def warn_of_defaults(table: TextTable, coordinates: Sequence[Coordinate], columns: Mapping[str, str], of: str) -> None:
     """Say which coordinates have no column and what they are taken to be."""
     absent = [c for c in coordinates if c.name not in columns]
     if absent:
@@ -46,7 +46,7 @@ def warn_of_defaults(table: Table, coordinates: Sequence[Coordinate], columns: M
 
 
 def coordinates_of(
-    table: Table, coordinates: Sequence[Coordinate], columns: Mapping[str, str], angles: str | None
+    table: TextTable, coordinates: Sequence[Coordinate], columns: Mapping[str, str], angles: str | None
 ) -> dict[str, Float[np.ndarray, " t"]]:
     """Values of the coordinates that have a column [rad, m].
 

@@ -162,10 +162,13 @@ def _compare(file: str, target: Path, scaled: Multibody) -> None:
         warnings.simplefilter("ignore", InputWarning)
         found = read_multibody(target)
     ends = [
-        (f"joint {one.name}", [*one.parent_offset.translation, *one.child_offset.translation],
-         [*other.parent_offset.translation, *other.child_offset.translation])
+        (
+            f"joint {one.name}",
+            [*one.parent_offset.translation, *one.child_offset.translation],
+            [*other.parent_offset.translation, *other.child_offset.translation],
+        )
         for one, other in zip(found.joints, scaled.joints, strict=True)
-    ]  # fmt: skip
+    ]
     places = np.tile([c.default for c in scaled.coordinates], (3, 1)) + np.array([[0.0], [0.1], [-0.2]])
     ends += [
         (f"marker {m.name}", one.ravel().tolist(), other.ravel().tolist())

@@ -1,4 +1,4 @@
-"""Table of how a joint's axis wanders with the angle; which of three things it tells is in its columns' names."""
+"""Table of how a joint's axis drifts with the angle; which of three things it tells is in its columns' names."""
 
 from __future__ import annotations
 

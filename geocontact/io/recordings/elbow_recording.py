@@ -13,7 +13,7 @@ from geocontact.data.errors import InputError
 from geocontact.io.mocap.c3d_analogs import read_c3d_analogs
 from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.text.columns import angles_of, lengths, resolve
-from geocontact.io.text.tables import Table, listed, read_table
+from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import DIMENSIONS, si_unit
 
 BETA, FORCE, DISPLACEMENT, PRESSURE = "beta", "force", "displacement", "pressure"
@@ -82,7 +82,7 @@ def require_elbow(beta: Float[np.ndarray, " t"], file: str, name: str) -> None:
         raise InputError(file, "", what, "pass `angles` deg or rad, or take the zero off")
 
 
-def _source(table: Table, channel: str, mapping: Mapped, must: bool) -> tuple[float, str] | None:
+def _source(table: TextTable, channel: str, mapping: Mapped, must: bool) -> tuple[float, str] | None:
     sign, name = mapping.get(channel, (1.0, channel))
     found = resolve(table, name)
     if found is None and (must or channel in mapping):
@@ -91,7 +91,7 @@ def _source(table: Table, channel: str, mapping: Mapped, must: bool) -> tuple[fl
     return None if found is None else (sign, found)
 
 
-def _force(table: Table, source: tuple[float, str] | None, unit: str | None) -> Float[np.ndarray, " t"]:
+def _force(table: TextTable, source: tuple[float, str] | None, unit: str | None) -> Float[np.ndarray, " t"]:
     if source is None:
         return np.zeros(len(table.time))
     sign, name = source
@@ -105,7 +105,7 @@ def _force(table: Table, source: tuple[float, str] | None, unit: str | None) -> 
     return np.asarray(sign * newtons)
 
 
-def _length(table: Table, source: tuple[float, str] | None) -> Float[np.ndarray, " t"] | None:
+def _length(table: TextTable, source: tuple[float, str] | None) -> Float[np.ndarray, " t"] | None:
     if source is None:
         return None
     sign, name = source
@@ -117,7 +117,7 @@ def _length(table: Table, source: tuple[float, str] | None) -> Float[np.ndarray,
     return np.asarray(sign * metres)
 
 
-def _pressure(table: Table, source: tuple[float, str] | None) -> Float[np.ndarray, " t"] | None:
+def _pressure(table: TextTable, source: tuple[float, str] | None) -> Float[np.ndarray, " t"] | None:
     if source is None:
         return None
     sign, name = source

@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.load_cells import STRONGEST, column_in_newtons
-from geocontact.io.text.tables import Table, listed, read_table
+from geocontact.io.text.tables import TextTable, listed, read_table
 
 SIDES = ("medial", "lateral", "total")
 
@@ -55,7 +55,7 @@ def read_force_curves(path: Path, unit: str | None, mapping: Mapping[str, tuple[
 
 
 def _forces(
-    table: Table, sources: Mapping[str, tuple[float, str]], unit: str | None
+    table: TextTable, sources: Mapping[str, tuple[float, str]], unit: str | None
 ) -> tuple[dict[str, Float[np.ndarray, " t"]], str]:
     found = {side: (sign, *column_in_newtons(table, name, unit)) for side, (sign, name) in sources.items()}
     units = ", ".join(sorted({said for _, _, said in found.values()}))

@@ -16,7 +16,7 @@ from geocontact.data.cell_regression import CellRegression
 from geocontact.data.errors import InputError
 from geocontact.io.text.csv_text import text_of
 from geocontact.io.text.side_table import LARGEST_TABLE, read_side_table
-from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.tables import TextTable, read_table
 from geocontact.io.text.units import DIMENSIONS, si_unit
 
 FORCES = DIMENSIONS["N"]
@@ -85,13 +85,13 @@ def read_load_cells(
     return CellRecording(table.file, table.time, forces, ", ".join(sorted(units)))
 
 
-def column_in_newtons(table: Table, name: str, given: str | None) -> tuple[Float[np.ndarray, " t"], str]:
+def column_in_newtons(table: TextTable, name: str, given: str | None) -> tuple[Float[np.ndarray, " t"], str]:
     """A column of forces [N] and its unit in the file, which its header says or `given` does."""
     unit = _unit(table, name, given)
     return np.asarray(table.needed(name) * FORCES[unit]), unit
 
 
-def _unit(table: Table, name: str, given: str | None) -> str:
+def _unit(table: TextTable, name: str, given: str | None) -> str:
     """Unit of a column of forces, by its header or as given."""
     table.needed(name)
     said = table.units[table.channels.index(name)]

@@ -27,7 +27,7 @@ CUTS = ("lower", "upper")
 
 
 @dataclass(frozen=True)
-class Told:
+class StatedQuantity:
     """A quantity: its kind, and its numbers in SI units (`value`, or those of `KINDS` and `CUTS`)."""
 
     kind: str
@@ -38,7 +38,7 @@ class Told:
 class PopulationFile:
     """Quantities by name, tables of people by file with their columns by name, and correlations by pair of names."""
 
-    quantities: dict[str, Told]
+    quantities: dict[str, StatedQuantity]
     tables: dict[Path, dict[str, Float[np.ndarray, " m"]]]
     correlations: dict[tuple[str, str], float]
 
@@ -63,7 +63,7 @@ def read_population(path: Path, units: Mapping[str, str]) -> PopulationFile:
     return PopulationFile(quantities, tables, _correlations(path, content.get("correlation", {}), quantities))
 
 
-def _told(path: Path, name: str, entry: dict[str, Any], unit: str) -> Told:
+def _told(path: Path, name: str, entry: dict[str, Any], unit: str) -> StatedQuantity:
     place = f"[{name}]"
     kinds = [kind for kind in KINDS if kind in entry]
     if len(kinds) != 1:
@@ -71,7 +71,7 @@ def _told(path: Path, name: str, entry: dict[str, Any], unit: str) -> Told:
     (kind,) = kinds
     if kind == "table":
         _only(path, place, entry, ("table",))
-        return Told(kind, {})
+        return StatedQuantity(kind, {})
     _only(path, place, entry, (kind, "unit"))
     known = si_unit(str(entry.get("unit", "")))
     if known is None or known[0] != unit:
@@ -85,7 +85,7 @@ def _told(path: Path, name: str, entry: dict[str, Any], unit: str) -> Told:
     _only(path, place, given, (*needed, *(CUTS if kind == "normal" else ())))
     numbers = {key: known[1] * _number(path, place, key, given.get(key)) for key in dict.fromkeys((*needed, *given))}
     _check_order(path, place, kind, numbers)
-    return Told(kind, numbers)
+    return StatedQuantity(kind, numbers)
 
 
 def _only(path: Path, place: str, entry: Mapping[str, Any], allowed: Sequence[str]) -> None:
@@ -117,7 +117,7 @@ def _column(file: Path, name: str, unit: str) -> Float[np.ndarray, " m"]:
     return table[label].to_numpy(float)
 
 
-def _correlations(path: Path, entry: object, quantities: Mapping[str, Told]) -> dict[tuple[str, str], float]:
+def _correlations(path: Path, entry: object, quantities: Mapping[str, StatedQuantity]) -> dict[tuple[str, str], float]:
     """Pairs written as x_y = 0.4."""
     place = "[correlation]"
     if not isinstance(entry, dict):

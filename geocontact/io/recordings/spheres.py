@@ -13,7 +13,7 @@ from jaxtyping import Bool, Float
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.mesh.file_preflight import read_bytes
+from geocontact.io.text.file_preflight import read_bytes
 from geocontact.io.text.units import LENGTH, split_header
 
 LARGEST_TABLE = 16_000_000

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.io.text.tables import Table, listed
+from geocontact.io.text.tables import TextTable, listed
 from geocontact.io.text.units import ANGLE, LENGTH
 
 LARGEST_RADIANS = 4.0 * pi
@@ -20,12 +20,12 @@ LARGEST_RADIANS = 4.0 * pi
 _FEW_DEGREES = 0.2
 
 
-def lengths(table: Table, names: Sequence[str]) -> Float[np.ndarray, "t k"]:
+def lengths(table: TextTable, names: Sequence[str]) -> Float[np.ndarray, "t k"]:
     """Columns in m: OpenSim's files are in m, a .csv must name the unit of each column."""
     return np.column_stack([table.needed(name) * _metres(table, name) for name in names])
 
 
-def angles_of(table: Table, names: Sequence[str], angles: str | None = None) -> Float[np.ndarray, "t k"]:
+def angles_of(table: TextTable, names: Sequence[str], angles: str | None = None) -> Float[np.ndarray, "t k"]:
     """Columns in rad.
 
     Parameters
@@ -49,7 +49,7 @@ def angles_of(table: Table, names: Sequence[str], angles: str | None = None) -> 
     return np.asarray(values * np.array([ANGLE[unit] for unit in units]))
 
 
-def resolve(table: Table, name: str, joint: str = "") -> str | None:
+def resolve(table: TextTable, name: str, joint: str = "") -> str | None:
     """The column that holds a coordinate: `name`, `joint/name/value` or `/jointset/joint/name/value`; None without.
 
     Without `joint` any joint's path will do.
@@ -77,7 +77,7 @@ def parse_map(text: str, targets: Sequence[str]) -> dict[str, tuple[float, str]]
 
 
 def mapped(
-    table: Table,
+    table: TextTable,
     mapping: dict[str, tuple[float, str]],
     rotations: Sequence[str],
     shifts: Sequence[str],
@@ -100,7 +100,7 @@ def mapped(
     return turned, moved
 
 
-def _metres(table: Table, name: str) -> float:
+def _metres(table: TextTable, name: str) -> float:
     if table.opensim:
         return 1.0
     unit = _csv_unit(table, name)
@@ -110,12 +110,12 @@ def _metres(table: Table, name: str) -> float:
     return LENGTH[unit]
 
 
-def _csv_unit(table: Table, name: str) -> str:
+def _csv_unit(table: TextTable, name: str) -> str:
     table.needed(name)
     return table.units[table.channels.index(name)]
 
 
-def _said_unit(table: Table, name: str) -> str | None:
+def _said_unit(table: TextTable, name: str) -> str | None:
     """Unit of an angle column by its file: the header of a .csv column, what an OpenSim header says of all."""
     said: str | None = table.angles.unit if table.opensim else _csv_unit(table, name) or None
     if said is not None and said not in ANGLE:
@@ -123,7 +123,7 @@ def _said_unit(table: Table, name: str) -> str | None:
     return said
 
 
-def _ask(table: Table, name: str) -> NoReturn:
+def _ask(table: TextTable, name: str) -> NoReturn:
     """Refuse an angle column whose unit the file does not tell, or tells in two ways."""
     if table.angles.conflict:
         raise InputError(table.file, f"line {table.angles.line}", table.angles.conflict, "pass `angles` deg or rad")
@@ -132,7 +132,7 @@ def _ask(table: Table, name: str) -> NoReturn:
     raise InputError(table.file, "", f"{where} does not say whether angles are degrees or radians", remedy)
 
 
-def _check_size(table: Table, names: Sequence[str], values: Float[np.ndarray, "t k"], units: list[str]) -> None:
+def _check_size(table: TextTable, names: Sequence[str], values: Float[np.ndarray, "t k"], units: list[str]) -> None:
     if found := _beyond_two_turns(table, names, values, units):
         what = f"{found[1]}, too much for the radians that the header declares"
         raise InputError(table.file, found[0], what, "pass `angles` deg or rad")
@@ -143,7 +143,7 @@ def _check_size(table: Table, names: Sequence[str], values: Float[np.ndarray, "t
 
 
 def _warn_of_doubts(
-    table: Table, names: Sequence[str], values: Float[np.ndarray, "t k"], said: list[str | None], angles: str
+    table: TextTable, names: Sequence[str], values: Float[np.ndarray, "t k"], said: list[str | None], angles: str
 ) -> None:
     """The user's word is followed; say where the file says otherwise, and where the size of the numbers does."""
     doubts = []
@@ -158,7 +158,7 @@ def _warn_of_doubts(
 
 
 def _beyond_two_turns(
-    table: Table, names: Sequence[str], values: Float[np.ndarray, "t k"], units: list[str]
+    table: TextTable, names: Sequence[str], values: Float[np.ndarray, "t k"], units: list[str]
 ) -> tuple[str, str] | None:
     """Place and words for the first column in rad that exceeds two turns; None when there is none."""
     for name, unit, column in zip(names, units, np.abs(values).T, strict=True):

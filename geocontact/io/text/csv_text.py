@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TextIO
 
 from geocontact.data.errors import InputError
-from geocontact.io.mesh.file_preflight import UNKNOWN, looks_like, read_bytes
-from geocontact.io.mesh.text_lines import BYTE_ORDER_MARK
-from geocontact.io.opensim.storage_header import LONGEST_LINE
+from geocontact.io.text.file_preflight import UNKNOWN, looks_like, read_bytes
+from geocontact.io.text.storage_header import LONGEST_LINE
+from geocontact.io.text.text_lines import BYTE_ORDER_MARK
 from geocontact.io.text.units import DIMENSIONS, si_unit, split_header
 
 MOST_COLUMNS = 1000

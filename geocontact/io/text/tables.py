@@ -15,7 +15,7 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.motion import Signals
-from geocontact.io.opensim.storage_header import LONGEST_LINE, AngleEvidence, StorageHeader, read_storage_header
+from geocontact.io.text.storage_header import LONGEST_LINE, AngleEvidence, StorageHeader, read_storage_header
 from geocontact.io.text.table_rows import read_rows
 from geocontact.io.text.units import split_header
 
@@ -27,7 +27,7 @@ _TIME = re.compile(r"time\s*(?:\((?P<unit>[^()]*)\))?", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
-class Table(Signals):
+class TextTable(Signals):
     """A table as its file has it; conversion to SI happens where a column is used (`columns.py`).
 
     Parameters
@@ -70,7 +70,7 @@ def listed(names: tuple[str, ...], most: int = 30) -> str:
     return f"{shown} … ({len(names)} in all)" if len(names) > most else shown or "none"
 
 
-def read_table(path: str | PathLike[str]) -> Table:
+def read_table(path: str | PathLike[str]) -> TextTable:
     """Table in a .mot, .sto (versions 1 to 3, SIMM's form too) or .csv file.
 
     Refused with InputError: other content, counts that the header declares and the rows do not bear out, ragged rows,
@@ -102,7 +102,7 @@ def _preflight(file: str) -> None:
         raise InputError(file, "line 1", "HTML or XML, not a table", "was a web page saved in place of the file?")
 
 
-def _read_storage(stream: TextIO, file: str) -> Table:
+def _read_storage(stream: TextIO, file: str) -> TextTable:
     header = read_storage_header(stream, file)
     names = tuple(_label_line(stream, file, header.lines + 1).split())
     values, lines = read_rows(stream, header.lines + 2, names, file, str.split)
@@ -128,7 +128,7 @@ def _check_rows(header: StorageHeader, count: int, file: str) -> None:
             raise InputError(file, f"line {line}", what, "is the file truncated?")
 
 
-def _read_csv(stream: TextIO, file: str) -> Table:
+def _read_csv(stream: TextIO, file: str) -> TextTable:
     number, line = 1, _label_line(stream, file, 1)
     while line.lstrip().startswith("#"):
         number, line = number + 1, _label_line(stream, file, number + 1)
@@ -162,7 +162,7 @@ def _table(
     values: Float[np.ndarray, "t c"],
     lines: Int[np.ndarray, " t"],
     angles: AngleEvidence | None,
-) -> Table:
+) -> TextTable:
     """Take the time column out and check it; `angles` is None for .csv."""
     places = [i for i, name in enumerate(names) if _TIME.fullmatch(name)]
     if len(places) != 1:
@@ -172,7 +172,7 @@ def _table(
     found = _TIME.fullmatch(names[places[0]])
     unit = units[places[0]] or (found["unit"] or "" if found else "")
     time, time_unit = _time(values[:, places[0]], unit, lines, file)
-    return Table(
+    return TextTable(
         time=time,
         values=values[:, rest],
         channels=tuple(names[i] for i in rest),

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
-from geocontact.io.opensim.storage_header import LONGEST_LINE
+from geocontact.io.text.storage_header import LONGEST_LINE
 
 MOST_LINES = 100
 

@@ -62,7 +62,7 @@ def mat_load(
 ) -> MatLoad:
     """Load of pressures [Pa] on the cells of a map.
 
-    Readings below zero, noise of quiet cells, count in forces and moments; in the centre they have no weight.
+    Readings below zero, noise of unloaded cells, count in forces and moments; in the centre they have no weight.
 
     Parameters
     ----------

@@ -55,7 +55,7 @@ class MatMap:
     left_out: Bool[np.ndarray, "r c"]
 
     def of(self, pressure: Float[np.ndarray, "t r c"]) -> Float[np.ndarray, "t n"]:
-        """Pressures of these cells [Pa]; what reads below zero stays, so that noise of quiet cells averages out."""
+        """Pressures of these cells [Pa]; what reads below zero stays, so that noise of unloaded cells averages out."""
         return np.asarray(pressure[:, self.cell[:, 0], self.cell[:, 1]])
 
     def face_pressure(

@@ -25,7 +25,7 @@ from scipy.interpolate import PchipInterpolator
 from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.law_parameters import Source
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor, Values
-from geocontact.chain.magnitudes import Scale
+from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.single_deflection import Deflect, SingleDeflection
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
@@ -99,7 +99,7 @@ def build(
         sensor=Sensor(OUTPUTS),
         parameters=parameters,
         constants=dict(constants),
-        scale=Scale(),
+        scale=Magnitudes(),
         units=UNITS,
     )
 

@@ -9,10 +9,10 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.axis_misalignment.deflection import ELBOW_GEOMETRY, deflect, misalignment
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
 from geocontact.chain.interface_law import MEMORY, interface_force
-from geocontact.chain.law_parameters import Slots, Source
+from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.geometry.kernels.compile import kernel
 
@@ -70,7 +70,7 @@ def carry(
 class ElbowMisalignment:
     """Geometry link of the elbow: input beta, one deflection."""
 
-    slots: Slots = ELBOW_GEOMETRY
+    slots: LawParameters = ELBOW_GEOMETRY
 
     @property
     def yields(self) -> str:
@@ -82,14 +82,14 @@ class ElbowMisalignment:
         return replace(self, slots=self.slots.having(sources))
 
     def deflection(
-        self, movement: Movement, values: Values
+        self, movement: DifferentiatedInputs, values: Values
     ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
         """Deflection [m] and rate [m/s] without load."""
         row = movement.row("beta")
         value, rate = deflect(movement.position[row], movement.rate[row], self.slots.numbers(values))
         return value[:, None], rate[:, None]
 
-    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+    def loads(self, movement: DifferentiatedInputs, law: Law, values: Values) -> Loads:
         """Force along a movement."""
         row = movement.row("beta")
         n = self.slots.numbers(values)

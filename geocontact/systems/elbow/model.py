@@ -14,7 +14,7 @@ from jaxtyping import Float
 
 from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor
-from geocontact.chain.magnitudes import Scale
+from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, require_numbers
@@ -44,7 +44,7 @@ def build(
         sensor=Sensor(OUTPUTS),
         parameters=parameters,
         constants=dict(constants),
-        scale=Scale(),
+        scale=Magnitudes(),
         units=UNITS,
     )
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from geocontact.chain.system import System
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.systems.external.simulator import simulated_system
 from geocontact.systems.validate import refusal
 
 
-def command_system(case: GapCase) -> System:
+def program_system(case: GapCase) -> System:
     """The base model; InputError when the case brings no simulator."""
     own = case.simulator
     if own is None:

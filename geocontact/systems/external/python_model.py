@@ -13,23 +13,30 @@ from types import ModuleType
 
 from geocontact.chain.links import Geometry
 from geocontact.chain.system import System
-from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
+from geocontact.data.gap.case import LISTED_SYSTEMS, GapCase
 from geocontact.systems.base import Base
-from geocontact.systems.validate import refusal, said, tried
+from geocontact.systems.validate import refusal, said, validated
+
+FORMER_NAMES = {
+    "geocontact.systems.knee_chain": "geocontact.systems.knee.full_chain",
+    "geocontact.systems.elastic_joint": "geocontact.systems.elastic_joint.model",
+}
+"""Modules of the package as existing cases name them, kept for one version, and where these models are now."""
 
 
-def own_base(case: GapCase) -> Base:
+def python_base(case: GapCase) -> Base:
     """The object that the case names; InputError when it cannot be imported or is no base model."""
     module, _, name = case.system.partition(":")
+    module = FORMER_NAMES.get(module, module)
     found = getattr(_imported(module, case), name, None)
     if found is None:
         raise refusal(case, f"module {module} has no object {name}", f"write {name} = Base(...) there")
     return _checked(found, case)
 
 
-def own_system(case: GapCase) -> System:
+def python_system(case: GapCase) -> System:
     """Own model of a case, tried once on every trial; InputError when it cannot be built or does not fit the case."""
-    base = own_base(case)
+    base = python_base(case)
     try:
         system = base.made(case)
     except Exception as error:  # the user's code may raise anything
@@ -42,7 +49,7 @@ def own_system(case: GapCase) -> System:
     if (system.inputs, system.outputs) != (base.inputs, base.outputs):
         channels = f"{', '.join(system.inputs)} → {', '.join(system.outputs)}"
         raise refusal(case, f"its system has the channels {channels}", "give Base the same inputs and outputs")
-    return tried(system, case)
+    return validated(system, case)
 
 
 def _imported(module: str, case: GapCase) -> ModuleType:

@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import NotConverged
-from geocontact.chain.law_parameters import Slots, Source
+from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor, Values
-from geocontact.chain.magnitudes import Scale
+from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.data.simulator import Simulator, SimulatorError
@@ -25,7 +25,7 @@ from geocontact.systems.base import Base
 Run = Callable[[Float[np.ndarray, " t"], Float[np.ndarray, "i t"], dict[str, float]], object]
 """Time [s], inputs (a row each, SI), numbers by name → outputs (t, c), or (t,) of a single one."""
 
-NOTHING = Slots({})
+NOTHING = LawParameters({})
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +40,7 @@ class Simulated:
 
     simulator: Simulator
     names: tuple[str, ...] | None
-    slots: Slots = NOTHING
+    slots: LawParameters = NOTHING
     yields: str = ""
 
     def having(self, sources: Mapping[str, Source]) -> Simulated:
@@ -48,13 +48,13 @@ class Simulated:
         return replace(self, slots=self.slots.having(sources))
 
     def deflection(
-        self, movement: Movement, values: Values
+        self, movement: DifferentiatedInputs, values: Values
     ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
         """None that we know of."""
         nothing = np.zeros((len(movement.time), 1))
         return nothing, nothing
 
-    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+    def loads(self, movement: DifferentiatedInputs, law: Law, values: Values) -> Loads:
         """Outputs of the simulator; NotConverged where it failed."""
         told = values if self.names is None else self.names
         numbers = {name: values[name] for name in told if name in values}
@@ -92,7 +92,7 @@ def simulated_system(
         sensor=Sensor(simulator.outputs),
         parameters=parameters,
         constants=dict(constants),
-        scale=Scale(),
+        scale=Magnitudes(),
         units=dict(simulator.units),
         dynamic=dynamic,
     )

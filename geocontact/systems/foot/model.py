@@ -13,9 +13,9 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.chain.contact_law import CONTACT_LAW
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.links import RECORDING, Balance, Channels, Law, Loads, Modifier, Motion, Sensor, Values
-from geocontact.chain.magnitudes import Scale
+from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, require_numbers
@@ -38,7 +38,7 @@ def resultant(loads: Loads) -> Float[np.ndarray, "t c"]:
     return np.column_stack((loads.tangential.sum(axis=1), vertical, centre))
 
 
-def without_centre(outputs: Channels, movement: Movement, values: Values) -> Channels:
+def without_centre(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
     """No centre of pressure where the measured vertical force is too small for one."""
     out = outputs.copy()
     out[np.abs(out[:, 1]) < LEAST_FORCE, 2] = np.nan
@@ -68,7 +68,7 @@ def build(
         sensor=Sensor(OUTPUTS, (Modifier("least_force", RECORDING, without_centre),)),
         parameters=parameters,
         constants=dict(constants),
-        scale=Scale(),
+        scale=Magnitudes(),
         units=UNITS,
     )
 

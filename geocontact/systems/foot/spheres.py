@@ -10,13 +10,13 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.contact_law import contact_force, friction_coefficient
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import ATTEMPTS, TOLERANCE, next_load, nothing_known, require_convergence, start_over
-from geocontact.chain.law_parameters import Slots, Source
+from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.geometry.kernels.compile import kernel
 
-FOOT_GEOMETRY = Slots(
+FOOT_GEOMETRY = LawParameters(
     {
         "series_compliance.compliance": 0.0,
         "series_compliance.exponent": 1.0,
@@ -167,7 +167,7 @@ class FootSpheres:
     py: Float[np.ndarray, " n"]
     radius: Float[np.ndarray, " n"]
     zone: tuple[str, ...]
-    slots: Slots = FOOT_GEOMETRY
+    slots: LawParameters = FOOT_GEOMETRY
 
     @property
     def yields(self) -> str:
@@ -185,20 +185,20 @@ class FootSpheres:
         return np.array([self.px, self.py, self.radius, k, b])
 
     def deflection(
-        self, movement: Movement, values: Values
+        self, movement: DifferentiatedInputs, values: Values
     ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
         """Depths [m], 0 off the ground, and their rates [m/s] without load."""
         depth, closing, _ = approach(*self.pose(movement), self.spheres(values))
         return np.maximum(depth, 0.0), closing
 
-    def pose(self, movement: Movement) -> tuple[Float[np.ndarray, "three t"], Float[np.ndarray, "three t"]]:
+    def pose(self, movement: DifferentiatedInputs) -> tuple[Float[np.ndarray, "three t"], Float[np.ndarray, "three t"]]:
         """Rows x, y, pitch of position and rate."""
         if movement.inputs == INPUTS:
             return movement.position, movement.rate
         rows = [movement.row(name) for name in INPUTS]
         return movement.position[rows], movement.rate[rows]
 
-    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+    def loads(self, movement: DifferentiatedInputs, law: Law, values: Values) -> Loads:
         """Forces along a movement; each acts at px - radius sin(pitch) in the foot's frame."""
         pose, rate = self.pose(movement)
         spheres, numbers, n = self.spheres(values), law.slots.numbers(values), self.slots.numbers(values)

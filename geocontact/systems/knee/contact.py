@@ -12,14 +12,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.differentiated_inputs import Movement
-from geocontact.chain.law_parameters import Slots, Source
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.chain.single_deflection import along
 from geocontact.contact.area_hertz import disc_force
 
 AREAS = ("area_medial", "area_lateral")
-KNEE_GEOMETRY = Slots(
+KNEE_GEOMETRY = LawParameters(
     {
         "R": 1.0,
         "axis_migration.slope": 0.0,
@@ -38,7 +38,7 @@ LEAST_RADIUS = 1e-3
 class KneeContact:
     """Geometry link of the knee: two areas, two deflections; R may change with flexion, the sides may differ."""
 
-    slots: Slots = KNEE_GEOMETRY
+    slots: LawParameters = KNEE_GEOMETRY
 
     @property
     def yields(self) -> str:
@@ -50,7 +50,7 @@ class KneeContact:
         return replace(self, slots=self.slots.having(sources))
 
     def deflection(
-        self, movement: Movement, values: Values
+        self, movement: DifferentiatedInputs, values: Values
     ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
         """a³/R of each side [m²] and its rate; with R = R0 + s φ + c φ², φ the flexion from the middle of its range.
 
@@ -71,7 +71,7 @@ class KneeContact:
             rates.append(u * (growth - turning / radius))
         return np.stack(columns, axis=1), np.stack(rates, axis=1)
 
-    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+    def loads(self, movement: DifferentiatedInputs, law: Law, values: Values) -> Loads:
         """Force of each side along a movement, each with a memory of its own."""
         u, rate = self.deflection(movement, values)
         numbers = law.slots.numbers(values)

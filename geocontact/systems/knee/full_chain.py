@@ -23,10 +23,10 @@ from jaxtyping import Bool, Float
 
 from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor
-from geocontact.chain.magnitudes import Scale
+from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
 from geocontact.data.cell_regression import CellRegression
-from geocontact.data.gap_case import CaseMesh
+from geocontact.data.gap.case import CaseMesh
 from geocontact.data.parameter import Parameter
 from geocontact.geometry.contact_area.sided_areas import SidedAreas
 from geocontact.geometry.plane import Plane
@@ -120,7 +120,7 @@ def build(
         sensor=Sensor(outputs),
         parameters=parameters,
         constants=dict(constants),
-        scale=Scale(),
+        scale=Magnitudes(),
         units=units,
         bias=dict(zip(POSE, (OFFSET * geometry.areas.reach[:, 0]).tolist(), strict=True)),
     )

@@ -52,7 +52,7 @@ Placed = Callable[[Float[np.ndarray, "6 t"]], tuple[Float[np.ndarray, "t 3 3"], 
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class PoseGrid:
     """Areas and moments around the recorded poses of one trial: t samples, 2 sides, 4 values (area, moment)."""
 
     pose: Float[np.ndarray, "6 t"]
@@ -84,7 +84,7 @@ class PoseAreas:
         self.placed = placed
         length = min(SHARE * pair.threshold, MOST)
         self.reach = np.repeat([PER_LENGTH * length, length], COORDINATES // 2)[:, None]
-        self._grids: dict[tuple[str, bytes], Grid] = {}
+        self._grids: dict[tuple[str, bytes], PoseGrid] = {}
         self._far: OrderedDict[bytes, np.ndarray] = OrderedDict()
 
     def at(
@@ -114,7 +114,7 @@ class PoseAreas:
         rotation, translation = self.placed(pose)
         return self.pair.along(rotation, translation, refinement)
 
-    def grid(self, pose: Float[np.ndarray, "6 t"]) -> Grid:
+    def grid(self, pose: Float[np.ndarray, "6 t"]) -> PoseGrid:
         """Grid of offsets around recorded poses."""
         value, given = self.direct(pose), self.direct(pose, AS_GIVEN)
 
@@ -129,9 +129,9 @@ class PoseAreas:
             both = 0.5 * (rise(CROSS * (unit[k] + unit[m])) + rise(-CROSS * (unit[k] + unit[m])))
             even = sum(cut[one, order - 1] * CROSS**order for one in (k, m) for order in (2, 4))
             mixed.append((both - even) / CROSS**2)
-        return Grid(pose.copy(), value, cut, np.array(mixed))
+        return PoseGrid(pose.copy(), value, cut, np.array(mixed))
 
-    def error(self, grid: Grid) -> float:
+    def error(self, grid: PoseGrid) -> float:
         """Root mean square error of the interpolated areas over the largest one, at poses drawn around the recorded."""
         rng = np.random.default_rng(0)
         at = rng.integers(grid.pose.shape[1], size=PROBES)

@@ -1,7 +1,8 @@
 """Geometry link of a knee implant that is driven by its pose: pose → areas of the sides → what Hertz's law multiplies.
 
 The pose is that of the femoral component F in the tibial one T, in knee angles of Grood and Suntay
-(`data.multibody.knee_angles`) and the position of F's origin along the axes of T: x anterior, y proximal, z to the right.
+(`data.multibody.knee_angles`) and the position of F's origin along the axes of T: x anterior, y proximal, z to the
+right.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.differentiated_inputs import Movement
-from geocontact.chain.law_parameters import Slots, Source
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.data.multibody.knee_angles import SIGN, tibia_in_femur
 from geocontact.geometry.contact_area.sided_areas import SidedAreas
@@ -70,7 +71,7 @@ class PosedKnee:
         return cls(PoseAreas(pair, placed_as(side)), side, pair.middle[::medial_first, 0].copy(), reach)
 
     @property
-    def slots(self) -> Slots:
+    def slots(self) -> LawParameters:
         """Its numbers."""
         return self.contact.slots
 
@@ -83,7 +84,7 @@ class PosedKnee:
         """The same link with more of its numbers coming from somewhere."""
         return replace(self, contact=self.contact.having(sources))
 
-    def patches(self, movement: Movement) -> tuple[Float[np.ndarray, "t 2"], Float[np.ndarray, "t 2"]]:
+    def patches(self, movement: DifferentiatedInputs) -> tuple[Float[np.ndarray, "t 2"], Float[np.ndarray, "t 2"]]:
         """Area [m^2] and x of the centre [m] of the medial and of the lateral patch."""
         pose = np.array([movement.position[movement.row(name)] for name in POSE])
         found = self.areas.at(movement.trial, movement.time, pose)[:, :: int(self.side)]
@@ -91,12 +92,12 @@ class PosedKnee:
         centre = np.where(area > LEAST_AREA, found[..., 1] / np.maximum(area, LEAST_AREA), self.middle)
         return area, np.clip(centre, *self.reach)
 
-    def by_areas(self, movement: Movement, area: Float[np.ndarray, "t 2"]) -> Movement:
+    def by_areas(self, movement: DifferentiatedInputs, area: Float[np.ndarray, "t 2"]) -> DifferentiatedInputs:
         """Movement of the knee whose areas are measured: flexion and the two areas."""
         row = movement.row("flexion")
         rate = np.gradient(area, movement.time, axis=0)
         position = np.array([movement.position[row], *area.T])
-        return Movement(
+        return DifferentiatedInputs(
             movement.time,
             ("flexion", *AREAS),
             position,
@@ -106,12 +107,12 @@ class PosedKnee:
         )
 
     def deflection(
-        self, movement: Movement, values: Values
+        self, movement: DifferentiatedInputs, values: Values
     ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
         """a³/R of each side [m²] and its rate."""
         return self.contact.deflection(self.by_areas(movement, self.patches(movement)[0]), values)
 
-    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+    def loads(self, movement: DifferentiatedInputs, law: Law, values: Values) -> Loads:
         """Force of each side along a movement, acting at the centre of its patch."""
         area, centre = self.patches(movement)
         found = self.contact.loads(self.by_areas(movement, area), law, values)

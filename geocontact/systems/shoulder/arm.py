@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import require_convergence
-from geocontact.chain.law_parameters import Slots, Source
+from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.systems.shoulder.equation_of_motion import HINGED_ARM, LONGEST, swing
 
@@ -37,7 +37,7 @@ class ShoulderArm:
     table: Float[np.ndarray, "two k"]
     base: Law
     longest: float = LONGEST
-    slots: Slots = HINGED_ARM
+    slots: LawParameters = HINGED_ARM
 
     @property
     def yields(self) -> str:
@@ -49,13 +49,13 @@ class ShoulderArm:
         return replace(self, slots=self.slots.having(sources))
 
     def deflection(
-        self, movement: Movement, values: Values
+        self, movement: DifferentiatedInputs, values: Values
     ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
         """Deflection [m] and rate [m/s] under the law without effects."""
         found, _ = self._swung(movement, self.base, values)
         return found[2][:, None].copy(), found[3][:, None].copy()
 
-    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+    def loads(self, movement: DifferentiatedInputs, law: Law, values: Values) -> Loads:
         """Force along a movement, and the angle that the exoskeleton's arm takes."""
         found, unsolved = self._swung(movement, law, values)
         require_convergence(unsolved, len(movement.time), self.slots.numbers(values)[11])
@@ -63,7 +63,9 @@ class ShoulderArm:
         nothing = np.zeros_like(force)
         return Loads(force, nothing, nothing, found[0][:, None])
 
-    def _swung(self, movement: Movement, law: Law, values: Values) -> tuple[Float[np.ndarray, "four t"], int]:
+    def _swung(
+        self, movement: DifferentiatedInputs, law: Law, values: Values
+    ) -> tuple[Float[np.ndarray, "four t"], int]:
         """Motion of the exoskeleton's arm; what a sensor adds does not change it, so the last ones are remembered."""
         row = movement.row("arm")
         arrays = (movement.time, movement.position[row], movement.rate[row])

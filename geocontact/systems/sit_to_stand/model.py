@@ -16,7 +16,7 @@ from jaxtyping import Float
 
 from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.links import Balance, Law, Loads, Motion, Sensor
-from geocontact.chain.magnitudes import Scale
+from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, require_numbers
@@ -66,7 +66,7 @@ def build(
         sensor=Sensor(outputs),
         parameters=parameters,
         constants=dict(constants),
-        scale=Scale(),
+        scale=Magnitudes(),
         units={**units, **dict.fromkeys(outputs, "N")},
         spare=tuple(f"{site}_tangential" for site in sites),
         places=sites,

@@ -12,14 +12,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.chain.differentiated_inputs import Movement
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.implicit import require_convergence
-from geocontact.chain.law_parameters import Slots, Source
+from geocontact.chain.law_parameters import LawParameters, Source
 from geocontact.chain.links import Law, Loads, Values
 from geocontact.chain.single_deflection import along, in_series
 from geocontact.geometry.kernels.compile import kernel
 
-SITE_GEOMETRY = Slots(
+SITE_GEOMETRY = LawParameters(
     {
         "rho": 0.0,
         "axis_migration.slope": 0.0,
@@ -100,7 +100,7 @@ class InterfaceSites:
     """
 
     sites: tuple[str, ...]
-    slots: Slots
+    slots: LawParameters
 
     @property
     def yields(self) -> str:
@@ -116,14 +116,14 @@ class InterfaceSites:
         return InterfaceSites((place,), self.slots.at(place))
 
     def deflection(
-        self, movement: Movement, values: Values
+        self, movement: DifferentiatedInputs, values: Values
     ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "t n"]]:
         """u [m] and u' [m/s] of each site, nothing giving way."""
         rows = rows_of(self.sites, movement.inputs)
         u, rate = deflected(movement.position, movement.rate, rows, self._numbers(values))
         return u.T, rate.T
 
-    def loads(self, movement: Movement, law: Law, values: Values) -> Loads:
+    def loads(self, movement: DifferentiatedInputs, law: Law, values: Values) -> Loads:
         """Force of each site along a movement, each with a memory of its own."""
         numbers, rows = self._numbers(values), rows_of(self.sites, movement.inputs)
         of_law = law.slots.numbers(values).reshape(len(self.sites), -1)

@@ -22,8 +22,7 @@ def test_page_of_one_motion_is_that_of_the_folder(tmp_path: Path) -> None:
     result = area(SPHERE, PLATE, poses(tmp_path, (0, 20, 0)), rule="clip")
     page = result.page(tmp_path / "page.html").read_text(encoding="utf-8")
     assert "Largest contact area on the fixed body" in page and "sphere_r20.stl" in page
-    picture = result._repr_png_()
-    assert picture is not None and picture.startswith(b"\x89PNG\r\n\x1a\n")
+    assert result._repr_html_().startswith("<p>area of FIXED within 4 mm") and "<img src=" in result._repr_html_()
 
 
 def test_several_motions_have_folders_and_one_page_of_all_numbers(several: AreaResult, tmp_path: Path) -> None:

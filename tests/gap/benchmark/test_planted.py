@@ -10,16 +10,16 @@ from scipy.interpolate import CubicSpline
 from scipy.linalg import solve_triangular
 
 import geocontact.gap_benchmark.synthetic as planted
-from geocontact.gap_benchmark.synthetic import KINDS, cases, plant
+from geocontact.gap_benchmark.synthetic import KINDS, cases, synthetic_case
 from geocontact.gap_benchmark.synthetic.base_fit import jacobian
 from geocontact.gap_benchmark.synthetic.cases import prepared
-from geocontact.gap_benchmark.synthetic.catalogue import TABLE, plans
+from geocontact.gap_benchmark.synthetic.catalogue import PLANS, plans
 from geocontact.gap_benchmark.synthetic.course import through
 from geocontact.gap_benchmark.synthetic.effects.mechanical.contact_loss import seated
 from geocontact.gap_benchmark.synthetic.effects.mechanical.slip import crept
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks
 from geocontact.gap_benchmark.synthetic.noise import Coloured, smooth_covariance, smooth_noise
-from geocontact.gap_benchmark.synthetic.outside.catalogue import outsiders
+from geocontact.gap_benchmark.synthetic.outside.catalogue import unknown_effects
 from geocontact.gap_benchmark.synthetic.reach import shortest
 from geocontact.gap_benchmark.synthetic.scenes import SCENES
 from geocontact.gap_benchmark.synthetic.systems.foot.model import Sole, foot
@@ -29,7 +29,7 @@ from geocontact.gap_benchmark.synthetic.systems.shoulder.model import shoulder
 from geocontact.gap_benchmark.synthetic.systems.sit_to_stand.model import inputs as inputs_of
 from geocontact.gap_benchmark.synthetic.systems.sit_to_stand.model import sit_to_stand
 from geocontact.gap_benchmark.synthetic.systems.swing import at_rest
-from geocontact.gap_benchmark.synthetic.trials import Fault, as_measured, fine_enough, record, samples, truth
+from geocontact.gap_benchmark.synthetic.trials import DataError, as_measured, fine_enough, record, samples, truth
 from geocontact.systems.catalogue import system_of
 
 ALLOWED = {"numpy", "scipy", "pandas", "numba", "jaxtyping"}
@@ -52,10 +52,11 @@ def test_it_shares_nothing_with_the_candidates():
 
 
 def test_every_file_says_what_is_planted_and_what_the_candidate_does():
-    assert len({name for name, *_ in TABLE}) == len(TABLE) == 23
-    for name, equation, candidate in TABLE:
-        text = (Path(planted.__file__).parent / "effects" / f"{name}.py").read_text()
-        assert "planted:" in text and "candidate:" in text and equation != candidate
+    assert len({one.name for one in PLANS}) == len(PLANS) == 23
+    for one in PLANS:
+        (file,) = (Path(planted.__file__).parent / "effects").rglob(f"{one.name}.py")
+        text = file.read_text()
+        assert "planted:" in text and "candidate:" in text and one.planted != one.candidate
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +72,7 @@ def stages():
 
 @pytest.mark.parametrize("system", SCENES)
 def test_base_models_agree_with_those_of_the_package(system):
-    case = plant(system, "none", 3).case
+    case = synthetic_case(system, "none", 3).case
     if system == "sit_to_stand":  # rates are taken in another way
         case = dataclasses.replace(case, constants={"b": 0.0})
     theirs = system_of(case)
@@ -112,7 +113,7 @@ def sole_of(case):
 
 @pytest.mark.parametrize(("system", "kind"), list(itertools.product(SCENES, KINDS)))
 def test_every_kind_is_what_it_says(system, kind):
-    made = plant(system, kind, 1)
+    made = synthetic_case(system, kind, 1)
     case, label = made.case, made.label
     assert json.loads(json.dumps(label.as_dict()))["kind"] == kind
     assert label.kind == kind and case.system == system and kind not in case.name
@@ -136,14 +137,14 @@ def test_every_kind_is_what_it_says(system, kind):
 
 
 def test_a_seed_is_a_case():
-    one, same, other = (plant("elbow", "single", seed) for seed in (5, np.random.SeedSequence(5), 6))
+    one, same, other = (synthetic_case("elbow", "single", seed) for seed in (5, np.random.SeedSequence(5), 6))
     assert one.label == same.label and one.case.name == same.case.name
     np.testing.assert_array_equal(one.case.calibration[0].signals.values, same.case.calibration[0].signals.values)
     assert one.case.name != other.case.name
 
 
 def test_what_is_asked_for_is_planted():
-    label = plant("elbow", "single", 2, effect="damping", nats=50.0).label
+    label = synthetic_case("elbow", "single", 2, effect="damping", nats=50.0).label
     assert label.effects == ("damping",) and label.nats["damping"] == pytest.approx(50.0, rel=0.12)
     assert 0.0 < label.reduction["force"] < 1.0 and label.rmse_after["force"] < label.rmse_before["force"]
 
@@ -221,13 +222,13 @@ def test_the_truth_must_not_depend_on_the_step(stages):
 
 @pytest.mark.parametrize(
     ("system", "name"),
-    [(s, one.name) for s in SCENES for one in (*plans(s), *outsiders(s)) if one.name != "jump"],
+    [(s, one.name) for s in SCENES for one in (*plans(s), *unknown_effects(s)) if one.name != "jump"],
 )
 def test_every_effect_converges_with_the_step(system, name, stages):
     """Each changes the outputs, and a truth from steps half as long is the same."""
     stage = stages[system]
     scene, path = stage.scene, stage.trials[-1].path  # where the shoulder is supported more
-    plan = next(one for one in (*plans(system), *outsiders(system)) if one.name == name)
+    plan = next(one for one in (*plans(system), *unknown_effects(system)) if one.name == name)
     draw = plan.drawn(np.random.default_rng(1), stage.scale)
     hooks = draw.hooks(np.sqrt(draw.low * draw.high))
     fine = fine_enough(scene, path, hooks)
@@ -243,7 +244,7 @@ def test_every_effect_converges_with_the_step(system, name, stages):
 
 def test_a_recorder_repeats_and_rounds_what_it_is_given_noise_and_all(stages):
     scene, path = stages["knee"].scene, stages["knee"].trials[0].path
-    named = {one.name: one for one in outsiders("knee")}
+    named = {one.name: one for one in unknown_effects("knee")}
 
     def recorded(name, size):
         hooks = named[name].drawn(np.random.default_rng(1), stages["knee"].scale).hooks(size)
@@ -270,13 +271,13 @@ def test_an_attachment_creeps_slower_and_slower_and_stays_where_it_is():
     assert at[1.99] > 5e-4 and at[4.0] == pytest.approx(at[2.1], rel=0.01)
 
 
-def test_mistakes_are_exact_and_can_be_mended(stages):
+def test_mistakes_are_exact_and_can_be_corrected(stages):
     scene = stages["foot"].scene
     inputs, outputs = np.random.default_rng(0).normal(size=(2, 3, 5))
-    degrees = Fault("unit_error", "pitch", np.degrees(1.0))
-    np.testing.assert_allclose(degrees.mended(scene, degrees.inputs(scene, inputs)), inputs)
+    degrees = DataError("unit_error", "pitch", np.degrees(1.0))
+    np.testing.assert_allclose(degrees.corrected(scene, degrees.inputs(scene, inputs)), inputs)
     np.testing.assert_array_equal(degrees.outputs(scene, outputs), outputs)
-    swapped = Fault("side_swap", "", 1.0, (0, 1)).outputs(scene, outputs)
+    swapped = DataError("side_swap", "", 1.0, (0, 1)).outputs(scene, outputs)
     np.testing.assert_array_equal(swapped, outputs[[1, 0, 2]])
 
 
@@ -392,19 +393,19 @@ def test_a_pad_that_was_pressed_sits_closer_until_it_has_opened():
 @pytest.mark.parametrize("wrong", [{"system": "hip", "kind": "none"}, {"system": "elbow", "kind": "triple"}])
 def test_what_does_not_exist_is_named(wrong):
     with pytest.raises(ValueError, match=r"hip|triple"):
-        plant(**wrong, seed=0)
+        synthetic_case(**wrong, seed=0)
 
 
 def test_a_draw_whose_visibility_is_no_number_is_drawn_again(monkeypatch: pytest.MonkeyPatch) -> None:
     real, drawn = cases.FINDERS["single"], []
 
-    def broken_at_first(*given: object) -> cases.Found:
+    def broken_at_first(*given: object) -> cases.DrawnCase:
         found = real(*given)
         drawn.append(found)
         sights = {name: dataclasses.replace(seen, nats=np.nan) for name, seen in (found.sights or {}).items()}
         return dataclasses.replace(found, sights=sights) if len(drawn) == 1 else found
 
     monkeypatch.setitem(cases.FINDERS, "single", broken_at_first)  # type: ignore[arg-type]
-    made = plant("knee", "single", 5)
+    made = synthetic_case("knee", "single", 5)
     assert len(drawn) > 1
     assert all(np.isfinite(nats) for nats in made.label.nats.values())

@@ -18,8 +18,8 @@ PROGRAM = """
 import json, sys
 import numpy as np
 from geocontact.effects.catalogue import candidates
-from geocontact.gap_benchmark.confounding import imitation
-from geocontact.gap_benchmark.synthetic import plant
+from geocontact.gap_benchmark.confounding import confounding
+from geocontact.gap_benchmark.synthetic import synthetic_case
 from geocontact.gap_benchmark.residual_regression import residual_regression
 from geocontact.gap.case.problem import problem_of
 from geocontact.systems.catalogue import system_of
@@ -30,7 +30,7 @@ def regressed(planted, *ways):
 
 def imitated(planted):
     system = system_of(planted.case)
-    return imitation(system, planted.ideal, candidates(system), planted.label.floor)
+    return confounding(system, planted.ideal, candidates(system), planted.label.floor)
 
 def visible(planted):
     system = system_of(planted.case).as_measured()
@@ -45,12 +45,12 @@ def visible(planted):
     effect = np.concatenate(rest)
     return 0.5 * float(np.sum((effect - basis @ (basis.T @ effect)) ** 2))
 
-damped = plant("elbow", "single", 3, effect="damping", nats=3000.0)
-tremor = plant("elbow", "outside", 2, effect="tremor", nats=200.0)
+damped = synthetic_case("elbow", "single", 3, effect="damping", nats=3000.0)
+tremor = synthetic_case("elbow", "outside", 2, effect="tremor", nats=200.0)
 json.dump({
     "damped": regressed(damped, False, True),
     "reduction": damped.label.reduction["force"],
-    "calm": [regressed(plant("elbow", "none", seed), True)[0]["verdict"] for seed in (1, 2)],
+    "calm": [regressed(synthetic_case("elbow", "none", seed), True)[0]["verdict"] for seed in (1, 2)],
     "imitation": {"damped": imitated(damped), "tremor": imitated(tremor)},
     "nats": [damped.label.nats["damping"], visible(damped)],
 }, sys.stdout)

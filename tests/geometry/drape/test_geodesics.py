@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from geocontact.geometry.drape.geodesics import Geodesics, Places
+from geocontact.geometry.drape.geodesics import Geodesics, SurfacePoints
 from geocontact.geometry.neighbours import neighbours
 from geocontact.geometry.surface import Surface
 from tests.geometry.drape.sheets import over, plane, sphere, thigh, tube
@@ -145,6 +145,6 @@ def test_refused():
 
 def test_places_off_the_surface_stay_off():
     sheet = over(plane())
-    lost = Places(np.array([-1]), np.full((1, 3), np.nan))
+    lost = SurfacePoints(np.array([-1]), np.full((1, 3), np.nan))
     assert not sheet.moved(lost, np.ones((1, 3))).on[0]
     assert np.isnan(sheet.joined(lost, sheet.nearest(np.zeros((1, 3)))).length[0])

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from geocontact.geometry.drape.rectangle import rectangle_on
-from geocontact.geometry.drape.standing_off import standing_off
+from geocontact.geometry.drape.scan_difference import scan_difference
 from geocontact.geometry.register.unguided import same_place, unguided
 from geocontact.geometry.surface import Surface
 from tests.geometry.drape.second_scan import ELSEWHERE, bare, corners, with_mat
@@ -21,7 +21,7 @@ def test_corners_are_found_to_a_part_of_the_scans_edges(thickness, noise, n, wit
     found = unguided(second, first)
     miss = found.pose * ELSEWHERE
     assert np.linalg.norm(miss.translation) < 1e-4 and np.degrees(miss.rotation.magnitude()) < 0.2
-    raised = standing_off(same_place(second, found), first)
+    raised = scan_difference(same_place(second, found), first)
     assert raised.thickness == pytest.approx(1e-3 * thickness, abs=1.5e-4 + 1e-4 * noise)
     assert raised.area == pytest.approx(256e-4, rel=0.08)
     outline = rectangle_on(over((first.vertices, first.faces)), raised.outline, raised.length)
@@ -46,7 +46,7 @@ def test_nothing_that_stands_off_is_told():
     second = with_mat(0.0, 0.0)
     without = Surface(ELSEWHERE.inv().apply(second.vertices), second.faces, "thigh with mat")
     with pytest.raises(ValueError, match=r"nothing on thigh with mat stands off thigh.* by 0\.5 mm or more"):
-        standing_off(without, bare())
+        scan_difference(without, bare())
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.4, 1.2])

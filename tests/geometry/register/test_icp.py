@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.geometry.boundary import on_rim
-from geocontact.geometry.register.icp import Search, icp
+from geocontact.geometry.boundary import on_boundary
+from geocontact.geometry.register.icp import IcpSearch, icp
 from geocontact.geometry.register.samples import samples
 from geocontact.geometry.surface import Surface
 from tests.geometry.drape.sheets import lattice_faces, sphere, tube
@@ -129,9 +129,9 @@ def test_the_rim_of_an_open_sheet():
     sheet = bumpy(0, 0.3, 0, 0.3, 10)
     outside = np.array([[-0.1, 0.1, 0.0], [-0.1, -0.1, 0.0], [0.155, 0.131, 0.0], [0.15, 0.15, 0.0]])
     found = sheet.proximity(outside)
-    assert on_rim(sheet, found.closest, found.face).tolist() == [True, True, False, False]
+    assert on_boundary(sheet, found.closest, found.face).tolist() == [True, True, False, False]
     body = Surface(*sphere(1.0, 3))
-    assert not on_rim(
+    assert not on_boundary(
         body, body.vertices, np.array([np.flatnonzero((body.faces == k).any(1))[0] for k in range(92)])
     ).any()
 
@@ -141,7 +141,7 @@ def test_open3d_finds_the_same():
     pytest.importorskip("open3d", reason="open3d is not installed, or lacks its system libraries", exc_type=ImportError)
     from geocontact.geometry.register.open3d_icp import open3d_icp
 
-    search = Search(points=8000)
+    search = IcpSearch(points=8000)
     ours, theirs = icp(PARTLY, FIXED, off(), search), open3d_icp(PARTLY, FIXED, off(), search)
     assert np.abs(ours.pose.translation - theirs.pose.translation).max() < 1e-4
     assert np.degrees((ours.pose.rotation.inv() * theirs.pose.rotation).magnitude()) < 0.05
@@ -154,6 +154,6 @@ def test_open3d_that_was_stopped_early_has_not_converged():
     pytest.importorskip("open3d", reason="open3d is not installed, or lacks its system libraries", exc_type=ImportError)
     from geocontact.geometry.register.open3d_icp import open3d_icp
 
-    found = open3d_icp(PARTLY, FIXED, off(), Search(points=8000, rounds=1, tolerance=0.02))
+    found = open3d_icp(PARTLY, FIXED, off(), IcpSearch(points=8000, rounds=1, tolerance=0.02))
     assert apart(found.pose, RigidTransform.identity()) > 1e-4
     assert not found.converged

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.geometry.register.landmarks import fit_landmarks
-from geocontact.geometry.register.moving import carried
 
 turns = st.tuples(*[st.floats(-3.0, 3.0)] * 3)
 shifts = st.tuples(*[st.floats(-5.0, 5.0)] * 3)
@@ -106,15 +105,3 @@ def test_refused():
         fit_landmarks(a, a, names=["a", "b"])
     with pytest.raises(ValueError, match="not negative"):
         fit_landmarks(a, a, -np.ones(5))
-
-
-def test_travels_with_its_segment():
-    rng = np.random.default_rng(5)
-    X_BA = pose((0.3, -1.0, 0.5), (0.1, 0.2, 0.3))
-    X_GB = RigidTransform.from_components(rng.normal(size=(7, 3)), Rotation.random(7, rng))
-    X_GA = carried(X_BA, X_GB)
-    points = landmarks(4)
-    for k in range(7):
-        assert X_GA[k].apply(points) == pytest.approx(X_GB[k].apply(X_BA.apply(points)), abs=1e-14)
-    with pytest.raises(ValueError, match="one pose, not 7"):
-        carried(X_GB, X_GB)

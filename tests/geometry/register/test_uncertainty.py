@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 from scipy.stats import t as student
 
-from geocontact.geometry.register.icp import Search, icp
+from geocontact.geometry.register.icp import IcpSearch, icp
 from geocontact.geometry.register.landmarks import fit_landmarks
 from geocontact.geometry.register.shape_covariance import shape_covariance
 from geocontact.geometry.register.uncertainty import PoseCovariance, crossing
@@ -59,7 +59,7 @@ def test_covariance_of_landmarks_is_that_of_draws():
 def test_intervals_of_shapes_hold_the_truth(points):
     """Vertices of the scan are noisy by 0.5 mm each; 1600 of them."""
     fixed, clean = bumpy(-0.15, 0.15, -0.15, 0.15, 40), bumpy(-0.12, 0.12, -0.12, 0.12, 50)
-    search, rng = Search(points=points, settled=1e-7), np.random.default_rng(2)
+    search, rng = IcpSearch(points=points, settled=1e-7), np.random.default_rng(2)
     best = icp(clean, fixed, RigidTransform.identity(), search).pose  # what the facets alone make of it
     hits = []
     for _ in range(80):

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from geocontact.data.gap_cell import Cell
+from geocontact.data.gap.cell import Cell
 from geocontact.view.curves.bland_altman import bland_altman
 from geocontact.view.curves.diagnosis.before_after import before_after
 from geocontact.view.curves.diagnosis.gap_map import gap_map_figure

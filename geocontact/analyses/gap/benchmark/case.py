@@ -13,14 +13,14 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from geocontact.analyses.json_file import plain
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.data.version import VERSION
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.diagnose import Findings, diagnose
-from geocontact.gap_benchmark.confounding import LEFT, imitation
-from geocontact.gap_benchmark.drawing import Lot, Planted, drawn
+from geocontact.gap_benchmark.confounding import LEFT, confounding
+from geocontact.gap_benchmark.drawing import Lot, SyntheticCase, drawn
 from geocontact.gap_benchmark.residual_regression import residual_regression
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import write_gap_case
@@ -110,7 +110,7 @@ def _where(task: Task) -> str:
     return f"{task.lot.system} {task.lot.kind} {task.lot.place} of seed {task.lot.seed}"
 
 
-def _answered(task: Task, planted: Planted, home: Path) -> Worked:
+def _answered(task: Task, planted: SyntheticCase, home: Path) -> Worked:
     name, trouble = planted.case.name, []
     label = plain(planted.label.as_dict())
     answers = {who: failed(label) for who in ANSWERERS}
@@ -154,9 +154,9 @@ def _opponents(problem: Problem) -> dict[str, dict[str, Any]]:
     }
 
 
-def _imitated(planted: Planted, problem: Problem) -> dict[str, Any]:
+def _imitated(planted: SyntheticCase, problem: Problem) -> dict[str, Any]:
     """Whether a candidate imitates what is not in the table, from the truth."""
-    left, label = imitation(problem.system, planted.ideal, candidates(problem.system), planted.label.floor)
+    left, label = confounding(problem.system, planted.ideal, candidates(problem.system), planted.label.floor)
     return {"imitated": left < LEFT, "imitation": {"left": left, "by": label}}
 
 

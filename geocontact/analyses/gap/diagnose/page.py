@@ -4,25 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from io import StringIO
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.gap.diagnose.curves import HeldOut, resampled
-from geocontact.analyses.gap.diagnose.figures import SURFACE, axis_units, quantity_of, ranking
-from geocontact.analyses.gap.diagnose.words import names, percent, place, verdict_sentences
+from geocontact.analyses.gap.diagnose.curves import resampled
+from geocontact.analyses.gap.diagnose.figures import SURFACE, effect_words, quantity_of
+from geocontact.analyses.gap.diagnose.page_tables import (
+    cells_table,
+    gap_table,
+    parameters_table,
+    ranking_table,
+    trials_table,
+)
+from geocontact.analyses.gap.diagnose.words import place, verdict_sentences
+from geocontact.analyses.gap.words import names, percent
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.data.diagnosis import Diagnosis
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.data.gap.held_out import HeldOut
 from geocontact.gap.diagnose import Findings
-from geocontact.view.curves.diagnosis.gap_map import SIGNIFICANT
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.style import in_style
 from geocontact.view.curves.text import number
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
-from geocontact.view.page.write import write_page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,7 +36,6 @@ if TYPE_CHECKING:
 FRAMES = 201
 PANELS = 12  # held-out trials times channels; more are left to the tables
 WIDE = ("gap_map", "gap_residuals")  # drawings as wide as the page
-CELLS = 12  # of the gap map that the page lists
 WORDS = {"explained": "explained", "no_gap": "no gap", "unknown": "unknown", "unresolved": "unresolved"}
 MAP = (
     "Share of each channel's squared residual over the phase of the trial, over inputs, their rates and the load (cut "
@@ -59,60 +64,36 @@ HELD_OUT = (
 )
 
 
-def write_gap_report(
-    path: Path,
+def gap_page(
     case: GapCase,
     findings: Findings,
-    trials: Sequence[HeldOut],
     figures: Mapping[str, Figure],
     provenance: Sequence[Table] = (),
     warnings: Sequence[str] = (),
-) -> int:
-    """Write the self-contained page of one diagnosis; returns its size in bytes.
+) -> Page:
+    """The self-contained page of one diagnosis, before it becomes a file.
 
     Parameters
     ----------
-    path
-        HTML file to write.
     case, findings
         What was diagnosed, and what was found.
-    trials
-        Held-out trials, from `gap_curves.held_out`.
     figures
-        From `gap_figures.gap_figures`; those that `CAPTIONS` names are shown.
+        From `figures.gap_figures`; those that `CAPTIONS` names are shown, and those of surfaces.
     provenance
         Further tables: inputs with hashes, options, versions.
     warnings
         Reservations that came up on the way.
     """
-    return write_page(gap_page(case, findings, trials, figures, provenance, warnings), Path(path))
-
-
-def gap_page(
-    case: GapCase,
-    findings: Findings,
-    trials: Sequence[HeldOut],
-    figures: Mapping[str, Figure],
-    provenance: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
-) -> Page:
-    """The page before it becomes a file."""
     d = findings.diagnosis
     phase = np.linspace(0.0, 1.0, FRAMES)
-    panels, missing = _panels(findings, trials, phase)
-    sections: list[Section] = [_readout(findings, trials, phase), *panels]
-    sections += [Words("Verdict", [f"{sentence[0].upper()}{sentence[1:]}." for sentence in _verdict(findings)])]
-    sections += [
-        Picture(*CAPTIONS[name], _svg(figures[name]), wide=name in WIDE) for name in CAPTIONS if name in figures
-    ]
-    sections += [
-        Picture("Where on the surface", SURFACE_WORDS, _svg(figure), wide=True)
-        for name, figure in figures.items()
-        if name.startswith(SURFACE)
-    ]
-    sections += [_gap_table(findings), _ranking_table(findings)]
-    sections += [_trials_table(findings)] if findings.trials else []
-    sections += [_parameters_table(d), _cells_table(findings)]
+    panels, missing = _panels(findings, phase)
+    sections: list[Section] = [_readout(findings, phase), *panels]
+    sentences = verdict_sentences(d, findings.cells)
+    sections += [Words("Verdict", [f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences])]
+    sections += [*_pictures(figures)]
+    sections += [gap_table(findings), ranking_table(findings)]
+    sections += [trials_table(findings)] if findings.trials else []
+    sections += [parameters_table(d), cells_table(findings)]
     sections += [_confounded(d), *provenance, _limits(case, d, missing)]
     if warnings:
         sections.append(Words("Reservations of this run", list(warnings)))
@@ -128,8 +109,10 @@ def gap_page(
     )
 
 
-def _verdict(findings: Findings) -> list[str]:
-    return verdict_sentences(findings.diagnosis, findings.cells)
+def _pictures(figures: Mapping[str, Figure]) -> list[Picture]:
+    shown = [Picture(*CAPTIONS[name], _svg(figures[name]), wide=name in WIDE) for name in CAPTIONS if name in figures]
+    surfaces = [figure for name, figure in figures.items() if name.startswith(SURFACE)]
+    return [*shown, *(Picture("Where on the surface", SURFACE_WORDS, _svg(each), wide=True) for each in surfaces)]
 
 
 def _subtitle(case: GapCase, d: Diagnosis) -> str:
@@ -164,13 +147,13 @@ def _likeliest(d: Diagnosis, most: int = 5) -> list[tuple[str, float]]:
     return sorted(d.probabilities.items(), key=lambda pair: -pair[1])[:most]
 
 
-def _panels(findings: Findings, trials: Sequence[HeldOut], phase: Float[np.ndarray, " p"]) -> tuple[list[Curves], int]:
+def _panels(findings: Findings, phase: Float[np.ndarray, " p"]) -> tuple[list[Curves], int]:
     """Two panels per held-out trial and channel, curves and residuals, and how many trials there was no room for."""
-    effect = " + ".join(findings.diagnosis.effects) or "the most probable candidate"
+    effect = effect_words(findings)
     panels = []
     for c, name in enumerate(findings.attribution.problem.system.outputs):
         quantity = quantity_of(findings, name)
-        for trial in trials:
+        for trial in findings.held_out:
             models = {"base model": trial.base} | ({} if trial.named is None else {f"with {effect}": trial.named})
             off = {label: trial.measured - values for label, values in models.items()}
             for words, parts in (("", {"measured": trial.measured, **models}), (": measured − predicted", off)):
@@ -182,9 +165,9 @@ def _panels(findings: Findings, trials: Sequence[HeldOut], phase: Float[np.ndarr
     return panels[: 2 * PANELS], max(len(panels) // 2 - PANELS, 0)
 
 
-def _readout(findings: Findings, trials: Sequence[HeldOut], phase: Float[np.ndarray, " p"]) -> Readout:
+def _readout(findings: Findings, phase: Float[np.ndarray, " p"]) -> Readout:
     """Root mean square residual at the phase under the cursor, over the held-out trials."""
-    rows = []
+    rows, trials = [], findings.held_out
     for c, name in enumerate(findings.attribution.problem.system.outputs):
         quantity = quantity_of(findings, name)
         for words, off in (
@@ -218,72 +201,6 @@ def _svg(figure: Figure) -> bytes:
     text = StringIO()
     figure.savefig(text, format="svg", metadata={"Date": None})
     return text.getvalue().encode()
-
-
-def _gap_table(findings: Findings) -> Table:
-    d = findings.diagnosis
-    header = (
-        "channel", "unit", "error before", "error after", "noise floor", "reduction", "95 % interval", "unexplained",
-        "part of the whole gap", "phase with 70 % of it", "p",
-    )  # fmt: skip
-    where = {w.channel: w for w in d.where}
-    rows = []
-    for name, g in d.gap.items():
-        quantity, w = quantity_of(findings, name), where.get(name)
-        sizes = [
-            number(float(quantity.shown(np.array(value)))) for value in (g.rmse_before, g.rmse_after, g.noise_floor)
-        ]
-        interval = f"{percent(g.ci95[0])} … {percent(g.ci95[1])} %"
-        rest = "–" if g.unexplained is None else f"{percent(g.unexplained)} %"
-        window = ["–"] * 3
-        if w is not None:
-            window = [f"{percent(w.share)} %", f"{percent(w.phase[0])}–{percent(w.phase[1])} %", f"{w.p_value:.2g}"]
-        rows.append((name, quantity.unit, *sizes, f"{percent(g.reduction)} %", interval, rest, *window))
-    return Table("How far the gap shrinks, held-out trials (root mean squares)", header, rows)
-
-
-def _ranking_table(findings: Findings) -> Table:
-    rows = []
-    for one in ranking(findings):
-        probability = "" if one.probability is None else f"{one.probability:.3f}"
-        rows.append((one.label, one.effects, number(one.gain, 10.0), number(one.calibration, 10.0), probability))
-    header = ("model", "answer", "gain, all trials [nats]", "gain, calibration trials [nats]", "probability")
-    return Table("Ranking", header, rows)
-
-
-def _trials_table(findings: Findings) -> Table:
-    rows = [(one.trial, "yes" if one.held_out else "no", number(one.nats, 10.0)) for one in findings.trials]
-    better = sum(one.nats > 0.0 for one in findings.trials)
-    title = f"Each trial predicted from all others: better with what is named in {better} of {len(rows)}"
-    return Table(title, ("trial", "held out", "gain [nats]"), rows)
-
-
-def _parameters_table(d: Diagnosis) -> Table:
-    rows = [
-        (name, f"{e.value:.5g}", f"{e.ci95[0]:.5g} … {e.ci95[1]:.5g}", e.unit, "yes" if e.identifiable else "no")
-        for name, e in d.parameters.items()
-    ]
-    return Table(
-        "Parameters of the answer", ("parameter", "value", "95 % interval", "unit", "told by the trials"), rows
-    )
-
-
-def _cells_table(findings: Findings) -> Table:
-    units = axis_units(findings)
-    cells = sorted((c for c in findings.cells if c.p_value <= SIGNIFICANT), key=lambda c: (c.p_value, -c.share))
-    rows = [
-        (
-            c.channel, c.axis, f"{c.low:.4g} … {c.high:.4g} {units.get(c.axis, '')}".replace("inf", "∞"),
-            f"{percent(c.share)} %", " … ".join(percent(part) for part in c.ci95) + " %", f"{percent(c.floor)} %",
-            f"{c.p_value:.2g}",
-        )
-        for c in cells[:CELLS]
-    ]  # fmt: skip
-    header = (
-        "channel", "along", "between", "share of the channel's gap", "95 % interval",
-        "floor: of the squared residual, no gap", "p, whole map",
-    )  # fmt: skip
-    return Table(f"Gap map: {len(rows)} of {len(cells)} significant cells", header, rows)
 
 
 def _confounded(d: Diagnosis) -> Words:

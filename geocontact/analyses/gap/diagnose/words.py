@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from geocontact.data.diagnosis import CellsHeld, ChannelGap, Diagnosis, NextExperiment, Where
-from geocontact.data.gap_cell import Cell
-from geocontact.data.gap_cell import BAND, FAST_PHASE
+from geocontact.analyses.gap.words import names, percent, proposal_words
+from geocontact.data.gap.cell import BAND, FAST_PHASE, Cell
+from geocontact.data.gap.diagnosis import CellsHeld, ChannelGap, Diagnosis, Where
 
 SIGNIFICANT = 0.05  # family-wise
 TELLING = 0.35  # share of a channel's gap along one axis that a part of its range must hold to be named
@@ -20,13 +20,6 @@ def verdict_sentences(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     found = {"explained": _explained, "no_gap": _no_gap, "unknown": _unknown, "unresolved": _unresolved}[d.verdict]
     then = [] if d.next_experiment is None else [proposal_words(d.next_experiment, d.verdict)]
     return [*found(d, cells), *_faults(d), *(f"odd: {remark}" for remark in d.remarks), *then]
-
-
-def proposal_words(one: NextExperiment, verdict: str) -> str:
-    """What to record next, and what for: to show what is absorbed where nothing was found, else to tell apart."""
-    some = names(one.separates)
-    why = f"would show {some}" if verdict == "no_gap" else f"would tell {some} apart"
-    return f"next: {one.change}; that {why} by {one.gain_nats:g} nats more"
 
 
 def place(where: Where, cells: Sequence[Cell]) -> str:
@@ -63,16 +56,6 @@ def states(channel: str, cells: Sequence[Cell]) -> list[str]:
             found.append((held[best] / chance, f"{words[best]} part of {axis.rstrip(chr(39))}"))
     found.sort(key=lambda each: -each[0])
     return [words for _, words in found[:2]]
-
-
-def percent(share: float) -> str:
-    """A share as a whole percentage, with a minus sign."""
-    return f"{100.0 * share:.0f}".replace("-", "−") if round(100.0 * share) else "0"
-
-
-def names(some: Sequence[str], last: str = "and") -> str:
-    """`a, b and c`."""
-    return f" {last} ".join([", ".join(some[:-1]), some[-1]]) if len(some) > 1 else "".join(some)
 
 
 def _explained(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:

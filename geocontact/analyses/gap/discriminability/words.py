@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from geocontact.analyses.gap.diagnose.words import names, percent, proposal_words
+from geocontact.analyses.gap.words import names, percent, proposal_words
 from geocontact.gap.identifiability.detectability import POWER, Detectability
-from geocontact.gap.identifiability.discriminability import Confusion
+from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.gap.identifiability.separability import APART
 from geocontact.gap.identifiability.signatures import rest_of
 
 
-def confusion_sentences(c: Confusion) -> list[str]:
+def confusion_sentences(c: Discriminability) -> list[str]:
     """One sentence each, without a full stop: how many are seen, which never, swallowed, confused; what to record."""
     never = [one.candidate.label for one in c.detectabilities if one.smallest is None]
     count = len(c.detectabilities)
@@ -30,7 +30,7 @@ def confusion_sentences(c: Confusion) -> list[str]:
     return said
 
 
-def sizes_sentence(c: Confusion) -> str:
+def sizes_sentence(c: Discriminability) -> str:
     """How large every effect that is seen must be; empty where none is."""
     seen = [amplitude_words(one) for one in c.detectabilities if one.smallest is not None]
     return f"predicted to be seen in {percent(POWER)} of 100 repetitions: {'; '.join(seen)}" if seen else ""

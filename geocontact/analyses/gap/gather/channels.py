@@ -9,13 +9,12 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.io.cases.trial_sources import PlateSource, SidesSource
+from geocontact.io.cases.trial_sources import PlateSource
 from geocontact.io.cases.trial_table import TrialTable
-from geocontact.io.mocap.force_plates import LOADED, ForcePlate, plate_named, read_force_plates
-from geocontact.io.recordings.area_table import AreaTable, read_area_table
-from geocontact.io.recordings.force_curves import read_force_curves
+from geocontact.io.mocap.force_plates import LOADED, ForcePlate
+from geocontact.io.recordings.area_table import AreaTable
+from geocontact.io.recordings.force_curves import ForceCurves
 from geocontact.io.recordings.mat_results import MatResult
 from geocontact.io.text.csv_text import Column
 from geocontact.loads.centre_in_foot import centre_in_foot
@@ -41,10 +40,20 @@ def with_mat(table: TrialTable, site: str, mat: MatResult) -> TrialTable:
     return _widened(table, Recorded(f"the mat in {mat.folder.name}", mat.time, {f"{site}_force": ("N", force)}))
 
 
-def with_plate(record: Record, trial: str, table: TrialTable, source: PlateSource) -> TrialTable:
+def with_outputs(table: TrialTable, outputs: TrialTable) -> TrialTable:
+    """The trial with channels of another file."""
+    time, signals = outputs.signals.time, outputs.signals
+    at = table.signals.time
+    channels = {
+        name: (unit, np.interp(at, time, signals.column(name), np.nan, np.nan))
+        for name, unit in zip(signals.channels, signals.units, strict=True)
+    }
+    widened = _widened(table, Recorded(Path(outputs.file).name, time, channels))
+    return replace(widened, columns=(*table.columns, *outputs.columns))
+
+
+def with_plate(table: TrialTable, plate: ForcePlate, source: PlateSource) -> TrialTable:
     """The trial with the plate's reaction as a foot on spheres predicts it; x counted along the belt where one runs."""
-    plate = plate_named(read_force_plates(source.file), source.plate, source.file, "plate =")
-    record.add_input(f"{trial} plates", source.file, plate=plate.name)
     _require_pose(table, source, plate)
     time = table.signals.time
     x, y, pitch = (table.signals.column(name) for name in POSE)
@@ -61,16 +70,12 @@ def with_plate(record: Record, trial: str, table: TrialTable, source: PlateSourc
     return _widened(run, Recorded(f"{plate.name} in {source.file.name}", plate.time, channels))
 
 
-def with_sides(record: Record, trial: str, table: TrialTable, source: SidesSource) -> TrialTable:
-    """The trial with the forces of a knee's sides, and with their areas where they are given."""
-    if source.areas is not None:
-        areas = read_area_table([source.areas])
-        record.add_input(f"{trial} areas", source.areas)
-        at = _threshold(areas, source.threshold)
+def with_sides(table: TrialTable, areas: AreaTable | None, forces: ForceCurves, threshold: float | None) -> TrialTable:
+    """The trial with the forces of a knee's sides, and where they are given with areas within the threshold [m]."""
+    if areas is not None:
+        at = _threshold(areas, threshold)
         found = {side: areas.areas[side][:, at] for side in SIDES if side in areas.areas}
         table = _with_both(table, areas.file, "area", "m^2", areas.time, found)
-    forces = read_force_curves(source.forces, source.unit, {})
-    record.add_input(f"{trial} forces", source.forces, unit=forces.unit)
     return _with_both(table, forces.file, "force", "N", forces.time, forces.forces)
 
 

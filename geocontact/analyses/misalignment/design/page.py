@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 
+from geocontact.analyses.misalignment.design.designed import Designed
+from geocontact.analyses.misalignment.design.tables import sensitivity_table
+from geocontact.analyses.misalignment.planar_words import MODEL, page_table
+from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.run_record import Record
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
+from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
 
 FIGURE = (
@@ -17,60 +22,57 @@ FIGURE = (
     "no force because tan γ has a pole or the offset is longer than the link. Right: force over the angle at the "
     "offsets that the design is made for, with the band of all offsets within the uncertainty."
 )
-MODEL = (
-    "A spring between limb and attachment, the joint a hinge whose axis stays or drifts as told, slow motion: no "
-    "damping, no friction in the compensation joint, no slip of the cuff, a rigid upper attachment. Stiffness and all "
-    "lengths together are known up to one factor only, F(k/s, s · lengths) = F: a force measured at some angles tells "
-    "the product, not its parts."
-)
 
 
-def write_design_report(
-    path: Path,
-    title: str,
-    angle: Float[np.ndarray, " m"],
-    force: Float[np.ndarray, " m"],
-    band: tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"]],
-    drawing: bytes,
-    tables: Sequence[Table],
-    stroke: str,
-    warnings: Sequence[str],
-) -> int:
+def write_design_report(path: Path, record: Record, d: Designed, summary: dict[str, Any], drawing: bytes) -> int:
     """Write the self-contained page; returns its size in bytes.
 
     Parameters
     ----------
-    angle, force, band
-        Angle of the exoskeleton [deg], force [N], and its least and largest value within the uncertainty.
+    summary
+        What `design.json` holds.
     drawing
         The figure (SVG).
-    tables
-        Results first; the first one's rows make the headline.
-    stroke
-        What is said about the stroke.
     """
-    readout = [
-        Row(name, "N", [f"{value:.2f}" for value in values])
-        for name, values in (("force", force), ("lowest", band[0]), ("highest", band[1]))
-    ]
+    force = {"force": d.force, "lowest": d.band[0], "highest": d.band[1]}
+    numbers = _numbers(summary)
     sections: list[Section] = [
-        Readout(readout, "At this angle"),
-        Curves("Force on the limb", "N", [Curve("at the offsets", force, *band)]),
-        tables[0],
-        Words("Stroke of the compensation joint", [stroke]),
+        Readout([Row(name, "N", [f"{v:.2f}" for v in values]) for name, values in force.items()], "At this angle"),
+        Curves("Force on the limb", "N", [Curve("at the offsets", d.force, *d.band)]),
+        numbers,
+        Words("Stroke of the compensation joint", [summary["needed_stroke"]["words"]]),
         Picture("Admissible offsets", FIGURE, drawing, wide=True),
-        *tables[1:],
+        page_table("Sensitivity at these offsets", sensitivity_table(d)),
+        inputs_table(record.inputs),
+        options_table(record),
         Words("What the numbers do not contain", [MODEL, NOT_A_DEVICE]),
     ]
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
+    if record.warnings:
+        sections.append(Words("Reservations of this run", list(record.warnings)))
     page = Page(
-        title=title,
+        title=f"Offsets and stroke that keep the force under {d.task.limit:g} N",
         subtitle="Exoskeleton beside a joint: offsets of the axes, stroke, and force on the limb",
-        time=angle,
+        time=np.degrees(d.beta),
         time_label="angle [°]",
-        headline=[(row[0], row[1]) for row in tables[0].rows],
-        start_frame=int(np.argmax(np.abs(force))),
+        headline=[(row[0], row[1]) for row in numbers.rows],
+        start_frame=int(np.argmax(np.abs(d.force))),
         sections=tuple(sections),
     )
     return write_page(page, path)
+
+
+def _numbers(told: dict[str, Any]) -> Table:
+    one, radius, stroke, points = told["offset"], told["admissible_radius"], told["needed_stroke"], told["map"]
+    beyond = "" if radius["passed_within_map"] else " or more"
+    least, largest = stroke["free_of_force_mm"]
+    without = f"{points['pole']} with a pole, {points['fold']} with a fold"
+    rows = [
+        ("largest |F| at these offsets", f"{one['peak_N']:.2f} N", f"at {one['peak_at_deg']:.1f}°"),
+        ("limit", f"{told['limit_N']:g} N", "kept" if one["admissible"] else "passed"),
+        ("offsets may go in any direction", f"{radius['radius_mm']:.2f} mm{beyond}", "robust radius"),
+        ("free of force between", f"{least:.2f} … {largest:.2f} mm", f"offsets within {stroke['uncertainty_mm']:g} mm"),
+        ("lower stroke end at most", f"{stroke['lower_end_at_most_mm']:.2f} mm", "for the limit"),
+        ("upper stroke end at least", f"{stroke['upper_end_at_least_mm']:.2f} mm", "for the limit"),
+        ("offsets of the map that keep it", f"{points['admissible']} of {points['offsets']}", without),
+    ]
+    return Table("What the limit asks for", ("what", "value", "note"), rows)

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from geocontact.analyses.misalignment.parameters import PER_SI, TYPED
+import numpy as np
+
+from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
+from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.law import LENGTHS, SCALED
+from geocontact.axis_misalignment.least_squares import ElbowFit
+from geocontact.axis_misalignment.uncertainty import covariance, profiled, wild_bootstrap, with_link_held
 from geocontact.identify.intervals.profile_likelihood import Profile
-
-if TYPE_CHECKING:
-    from geocontact.analyses.misalignment.identify.run import Fitted
 
 TIMES_LINK = {"k": "N", "b": "N s"}
 """Units of the stiffness and the damping times the link's length."""
+TAILS = (2.5, 97.5)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,17 +92,32 @@ class Interval:
         return f"{' '.join(filter(None, (f'{self.value:.4g}', self.unit)))} (95 % {self.ends})"
 
 
-def intervals(found: Fitted) -> list[Interval]:
-    """Of each free number; where nothing sets the scale, of k l, x/l, y/l, z/l in place of k and the lengths."""
-    told = []
-    for name, p in found.profiles.items():
-        if found.estimate.problem.scale_free and name in SCALED:
-            if name != "l":
-                drawn = found.link_drawn.get(name)
-                told.append(_ratio(name, found.link_held[name], found.estimate.named["l"], drawn))
-            continue
-        told.append(_number(name, p, found.drawn.get(name)))
-    return told
+def intervals(data: Binned, e: ElbowFit, replicates: int) -> tuple[Interval, ...]:
+    """Of each free number; where nothing sets the scale, of k l, x/l, y/l, z/l in place of k and the lengths.
+
+    `replicates` of the bootstrap are drawn, none for 0.
+    """
+    spread = covariance(data, e)
+    if not e.problem.scale_free:
+        drawn = _drawn(data, e, replicates)
+        return tuple(_number(name, profiled(e, spread, name), drawn.get(name)) for name in e.problem.names)
+    held, link = with_link_held(e), e.named["l"]
+    held_spread, drawn = covariance(data, held), _drawn(data, held, replicates)
+    return tuple(
+        _ratio(name, profiled(held, held_spread, name), link, drawn.get(name))
+        if name in SCALED
+        else _number(name, profiled(e, spread, name), None)
+        for name in e.problem.names
+        if name != "l"
+    )
+
+
+def _drawn(data: Binned, e: ElbowFit, replicates: int) -> dict[str, tuple[float, float]]:
+    """Ends of the bootstrap's 95 % by free number; empty without one."""
+    if not replicates:
+        return {}
+    low, high = np.percentile(wild_bootstrap(data, e, replicates), TAILS, axis=0)
+    return {name: (float(low[k]), float(high[k])) for k, name in enumerate(e.problem.names)}
 
 
 def _ratio(name: str, p: Profile, link: float, drawn: tuple[float, float] | None) -> Interval:
@@ -114,4 +131,4 @@ def _ratio(name: str, p: Profile, link: float, drawn: tuple[float, float] | None
 def _number(name: str, p: Profile, drawn: tuple[float, float] | None) -> Interval:
     per = PER_SI[name]
     ends = None if drawn is None else (drawn[0] * per, drawn[1] * per)
-    return Interval(name, name, TYPED[name], per, p, ends)
+    return Interval(name, name, WRITTEN[name], per, p, ends)

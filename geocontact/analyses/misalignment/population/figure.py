@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.identify.intervals.quantile_intervals import Estimate
+from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
 from geocontact.view.curves.style import BLACK, DOUBLE, PALETTE, in_style, legend, panels
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ BINS = 80
 
 @in_style
 def population_figure(
-    peak: Float[np.ndarray, " n"], levels: Float[np.ndarray, " k"], exceedance: Sequence[Estimate], limit: float
+    peak: Float[np.ndarray, " n"], levels: Float[np.ndarray, " k"], exceedance: Sequence[IntervalEstimate], limit: float
 ) -> Figure:
     """Draw finite largest forces [N] on the left, probabilities of passing the levels [N] on the right."""
     figure, (shape, tail) = panels(1, 2, DOUBLE, 0.07)

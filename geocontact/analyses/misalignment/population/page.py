@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
 
-from geocontact.analyses.misalignment.design.page import MODEL
+from geocontact.analyses.misalignment.planar_words import MODEL, STATES, WITHOUT_FORCE, page_table
+from geocontact.analyses.misalignment.population.drawn import Drawn
+from geocontact.analyses.misalignment.population.tables import influence_table, quantile_table
+from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.identify.intervals.quantile_intervals import Estimate
+from geocontact.analyses.run_record import Record
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
+from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
 
 FIGURE = (
@@ -30,54 +32,49 @@ INFLUENCE = (
 )
 
 
-def write_population_report(
-    path: Path,
-    title: str,
-    levels: Float[np.ndarray, " k"],
-    exceedance: Sequence[Estimate],
-    limit: float,
-    drawing: bytes,
-    tables: Sequence[Table],
-    warnings: Sequence[str],
-) -> int:
-    """Write the self-contained page; returns its size in bytes.
+def write_population_report(path: Path, record: Record, d: Drawn, drawing: bytes) -> int:
+    """Write the self-contained page, whose slider goes along the forces; returns its size in bytes.
 
-    Parameters
-    ----------
-    levels, exceedance
-        Forces [N] and the probability of more; the slider of the page goes along them.
-    limit
-        Force [N] that it starts at.
-    drawing
-        The figure (SVG).
-    tables
-        Results first; the first one's rows make the headline.
+    `drawing` is the figure (SVG).
     """
-    value, lower, upper = (np.array([getattr(one, end) for one in exceedance]) for end in ("value", "lower", "upper"))
-    readout = [
-        Row(name, "%", [f"{100.0 * each:.4f}" for each in column])
-        for name, column in (("probability of more", value), ("lower end, 95 %", lower), ("upper end, 95 %", upper))
-    ]
+    shares = [100.0 * np.array([getattr(one, end) for one in d.exceedance]) for end in ("value", "lower", "upper")]
+    names = ("probability of more", "lower end, 95 %", "upper end, 95 %")
+    readout = [Row(name, "%", [f"{v:.4f}" for v in values]) for name, values in zip(names, shares, strict=True)]
+    numbers = _numbers(d)
     sections: list[Section] = [
         Readout(readout, "At this force"),
-        Curves(
-            "Probability of more", "%", [Curve("share of the samples", *(100.0 * c for c in (value, lower, upper)))]
-        ),
-        tables[0],
+        Curves("Probability of more", "%", [Curve("share of the samples", *shares)]),
+        numbers,
         Picture("Distribution of the largest force", FIGURE, drawing, wide=True),
-        *tables[1:],
+        page_table("Quantiles of the largest |F|", quantile_table(d)),
+        page_table("Where the spread comes from", influence_table(d)),
+        inputs_table(record.inputs),
+        options_table(record),
         Words("How to read where the spread comes from", [INFLUENCE]),
         Words("What the numbers do not contain", [DRAWN, MODEL, NOT_A_DEVICE]),
     ]
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
+    if record.warnings:
+        sections.append(Words("Reservations of this run", list(record.warnings)))
     page = Page(
-        title=title,
+        title=f"Largest force of {len(d.peak)} synthetic people",
         subtitle="Exoskeleton beside a joint: forces over a population",
-        time=levels,
+        time=d.levels,
         time_label="force [N]",
-        headline=[(row[0], row[1]) for row in tables[0].rows],
-        start_frame=int(np.argmin(np.abs(levels - limit))),
+        headline=[(row[0], row[1]) for row in numbers.rows],
+        start_frame=int(np.argmin(np.abs(d.levels - d.limit))),
         sections=tuple(sections),
     )
     return write_page(page, path)
+
+
+def _numbers(d: Drawn) -> Table:
+    b, middle, high = d.beyond, d.quantiles[0.5], d.quantiles[0.95]
+    without = ", ".join(f"{int((d.fate == fate).sum())} {STATES[fate]}" for fate in WITHOUT_FORCE)
+    rows = [
+        (f"above {d.limit:g} N", f"{b.value:.3%}", f"{b.lower:.3%} … {b.upper:.3%}, exact"),
+        ("median of the largest |F|", f"{middle.value:.3f} N", f"{middle.lower:.3f} … {middle.upper:.3f} N"),
+        ("95 % stay below", f"{high.value:.3f} N", f"{high.lower:.3f} … {high.upper:.3f} N"),
+        ("samples without a force", str(int((d.fate > 0).sum())), f"{without}: they count as beyond every force"),
+        ("error of the grid of angles", f"{d.grid_error:.1e} N", "largest of those checked with a finer one"),
+    ]
+    return Table("What was found", ("what", "value", "interval or note"), rows)

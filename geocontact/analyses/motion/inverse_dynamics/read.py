@@ -18,7 +18,7 @@ from geocontact.identify.signals.even_times import UNEVEN
 from geocontact.identify.signals.zero_lag import as_opensim
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
-from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.tables import TextTable, read_table
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def read(o: IdOptions, record: Record) -> Loaded:
     return Loaded(model, table.time, values, time, loads_on_bodies(record, o, model, time, values[shown]))
 
 
-def _filtered(table: Table, values: Float[np.ndarray, "t n"], cutoff: float) -> Float[np.ndarray, "t n"]:
+def _filtered(table: TextTable, values: Float[np.ndarray, "t n"], cutoff: float) -> Float[np.ndarray, "t n"]:
     if len(table.time) <= SMOOTH:
         raise InputError(table.file, "", f"{len(table.time)} frames are too few", f"{SMOOTH + 1} are needed")
     if table.time_unit != "s":
@@ -71,7 +71,7 @@ def _filtered(table: Table, values: Float[np.ndarray, "t n"], cutoff: float) -> 
         raise InputError(table.file, "`cutoff`", str(error), "0 leaves the coordinates as they are") from error
 
 
-def _shown(table: Table, span: tuple[float, float] | None) -> slice:
+def _shown(table: TextTable, span: tuple[float, float] | None) -> slice:
     if span is None:
         return slice(None)
     first, last = span

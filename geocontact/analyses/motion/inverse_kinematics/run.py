@@ -49,7 +49,7 @@ def _summary(found: Poses, seconds: float) -> dict[str, object]:
         if (there := np.isfinite(d)).any()
     }
     missing = ~np.isfinite(found.values)
-    filled = ~found.told & ~missing & found.told.any(axis=0)
+    filled = ~found.determined & ~missing & found.determined.any(axis=0)
     return {
         "frames": len(found.time),
         "frames_per_second": len(found.time) / seconds,
@@ -69,12 +69,12 @@ def _warn(record: Record, found: Poses, rms: float) -> None:
         record.warn(f"{count} frames did not settle: markers and model may not belong together")
     if rms > FAR:
         record.warn(f"markers are {rms:.0f} mm from the model: another subject's size, axes (`axes`) or unit?")
-    never = np.asarray(~found.told.any(axis=0))
+    never = np.asarray(~found.determined.any(axis=0))
     if never.any():
         names = tuple(name for name, each in zip(found.names, never, strict=True) if each)
         record.warn(f"no frame tells {listed(names)}: kept at the model's default")
     for lost, what in (
-        (~found.told & np.isfinite(found.values) & ~never, "filled between frames that tell them"),
+        (~found.determined & np.isfinite(found.values) & ~never, "filled between frames that tell them"),
         (~np.isfinite(found.values), "left empty, markers do not tell them"),
     ):
         names = tuple(name for name, each in zip(found.names, lost.any(axis=0), strict=True) if each)

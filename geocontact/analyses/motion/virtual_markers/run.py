@@ -12,7 +12,7 @@ from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
-from geocontact.io.text.tables import Table, read_table
+from geocontact.io.text.tables import TextTable, read_table
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Moved:
     """A model with markers, and its coordinates over time."""
 
     model: Multibody
-    table: Table
+    table: TextTable
 
 
 def read(o: MarkersOptions, record: Record) -> Moved:

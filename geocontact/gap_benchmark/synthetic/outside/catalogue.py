@@ -28,6 +28,6 @@ OUTSIDERS: tuple[Plan, ...] = (
 )
 
 
-def outsiders(system: str) -> tuple[Plan, ...]:
+def unknown_effects(system: str) -> tuple[Plan, ...]:
     """Those that a system may have."""
     return tuple(one for one in OUTSIDERS if system in one.systems)

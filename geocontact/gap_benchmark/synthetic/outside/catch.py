@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Swing, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 LEVER = 0.25
 """Between the hinge and where it is loaded [m]."""
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: torque over the lever [N] at either flank of the dent."""
     angle, wide = scale.middle + scale.span * rng.uniform(-0.5, 0.5), rng.uniform(0.06, 0.15)
 

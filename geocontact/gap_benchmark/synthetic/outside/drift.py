@@ -4,26 +4,26 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
-    """Amplitude: of the wander in the channel's unit."""
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
+    """Amplitude: of the drift in the channel's unit."""
     names = tuple(scale.output)
     row = int(rng.integers(len(names)))
     most = scale.output[names[row]]
     turns = rng.uniform(1.5, 3.0)
 
     def hooks(size: float) -> Hooks:
-        def wandered(course: Course, outputs: Outputs) -> Outputs:
+        def drifting(course: InputCourse, outputs: Outputs) -> Outputs:
             out = outputs.copy()
             angle = 2.0 * np.pi * turns * course.time / course.duration + course.phase
             out[row] += size * (np.sin(angle) + 0.5 * np.sin(1.7 * angle + 2.0 * course.phase))
             return out
 
-        return Hooks(sensor=((45.0, wandered),))
+        return Hooks(sensor=((45.0, drifting),))
 
     return Draw(1e-4 * most, 0.2 * most, hooks, lambda a: f"{names[row]} wanders up and down by {a:.3g}")
 

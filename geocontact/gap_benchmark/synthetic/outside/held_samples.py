@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: duration of a stretch as a share of the trial [-]; where they lie differs between trials."""
     count = int(rng.integers(3, 7))
     golden = 0.6180339887
 
     def hooks(share: float) -> Hooks:
-        def held(course: Course, outputs: Outputs) -> Outputs:
+        def held(course: InputCourse, outputs: Outputs) -> Outputs:
             begin = np.sort((course.phase / (2.0 * np.pi) + golden * np.arange(1, count + 1)) % 1.0) * course.duration
             given = np.arange(len(course.time))
             for one in begin:

@@ -8,12 +8,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: load [N]. Foot: around the middle of stance, at a place of the sole. Else around an angle."""
     if scale.system == "knee":
         return popping(rng, scale)
@@ -21,10 +21,10 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     at, spell, place = rng.uniform(0.35, 0.6), rng.uniform(0.05, 0.1), rng.uniform(0.06, 0.12)
 
     def hooks(size: float) -> Hooks:
-        def snap(course: Course, _: Mapping[str, float]) -> Outputs:
+        def snap(course: InputCourse, _: Mapping[str, float]) -> Outputs:
             return np.asarray(size * np.exp(-(((course.position[0] - angle) / wide) ** 2)))[None]
 
-        def arch(course: Course, outputs: Outputs) -> Outputs:
+        def arch(course: InputCourse, outputs: Outputs) -> Outputs:
             out = outputs.copy()
             more = size * np.exp(-(((course.time / course.duration - at) / spell) ** 2))
             vertical = np.maximum(outputs[1] + more, 1.0)
@@ -38,14 +38,14 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-4 * scale.force, 0.4 * scale.force, hooks, lambda a: f"something else carries {a:.3g} N {where}")
 
 
-def popping(rng: Rng, scale: Scale) -> Draw:
+def popping(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: load [N] of one side while flexion passes an angle, whichever way."""
     row = scale.load(rng)
     angle, wide = scale.middle + scale.span * rng.uniform(-0.5, 0.5), scale.span * rng.uniform(0.12, 0.3)
     name = tuple(scale.output)[row]
 
     def hooks(size: float) -> Hooks:
-        def pop(course: Course, _: Mapping[str, float]) -> Outputs:
+        def pop(course: InputCourse, _: Mapping[str, float]) -> Outputs:
             added = np.zeros((len(scale.output), len(course.time)))
             added[row] = size * np.exp(-(((course.position[0] - angle) / wide) ** 2))
             return added

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: height of a step in the channel's unit."""
     names = tuple(scale.output)
     row = scale.load(rng)
@@ -17,7 +17,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     zero = rng.uniform()
 
     def hooks(step: float) -> Hooks:
-        def rounded(_: Course, outputs: Outputs) -> Outputs:
+        def rounded(_: InputCourse, outputs: Outputs) -> Outputs:
             out = outputs.copy()
             out[row] = (np.round(outputs[row] / step + zero) - zero) * step
             return out

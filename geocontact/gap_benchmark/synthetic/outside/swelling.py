@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: bulge [m], pressed by the pad's own stiffness; from and to a share of the trial."""
     begin, end = rng.uniform(0.1, 0.35), rng.uniform(0.5, 0.75)
     rising, falling = rng.uniform(0.02, 0.05), rng.uniform(0.04, 0.09)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 PITCH = {
     "elbow": (3.0, 9.0),
@@ -18,7 +18,7 @@ PITCH = {
 """Range [Hz]; a third of the sampling frequency at most."""
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: of the oscillation [N]; its phase differs between trials."""
     low, high = PITCH[scale.system]
     if scale.system != "foot":
@@ -27,7 +27,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     row = scale.load(rng)
 
     def hooks(size: float) -> Hooks:
-        def shake(course: Course, outputs: Outputs) -> Outputs:
+        def shake(course: InputCourse, outputs: Outputs) -> Outputs:
             out = outputs.copy()
             grown = 1.0 + swell * np.sin(2.0 * np.pi * 2.0 * course.time / course.duration)
             out[row] += size * grown * np.sin(2.0 * np.pi * pitch * course.time + course.phase)

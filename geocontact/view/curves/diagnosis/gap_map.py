@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geocontact.data.gap_cell import BAND, FAST, FAST_PHASE, Cell
+from geocontact.data.gap.cell import BAND, FAST, FAST_PHASE, Cell
 from geocontact.view.curves.style import DOUBLE, SMALL, empty, in_style
 from geocontact.view.curves.text import plain
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.surface_gap import SurfaceGap
+from geocontact.data.gap.surface_gap import SurfaceGap
 from geocontact.view.curves.style import DOUBLE, SMALL, empty, in_style
 from geocontact.view.curves.text import plain
 

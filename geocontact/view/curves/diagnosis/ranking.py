@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geocontact.data.gap.ranked import Ranked
 from geocontact.view.curves.style import BLACK, DOUBLE, GREY, PALETTE, empty, in_style
 from geocontact.view.curves.text import number, plain
 
@@ -16,31 +16,6 @@ if TYPE_CHECKING:
 
 ROW = 0.0048  # height of a bar with its distance to the next [m]
 MOST = 12  # models drawn
-
-
-@dataclass(frozen=True)
-class Ranked:
-    """A model that was tried.
-
-    Parameters
-    ----------
-    label
-        Its candidates, "none" for the base model, "unknown" for the stand-in for anything that has no name.
-    effects
-        Of the vocabulary, joined by " + ".
-    gain
-        Logarithm of the evidence over that of the base model, all trials [nats].
-    calibration
-        The same on the calibration trials alone.
-    probability
-        Of this answer, at the best of its models; None at the others, and for pairs, whose probability is in their two.
-    """
-
-    label: str
-    effects: str
-    gain: float
-    calibration: float
-    probability: float | None
 
 
 @in_style

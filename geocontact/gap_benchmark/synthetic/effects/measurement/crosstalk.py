@@ -9,16 +9,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import settled
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 LAG = {"foot": (0.02, 0.04), "knee": (0.05, 0.08), "sit_to_stand": (0.04, 0.07)}
 """Range of the time of the slow part [s]."""
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: share chi [-], of either sign."""
     to, source = (0, 1) if rng.random() < 0.7 else (1, 0)
     if scale.system != "foot":
@@ -29,7 +29,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     bend = rng.uniform(0.6, 0.9) if scale.system == "sit_to_stand" else 0.0
 
     def hooks(share: float) -> Hooks:
-        def coupled(course: Course, outputs: Outputs) -> Outputs:
+        def coupled(course: InputCourse, outputs: Outputs) -> Outputs:
             out = outputs.copy()
             h = float(course.time[1] - course.time[0])
             felt = outputs[source] * (1.0 + bend * (np.abs(outputs[source]) / most - 0.5))

@@ -11,9 +11,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.compile import loop
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 
 @loop
@@ -44,12 +44,12 @@ def follow(
     return out
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: lag T [s] of slow signals."""
     uneven = scale.departure * rng.uniform(0.3, 0.4) * rng.choice([-1.0, 1.0])
 
     def hooks(lag: float) -> Hooks:
-        def passed(course: Course, outputs: Outputs) -> Outputs:
+        def passed(course: InputCourse, outputs: Outputs) -> Outputs:
             first, corner = 0.8 * lag, np.sqrt(2.0) / (0.2 * lag)
             h = float(course.time[1] - course.time[0])
             rows = [follow(row, h, first * (1.0 + uneven), first * (1.0 - uneven), corner) for row in outputs]

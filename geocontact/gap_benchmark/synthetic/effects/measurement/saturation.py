@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import settled
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Values
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 LAG = {
     "elbow": (0.05, 0.12),
@@ -32,7 +32,7 @@ def compressed(y: Values, rail: float, knee: float, give: float) -> Values:
     return np.where(y > begin, begin + give * beyond + (1.0 - give) * room * np.tanh(beyond / room), y)
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: how far the rail lies below the largest output, as a share of it [-]."""
     names = tuple(scale.output)
     row = int(rng.choice([0, 1, 1])) if scale.system == "foot" else scale.load(rng)
@@ -44,7 +44,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     def hooks(cut: float) -> Hooks:
         rail = (1.0 - cut) * most / (0.5 + 0.5 * knee)
 
-        def limited(course: Course, outputs: Outputs) -> Outputs:
+        def limited(course: InputCourse, outputs: Outputs) -> Outputs:
             out = outputs.copy()
             cut_off = outputs[row] + compressed(-compressed(outputs[row], rail, knee, give), other * rail, knee, give)
             late = settled(cut_off[:, None], float(course.time[1] - course.time[0]), lag)[:, 0]

@@ -8,26 +8,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: drift at the end of a trial in the channel's unit, of either sign."""
     names = tuple(scale.output)
     row = int(rng.integers(len(names)))
     most = scale.output[names[row]]
-    sign, p, wander = rng.choice([-1.0, 1.0]), rng.uniform(0.7, 1.3), rng.uniform(0.07, 0.11)
+    sign, p, drift = rng.choice([-1.0, 1.0]), rng.uniform(0.7, 1.3), rng.uniform(0.07, 0.11)
     turns, phase = rng.uniform(1.5, 2.5), rng.uniform(0.0, 2.0 * np.pi)
 
     def hooks(size: float) -> Hooks:
-        def drifted(course: Course, outputs: Outputs) -> Outputs:
+        def drifted(course: InputCourse, outputs: Outputs) -> Outputs:
             out = outputs.copy()
             share = course.time / scale.duration
-            out[row] += (
-                sign * size * (share**p + wander * (np.sin(2.0 * np.pi * turns * share + phase) - np.sin(phase)))
-            )
+            out[row] += sign * size * (share**p + drift * (np.sin(2.0 * np.pi * turns * share + phase) - np.sin(phase)))
             return out
 
         return Hooks(sensor=((50.0, drifted),))

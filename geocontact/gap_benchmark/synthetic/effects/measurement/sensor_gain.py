@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 BEND = {
     "elbow": (0.6,),
@@ -23,7 +23,7 @@ BEND = {
 """About e, by output."""
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: gain error g [-], of either sign; of one channel, or both forces where base parameters take it."""
     rows = [int(rng.choice([0, 0, 1, 2]))] if scale.system == "foot" else [scale.load(rng)]
     if scale.system in ("foot", "knee") and scale.departure < 1.0:
@@ -33,7 +33,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     bend = scale.departure * rng.uniform(0.9, 1.2) * BEND[scale.system][rows[-1]]
 
     def hooks(gain: float) -> Hooks:
-        def scaled(_: Course, outputs: Outputs) -> Outputs:
+        def scaled(_: InputCourse, outputs: Outputs) -> Outputs:
             out = outputs.copy()
             for row in rows:
                 load = np.abs(outputs[row]) / scale.output[names[row]]

@@ -1,4 +1,4 @@
-"""Outputs come late, by a clock that wanders.
+"""Outputs come late, by a clock that drifts.
 
 planted:   out(t - d (1 + e sin(2 pi m t/T + phi))), e = 0.28..0.38: buffers fill and empty while a trial runs
 candidate: out(t - d)
@@ -9,20 +9,20 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: delay d [s]."""
     unsteady = scale.departure * rng.uniform(0.28, 0.38)
     turns, phase = rng.uniform(2.0, 4.0), rng.uniform(0.0, 2.0 * np.pi)
 
     def hooks(delay: float) -> Hooks:
-        def late(course: Course, outputs: Outputs) -> Outputs:
-            wander = unsteady * np.sin(2.0 * np.pi * turns * course.time / course.duration + phase)
-            at = course.time - delay * (1.0 + wander)
+        def late(course: InputCourse, outputs: Outputs) -> Outputs:
+            drift = unsteady * np.sin(2.0 * np.pi * turns * course.time / course.duration + phase)
+            at = course.time - delay * (1.0 + drift)
             # before the trial began the output ran on straight
             first = outputs[:, :1] + (outputs[:, 1:2] - outputs[:, :1]) / (course.time[1] - course.time[0]) * at
             return np.where(at < 0.0, first, CubicSpline(course.time, outputs, axis=1)(np.maximum(at, 0.0)))

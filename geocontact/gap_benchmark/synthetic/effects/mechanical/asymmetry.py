@@ -12,15 +12,15 @@ import numpy as np
 
 from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import settled
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Between directions at the foot, between sides at the knee."""
     return sides(rng, scale) if scale.system == "knee" else directions(rng, scale)
 
 
-def sides(rng: Rng, scale: Scale) -> Draw:
+def sides(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: excess a of one side [-]."""
     sign, bend, less = rng.choice([-1.0, 1.0]), rng.uniform(1.0, 1.4), rng.uniform(0.8, 1.2)
 
@@ -36,7 +36,7 @@ def sides(rng: Rng, scale: Scale) -> Draw:
     return Draw(1e-3, 0.35, hooks, lambda a: f"medial side {sign * a:+.2%} stiffer, lateral {-sign * less * a:+.2%}")
 
 
-def directions(rng: Rng, scale: Scale) -> Draw:
+def directions(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: excess a [-]."""
     tau, turning = rng.uniform(0.004, 0.009), rng.uniform(0.1, 0.4) * scale.rate
     lean = rng.uniform(0.15, 0.25)

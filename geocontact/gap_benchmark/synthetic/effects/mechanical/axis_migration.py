@@ -1,4 +1,4 @@
-"""The joint's axis wanders along a smooth path.
+"""The joint's axis drifts along a smooth path.
 
 planted:   x + a w tanh(phi/w) + c a sin(3 phi), phi = beta - middle, w = 0.9..1.3 rad; R of the knee with flexion, the
            lever of a site with its rotation: phi in units of half their range
@@ -11,13 +11,13 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 RADIUS, LEVER = 0.037, 0.1
 """A knee's radius; largest change of a lever [m]."""
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: slope a [m/rad] in the middle, of either sign."""
     letter, most, unit = {
         "elbow": ("x", 0.03, 1.0),
@@ -33,11 +33,11 @@ def draw(rng: Rng, scale: Scale) -> Draw:
         middle, ripple = 0.0, 2.5 * ripple
 
     def hooks(slope: float) -> Hooks:
-        def wander(angle: Values) -> Values:
+        def drift(angle: Values) -> Values:
             u = (angle - middle) / unit / width
             return np.asarray(sign * slope * unit * (width * np.tanh(u) + ripple * np.sin(3.0 * width * u)))
 
-        return Hooks(axis=(wander,))
+        return Hooks(axis=(drift,))
 
     return Draw(most / 3000.0, most, hooks, lambda a: f"{letter} moves by {sign * a:.3g} m per rad")
 

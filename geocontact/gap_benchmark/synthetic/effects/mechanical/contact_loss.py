@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, NotFoundError, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, NotFoundError, Plan, Rng, SyntheticMagnitudes
 
 LIFTED = 0.3
 """Of the largest deflection, how far the other way an interface may be moved that cannot pull: further, and the arm of
@@ -35,7 +35,7 @@ def seated(u: Float[np.ndarray, " t"], gap: float) -> Float[np.ndarray, " t"]:
     return out
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: mean gap g [m], within the range of the deflection."""
     spread, lean, closer = rng.uniform(0.3, 0.45), rng.uniform(1.3, 1.8), rng.uniform(0.2, 0.35)
     side = 1.0 if scale.high >= -scale.low else -1.0

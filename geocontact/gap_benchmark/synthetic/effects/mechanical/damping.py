@@ -10,13 +10,13 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 THINNING = {"elbow": (4.0, 8.0), "foot": (1.2, 2.5), "shoulder": (1.5, 3.0), "sit_to_stand": (2.5, 4.5)}
 """Range of v1 in units of the rms rate."""
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: b at small rates [N s/m]."""
     thinning = (rng.uniform(*THINNING[scale.system])) * scale.rate
     if scale.system == "shoulder":  # where base parameters take a plain damper away

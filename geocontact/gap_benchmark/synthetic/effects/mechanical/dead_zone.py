@@ -10,10 +10,10 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: whole play w [m]."""
     softer = 1.5 if scale.system in ("shoulder", "sit_to_stand") else 1.0
     share, soft = rng.uniform(0.2, 0.8), softer * rng.uniform(0.15, 0.21)

@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Swing, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 
 @loop
@@ -37,7 +37,7 @@ LEVER = 0.25
 """Between the hinge and where it is loaded [m]."""
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: friction F_c at rest [N]."""
     hinged = scale.system == "shoulder"
     reach = rng.uniform(0.01, 0.05) * (2.0 * scale.span if hinged else scale.high - scale.low)

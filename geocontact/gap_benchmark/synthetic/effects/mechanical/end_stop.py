@@ -10,10 +10,10 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: force of the stop at the largest deflection [N]."""
     side = 1.0 if rng.random() < 0.7 else -1.0
     beyond = rng.uniform(0.1, 0.28) * (scale.high - scale.low)

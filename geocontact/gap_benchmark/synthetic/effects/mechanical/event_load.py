@@ -13,9 +13,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.compile import loop
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 SCREW = 2.0
 """Time that a screw takes [s]."""
@@ -39,14 +39,14 @@ def pushed(
     return out
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: push P [N], of either sign."""
     rising, falling = rng.uniform(0.06, 0.12), rng.uniform(0.02, 0.04)
     growth, lean = rng.uniform(0.15, 0.3), rng.uniform(0.1, 0.2)
     sign = rng.choice([-1.0, 1.0])
 
     def hooks(push: float) -> Hooks:
-        def leant(course: Course, _: Mapping[str, float]) -> Outputs:
+        def leant(course: InputCourse, _: Mapping[str, float]) -> Outputs:
             added = np.zeros((len(scale.output), len(course.time)))
             on = (course.position[1] > 0.5).astype(float)  # what is recorded of the flag runs along a spline
             z = pushed(on, float(course.time[1] - course.time[0]), rising, falling, growth, SCREW)

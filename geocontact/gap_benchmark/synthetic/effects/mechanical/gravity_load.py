@@ -11,15 +11,15 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Swing, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 LEVER = 0.25
 """Of what hangs on the exoskeleton's arm [m]."""
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: weight W [N], of either sense."""
     sign, phase = rng.choice([-1.0, 1.0]), rng.uniform(-0.15, 0.15)
     hanging = scale.departure * rng.uniform(0.04, 0.08) * (2.5 if scale.system == "shoulder" else 1.0)
@@ -31,7 +31,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
         def pulled(p: Swing) -> Values:
             return np.asarray(weight * LEVER * (np.sin(p.angle + phase) + hanging * np.sin(3.0 * p.angle)))
 
-        def hang(course: Course, _: Mapping[str, float]) -> Outputs:
+        def hang(course: InputCourse, _: Mapping[str, float]) -> Outputs:
             beta = course.position[0]
             added = np.zeros((len(scale.output), len(beta)))
             added[scale.loads[0]] = sign * weight * (np.sin(beta + phase) + hanging * np.sin(3.0 * beta))

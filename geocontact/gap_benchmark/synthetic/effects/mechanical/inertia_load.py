@@ -13,10 +13,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import settled
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Swing, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 LEVER = {"elbow": "l_ex", "shoulder": "L_h"}
 """Where the mass at the sensor sits."""
@@ -24,7 +24,7 @@ REACH = 0.3
 """Where one sits on the exoskeleton's arm [m]."""
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: mass m [kg]."""
     sign = rng.choice([-1.0, 1.0])
     spin, lean = rng.uniform(0.25, 0.35), rng.uniform(0.15, 0.25)
@@ -33,7 +33,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     on_exo = scale.system == "shoulder" and rng.random() < 0.5
 
     def hooks(mass: float) -> Hooks:
-        def swung(course: Course, numbers: Mapping[str, float]) -> Outputs:
+        def swung(course: InputCourse, numbers: Mapping[str, float]) -> Outputs:
             beta, rate, acceleration = course.position[0], course.rate[0], course.acceleration[0]
             along = acceleration * (1.0 + lean * np.cos(beta)) + spin * rate**2
             added = np.zeros((len(scale.output), len(beta)))
@@ -46,7 +46,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
                 mass * REACH**2 * settled(((1.0 + lean * np.cos(p.angle)) * p.acceleration)[:, None], h, soft)[:, 0]
             )
 
-        def stepped(course: Course, _: Mapping[str, float]) -> Outputs:
+        def stepped(course: InputCourse, _: Mapping[str, float]) -> Outputs:
             s, c = np.sin(course.position[2]), np.cos(course.position[2])
             turn, swing = course.acceleration[2], course.rate[2] ** 2
             x = course.acceleration[0] - ahead * (turn * s + swing * c)

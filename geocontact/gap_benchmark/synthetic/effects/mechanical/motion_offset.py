@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Biased:
     width: float
 
 
-def known(scale: Scale) -> tuple[Biased, ...]:
+def known(scale: SyntheticMagnitudes) -> tuple[Biased, ...]:
     """Inputs of a system that may be biased."""
     if scale.system == "elbow":
         return (Biased("beta", 0, 0.3, "rad", 0, scale.middle, 0.5),)
@@ -44,7 +44,7 @@ def known(scale: Scale) -> tuple[Biased, ...]:
     return tuple(Biased(f"{s}_normal", 3 * i, 0.004, "m", 3 * i + 2, p.middle, 0.7 * p.span) for i, (s, p) in sites)
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: bias in the input's unit, of either sign."""
     may_be = known(scale)
     one = may_be[0] if len(may_be) == 1 else may_be[rng.integers(len(may_be))]
@@ -53,7 +53,7 @@ def draw(rng: Rng, scale: Scale) -> Draw:
     sign = rng.choice([-1.0, 1.0])
 
     def hooks(size: float) -> Hooks:
-        def moved(course: Course) -> Course:
+        def moved(course: InputCourse) -> InputCourse:
             angle = (course.position[by] - one.middle) / one.width
             s, c = np.sin(angle), np.cos(angle)
             turn, spin = course.rate[by] / one.width, course.acceleration[by] / one.width

@@ -10,10 +10,10 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: tension at rest T [N]."""
     more = {"shoulder": 4.0, "sit_to_stand": 2.0}.get(scale.system, 1.0)
     lost, tau = more * scale.departure * rng.uniform(0.05, 0.12), scale.duration * rng.uniform(0.1, 0.3)

@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
 
 QUICK = {
     "elbow": (0.1, 0.5),
@@ -44,7 +44,7 @@ def settled(elastic: Float[np.ndarray, "t n"], h: float, tau: float) -> Float[np
     return out
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: the share g that relaxes [-]."""
     apart = rng.uniform(*APART[scale.system])
     quick = rng.uniform(*QUICK[scale.system])

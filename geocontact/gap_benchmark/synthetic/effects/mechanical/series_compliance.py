@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: compliance c at small loads [rad/N] or [m/N]."""
     force = scale.force
     share, limit = rng.uniform(0.16, 0.31), rng.uniform(0.2, 0.35) * force

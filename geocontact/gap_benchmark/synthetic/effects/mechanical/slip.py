@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 
 @loop
@@ -47,7 +47,7 @@ def crept(
     return out
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: creep rate c at the largest load when it is new [m/s]."""
     m, begin = rng.uniform(3.0, 5.0), rng.uniform(0.02, 0.1)
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, Scale
+from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
 
 
-def draw(rng: Rng, scale: Scale) -> Draw:
+def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     """Amplitude: share a of stiffness gained, about, at the largest deflection [-]."""
     m, middle = rng.uniform(3.0, 4.5), rng.uniform(0.4, 0.6)
     lag = rng.uniform(0.015, 0.026) * {"shoulder": 9.0, "sit_to_stand": 4.0}.get(scale.system, 1.0)

@@ -7,9 +7,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values, read
-from geocontact.gap_benchmark.synthetic.systems.body import Body
 from geocontact.gap_benchmark.synthetic.systems.interface import in_series, pull
 
 INPUTS, OUTPUTS = ("beta",), ("force",)
@@ -22,7 +22,7 @@ def deflection(beta: Values, x: Values, y: float, l: float, z: float) -> Values:
     return np.asarray(d_lin - z * (x * c + y * s) / (l + y * c - x * s))
 
 
-def respond(course: Course, numbers: Mapping[str, float], hooks: Hooks) -> Float[np.ndarray, "c t"]:
+def respond(course: InputCourse, numbers: Mapping[str, float], hooks: Hooks) -> Float[np.ndarray, "c t"]:
     """Force along a course [N], one row."""
     for moved in hooks.motion:
         course = moved(course)
@@ -31,8 +31,8 @@ def respond(course: Course, numbers: Mapping[str, float], hooks: Hooks) -> Float
 
     def stretch(angle: Values) -> Values:
         along = np.full_like(angle, x)
-        for wander in hooks.axis:
-            along = along + wander(angle)
+        for drift in hooks.axis:
+            along = along + drift(angle)
         return deflection(angle, along, y, l, z)
 
     def carried(angle: Values) -> Values:
@@ -45,7 +45,7 @@ def respond(course: Course, numbers: Mapping[str, float], hooks: Hooks) -> Float
     return read(hooks, course, outputs)
 
 
-def base_model(course: Course, constants: Mapping[str, float]) -> Callable[[Values], Values]:
+def base_model(course: InputCourse, constants: Mapping[str, float]) -> Callable[[Values], Values]:
     """Outputs of the base model as a function of (k, x, y), one row."""
     beta = course.position[0]
     l, z = constants["l_ex"], constants["z_ex"]
@@ -57,10 +57,10 @@ def base_model(course: Course, constants: Mapping[str, float]) -> Callable[[Valu
     return outputs
 
 
-def course_deflection(course: Course, numbers: Mapping[str, float]) -> tuple[Values, Values]:
+def course_deflection(course: InputCourse, numbers: Mapping[str, float]) -> tuple[Values, Values]:
     """Deflection and rate of the base model along a course."""
     u = deflection(course.position[0], np.asarray(numbers["x"]), numbers["y"], numbers["l_ex"], numbers["z_ex"])
     return u, np.gradient(u, course.time, edge_order=2)
 
 
-ELBOW = Body(respond, base_model, course_deflection)
+ELBOW = SyntheticSystem(respond, base_model, course_deflection)

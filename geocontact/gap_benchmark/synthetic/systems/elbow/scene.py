@@ -7,11 +7,11 @@ import numpy as np
 from geocontact.data.parameter import Parameter
 from geocontact.gap_benchmark.synthetic.motions import ElbowStyle, elbow_path
 from geocontact.gap_benchmark.synthetic.noise import corner_of
-from geocontact.gap_benchmark.synthetic.scene import Rng, Scene, colour
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
 from geocontact.gap_benchmark.synthetic.systems.elbow import model as elbow
 
 
-def elbow_scene(rng: Rng, *, shifted: bool) -> Scene:
+def elbow_scene(rng: Rng, *, shifted: bool) -> SyntheticScene:
     """An elbow exoskeleton at the pace of the practice cases or up to five times as fast."""
     typical = rng.random() < 0.55
     kind = "two" if typical else str(rng.choice(["two", "three", "sweep", "reaches"]))
@@ -37,7 +37,7 @@ def elbow_scene(rng: Rng, *, shifted: bool) -> Scene:
     wide = rng.uniform(0.6, 1.3)
     spread = np.diag([0.03 * k, 0.0007, 0.0012]) * wide
     sd = 0.15 if typical else float(np.exp(rng.uniform(np.log(0.08), np.log(0.3))))
-    return Scene(
+    return SyntheticScene(
         "elbow",
         elbow.INPUTS,
         elbow.OUTPUTS,

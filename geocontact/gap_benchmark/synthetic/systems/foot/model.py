@@ -9,10 +9,10 @@ from functools import partial
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.compile import loop
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Pull, Values, read
-from geocontact.gap_benchmark.synthetic.systems.body import Body
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError
 
 INPUTS, OUTPUTS = ("x", "y", "pitch"), ("force_x", "force_y", "cop_x")
@@ -31,7 +31,7 @@ class Sole:
     names: tuple[str, ...]
 
 
-def touch(course: Course, sole: Sole) -> tuple[Values, Values, Values, Values]:
+def touch(course: InputCourse, sole: Sole) -> tuple[Values, Values, Values, Values]:
     """Depth [m], its rate, forward speed of the bottom [m/s], place of the contact along the foot [m]; "t n" each."""
     y, pitch = (row[:, None] for row in course.position[1:])
     x_rate, y_rate, turn = (row[:, None] for row in course.rate)
@@ -99,7 +99,7 @@ def give_way(
     return way
 
 
-def respond(course: Course, numbers: Mapping[str, float], hooks: Hooks, sole: Sole) -> Float[np.ndarray, "c t"]:
+def respond(course: InputCourse, numbers: Mapping[str, float], hooks: Hooks, sole: Sole) -> Float[np.ndarray, "c t"]:
     """force_x, force_y [N] and cop_x [m] along a course."""
     for moved in hooks.motion:
         course = moved(course)
@@ -133,7 +133,7 @@ def respond(course: Course, numbers: Mapping[str, float], hooks: Hooks, sole: So
     return read(hooks, course, outputs)
 
 
-def base_model(course: Course, constants: Mapping[str, float], sole: Sole) -> Callable[[Values], Values]:
+def base_model(course: InputCourse, constants: Mapping[str, float], sole: Sole) -> Callable[[Values], Values]:
     """Outputs of the base model as a function of (k per zone, b per zone); sums over spheres are taken once."""
     depth, closing, speed, arm = touch(course, sole)
     elastic = power(depth, constants["n"])
@@ -153,7 +153,7 @@ def base_model(course: Course, constants: Mapping[str, float], sole: Sole) -> Ca
     return outputs
 
 
-def course_deflection(course: Course, sole: Sole) -> tuple[Values, Values]:
+def course_deflection(course: InputCourse, sole: Sole) -> tuple[Values, Values]:
     """Depths and their rates where in contact."""
     depth, closing, _, _ = touch(course, sole)
     inside = depth > 0.0
@@ -167,9 +167,9 @@ def without_centre(outputs: Outputs) -> Outputs:
     return out
 
 
-def foot(sole: Sole) -> Body:
+def foot(sole: Sole) -> SyntheticSystem:
     """A foot with this sole."""
-    return Body(
+    return SyntheticSystem(
         partial(respond, sole=sole),
         partial(base_model, sole=sole),
         lambda course, _: course_deflection(course, sole),

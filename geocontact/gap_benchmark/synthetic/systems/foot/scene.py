@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap_benchmark.synthetic.motions import FootStyle, foot_path
 from geocontact.gap_benchmark.synthetic.noise import corner_of
-from geocontact.gap_benchmark.synthetic.scene import Rng, Scene, colour
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
 from geocontact.gap_benchmark.synthetic.systems.foot import model as foot
+from geocontact.gap_benchmark.synthetic.systems.foot.motions import FootStyle, foot_path
 
 
 def sole_of(rng: Rng, *, typical: bool) -> tuple[foot.Sole, pd.DataFrame]:
@@ -73,7 +73,7 @@ def other_style(rng: Rng, style: FootStyle) -> FootStyle:
     return FootStyle(**{**style.__dict__, **changes})
 
 
-def foot_scene(rng: Rng, *, shifted: bool) -> Scene:
+def foot_scene(rng: Rng, *, shifted: bool) -> SyntheticScene:
     """A prosthetic foot in stance."""
     typical = rng.random() < 0.55
     sole, table = sole_of(rng, typical=typical)
@@ -100,7 +100,7 @@ def foot_scene(rng: Rng, *, shifted: bool) -> Scene:
         for name in sole.names
     )
     level = 1.0 if typical else float(np.exp(rng.uniform(np.log(0.5), np.log(1.7))))
-    return Scene(
+    return SyntheticScene(
         "foot",
         foot.INPUTS,
         foot.OUTPUTS,

@@ -10,9 +10,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values, read
-from geocontact.gap_benchmark.synthetic.systems.body import Body
 from geocontact.gap_benchmark.synthetic.systems.interface import pull
 
 SIDES = ("medial", "lateral")
@@ -34,14 +34,14 @@ def area_under(force: Values, modulus: float, radius: float) -> Values:
     return np.asarray(np.pi * (0.75 * force * radius / modulus) ** (2.0 / 3.0))
 
 
-def respond(course: Course, numbers: Mapping[str, float], hooks: Hooks) -> Float[np.ndarray, "c t"]:
+def respond(course: InputCourse, numbers: Mapping[str, float], hooks: Hooks) -> Float[np.ndarray, "c t"]:
     """force_medial and force_lateral [N] along a course."""
     for moved in hooks.motion:
         course = moved(course)
     flexion = course.position[0]
     radius = np.full_like(flexion, numbers["R"])
-    for wander in hooks.axis:
-        radius = radius + wander(flexion)
+    for drift in hooks.axis:
+        radius = radius + drift(flexion)
     k = 4.0 / 3.0 * numbers["E_star"]
     outputs = np.array(
         [
@@ -54,7 +54,7 @@ def respond(course: Course, numbers: Mapping[str, float], hooks: Hooks) -> Float
     return read(hooks, course, outputs)
 
 
-def base_model(course: Course, constants: Mapping[str, float]) -> Callable[[Values], Values]:
+def base_model(course: InputCourse, constants: Mapping[str, float]) -> Callable[[Values], Values]:
     """Outputs of the base model as a function of (E_star,), one row per side."""
     u = deflection(course.position[AREAS], np.asarray(constants["R"]))
 
@@ -64,10 +64,10 @@ def base_model(course: Course, constants: Mapping[str, float]) -> Callable[[Valu
     return outputs
 
 
-def course_deflection(course: Course, numbers: Mapping[str, float]) -> tuple[Values, Values]:
+def course_deflection(course: InputCourse, numbers: Mapping[str, float]) -> tuple[Values, Values]:
     """Deflection and rate of the base model along a course, one row per side."""
     u = deflection(course.position[AREAS], np.asarray(numbers["R"]))
     return u, np.gradient(u, course.time, axis=1, edge_order=2)
 
 
-KNEE = Body(respond, base_model, course_deflection, loads=(0, 1), normal=(0, 1), spare=INPUTS[:2])
+KNEE = SyntheticSystem(respond, base_model, course_deflection, loads=(0, 1), normal=(0, 1), spare=INPUTS[:2])

@@ -8,12 +8,12 @@ import numpy as np
 
 from geocontact.data.parameter import Parameter
 from geocontact.gap_benchmark.synthetic.noise import corner_of
-from geocontact.gap_benchmark.synthetic.scene import Rng, Scene, colour
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
 from geocontact.gap_benchmark.synthetic.systems.knee import model as knee
 from geocontact.gap_benchmark.synthetic.systems.knee.motions import KneeStyle, knee_path
 
 
-def knee_scene(rng: Rng, *, shifted: bool) -> Scene:
+def knee_scene(rng: Rng, *, shifted: bool) -> SyntheticScene:
     """A knee implant on a simulator: areas of the two sides, and the forces that were measured under them."""
     typical = rng.random() < 0.55
     modulus = rng.normal(19.8e6, 0.4e6) if typical else rng.uniform(9e6, 45e6)
@@ -36,7 +36,7 @@ def knee_scene(rng: Rng, *, shifted: bool) -> Scene:
     sd = 10.0 if typical else float(np.exp(rng.uniform(np.log(5.0), np.log(18.0))))
     area_sd = 1.2e-6 if typical else rng.uniform(0.6e-6, 2.4e-6)
     spread = 0.012 * modulus * rng.uniform(0.6, 1.6)
-    return Scene(
+    return SyntheticScene(
         "knee",
         knee.INPUTS,
         knee.OUTPUTS,

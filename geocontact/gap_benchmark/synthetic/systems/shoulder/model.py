@@ -15,9 +15,9 @@ import pandas as pd
 from jaxtyping import Float, Int
 from scipy.interpolate import CubicSpline
 
-from geocontact.gap_benchmark.synthetic.course import Course, through
+from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
+from geocontact.gap_benchmark.synthetic.course import InputCourse, through
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Swing, Values, read
-from geocontact.gap_benchmark.synthetic.systems.body import Body
 from geocontact.gap_benchmark.synthetic.systems.interface import in_series, pull
 from geocontact.gap_benchmark.synthetic.systems.swing import GRAVITY, Arm, Torque, at_rest, follow, swing
 
@@ -56,13 +56,13 @@ class Driven:
         return Driven(self.time[:3], begin)
 
 
-def driven(course: Course, numbers: Numbers, hooks: Hooks) -> Driven:
-    """p = L_h (sin a, -cos a) less the hinge, which may wander with the arm."""
+def driven(course: InputCourse, numbers: Numbers, hooks: Hooks) -> Driven:
+    """p = L_h (sin a, -cos a) less the hinge, which may drift with the arm."""
     angle, rate = course.position[0], course.rate[0]
     s, c, l = np.sin(angle), np.cos(angle), numbers["L_h"]
     o_x = np.full_like(angle, numbers["o_x"])
-    for wander in hooks.axis:
-        o_x = o_x + wander(angle)
+    for drift in hooks.axis:
+        o_x = o_x + drift(angle)
     drift = np.gradient(o_x, course.time, edge_order=2)
     way = np.array([l * s - o_x, -l * c - numbers["o_y"], l * c * rate - drift, l * s * rate])
     return Driven(course.time, way)
@@ -93,14 +93,14 @@ def torque_beyond(drive: Driven, numbers: Numbers, hooks: Hooks) -> Torque:
     return further
 
 
-def arm_of(course: Course, numbers: Numbers, table: Table) -> Arm:
+def arm_of(course: InputCourse, numbers: Numbers, table: Table) -> Arm:
     """The arm at a trial's level of support."""
     weight = numbers["m"] * GRAVITY * numbers["l_c"]
     torque = course.setting["level"] * table[1]
     return Arm(numbers["I"], numbers["c"], weight, numbers["k_t"], numbers["b_t"], table[0], torque)
 
 
-def moved(course: Course, numbers: Numbers, hooks: Hooks, table: Table) -> tuple[Driven, Values]:
+def moved(course: InputCourse, numbers: Numbers, hooks: Hooks, table: Table) -> tuple[Driven, Values]:
     """What drives the arm, and the arm's angle, on a course whose samples are evenly apart."""
     drive, arm = driven(course, numbers, hooks), arm_of(course, numbers, table)
     begin = drive.still.way[:, 0]
@@ -116,7 +116,7 @@ def moved(course: Course, numbers: Numbers, hooks: Hooks, table: Table) -> tuple
     return drive, swing(float(course.time[1] - course.time[0]), drive.way, arm, further, rest)
 
 
-def respond(course: Course, numbers: Numbers, hooks: Hooks, table: Table) -> Float[np.ndarray, "c t"]:
+def respond(course: InputCourse, numbers: Numbers, hooks: Hooks, table: Table) -> Float[np.ndarray, "c t"]:
     """exo [rad] and force [N] along a course."""
     for change in hooks.motion:
         course = change(course)
@@ -127,7 +127,7 @@ def respond(course: Course, numbers: Numbers, hooks: Hooks, table: Table) -> Flo
     return read(hooks, course, outputs)
 
 
-def finer(course: Course) -> tuple[Course, Int[np.ndarray, " s"]]:
+def finer(course: InputCourse) -> tuple[InputCourse, Int[np.ndarray, " s"]]:
     """Steps of at most `COARSEST`, evenly apart also where rows were lost; and which of them are the course's."""
     step = float(np.diff(course.time).min())
     h = step / np.ceil(step / COARSEST - 1e-6)
@@ -136,7 +136,7 @@ def finer(course: Course) -> tuple[Course, Int[np.ndarray, " s"]]:
     return path(course.time[0] + h * np.arange(rows[-1] + 1)), rows
 
 
-def base_model(course: Course, constants: Numbers, table: Table) -> Callable[[Values], Values]:
+def base_model(course: InputCourse, constants: Numbers, table: Table) -> Callable[[Values], Values]:
     """Outputs of the base model as a function of (k_t, b_t, m)."""
     fine, rows = finer(course)
 
@@ -149,7 +149,7 @@ def base_model(course: Course, constants: Numbers, table: Table) -> Callable[[Va
     return outputs
 
 
-def course_deflection(course: Course, numbers: Numbers, table: Table) -> tuple[Values, Values]:
+def course_deflection(course: InputCourse, numbers: Numbers, table: Table) -> tuple[Values, Values]:
     """Deflection and rate of the base model along a course."""
     fine, rows = finer(course)
     drive, angle = moved(fine, numbers, BASE, table)
@@ -157,7 +157,7 @@ def course_deflection(course: Course, numbers: Numbers, table: Table) -> tuple[V
     return u[rows], np.gradient(u, fine.time, edge_order=2)[rows]
 
 
-def passed_on(course: Course, numbers: Numbers, row: int, noise: Values, table: Table) -> Values:
+def passed_on(course: InputCourse, numbers: Numbers, row: int, noise: Values, table: Table) -> Values:
     """What small noise of an input makes of the outputs, "c t q" for "t q": the base model, linear about its motion."""
     if row:
         return np.zeros((len(OUTPUTS), *noise.shape))
@@ -189,10 +189,10 @@ def half(more: tuple[Values, Values], less: tuple[Values, Values]) -> tuple[Valu
     return torque, force
 
 
-def shoulder(support: pd.DataFrame) -> Body:
+def shoulder(support: pd.DataFrame) -> SyntheticSystem:
     """An exoskeleton with this support."""
     table = support[["angle [rad]", "torque [N m]"]].to_numpy(float).T.copy()
-    return Body(
+    return SyntheticSystem(
         partial(respond, table=table),
         partial(base_model, table=table),
         partial(course_deflection, table=table),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap_benchmark.synthetic.course import Course, Path
+from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
 from geocontact.gap_benchmark.synthetic.motions import Rng
 from geocontact.gap_benchmark.synthetic.systems.sit_to_stand.motions import reached
 
@@ -49,7 +49,7 @@ def shoulder_path(rng: Rng, style: ShoulderStyle, turn: int) -> Path:
     phase = rng.uniform(0.0, 2.0 * np.pi)
     setting = {"level": style.levels[turn % len(style.levels)]}
 
-    def along(time: Float[np.ndarray, " t"]) -> Course:
+    def along(time: Float[np.ndarray, " t"]) -> InputCourse:
         place, rate, acceleration = (np.zeros_like(time) for _ in range(3))
         place += low
         for at, move, size in zip(begin, moves, np.diff(places), strict=True):
@@ -65,7 +65,7 @@ def shoulder_path(rng: Rng, style: ShoulderStyle, turn: int) -> Path:
         flag = np.any([(time >= a) & (time < b) for a, b in runs], axis=0).astype(float)
         nothing = np.zeros_like(time)
         rows = np.array([[place, flag], [rate, nothing], [acceleration, nothing]])
-        return Course(time, rows[0], rows[1], rows[2], lasting, phase, setting)
+        return InputCourse(time, rows[0], rows[1], rows[2], lasting, phase, setting)
 
     return along
 

@@ -9,7 +9,7 @@ import pandas as pd
 
 from geocontact.data.parameter import Parameter
 from geocontact.gap_benchmark.synthetic.noise import corner_of
-from geocontact.gap_benchmark.synthetic.scene import Rng, Scene, colour
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
 from geocontact.gap_benchmark.synthetic.systems.shoulder import model as shoulder
 from geocontact.gap_benchmark.synthetic.systems.shoulder.motions import ShoulderStyle, shoulder_path
 
@@ -17,11 +17,11 @@ LEVELS = ((0.0, 0.5, 1.0), (0.0, 0.5, 1.0), (0.0, 1.0), (0.3, 0.6, 1.0), (0.6, 0
 """Of support, taken in turn by the trials."""
 
 RATE, STILL = 0.06, 0.0014
-"""Noise of the recorded arm: of its rate [rad/s], about, whatever the corner, for who smooths little has quiet markers;
-and the most of its angle [rad]."""
+"""Noise of the recorded arm: of its rate [rad/s], about, whatever the corner, for who smooths little has markers of
+low noise; and the most of its angle [rad]."""
 
 
-def shoulder_scene(rng: Rng, *, shifted: bool) -> Scene:
+def shoulder_scene(rng: Rng, *, shifted: bool) -> SyntheticScene:
     """An exoskeleton that carries the arm, at several levels of support."""
     typical = rng.random() < 0.55
     style = style_of(rng, typical=typical)
@@ -37,7 +37,7 @@ def shoulder_scene(rng: Rng, *, shifted: bool) -> Scene:
         other = {"L_h": (0.2, 0.3), "o_x": (-0.02, 0.03), "o_y": (-0.01, 0.03), "I": (0.05, 0.15), "c": (0.05, 0.4)}
         lengths |= {name: rng.uniform(*within) for name, within in other.items()}
         lengths["l_c"] = rng.uniform(0.15, 0.25)
-    return Scene(
+    return SyntheticScene(
         "shoulder",
         shoulder.INPUTS,
         shoulder.OUTPUTS,

@@ -8,9 +8,9 @@ from functools import partial
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap_benchmark.synthetic.course import Course
+from geocontact.gap_benchmark.synthetic.body import Site, SyntheticSystem
+from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values, read
-from geocontact.gap_benchmark.synthetic.systems.body import Body, Place
 from geocontact.gap_benchmark.synthetic.systems.interface import in_series, pull
 
 SITES = ("pelvis", "thigh", "shank")
@@ -35,7 +35,7 @@ def units(sites: Sites) -> tuple[str, ...]:
     return (*(unit for _ in sites for unit in MOTIONS.values()), *("N" for _ in sites))
 
 
-def respond(course: Course, numbers: Mapping[str, float], hooks: Hooks, sites: Sites) -> Float[np.ndarray, "c t"]:
+def respond(course: InputCourse, numbers: Mapping[str, float], hooks: Hooks, sites: Sites) -> Float[np.ndarray, "c t"]:
     """Force of each site along a course [N].
 
     Behind a spring in series the pad's dashpot b stays fixed to what is measured: it lies beside both springs.
@@ -48,8 +48,8 @@ def respond(course: Course, numbers: Mapping[str, float], hooks: Hooks, sites: S
         own = hooks.seen_from(site)
         normal, rotation = course.position[3 * i + NORMAL], course.position[3 * i + ROTATION]
         lever = np.full_like(rotation, numbers[f"rho_{site}"])
-        for wander in own.axis:
-            lever = lever + wander(rotation)
+        for drift in own.axis:
+            lever = lever + drift(rotation)
         u, k = normal + lever * rotation, numbers[f"k_n_{site}"]
         if own.series:
             elastic = in_series(u, partial(pull, time, k=k, hooks=own), own)
@@ -62,7 +62,7 @@ def respond(course: Course, numbers: Mapping[str, float], hooks: Hooks, sites: S
     return read(hooks, course, forces)
 
 
-def base_model(course: Course, constants: Mapping[str, float], sites: Sites) -> Callable[[Values], Values]:
+def base_model(course: InputCourse, constants: Mapping[str, float], sites: Sites) -> Callable[[Values], Values]:
     """Outputs of the base model as a function of (k of each site, rho of each site)."""
     count, b = len(sites), constants["b"]
     normal, rotation = (course.position[row::3] for row in (NORMAL, ROTATION))
@@ -75,22 +75,22 @@ def base_model(course: Course, constants: Mapping[str, float], sites: Sites) -> 
     return forces
 
 
-def course_deflection(course: Course, numbers: Mapping[str, float], sites: Sites) -> tuple[Values, Values]:
+def course_deflection(course: InputCourse, numbers: Mapping[str, float], sites: Sites) -> tuple[Values, Values]:
     """Deflection and rate of the base model along a course, one row per site."""
     rho = np.array([numbers[f"rho_{site}"] for site in sites])[:, None]
     place, rate = course.position, course.rate
     return place[NORMAL::3] + rho * place[ROTATION::3], rate[NORMAL::3] + rho * rate[ROTATION::3]
 
 
-def sit_to_stand(sites: Sites) -> Body:
+def sit_to_stand(sites: Sites) -> SyntheticSystem:
     """Straps at these sites."""
     every = tuple(range(len(sites)))
-    return Body(
+    return SyntheticSystem(
         partial(respond, sites=sites),
         partial(base_model, sites=sites),
         partial(course_deflection, sites=sites),
         loads=every,
         normal=every,
-        places=tuple(Place(site, i, 3 * i + ROTATION) for i, site in enumerate(sites)),
+        places=tuple(Site(site, i, 3 * i + ROTATION) for i, site in enumerate(sites)),
         spare=tuple(f"{site}_tangential" for site in sites),
     )

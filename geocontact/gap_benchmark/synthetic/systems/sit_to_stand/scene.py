@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from geocontact.data.parameter import Parameter
 from geocontact.gap_benchmark.synthetic.noise import corner_of
-from geocontact.gap_benchmark.synthetic.scene import Rng, Scene, colour
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
 from geocontact.gap_benchmark.synthetic.systems.sit_to_stand import model as sit_to_stand
 from geocontact.gap_benchmark.synthetic.systems.sit_to_stand.motions import (
     SiteStyle,
@@ -26,7 +26,7 @@ USUAL = {
 }
 
 
-def sit_to_stand_scene(rng: Rng, *, shifted: bool) -> Scene:
+def sit_to_stand_scene(rng: Rng, *, shifted: bool) -> SyntheticScene:
     """Pads that are pressed while one stands up and sits down."""
     typical = rng.random() < 0.55
     few = not typical and rng.random() < 0.25
@@ -40,7 +40,7 @@ def sit_to_stand_scene(rng: Rng, *, shifted: bool) -> Scene:
         rho = rng.uniform(0.02, 0.08, len(sites)) * rng.choice([-1.0, 1.0], len(sites))
     wide = rng.uniform(0.6, 1.3)
     sd = 0.9 if typical else float(np.exp(rng.uniform(np.log(0.5), np.log(1.6))))
-    return Scene(
+    return SyntheticScene(
         "sit_to_stand",
         sit_to_stand.inputs(sites),
         sit_to_stand.outputs(sites),

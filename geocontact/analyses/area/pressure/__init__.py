@@ -1,0 +1,1 @@
+"""Pressures of the contact area analysis."""

@@ -1,0 +1,91 @@
+"""Figures of a benchmark as benchmark.json holds them."""
+
+from __future__ import annotations
+
+import os
+import platform
+from collections import Counter
+from importlib import import_module
+from pkgutil import walk_packages
+from types import ModuleType
+from typing import Any
+
+import geocontact.gap
+from geocontact.analyses.gap.benchmark.outcome import Outcome
+from geocontact.analyses.gap.benchmark.tables import mean
+from geocontact.analyses.run_record import Record
+from geocontact.gap import attribute
+from geocontact.gap.selection import verdict
+from geocontact.gap_benchmark import confounding as imitation
+from geocontact.gap_benchmark import residual_regression, score
+from geocontact.gap_benchmark.rates import Rate
+from geocontact.gap_benchmark.score import figures
+from geocontact.gap_benchmark.table import OPPONENTS, ROWS, error_interval, lead, scores
+
+
+def content(record: Record, outcome: Outcome, when: str) -> dict[str, Any]:
+    """benchmark.json."""
+    return {
+        "date": when,
+        "seed": outcome.seed,
+        "machine": _machine() | record.versions(),
+        "cases": {name: one.kinds for name, one in outcome.scopes.items()},
+        "bars": {row.figure: row.bar for row in ROWS if row.bar},
+        "thresholds": {
+            "scoring": _constants(score) | {"imitation_left": imitation.LEFT},
+            "diagnosis": _constants(verdict) | _constants(attribute),
+            "regression": _constants(residual_regression),
+            "gap_modules": constants_of_all(geocontact.gap),
+        },
+        "figures": {
+            name: {who: figures(one_score) for who, one_score in scores(one.labels, one.given).items()}
+            for name, one in outcome.scopes.items()
+        },
+        "reduction_error_ci95": {
+            name: {who: list(error_interval(one.labels, said)) for who, said in one.given.items()}
+            for name, one in outcome.scopes.items()
+        },
+        "ahead": {
+            name: {who: vars(lead(one.labels, one.given["diagnosis"], one.given[who])) for who in OPPONENTS}
+            for name, one in outcome.scopes.items()
+        },
+        "cpu_seconds": {
+            name: {"mean": mean(one.cpu), "most": max(one.cpu, default=None), "within_10": _rate(one.fast)}
+            for name, one in outcome.scopes.items()
+        },
+        "same_in_another_dress": {name: _rate(one.same) for name, one in outcome.scopes.items()},
+        "verdicts_by_kind": {name: _verdicts(one) for name, one in outcome.scopes.items()},
+        "imitated": {name: _rate(one.imitated) for name, one in outcome.scopes.items()},
+        "trouble": [line for one in outcome.cases for line in one.trouble],
+    }
+
+
+def _machine() -> dict[str, Any]:
+    return {"machine": platform.machine(), "processor": platform.processor(), "cores": os.cpu_count()}
+
+
+def _constants(module: ModuleType) -> dict[str, int | float]:
+    return {name: v for name, v in vars(module).items() if name.isupper() and isinstance(v, int | float)}
+
+
+def constants_of_all(package: ModuleType) -> dict[str, int | float]:
+    """Of every module of a package, by "module.NAME" as in docs/theory/gap_diagnosis.md."""
+    home = f"{package.__name__}."
+    modules = [name for _, name, is_package in walk_packages(package.__path__, home) if not is_package]
+    return {
+        f"{name.removeprefix(home)}.{constant}": value
+        for name in modules
+        for constant, value in _constants(import_module(name)).items()
+    }
+
+
+def _rate(rate: Rate) -> dict[str, Any]:
+    return {"hits": rate.hits, "count": rate.count, "ci95": list(rate.interval())}
+
+
+def _verdicts(one: Outcome) -> dict[str, dict[str, int]]:
+    said = one.given["diagnosis"]
+    return {
+        kind: dict(Counter(said[name]["verdict"] for name, label in one.labels.items() if label["kind"] == kind))
+        for kind in one.kinds
+    }

@@ -1,0 +1,58 @@
+"""What a diagnosis may be asked for."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated
+
+from geocontact.analyses.options import Options, Requires
+from geocontact.data.errors import InputError
+
+
+@dataclass(frozen=True)
+class DiagnoseOptions(Options):
+    """Diagnose a gap case: which effect the model lacks, where it shows, how far the gap shrinks with it.
+
+    Parameters
+    ----------
+    case
+        Folder with case.toml and trials, see docs/reference/gap_case.md.
+    bare
+        Write tables, diagnosis.json and run.json only: no page, no figures.
+    run_simulator
+        Allow a case of the system "command" to run the program that it names.
+    """
+
+    case: Path
+    _: KW_ONLY
+    bare: bool = False
+    run_simulator: bool = False
+
+
+@dataclass(frozen=True)
+class ManyOptions(DiagnoseOptions):
+    """Diagnose every gap case in a folder, each by itself.
+
+    Parameters
+    ----------
+    case
+        Folder with case.toml and trials, see docs/reference/gap_case.md.
+    many
+        `case` is a folder of cases: every sub-folder with a case.toml is diagnosed into a sub-folder of its name.
+    bare
+        Write tables, diagnosis.json and run.json only: no page, no figures.
+    workers
+        Processes with `many`; as many as there are cores by default. Results do not depend on it.
+    run_simulator
+        Allow a case of the system "command" to run the program that it names.
+    """
+
+    _: KW_ONLY
+    many: bool = False
+    workers: Annotated[int | None, Requires("many")] = None
+
+    def refuse_impossible(self) -> None:
+        """No process at all."""
+        if self.workers is not None and self.workers < 1:
+            raise InputError("", "`workers`", f"{self.workers} is less than one process", "give 1 or more")

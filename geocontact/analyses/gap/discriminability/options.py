@@ -1,0 +1,42 @@
+"""What may be asked of the trials of a case."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+
+from geocontact.analyses.options import Options
+from geocontact.data.errors import InputError
+
+
+@dataclass(frozen=True)
+class DiscriminabilityOptions(Options):
+    """What the trials of a case can tell: which effects they would show, from which size on, and which look alike.
+
+    Parameters
+    ----------
+    case
+        Folder with case.toml and trials, see docs/reference/gap_case.md.
+    effects
+        Effects asked about, by name ("damping,time_shift") or candidate ("end_stop.upper"); all by default. Mistakes
+        in the data have no size: of them only is told whether base parameters hide them.
+    nats
+        How visible each effect is taken to be when it is held against the others.
+    bare
+        Write tables, confuse.json and run.json only: no page, no figures.
+    run_simulator
+        Allow a case of the system "command" to run the program that it names.
+    """
+
+    case: Path
+    _: KW_ONLY
+    effects: str | None = None
+    nats: float = 50.0
+    bare: bool = False
+    run_simulator: bool = False
+
+    def refuse_impossible(self) -> None:
+        """Nothing that is visible."""
+        if not 0.0 < self.nats < math.inf:
+            raise InputError("", "`nats`", f"is {self.nats:g}", "give a number above 0")

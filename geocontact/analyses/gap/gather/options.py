@@ -1,0 +1,24 @@
+"""What recordings are gathered."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from geocontact.analyses.options import Options
+
+
+@dataclass(frozen=True)
+class GatherOptions(Options):
+    """Make a gap case of recordings: pressure mats, force plates under a foot, loads of a knee, angles and moments.
+
+    Parameters
+    ----------
+    settings
+        A case.toml with a table [from.<trial>] for each trial: inputs = "inputs.csv" (time and input channels) and
+        what was measured beside them: <site> = "folder" that `geocontact mat` wrote, for each site;
+        plates = "grf.mot" with plate = "name", for a foot; forces = "forces.csv" and areas = "area.csv", for a knee;
+        inputs = "ik.mot" and outputs = "id.sto" with a table [columns].
+    """
+
+    settings: Path

@@ -1,0 +1,103 @@
+"""What was recorded of several trials, as gather.toml names it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from geocontact.analyses.gap.gather.options import GatherOptions
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.io.cases.gathering import Gathering, read_gathering
+from geocontact.io.cases.storage_trial import is_storage, read_storage_trial
+from geocontact.io.cases.trial_sources import Source
+from geocontact.io.cases.trial_table import TrialTable, read_trial
+from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.io.recordings.area_table import AreaTable, read_area_table
+from geocontact.io.recordings.force_curves import ForceCurves, read_force_curves
+from geocontact.io.recordings.mat_results import FRAMES, MatResult, read_mat_result
+from geocontact.io.text.side_table import read_side_table
+
+
+@dataclass(frozen=True)
+class Recording:
+    """One trial: its inputs, and what was measured beside them."""
+
+    source: Source
+    inputs: TrialTable
+    outputs: TrialTable | None
+    plate: ForcePlate | None
+    areas: AreaTable | None
+    forces: ForceCurves | None
+
+
+@dataclass(frozen=True)
+class Recordings:
+    """All trials by id, mats by site and trial, and the tables that settings name."""
+
+    plan: Gathering
+    trials: Mapping[str, Recording]
+    mats: Mapping[str, Mapping[str, MatResult]]
+    tables: Mapping[str, pd.DataFrame]
+
+
+def read(o: GatherOptions, record: Record) -> Recordings:
+    """Everything that gather.toml names."""
+    path = o.settings
+    plan = read_gathering(path)
+    record.add_input("settings", path)
+    if plan.settings.mesh:
+        raise InputError(path, "mesh", "a case with meshes is not gathered", "add them to the case by hand")
+    mats = {site: _mats(record, path, plan, site) for site in plan.sites}
+    trials = {name: _recording(record, plan, name, source) for name, source in plan.sources.items()}
+    tables = {key: read_side_table(path.parent / file) for key, file in plan.settings.tables.items()}
+    return Recordings(plan, trials, mats, tables)
+
+
+def _mats(record: Record, path: Path, plan: Gathering, site: str) -> dict[str, MatResult]:
+    """Of one site, by trial."""
+    found = {}
+    for name, source in plan.sources.items():
+        if site not in source.mats:
+            raise InputError(path, f"[from.{name}]", f"has no mat of {site}", "every trial needs every site")
+        found[name] = own = read_mat_result(source.mats[site])
+        record.add_input(f"{name} {site}", own.folder / FRAMES, cells=len(own.cells))
+    return found
+
+
+def _recording(record: Record, plan: Gathering, name: str, source: Source) -> Recording:
+    inputs, outputs = _inputs_and_outputs(record, plan, name, source)
+    plate = areas = forces = None
+    if source.plate is not None:
+        there = read_force_plates(source.plate.file)
+        plate = plate_named(there, source.plate.plate, source.plate.file, "plate =")
+        record.add_input(f"{name} plates", source.plate.file, plate=plate.name)
+    if source.sides is not None:
+        if source.sides.areas is not None:
+            areas = read_area_table([source.sides.areas])
+            record.add_input(f"{name} areas", source.sides.areas)
+        forces = read_force_curves(source.sides.forces, source.sides.unit, {})
+        record.add_input(f"{name} forces", source.sides.forces, unit=forces.unit)
+    return Recording(source, inputs, outputs, plate, areas, forces)
+
+
+def _inputs_and_outputs(
+    record: Record, plan: Gathering, name: str, source: Source
+) -> tuple[TrialTable, TrialTable | None]:
+    """Both files of a trial; together they have every column that the settings name."""
+    storage = is_storage(source.inputs)
+    inputs = read_storage_trial(source.inputs, plan.columns) if storage else read_trial(source.inputs)
+    record.add_input(name, source.inputs, samples=len(inputs.signals.time))
+    outputs = None
+    if source.outputs is not None:
+        outputs = read_storage_trial(source.outputs, plan.columns)
+        record.add_input(f"{name} outputs", source.outputs, samples=len(outputs.signals.time))
+    found = {*inputs.signals.channels, *(() if outputs is None else outputs.signals.channels)}
+    missing = [one.label for one in plan.columns if one.channel.name not in found]
+    if missing and (storage or outputs is not None):
+        files = " and ".join(str(each) for each in (source.inputs, source.outputs) if each is not None)
+        raise InputError(files, "", f"no column {missing[0]!r}, which [columns] names", "correct [columns]")
+    return inputs, outputs

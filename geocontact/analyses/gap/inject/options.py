@@ -1,0 +1,54 @@
+"""What is put into measured trials."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass, field
+from pathlib import Path
+from typing import Annotated
+
+from geocontact.analyses.options import Options, Spelled, Typed
+from geocontact.data.errors import InputError
+
+NamedNumbers = Annotated[
+    Mapping[str, float], Typed("-", "named_numbers", kind=tuple[str, ...]), Spelled(default=(), each=True)
+]
+
+
+@dataclass(frozen=True)
+class InjectOptions(Options):
+    """Put a known effect into the measured trials of a case, diagnose it, and tell whether it was found.
+
+    Parameters
+    ----------
+    case
+        Folder with case.toml and trials, see docs/reference/gap_case.md.
+    effect
+        Name of the vocabulary, with its variant where there are several: damping, sensor_gain.force_x.
+    value
+        Of a parameter of the effect, SI unit, as often as there are: damping.b=25.
+    size
+        Gap that the effect makes where its amplitude is not given, root mean square over the noise floor, after the
+        base parameters were refitted.
+    trial
+        For a mistake in the data: a trial that has it, as often as there are; all of them by default.
+    bare
+        Write no page and no figures.
+    run_simulator
+        Allow a case of the system "command" to run the program that it names.
+    """
+
+    case: Path
+    _: KW_ONLY
+    effect: str
+    value: NamedNumbers = field(default_factory=dict)
+    size: float = 1.0
+    trial: tuple[str, ...] = ()
+    bare: bool = False
+    run_simulator: bool = False
+
+    def refuse_impossible(self) -> None:
+        """A gap that is none."""
+        if not (math.isfinite(self.size) and self.size > 0.0):
+            raise InputError("", "`size`", f"{self.size:g} is not a gap above 0", "give for example 1")

@@ -1,0 +1,74 @@
+"""What comes of an effect that was put in: the case that has it, and whether it was found."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from geocontact.analyses.gap.diagnose.result import DiagnoseResult
+from geocontact.analyses.gap.inject.answer import answer, parameter_rows
+from geocontact.analyses.gap.inject.options import InjectOptions
+from geocontact.analyses.json_file import write_json
+from geocontact.analyses.result import Result
+from geocontact.analyses.results_folder import Scratch
+from geocontact.chain.candidate import Candidate
+from geocontact.data.gap.diagnosis import Diagnosis
+from geocontact.gap.inject import Injected
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+CASE, DIAGNOSIS = "case", "diagnosis"
+COLUMNS = ["parameter", "unit", "planted", "found", "low", "high"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class InjectResult(Result):
+    """A known effect in measured trials, and what the diagnosis makes of them.
+
+    Parameters
+    ----------
+    effect
+        What was put in.
+    planted
+        The case that has it, values of its parameters (SI), and the gap that it makes.
+    diagnosed
+        The diagnosis of that case.
+    scratch
+        Where the case lies until it is written.
+    """
+
+    options: InjectOptions
+    effect: Candidate
+    planted: Injected
+    diagnosed: DiagnoseResult
+    scratch: Scratch
+
+    @property
+    def diagnosis(self) -> Diagnosis:
+        """The answer, as in diagnosis/diagnosis.json."""
+        return self.diagnosed.diagnosis
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`planted`: each parameter of the effect as it was put in and as it was found; then those of the diagnosis."""
+        rows = parameter_rows(self.effect, self.planted, self.diagnosis)
+        return {"planted": pd.DataFrame(rows, columns=COLUMNS), **self.diagnosed.tables()}
+
+    def figure(self) -> Figure:
+        """Where the gap is."""
+        return self.diagnosed.figure()
+
+    def write_files(self, folder: Path) -> None:
+        """The case, its diagnosis, and what was put in."""
+        shutil.copytree(self.scratch.folder / CASE, folder / CASE)
+        (folder / DIAGNOSIS).mkdir()
+        self.diagnosed.put(folder / DIAGNOSIS)
+        write_json(folder / "planted.json", answer(self.effect, self.planted, self.diagnosis))
+
+    def write_page(self, file: Path) -> None:
+        """That of the diagnosis."""
+        self.diagnosed.write_page(file)

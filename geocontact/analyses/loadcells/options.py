@@ -1,0 +1,77 @@
+"""What the load cells may be asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated
+
+from geocontact.analyses.options import Expression, ForceUnit, Fraction, Options, Requires
+from geocontact.data.errors import InputError
+
+STRIDE, STANCE = "stride", "stance"
+FOUND = (STRIDE, STANCE)
+"""Cycles that are found in the total force; all others are named by their times."""
+
+Cycles = Requires("cycles", "say what a cycle is")
+
+
+@dataclass(frozen=True)
+class LoadcellOptions(Options):
+    """Medial and lateral contact force of a tibial tray from its load cells, and their mean over cycles.
+
+    Parameters
+    ----------
+    recordings
+        Table of the cells over time (.csv .mot .sto): time, PM, AM, AL, PL.
+    unit
+        Unit of the cells' forces, unless each column says it: PM [lbf].
+    map
+        Columns by cell, where they have other names: PM=posterior_medial,AM=-F2 (a minus turns the sign).
+    matrix
+        Weights of the cells in the medial and the lateral force (.toml or .csv) instead of the published ones.
+    cycles
+        stride (onset of load to onset), stance (onset to end of load), 1.7:2.8,2.8:3.9 in seconds, or a table
+        style, recording, start [s], end [s].
+    part
+        Take this first part of each cycle for the whole: 60% is the stance of a gait cycle.
+    level
+        Total force [N] at which load sets in, for stride and stance; a quarter of the largest unless given.
+    parquet
+        Also write the tables as .parquet.
+    """
+
+    recordings: tuple[Path, ...]
+    _: KW_ONLY
+    unit: ForceUnit | None = None
+    map: Expression | None = None
+    matrix: Path | None = None
+    cycles: Expression | None = None
+    part: Annotated[Fraction | None, Cycles] = None
+    level: Annotated[float | None, Cycles] = None
+    parquet: bool = False
+
+    def refuse_impossible(self) -> None:
+        """A part that is none, a level that is no force or that no cycle needs, sub-folders of one name."""
+        if self.part is not None and not 0.0 < self.part <= 1.0:
+            raise InputError("", "`part`", f"{self.part:g} is not above 0 and at most 1", "give for example 0.6")
+        if self.level is not None and not (math.isfinite(self.level) and self.level > 0.0):
+            raise InputError("", "`level`", f"{self.level:g} is not a force above 0 N", "e.g. 400")
+        if self.level is not None and str(self.cycles).strip() not in FOUND:
+            raise InputError("", "`level`", "has no effect here: the cycles are given", "leave it out")
+        self._refuse_names()
+
+    def _refuse_names(self) -> None:
+        if not self.recordings:
+            raise InputError("", "`recordings`", "names no file", "give one or several")
+        names = [path.stem for path in self.recordings]
+        for name in names if len(names) > 1 else []:
+            if name in ("", ".", "..") or names.count(name) > 1 or name.lower() == "run.json":
+                raise InputError("", "", f"recording {name!r} cannot have a sub-folder of its own", "rename its file")
+
+    @property
+    def folders(self) -> dict[Path, str]:
+        """Recordings and their sub-folders; none where there is one recording."""
+        several = len(self.recordings) > 1
+        return {path: path.stem if several else "" for path in self.recordings}

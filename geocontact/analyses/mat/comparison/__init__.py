@@ -1,0 +1,1 @@
+"""Loads of a mat beside the forces of a model."""

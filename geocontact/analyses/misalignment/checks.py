@@ -1,0 +1,76 @@
+"""Values of options that cannot be. Light to import."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from geocontact.data.errors import InputError
+
+BINS = math.radians(0.1), math.radians(30.0)
+"""rad; widths of bins that a recording of a joint can have."""
+SMALLEST_SPAN = math.radians(5.0)
+"""rad; nobody asks for what happens within less, but radians are taken for degrees."""
+MIXED_UP = "are degrees and radians mixed up?"
+
+
+def require_rising(ends: tuple[float, float] | None, option: str) -> None:
+    """Refuse a range without room between its ends."""
+    if ends is not None and not ends[0] < ends[1]:
+        raise InputError("", option, "has no room between its ends", "give the lower one first")
+
+
+def require_span(ends: tuple[float, float]) -> None:
+    """Refuse angles [rad] of `range` that do not rise, hardly differ, or are more than a turn."""
+    require_rising(ends, "`range`")
+    told = f"{math.degrees(ends[0]):.4g} to {math.degrees(ends[1]):.4g} degrees"
+    if ends[1] - ends[0] < SMALLEST_SPAN:
+        raise InputError("", "`range`", f"{told} is hardly a range", MIXED_UP)
+    if max(map(abs, ends)) > 2.0 * math.pi:
+        raise InputError("", "`range`", f"{told} is more than a turn", MIXED_UP)
+
+
+def require_stroke(ends: tuple[float, float] | None) -> None:
+    """Refuse a stroke whose upper end is below the lower one."""
+    if ends is not None and not ends[0] <= ends[1]:
+        raise InputError("", "`stroke`", "its upper end is below the lower one", "give the lower end first")
+
+
+def require_at_least_0(value: float | int | None, option: str) -> None:
+    """Refuse a value that is negative or not finite."""
+    if value is not None and not 0.0 <= value < math.inf:
+        raise InputError("", option, f"{value:g} is not 0 or more", "give for example 0.5")
+
+
+def require_within(
+    value: float | int | None, option: str, ends: tuple[float | int, float | int], usual: float | int
+) -> None:
+    """Refuse a value that is not between two ends."""
+    if value is not None and not ends[0] <= value <= ends[1]:
+        raise InputError("", option, f"{value:g} is not {ends[0]:g} to {ends[1]:.10g}", f"give {usual:g}")
+
+
+def require_above_0(value: float, option: str, unit: str) -> None:
+    """Refuse a value that is not a finite number above 0."""
+    if not 0.0 < value < math.inf:
+        raise InputError("", option, f"{value:g} {unit} is not above 0", "give a positive number")
+
+
+def require_drift(drift: object) -> None:
+    """Refuse coefficients of something else than x and y."""
+    for name in drift if isinstance(drift, Mapping) else ():
+        if name not in ("x", "y"):
+            raise InputError("", "`drift`", f"{name!r} is neither x nor y", "the axis drifts along these")
+
+
+def require_width(width: float, option: str) -> None:
+    """Refuse a width [rad] of bins that no recording has."""
+    if not BINS[0] <= width <= BINS[1]:
+        what = f"{math.degrees(width):.6g} is not 0.1 to 30 degrees"
+        raise InputError("", option, what, "give for example 2 degrees")
+
+
+def require_cutoff(frequency: float | None) -> None:
+    """Refuse a cut-off that is no frequency."""
+    if frequency is not None and not math.isfinite(frequency):
+        raise InputError("", "`cutoff`", f"{frequency} is not a finite number", "write for example 6")

@@ -1,0 +1,57 @@
+"""What a comparison starts from: recordings, and a model's recording for each."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from geocontact.analyses.misalignment.compare.options import CompareOptions
+from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, key_of
+from geocontact.analyses.misalignment.recordings import recordings
+from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.law import NAMES
+from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.data.errors import InputError
+
+
+@dataclass(frozen=True)
+class Law:
+    """Numbers of the law in SI units, and the cuff pressure that they are counted from [Pa]."""
+
+    numbers: Mapping[str, float]
+    pressure: float
+
+
+@dataclass(frozen=True, eq=False)
+class Both:
+    """Measured recordings, and what they are compared with: as many simulated ones, or a law."""
+
+    measured: Sequence[ElbowRecording]
+    model: Sequence[ElbowRecording] | Law
+
+
+def read(o: CompareOptions, record: Record) -> Both:
+    """Everything the options name."""
+    measured = recordings(record, "measured", o.recordings, o.map, o.angles, o.unit, o.cutoff)
+    if o.fit is None:
+        return Both(measured, recordings(record, "simulated", o.simulated or (), None, o.angles, o.unit, None))
+    law = _law(o.fit)
+    record.add_input("`fit`", o.fit)
+    return Both(measured, law)
+
+
+def _law(file: Path) -> Law:
+    """The law in an elbow.json."""
+    try:
+        content = json.loads(file.read_text(encoding="utf-8"))
+        told, centre = content["numbers"], content["pressure_mmHg"] or 0.0
+        numbers = {name: float(told[key_of(name)]) / PER_SI[name] for name in NAMES}
+        if not np.isfinite([*numbers.values(), float(centre)]).all():
+            raise ValueError("a number is not finite")
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(file, "", f"holds no law of an elbow ({error})", "give elbow.json of elbow fit") from error
+    return Law(numbers, float(centre) * MMHG)

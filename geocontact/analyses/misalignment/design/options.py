@@ -1,0 +1,91 @@
+"""What a design may be asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated
+
+from geocontact.analyses.misalignment.checks import (
+    require_above_0,
+    require_at_least_0,
+    require_drift,
+    require_span,
+    require_stroke,
+)
+from geocontact.analyses.misalignment.law_numbers import require_link
+from geocontact.analyses.options import Millimetres, Options, Spelled, Typed
+from geocontact.data.errors import InputError
+
+Angles = Annotated[tuple[float, float], Typed("rad", "angle_span"), Spelled(dashed=True)]
+Stroke = Annotated[tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True)]
+Offset = Annotated[
+    tuple[float, float], Typed("m", "length_pair"), Spelled("offset-mm", "offset_mm", default="0,0", dashed=True)
+]
+Drift = Annotated[Path | Mapping[str, tuple[float, ...]], Typed("-", "misalignment.drift:typed"), Spelled(dashed=True)]
+
+
+@dataclass(frozen=True)
+class DesignOptions(Options):
+    """Which offsets of an exoskeleton's axis, and which stroke of a compensation joint, keep |F| under a limit.
+
+    Parameters
+    ----------
+    k
+        Stiffness of the attachment [N/m].
+    l
+        Length of the exoskeleton's link, from its hinge to the attachment.
+    z
+        Distance of the attachment from the limb's line.
+    range
+        Angles of the exoskeleton, with their unit: 0:120deg.
+    limit
+        Largest |F| [N] that is allowed on the limb.
+    stroke
+        Ends between which a compensation joint slides freely: -20:35. Locked unless given.
+    offset
+        Offsets x,y of the axes that the design is made for; 0,0 unless given.
+    uncertainty
+        How far the offsets may be from these, in any direction: what the stroke has to cover.
+    map
+        The map goes this far from the offsets in x and in y.
+    step
+        Step of the map.
+    drift
+        How the joint's axis wanders with the angle: x=0:-8:2,y=0:5 (mm, mm/rad, mm/rad², …, over the exoskeleton's
+        angle), or a .csv with the columns beta or alpha [deg], x [mm], y [mm], or alpha [deg], instant_centre_x [mm],
+        instant_centre_y [mm]; alpha is the joint's own angle.
+    parquet
+        Also write the tables as .parquet.
+    """
+
+    _: KW_ONLY
+    k: float
+    l: Annotated[Millimetres, Spelled("l-mm", "l_mm")]
+    z: Annotated[Millimetres, Spelled("z-mm", "z_mm", dashed=True)]
+    range: Angles
+    limit: float
+    stroke: Stroke | None = None
+    offset: Offset = (0.0, 0.0)
+    uncertainty: Annotated[Millimetres, Spelled("uncertainty-mm", "uncertainty_mm")] = 0.0
+    map: Annotated[Millimetres, Spelled("map-mm", "map_mm", default=60.0)] = 60e-3
+    step: Annotated[Millimetres, Spelled("step-mm", "step_mm", default=2.0)] = 2e-3
+    drift: Drift | None = None
+    parquet: bool = False
+
+    def refuse_impossible(self) -> None:
+        """Numbers that are not positive, angles that are no range, a stroke that ends before it begins."""
+        require_span(self.range)
+        require_above_0(self.l, "`l`", "m")
+        require_link(self.l, "`l`")
+        if not math.isfinite(self.z):
+            raise InputError("", "`z`", f"{self.z:g} is not a finite number", "give a length")
+        require_above_0(self.limit, "`limit`", "N")
+        require_above_0(self.k, "`k`", "N/m")
+        require_stroke(self.stroke)
+        require_at_least_0(self.uncertainty, "`uncertainty`")
+        require_above_0(self.map, "`map`", "m")
+        require_above_0(self.step, "`step`", "m")
+        require_drift(self.drift)

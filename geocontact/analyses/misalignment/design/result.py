@@ -1,0 +1,68 @@
+"""What a design finds: offsets and strokes that keep the limit, tables, figure, page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pandas as pd
+
+from geocontact.analyses.figure_files import drawing, save_both
+from geocontact.analyses.json_file import write_json
+from geocontact.analyses.misalignment.design.designed import Designed
+from geocontact.analyses.misalignment.design.figure import design_figure
+from geocontact.analyses.misalignment.design.options import DesignOptions
+from geocontact.analyses.misalignment.design.page import write_design_report
+from geocontact.analyses.misalignment.design.tables import boundary_table, force_table, map_table, sensitivity_table
+from geocontact.analyses.result import Result
+from geocontact.io.text.results import write_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class DesignResult(Result):
+    """Offsets and strokes that keep a force under its limit.
+
+    Parameters
+    ----------
+    design
+        Map, boundary, stroke and sensitivities, in SI.
+    summary
+        What `design.json` holds, with units in the keys.
+    """
+
+    options: DesignOptions
+    design: Designed
+    summary: dict[str, Any]
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`force` over the angle, `map` of the offsets, `boundary`, `sensitivity`."""
+        d = self.design
+        return {
+            "force": force_table(d),
+            "map": map_table(d),
+            "boundary": boundary_table(d),
+            "sensitivity": sensitivity_table(d),
+        }
+
+    def figure(self) -> Figure:
+        """The limit in the plane of the offsets, and the force over the angle with its band."""
+        d = self.design
+        curves = d.beta, d.force, *d.band
+        return design_figure(d.axes, d.map.peak, d.boundary, d.offset, d.uncertainty, d.task.limit, curves)
+
+    def write_files(self, folder: Path) -> None:
+        """design.json, tables, figure, page."""
+        write_json(folder / "design.json", self.summary)
+        for name, rows in self.tables().items():
+            write_table(rows, folder, self.options.parquet, name)
+        write_design_report(
+            folder / "report.html", self.record, self.design, self.summary, save_both(self.figure(), folder, "design")
+        )
+
+    def write_page(self, file: Path) -> None:
+        """Force over the angle, what the limit asks for, figure, sensitivities."""
+        write_design_report(file, self.record, self.design, self.summary, drawing(self.figure()))

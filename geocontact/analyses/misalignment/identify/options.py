@@ -1,0 +1,96 @@
+"""What an identification may be asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated
+
+from geocontact.analyses.misalignment.checks import require_cutoff, require_width
+from geocontact.analyses.misalignment.law_numbers import require_names
+from geocontact.analyses.options import AngleUnit, Degrees, Expression, ForceUnit, Options, Requires, Spelled, Typed
+from geocontact.data.errors import InputError
+
+Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True)]
+Pairs = Annotated[Mapping[str, tuple[float, float]], Typed("-", "misalignment.parameters:pairs"), Spelled(dashed=True)]
+Names = Annotated[tuple[str, ...], Typed("-", "misalignment.parameters:names")]
+REPLICATES = 100, 100_000
+BIN, BOX = math.radians(2.0), math.radians(10.0)
+
+
+@dataclass(frozen=True)
+class IdentifyOptions(Options):
+    """Stiffness, link and offsets of an exoskeleton from force and angle, and what these recordings cannot tell.
+
+    Parameters
+    ----------
+    recordings
+        Tables of angle and force with the compensation joint locked (.csv .mot .sto .c3d): time, beta, force; pressure
+        as far as it is there.
+    unlocked
+        Recording with the compensation joint free and its displacement, as often as there are. Where nothing else is
+        known of k and the lengths, two or more set their scale.
+    rotary_free
+        The device's second, rotary joint was free as well in `unlocked`, as in the paper: the free joint then slides by
+        d_lin and not by d_tot.
+    held_out
+        Recording that is not fitted and tells R², as often as there are; each in turn of those fitted by default.
+    known
+        Numbers known from elsewhere (N/m, mm, N s/m, 1/mmHg): l=169,z=127.
+    prior
+        Numbers known with an uncertainty, mean:SD: l=185:10.
+    bounds
+        Bounds of free numbers: l=160:210,z=60:130.
+    start
+        Where the search begins: k=300,x=30,y=40,l=200,z=120.
+    free
+        Free besides k, x, y, l, z: b (damping), s (stiffness over cuff pressure).
+    map
+        Columns by what they are, where they have other names: beta=elbow_flexion,force=-Fx.
+    angles
+        Unit of the angle where its file does not say.
+    unit
+        Unit of the force where its file does not say.
+    bin
+        Width of the bins that are fitted.
+    box
+        Width of the bins of the box plots.
+    cutoff
+        Cut-off of a zero-lag low-pass over force and angle [Hz]; none unless given.
+    bootstrap
+        Replicates of the wild bootstrap, 0 for none. Each is searched from every minimum that fits nearly as well.
+    parquet
+        Also write the tables as .parquet.
+    """
+
+    recordings: tuple[Path, ...]
+    _: KW_ONLY
+    unlocked: tuple[Path, ...] | None = None
+    rotary_free: Annotated[bool, Requires("unlocked")] = False
+    held_out: tuple[Path, ...] | None = None
+    known: Numbers | None = None
+    prior: Pairs | None = None
+    bounds: Pairs | None = None
+    start: Numbers | None = None
+    free: Names | None = None
+    map: Expression | None = None
+    angles: AngleUnit | None = None
+    unit: ForceUnit | None = None
+    bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0)] = BIN
+    box: Annotated[Degrees, Spelled("box-deg", "box_deg", default=10.0)] = BOX
+    cutoff: float | None = None
+    bootstrap: int = 500
+    parquet: bool = False
+
+    def refuse_impossible(self) -> None:
+        """Numbers that the law does not have; widths, cut-off and replicates that cannot be."""
+        for name in ("known", "prior", "bounds", "start"):
+            require_names(getattr(self, name), f"`{name}`")
+        require_width(self.bin, "`bin`")
+        require_width(self.box, "`box`")
+        require_cutoff(self.cutoff)
+        if self.bootstrap != 0 and not REPLICATES[0] <= self.bootstrap <= REPLICATES[1]:
+            what = f"{self.bootstrap} is not {REPLICATES[0]} to {REPLICATES[1]}"
+            raise InputError("", "`bootstrap`", what, "give 500, or 0 for none")

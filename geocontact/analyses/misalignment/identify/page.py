@@ -1,0 +1,79 @@
+"""The page of an identification: numbers with their intervals, and what the data do not tell."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pandas as pd
+
+from geocontact.analyses.misalignment.identify.fitted import Fitted
+from geocontact.analyses.misalignment.identify.free_joint import Free
+from geocontact.analyses.misalignment.identify.sentences import explained
+from geocontact.analyses.misalignment.page import NOT_IN_THE_NUMBERS, write_elbow_page
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import counted
+from geocontact.analyses.run_record import Record
+from geocontact.view.page.content import Curve, Curves, Picture, Readout, Row, Section, Words
+from geocontact.view.page.tables import frame_table, inputs_table
+
+TOLD = (
+    "Left: the direction in the logarithms of k and the lengths that the recordings tell least; (−1, 1, 1, 1, 1) is "
+    "the scale. Middle: R² along k/s, s × lengths, where it does not change, and where k changes alone. Right: how far "
+    "the sum of squares rises when a number is held beside its best value; an interval of 95 % ends at 1. Where "
+    "nothing sets the scale these are the ratios that no scale changes."
+)
+FORCES = "Left: bin means of every trial and the explicit model. Right: spread of the samples in wider bins."
+RESIDUALS = (
+    "Measured less fitted mean force of each bin, all trials together: over the angle; over the standard deviation of "
+    "the bin's mean as histogram and quantiles, with the p of Lilliefors' test."
+)
+CONDITIONS = (
+    "Force with the compensation joint locked and free, the free joint's displacement, and the spread of both forces "
+    "in wider bins, side by side. Shaded: the joint stands at an end of its stroke, and force builds up."
+)
+PICTURES = {
+    "forces": ("Force over the angle", FORCES),
+    "identifiability": ("What the recordings tell apart", TOLD),
+    "residuals": ("Residuals", RESIDUALS),
+    "conditions": ("Joint locked and free", CONDITIONS),
+}
+"""Title and words of each figure."""
+
+
+def write_fit_report(
+    path: Path,
+    record: Record,
+    found: Fitted,
+    free: Free | None,
+    tables: Mapping[str, pd.DataFrame],
+    drawings: Mapping[str, bytes],
+) -> int:
+    """Write the page of an identification over the angle; returns its size in bytes.
+
+    Parameters
+    ----------
+    tables
+        By name, as they are written.
+    drawings
+        SVG of each figure, by the names of `PICTURES`.
+    """
+    bins = tables["bins"].dropna(subset="mean [N]")
+    force = {"measured": bins["mean [N]"].to_numpy(), "by the model": bins["fitted [N]"].to_numpy()}
+    sections: list[Section] = [
+        Readout([Row(name, "N", [f"{v:.2f}" for v in values]) for name, values in force.items()], "This bin"),
+        Curves("Constraint force", "N", [Curve(name, values) for name, values in force.items()]),
+        Words("What the data tell", [record.spell(line) for line in explained(found, free)]),
+        *(Picture(*PICTURES[name], svg, wide=True) for name, svg in drawings.items()),
+        frame_table("What was identified", tables["intervals"].dropna(axis="columns", how="all")),
+        frame_table("Force that was not used", tables["held_out"]),
+        frame_table("Along the scale: numbers that give the same force", tables["scale_line"].iloc[::5]),
+        inputs_table(record.inputs),
+        options_table(record),
+        NOT_IN_THE_NUMBERS,
+    ]
+    title = f"Offsets and stiffness at an elbow from {counted(len(found.recordings), 'recording')}"
+    subtitle = "Constraint force of a misaligned elbow exoskeleton by the explicit model"
+    headline = [*((each.words, each.shown) for each in found.intervals), ("R² of bin means", f"{found.r2:.3f}")]
+    angle = bins["beta [deg]"].to_numpy()
+    return write_elbow_page(path, title, subtitle, angle, "angle [deg]", headline, sections, record.warnings)

@@ -1,0 +1,50 @@
+"""What has to be said against an identification."""
+
+from __future__ import annotations
+
+from geocontact.analyses.misalignment.identify.fitted import Fitted
+from geocontact.analyses.run_record import Record
+from geocontact.axis_misalignment.law import LENGTHS
+
+FEW_STRETCHES = 12
+RARE, MORE = 0.01, 1.5  # p and size from which residuals are more than noise
+BETTER = 0.02  # of R² that the mirrored force must gain to be worth a word
+SCALE_FREE = (
+    f"k and the lengths {', '.join(LENGTHS)} are known up to one factor only: F(k/s, s × lengths) = F for every s; "
+    "know l, z or k (`known`), give a prior (`prior`), or record the free joint's displacement (`unlocked`)"
+)
+
+
+def reserve(record: Record, found: Fitted) -> None:
+    """Tell the record what is open, rough or odd."""
+    _say_what_is_open(record, found)
+    e, excess = found.estimate, found.residuals.excess
+    if found.stretches < FEW_STRETCHES:
+        record.warn(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are rough")
+    if not e.converged:
+        record.warn("the search did not end by itself; see `start` and `bounds`")
+    if excess.p < RARE and excess.ratio > MORE:
+        record.warn(
+            f"the fit leaves {excess.ratio:.2g} times what noise within the trials would: offsets that change "
+            "from trial to trial, or something the law misses; intervals do not know of it and are too short"
+        )
+    if found.r2 < 0.0:
+        record.warn(f"R² is {found.r2:.2f}: a constant force would do better than the law")
+    bad = [f"{each.name} ({each.r2:.2f})" for each in found.held if each.r2 < 0.0]
+    if bad:
+        record.warn(f"R² of what was not used is below 0, a constant force would do better: {', '.join(bad)}")
+    if found.mirrored_r2 > found.r2 + BETTER:
+        told = f"the force turned over fits better (R² {found.mirrored_r2:.3f} instead of {found.r2:.3f})"
+        record.warn(f"{told}: is its sign turned? see `map` force=-…")
+
+
+def _say_what_is_open(record: Record, found: Fitted) -> None:
+    """The scale, ends of intervals, signs."""
+    if found.estimate.problem.scale_free:
+        record.warn(SCALE_FREE)
+    ends = [each.words for each in found.intervals if each.lower_open or each.upper_open]
+    if ends:
+        record.warn(f"no limit within the bounds to {', '.join(ends)}, on one side or both")
+    signs = [each.words for each in found.intervals if each.key[0] in LENGTHS and each.sign_open]
+    if signs:
+        record.warn(f"the sign of {', '.join(signs)} is not told: values of both signs fit within the interval")

@@ -1,0 +1,72 @@
+"""What a population may be asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated
+
+from geocontact.analyses.misalignment.checks import (
+    require_above_0,
+    require_at_least_0,
+    require_drift,
+    require_span,
+    require_stroke,
+    require_within,
+)
+from geocontact.analyses.options import Options, Spelled, Typed
+
+Angles = Annotated[tuple[float, float], Typed("rad", "angle_span"), Spelled(dashed=True)]
+Stroke = Annotated[tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True)]
+Drift = Annotated[Path | Mapping[str, tuple[float, ...]], Typed("-", "misalignment.drift:typed"), Spelled(dashed=True)]
+SAMPLES = 100, 20_000_000
+"""Fewest and most people."""
+
+
+@dataclass(frozen=True)
+class PopulationOptions(Options):
+    """Distribution of the largest force over people whose offsets and attachment differ.
+
+    Parameters
+    ----------
+    description
+        A .toml with [k], [l], [z], [x] and [y], each a value, a normal or a uniform distribution with its unit, or a
+        table of people; correlations in [correlation].
+    range
+        Angles of the exoskeleton, with their unit: 0:120deg.
+    limit
+        |F| [N] whose exceeding is asked for.
+    stroke
+        Ends between which a compensation joint slides freely: -20:35. Locked unless given.
+    drift
+        How the joint's axis wanders with the angle, as for a design; the same for everybody.
+    samples
+        People that are drawn.
+    seed
+        Of the draw.
+    keep
+        Also write samples.csv: the quantities, the force and the state of every one.
+    parquet
+        Also write the tables as .parquet.
+    """
+
+    description: Path
+    _: KW_ONLY
+    range: Angles
+    limit: float
+    stroke: Stroke | None = None
+    drift: Drift | None = None
+    samples: int = 1_000_000
+    seed: int = 1
+    keep: bool = False
+    parquet: bool = False
+
+    def refuse_impossible(self) -> None:
+        """Too few or too many people, a limit that is not positive, angles that are no range."""
+        require_within(self.samples, "`samples`", SAMPLES, 1_000_000)
+        require_at_least_0(self.seed, "`seed`")
+        require_span(self.range)
+        require_above_0(self.limit, "`limit`", "N")
+        require_stroke(self.stroke)
+        require_drift(self.drift)

@@ -1,0 +1,64 @@
+"""The page of a simulation: recordings that were made."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
+from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, write_elbow_page
+from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.view.page.content import Curve, Curves, Picture, Readout, Row, Section, Table, Words
+
+SURFACES = (
+    "Displacement of the attachment along the limb over the angle and one offset, the other being 0; blue and red are "
+    "its two directions. Offsets may have either sign."
+)
+SYNTHETIC = "These recordings are synthetic: the explicit model with the numbers below, and noise. Nobody was measured."
+
+
+def write_simulation_report(
+    path: Path,
+    made: Sequence[ElbowRecording],
+    numbers: Mapping[str, float],
+    drawing: bytes,
+    tables: Sequence[Table],
+    warnings: Sequence[str],
+) -> int:
+    """Write the page of a simulation, its first trial over time; returns its size in bytes."""
+    first = made[0]
+    every = -(-len(first.time) // FRAMES)
+    shown = slice(None, None, every)
+    degrees, force = np.degrees(first.beta[shown]), first.force[shown]
+    rows = [Row("angle", "deg", [f"{v:.1f}" for v in degrees]), Row("force", "N", [f"{v:.2f}" for v in force])]
+    true = [(name, WRITTEN[name], f"{value * PER_SI[name]:g}") for name, value in numbers.items()]
+    sections: list[Section] = [
+        Readout(rows),
+        Curves(f"Angle, {first.name} (synthetic)", "deg", [Curve("beta", degrees)]),
+        Curves(f"Constraint force, {first.name} (synthetic)", "N", [Curve("force", force)]),
+        *_free_trial(made),
+        Words("What this is", [SYNTHETIC]),
+        Picture("Displacement over angle and offset", SURFACES, drawing, wide=True),
+        Table("True numbers", ("number", "unit", "value"), true),
+        *tables,
+        NOT_IN_THE_NUMBERS,
+    ]
+    headline = [(r.name, f"{r.force.min():.1f} … {r.force.max():.1f} N") for r in made]
+    title, subtitle = "Synthetic recordings of an elbow exoskeleton", "Explicit model of constraint forces"
+    time = first.time[shown]
+    return write_elbow_page(path, title, subtitle, time, "time [s]", headline, sections, warnings)
+
+
+def _free_trial(made: Sequence[ElbowRecording]) -> list[Section]:
+    """Force and displacement of the first trial with a free joint, over its time; none without."""
+    for r in made:
+        if r.displacement is not None and r is not made[0] and len(r.time) == len(made[0].time):
+            every = slice(None, None, -(-len(r.time) // FRAMES))
+            force, slide = Curve("force", r.force[every]), Curve("displacement", r.displacement[every] * 1e3)
+            return [
+                Curves(f"Constraint force, {r.name} (synthetic)", "N", [force]),
+                Curves(f"Displacement of the joint, {r.name} (synthetic)", "mm", [slide]),
+            ]
+    return []

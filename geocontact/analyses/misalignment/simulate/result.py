@@ -1,0 +1,91 @@
+"""What a simulation makes: synthetic trials with their true numbers, and surfaces of the displacement."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pandas as pd
+
+from geocontact.analyses.figure_files import drawing, save_both
+from geocontact.analyses.json_file import write_json
+from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
+from geocontact.analyses.misalignment.simulate.displacement_surfaces import Surfaces
+from geocontact.analyses.misalignment.simulate.figure import surface_figure
+from geocontact.analyses.misalignment.simulate.options import SimulateOptions
+from geocontact.analyses.misalignment.simulate.page import write_simulation_report
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.result import Result
+from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.io.text.results import write_table
+from geocontact.view.page.tables import inputs_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+HEAD = "# synthetic: geocontact elbow simulate"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class SimulateResult(Result):
+    """Synthetic trials; nobody was measured.
+
+    Parameters
+    ----------
+    numbers
+        True numbers of the law, in SI.
+    trials
+        Angle, force and what else a recording has.
+    surfaces
+        Displacement over the angle and each offset, with the same link.
+    """
+
+    options: SimulateOptions
+    numbers: Mapping[str, float]
+    trials: tuple[ElbowRecording, ...]
+    surfaces: Surfaces
+
+    @property
+    def truth(self) -> dict[str, Any]:
+        """True numbers with their units in the keys."""
+        told: dict[str, Any] = {"synthetic": True, "numbers": with_units(self.numbers)}
+        stroke = self.options.stroke
+        return told if stroke is None else {**told, "stroke_mm": [end * 1e3 for end in stroke]}
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """One table per trial, by its name, and `surfaces`."""
+        return {**{each.name: _table(each) for each in self.trials}, "surfaces": self.surfaces.table()}
+
+    def figure(self) -> Figure:
+        """Displacement over the angle and each offset."""
+        return surface_figure(self.surfaces)
+
+    def write_files(self, folder: Path) -> None:
+        """A table per trial that says what it is, truth.json, surfaces, page."""
+        for name, table in self.tables().items():
+            write_table(table, folder, self.options.parquet, name)
+        for each in self.trials:
+            file = folder / f"{each.name}.csv"
+            file.write_text(f"{HEAD}\n{file.read_text(encoding='utf-8')}", encoding="utf-8", newline="\n")
+        write_json(folder / "truth.json", self.truth)
+        self._write_page(folder / "report.html", save_both(self.figure(), folder, "surfaces"))
+
+    def write_page(self, file: Path) -> None:
+        """The first trial over time, the true numbers, the surfaces."""
+        self._write_page(file, drawing(self.figure()))
+
+    def _write_page(self, file: Path, picture: bytes) -> None:
+        tables = [inputs_table(self.record.inputs), options_table(self.record)]
+        write_simulation_report(file, self.trials, self.numbers, picture, tables, self.warnings)
+
+
+def _table(r: ElbowRecording) -> pd.DataFrame:
+    columns = {"time [s]": r.time, "beta [deg]": np.degrees(r.beta), "force [N]": r.force}
+    if r.displacement is not None:
+        columns["displacement [mm]"] = r.displacement * 1e3
+    if r.pressure is not None:
+        columns["pressure [mmHg]"] = r.pressure / MMHG
+    return pd.DataFrame(columns)

@@ -1,0 +1,157 @@
+"""What an identification of E* may be asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from geocontact.analyses.checks import bootstrap_rule, refuse
+from geocontact.analyses.options import (
+    AngleUnit,
+    Excludes,
+    Expression,
+    ForceUnit,
+    Length,
+    Millimetres,
+    Needs,
+    Options,
+    Requires,
+    Spelled,
+    Typed,
+)
+from geocontact.data.errors import InputError
+
+Free = Annotated[Mapping[str, tuple[float, float] | None], Typed("-", "free_numbers"), Spelled(dashed=True)]
+Ratios = Annotated[tuple[float, ...], Typed("-", "ratios")]
+
+
+@dataclass(frozen=True)
+class ModulusOptions(Options):
+    """Elastic modulus E* of a contact from the evolution of its area and measured forces, with intervals.
+
+    Parameters
+    ----------
+    area
+        area.csv of `geocontact area`, at one or several thresholds and adduction offsets; several files are one table.
+    force
+        Measured forces over time (.csv .mot .sto): medial, lateral, total, as far as they are there.
+    radius
+        Radius R of the contact in the law.
+    threshold
+        Threshold of the area: 4 mm where it was evaluated, else the only one.
+    unit
+        Unit of the forces, unless each column says it: total [N].
+    map
+        Columns by what they are, where they have other names: medial=F1,total=-Fz,flexion=knee_flexion.
+    lag
+        Seconds that the force's clock is behind the area's: force(t + lag) belongs to area(t). 0 unless given.
+    free
+        Unknown besides E*, with bounds or without: threshold=1:6,lag=-0.05:0.05,adduction=-2:2,slope=-0.3:0.3
+        (mm, s, degrees, per rad of flexion; in Python a dict of pairs in SI, None without bounds).
+    profile
+        profile.csv of `geocontact fit` instead of `radius`: R follows flexion.
+    flexion
+        Motion (.csv .mot .sto) whose column flexion says where on the profile the contact is, or what R may follow.
+    angles
+        Unit of the flexion where its file does not say.
+    reading
+        What the area is taken for: one circle, two, a strip, a rigid cap, a rigid cap within the threshold.
+    length
+        Length of the strip, for the reading of that name.
+    poisson
+        Poisson's ratio, or several, that E is told for: 0.25,0.46. E* needs none.
+    calibrate
+        Table force [N], area [mm^2] of measured areas: the threshold that gives them is taken.
+    predict_area
+        area.csv of a trial that was not used.
+    predict_force
+        Its measured forces.
+    bootstrap
+        Replicates of the block bootstrap, 0 for none; 200 at most where more than E* is free.
+    parquet
+        Also write the tables as .parquet.
+    """
+
+    area: Annotated[tuple[Path, ...], Spelled(keyword=True)]
+    force: Annotated[Path, Spelled(keyword=True)]
+    _: KW_ONLY
+    radius: Annotated[Millimetres | None, Spelled("radius-mm", "radius_mm")] = None
+    threshold: Length | None = None
+    unit: ForceUnit | None = None
+    map: Expression | None = None
+    lag: Annotated[float | None, Spelled(dashed=True)] = None
+    free: Free | None = None
+    profile: Annotated[Path | None, Needs("flexion", "give both")] = None
+    flexion: Path | None = None
+    angles: Annotated[AngleUnit | None, Requires("flexion", "leave it out")] = None
+    reading: Literal["disc", "discs", "strip", "cap", "threshold"] = "disc"
+    length: Annotated[Millimetres | None, Spelled("length-mm", "length_mm")] = None
+    poisson: Annotated[Ratios, Spelled(default="0.25")] = (0.25,)
+    calibrate: Annotated[Path | None, Excludes("threshold", "finds what `threshold` gives", "give one")] = None
+    predict_area: tuple[Path, ...] | None = None
+    predict_force: Annotated[Path | None, Requires("predict_area", "give it too")] = None
+    bootstrap: int = 1000
+    parquet: bool = False
+
+    def refuse_impossible(self) -> None:
+        """Numbers that cannot be, unknowns that no input tells of, a radius said twice or not at all."""
+        self._refuse_ratios()
+        self._refuse_free()
+        slope = "slope" in (self.free or {})
+        refuse(
+            (
+                (self.radius is None) == (self.profile is None),
+                "`radius`",
+                "or `profile`: exactly one says the radius of the contact",
+                "give for example 37 mm",
+            ),
+            _size_rule("`radius`", self.radius, "is no radius of a contact in mm", "give for example 37 mm"),
+            (slope and self.flexion is None, "`free`", "slope needs `flexion`", "give the motion of the areas"),
+            (
+                self.flexion is not None and self.profile is None and not slope,
+                "`flexion`",
+                "has no effect without `profile` or slope in `free`",
+                "give one of them",
+            ),
+            (self.reading == "strip" and self.length is None, "`length`", "is missing for a strip", "give it"),
+            _size_rule("`length`", self.length, "is no length in mm", "give for example 60 mm"),
+            (
+                self.predict_area is not None and (self.profile is not None or slope),
+                "`predict_area`",
+                "and a radius of flexion do not go together: its flexion is not known",
+                "give `radius`",
+            ),
+            bootstrap_rule(self.bootstrap, 1000),
+            (
+                self.lag is not None and not math.isfinite(self.lag),
+                "`lag`",
+                f"{self.lag} is not a time",
+                "give seconds",
+            ),
+        )
+
+    def _refuse_ratios(self) -> None:
+        if not self.poisson or not all(-1.0 < ratio <= 0.5 for ratio in self.poisson):
+            said = ", ".join(f"{ratio:g}" for ratio in self.poisson)
+            raise InputError("", "`poisson`", f"{said} is not above -1 and at most 0.5", "give for example 0.46")
+
+    def _refuse_free(self) -> None:
+        from geocontact.analyses.quantities import FREE_UNITS  # numpy and friends: not for --help
+
+        for name, bounds in (self.free or {}).items():
+            if name not in FREE_UNITS:
+                raise InputError("", "`free`", f"{name!r} is none of {', '.join(FREE_UNITS)}", "name one of them")
+            if bounds is not None and not -math.inf < bounds[0] < bounds[1] < math.inf:
+                what = f"{name}: {bounds[0]:g} to {bounds[1]:g} has no room between its bounds"
+                raise InputError("", "`free`", what, "give the lower one first")
+        if "threshold" in (self.free or {}) and self.calibrate is not None:
+            raise InputError("", "`free`", "threshold with `calibrate` says it twice", "give one")
+
+
+def _size_rule(option: str, value: float | None, what: str, remedy: str) -> tuple[bool, str, str, str]:
+    """Lengths that no joint has."""
+    wrong = value is not None and not 1e-4 <= value <= 10.0
+    return wrong, option, f"{0.0 if value is None else value * 1e3:g} {what}", remedy

@@ -1,0 +1,52 @@
+"""What E* depends on: every reading at every threshold that was evaluated, all else equal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from geocontact.contact.area_hertz import READINGS
+from geocontact.elastic_modulus.area_force import MODULUS, THRESHOLD, AreaForce
+from geocontact.elastic_modulus.identify import STRONGEST, WEAKEST, Identification, agreement
+
+
+@dataclass(frozen=True)
+class SensitivityRow:
+    """E* [Pa] of one side, reading and threshold [m], all else equal; infinite where the reading sees no contact."""
+
+    side: str
+    reading: str
+    threshold: float
+    modulus: float
+    rmse: float
+    r2: float
+
+
+def sensitivity(sides: Mapping[str, Identification]) -> list[SensitivityRow]:
+    """Of all sides, one after another."""
+    return [row for side, each in sides.items() for row in _rows(side, each)]
+
+
+def _rows(side: str, each: Identification) -> list[SensitivityRow]:
+    """Every reading at every threshold that was evaluated, and at the one used."""
+    used = each.fit.values.get(THRESHOLD, each.model.threshold)
+    levels = sorted({*map(float, each.model.evolution.thresholds), used})
+    rows = []
+    for reading in READINGS:
+        if reading.name == "strip" and not np.isfinite(each.model.evolution.length):
+            continue
+        for level in levels:
+            model = replace(each.model, reading=reading, threshold=level)
+            rows.append(_row(side, model, each, level))
+    return rows
+
+
+def _row(side: str, model: AreaForce, each: Identification, level: float) -> SensitivityRow:
+    held = {name: value for name, value in each.fit.values.items() if name not in (MODULUS, THRESHOLD)}
+    if not model.per_modulus(held).any():
+        return SensitivityRow(side, model.reading.name, level, np.inf, np.nan, np.nan)
+    modulus = float(model.refit(each.measured[None, :], held, (WEAKEST, STRONGEST))[0, 0])
+    rmse, r2 = agreement(each.measured, model.force({**held, MODULUS: modulus}))
+    return SensitivityRow(side, model.reading.name, level, modulus, rmse, r2)

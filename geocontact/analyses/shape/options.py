@@ -1,0 +1,161 @@
+"""What the fit of a shape may be asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from geocontact.analyses.checks import refuse
+from geocontact.analyses.options import Degrees, Excludes, Expression, MeshUnit, Options, Requires, Spelled, Typed
+
+NEEDS = {
+    "radial": "`axis` or `centre`",
+    "outward": "`axis` or `centre`",
+    "flexion": "`axis` and `sagittal`",
+    "distance": "`other`",
+}
+"""Names that a region may use, by the options that say where they are counted from."""
+
+AngleRange = Annotated[tuple[float, float, float], Typed("rad", "degree_range"), Spelled(dashed=True)]
+Side = Annotated[Literal["-", "+"], Spelled(dashed=True)]
+Profile = Requires("profile")
+
+
+@dataclass(frozen=True)
+class ShapeOptions(Options):
+    """Cylinder, sphere or plane that fits a surface best, by distance and robustly, with the map of the residuals.
+
+    Parameters
+    ----------
+    mesh
+        Surface to fit to (.stl .ply .obj .vtp).
+    shape
+        What is fitted.
+    unit
+        Unit of the meshes; never guessed.
+    region
+        Faces that count: "outward>0.5 and flexion>30" in x y z nx ny nz (mesh unit), and with `axis` or `centre` radial
+        outward, with `axis` and `sagittal` flexion [deg], with `other` distance; or a file of face numbers.
+    axis
+        x,y,z,dx,dy,dz (point in the mesh unit), a file of these, or a fit.json of a cylinder.
+    hold_axis
+        The cylinder is to be parallel to `axis`.
+    centre
+        x,y,z (mesh unit), or a fit.json of a sphere: what radial and outward are counted from instead of an axis.
+    sagittal
+        Directions of 0 and 90 degrees of flexion as seen from the axis: -y,x has distal at -y and posterior at +x.
+    other
+        Mesh that the distance is to.
+    place
+        Where the mesh sits in its body: a file with a 4x4 matrix, or model.osim:body.
+    place_other
+        The same for the other mesh, in the frame of the first.
+    points
+        What the shape is fitted to: vertices of the faces that count, or their centroids.
+    robust
+        Whether points far off do not count; else it is plain least squares.
+    split
+        x, y or z (or z=1.5): medial and lateral points are fitted apart as well, cylinders along the axis of the whole.
+    medial
+        Side of the splitting plane that is medial; - unless given.
+    profile
+        Also tell the radius as a function of flexion: start, stop and step, typed -30:120:5 in degrees, about `axis` or
+        the fitted cylinder's axis.
+    window
+        Flexion over which the radius of the profile is taken; 30 degrees unless given.
+    paraview
+        Also write the surface with its residuals for ParaView (fit.vtp).
+    parquet
+        Also write the profile as .parquet.
+    """
+
+    mesh: Path
+    _: KW_ONLY
+    shape: Literal["cylinder", "sphere", "plane"]
+    unit: MeshUnit
+    region: Expression | None = None
+    axis: Expression | None = None
+    hold_axis: bool = False
+    centre: Annotated[Expression | None, Excludes("axis", "with `axis` names two places to count from", "give one")] = (
+        None
+    )
+    sagittal: Expression | None = None
+    other: Path | None = None
+    place: str | None = None
+    place_other: Annotated[str | None, Requires("other", "give it too")] = None
+    points: Literal["vertices", "faces"] = "vertices"
+    robust: bool = True
+    split: str | None = None
+    medial: Annotated[Side | None, Requires("split")] = None
+    profile: AngleRange | None = None
+    window: Annotated[Degrees | None, Profile] = None
+    paraview: bool = False
+    parquet: Annotated[bool, Requires("profile", "leave it out")] = False
+
+    def refuse_impossible(self) -> None:
+        """Places that nothing is counted from, a profile without an axis, angles that cannot be."""
+        self._refuse_places()
+        needs_axis = self.profile is not None and self.shape != "cylinder" and self.axis is None
+        refuse(
+            (
+                needs_axis,
+                "`profile`",
+                f"needs an axis, and a {self.shape} has none",
+                "give `axis`, or fit a cylinder",
+            ),
+            (
+                self.window is not None and not math.radians(1.0) <= self.window <= math.pi,
+                "`window`",
+                f"{math.degrees(self.window or 0.0):g} is not between 1 and 180 degrees",
+                "give for example 30 degrees",
+            ),
+            (
+                self.profile is not None and not _arrives(*self.profile),
+                "`profile`",
+                "never arrives",
+                "give start, stop and step",
+            ),
+        )
+
+    def _refuse_places(self) -> None:
+        """What a region does not speak of is counted from nowhere."""
+        used = self.names_in_region()
+        about_axis = self.profile is not None or self.hold_axis or bool(used & {"radial", "outward", "flexion"})
+        idle, remedy = "has no effect here: `region` does not speak of", "leave it out"
+        refuse(
+            (
+                self.hold_axis and (self.shape != "cylinder" or self.axis is None),
+                "`hold_axis`",
+                "needs a cylinder and an `axis`",
+                "give them, or leave it out",
+            ),
+            (self.axis is not None and not about_axis, "`axis`", f"{idle} radial, outward or flexion", remedy),
+            (
+                self.centre is not None and not used & {"radial", "outward"},
+                "`centre`",
+                f"{idle} radial or outward",
+                remedy,
+            ),
+            (
+                self.sagittal is not None and self.profile is None and "flexion" not in used,
+                "`sagittal`",
+                "has no effect here: there is no `profile` and `region` does not speak of flexion",
+                remedy,
+            ),
+            (self.other is not None and "distance" not in used, "`other`", f"{idle} distance", remedy),
+        )
+
+    def names_in_region(self) -> set[str]:
+        """Those of `NEEDS` that the region speaks of; a file of face numbers speaks of none."""
+        from geocontact.analyses.quantities import named_file  # numpy and friends: not for --help
+
+        if self.region is None or named_file(self.region) is not None:
+            return set()
+        return {name for name in NEEDS if name in self.region}
+
+
+def _arrives(start: float, stop: float, step: float) -> bool:
+    """Whether steps lead from start to stop."""
+    return step != 0.0 and 0.0 <= (stop - start) / step <= 1e5

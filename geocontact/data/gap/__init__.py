@@ -1,0 +1,1 @@
+"""Gap cases, and what a diagnosis says of them."""

@@ -1,0 +1,195 @@
+"""What a diagnosis says: where the gap lies, which effect causes it, how far it shrinks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
+
+
+@dataclass(frozen=True)
+class CellsHeld:
+    """The fewest cells of a pressure mat that hold 70 % of a channel's gap.
+
+    Parameters
+    ----------
+    ids
+        The fullest first.
+    count
+        Of all cells of the mat.
+    share, load
+        What they hold of the gap, and of the load that the base model expects.
+    p_value
+        That a gap spread over the mat as the load is would look as concentrated elsewhere, family-wise.
+    """
+
+    ids: tuple[str, ...]
+    count: int
+    share: float
+    load: float
+    p_value: float
+
+    def as_dict(self) -> dict[str, Any]:
+        """Keys of a `where` entry."""
+        return {
+            "cells": list(self.ids),
+            "cells_share": self.share,
+            "cells_load": self.load,
+            "cells_p_value": self.p_value,
+        }
+
+
+@dataclass(frozen=True)
+class Where:
+    """One channel with a gap.
+
+    Parameters
+    ----------
+    channel
+        An output.
+    phase
+        Shortest window of the trial that holds 70 % of the channel's squared gap, 0...1.
+    share
+        The channel's part of the whole squared gap, each channel in units of its floor.
+    p_value
+        Of the most significant cell of the channel's gap map, family-wise.
+    stage
+        Where in the chain the named effect acts; "" when none is named.
+    cells
+        Where on the surface, of a channel that cells of a mat add up to.
+    """
+
+    channel: str
+    phase: tuple[float, float]
+    share: float
+    p_value: float
+    stage: str = ""
+    cells: CellsHeld | None = None
+
+
+@dataclass(frozen=True)
+class ChannelGap:
+    """Size of one channel's gap on the held-out trials, in the channel's SI unit.
+
+    `reduction` and `ci95` are those expected of fresh trials of the same kind; `unexplained` is None where there is too
+    little gap to speak of.
+    """
+
+    rmse_before: float
+    rmse_after: float
+    noise_floor: float
+    reduction: float
+    ci95: tuple[float, float]
+    unexplained: float | None
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter's value, its 95 % interval, and whether the trials tell it."""
+
+    value: float
+    ci95: tuple[float, float]
+    unit: str
+    identifiable: bool
+
+
+@dataclass(frozen=True)
+class DataErrorFound:
+    """A discrete mistake in the data: which, on which channel, in which trials; factor 1 where it is not one."""
+
+    effect: str
+    channel: str
+    factor: float
+    trials: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class NextExperiment:
+    """What to record next.
+
+    Parameters
+    ----------
+    separates
+        Effects that it tells apart, or where none was found, that it would show.
+    change
+        What to do, in words with numbers.
+    gain_nats
+        By how much the smallest separation grows.
+    """
+
+    separates: tuple[str, ...]
+    change: str
+    gain_nats: float
+
+    def as_dict(self) -> dict[str, Any]:
+        """As in diagnosis.json."""
+        return {"separates": list(self.separates), "change": self.change, "gain_nats": self.gain_nats}
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The answer to a gap case, as in diagnosis.json.
+
+    `probabilities` is a distribution over single answers (effects, "none", "unknown"), `ambiguity` the effects that
+    these data cannot tell apart, `absorbed` those that would be invisible here, `next_experiment` what to record so
+    that it can be identified; None where nothing is in question, or nothing that is simulated tells enough.
+    """
+
+    case: str
+    system: str
+    verdict: Verdict
+    effects: tuple[str, ...]
+    probabilities: Mapping[str, float]
+    ambiguity: tuple[str, ...]
+    absorbed: tuple[str, ...]
+    where: tuple[Where, ...]
+    gap: Mapping[str, ChannelGap]
+    parameters: Mapping[str, Estimate]
+    seconds: float
+    version: str
+    faults: tuple[DataErrorFound, ...] = ()
+    remarks: tuple[str, ...] = field(default=())
+    next_experiment: NextExperiment | None = None
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain dicts, lists, strings, numbers and None, ready for JSON."""
+        return {
+            "case": self.case,
+            "system": self.system,
+            "verdict": self.verdict,
+            "effects": list(self.effects),
+            "probabilities": dict(self.probabilities),
+            "ambiguity": list(self.ambiguity),
+            "absorbed": list(self.absorbed),
+            "where": [
+                {"channel": w.channel, "phase": list(w.phase), "share": w.share, "p_value": w.p_value}
+                | ({"stage": w.stage} if w.stage else {})
+                | ({} if w.cells is None else w.cells.as_dict())
+                for w in self.where
+            ],
+            "gap": {
+                name: {
+                    "rmse_before": g.rmse_before,
+                    "rmse_after": g.rmse_after,
+                    "noise_floor": g.noise_floor,
+                    "reduction": g.reduction,
+                    "ci95": list(g.ci95),
+                    "unexplained": g.unexplained,
+                }
+                for name, g in self.gap.items()
+            },
+            "parameters": {
+                name: {"value": e.value, "ci95": list(e.ci95), "unit": e.unit, "identifiable": e.identifiable}
+                for name, e in self.parameters.items()
+            },
+            "next_experiment": None if self.next_experiment is None else self.next_experiment.as_dict(),
+            "faults": [
+                {"effect": f.effect, "channel": f.channel, "factor": f.factor, "trials": list(f.trials)}
+                for f in self.faults
+            ],
+            "remarks": list(self.remarks),
+            "seconds": self.seconds,
+            "version": self.version,
+        }

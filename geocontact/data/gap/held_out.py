@@ -1,0 +1,36 @@
+"""A held-out trial as a diagnosis saw it: measured, predicted by the base model, and with what was named."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+
+@dataclass(frozen=True, eq=False)
+class HeldOut:
+    """One held-out trial, SI units; NaN where nothing was measured.
+
+    Parameters
+    ----------
+    name
+        Of the trial.
+    time
+        Of each sample [s].
+    measured, base
+        As recorded, and as the base model, refitted to the calibration trials, predicts it.
+    named
+        With the effects of the answer, or of the most probable candidate where there are too many; None without.
+    """
+
+    name: str
+    time: Float[np.ndarray, " t"]
+    measured: Float[np.ndarray, "t c"]
+    base: Float[np.ndarray, "t c"]
+    named: Float[np.ndarray, "t c"] | None
+
+    @property
+    def phase(self) -> Float[np.ndarray, " t"]:
+        """Time as a fraction of the trial."""
+        return np.asarray((self.time - self.time[0]) / (self.time[-1] - self.time[0]))

@@ -1,0 +1,247 @@
+"""The page and the figures of a gap diagnosis say what diagnosis.json says, and text stays text."""
+
+from __future__ import annotations
+
+import base64
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from geocontact.analyses.gap.diagnose.figures import axis_units, gap_figures
+from geocontact.analyses.gap.diagnose.page import gap_page
+from geocontact.analyses.gap.diagnose.words import states, verdict_sentences
+from geocontact.analyses.gap.words import percent
+from geocontact.data.gap.case import GapCase
+from geocontact.data.gap.cell import Cell
+from geocontact.data.gap.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Where
+from geocontact.gap.diagnose import Findings
+from geocontact.view.page.content import Curves, Page, Picture, Table, Words
+from geocontact.view.page.write import page_html
+from tests.cli.gap_cases import diagnosed_elbow
+
+Told = tuple[GapCase, Findings]
+
+
+@pytest.fixture(scope="module")
+def told() -> Told:
+    """Diagnosis of a damped elbow."""
+    result = diagnosed_elbow()
+    return result.case, result.findings
+
+
+@pytest.fixture(scope="module")
+def page(told: Told) -> Page:
+    """Its page."""
+    return gap_page(*told, gap_figures(told[1]), (), ("a reservation",))
+
+
+def table(page: Page, title: str) -> dict[str, tuple[str, ...]]:
+    """Rows of a table by their first cell."""
+    (found,) = [s for s in page.sections if isinstance(s, Table) and s.title.startswith(title)]
+    return {row[0]: tuple(row[1:]) for row in found.rows}
+
+
+@pytest.mark.slow
+def test_the_answer_stands_at_the_top(told: Told, page: Page) -> None:
+    d = told[1].diagnosis
+    said = dict(page.headline)
+    assert page.title == "elbow_7" and "synthetic data" in page.subtitle
+    assert page.subtitle.endswith("base model elbow: 2 trials fitted to, 2 held out")
+    assert said["What is missing"] == "damping"
+    assert said["Where"].startswith("force (phase ")
+    gap = d.gap["force"]
+    interval = f"{percent(gap.reduction)} % [{percent(gap.ci95[0])}, {percent(gap.ci95[1])}]"
+    assert said["Adding it removes"] == f"{interval} of the error of force on trials not used"
+    assert f"damping {d.probabilities['damping']:.2f}" in said["Probabilities"]
+
+
+def test_curves_are_measured_base_and_with_the_effect_of_each_held_out_trial(told: Told, page: Page) -> None:
+    panels = [s for s in page.sections if isinstance(s, Curves)]
+    titles = [f"force, held-out trial {name}" for name in ("t03", "t04")]
+    assert [p.title for p in panels] == [f"{t}{w}" for t in titles for w in ("", ": measured − predicted")]
+    for panel, off, trial in zip(panels[::2], panels[1::2], told[1].held_out, strict=True):
+        assert [c.name for c in off.curves] == ["base model", "with damping"]
+        for residual, curve in zip(off.curves, panel.curves[1:], strict=True):
+            np.testing.assert_allclose(residual.values, panel.curves[0].values - curve.values, atol=1e-9)
+        assert [c.name for c in panel.curves] == ["measured", "base model", "with damping"]
+        assert trial.named is not None
+        for curve, values in zip(panel.curves, (trial.measured, trial.base, trial.named), strict=True):
+            expected = np.interp(page.time / 100.0, trial.phase, values[:, 0])
+            np.testing.assert_allclose(curve.values, expected)
+
+
+def test_tables_hold_the_numbers_of_the_answer(told: Told, page: Page) -> None:
+    d = told[1].diagnosis
+    row = table(page, "How far")["force"]
+    gap = d.gap["force"]
+    assert float(row[1]) == pytest.approx(gap.rmse_before, rel=5e-3)
+    assert float(row[2]) == pytest.approx(gap.rmse_after, rel=5e-3)
+    assert row[4] == f"{percent(gap.reduction)} %"
+    assert set(table(page, "Parameters")) == set(d.parameters)
+    models = table(page, "Ranking")
+    assert float(models["damping"][3]) == pytest.approx(d.probabilities["damping"], abs=1e-3)
+    assert models["none"][1] == "0.0"
+
+
+def test_the_ranking_gives_each_single_answer_its_probability_once(told: Told) -> None:
+    d = told[1].diagnosis
+    rows = told[1].ranking
+    assert [row.gain for row in rows] == sorted((row.gain for row in rows), reverse=True)
+    told_ones = {row.effects: row.probability for row in rows if row.probability is not None}
+    assert len(told_ones) == sum(row.probability is not None for row in rows)
+    assert told_ones["none"] == d.probabilities["none"] and told_ones["unknown"] == d.probabilities["unknown"]
+    assert all(row.probability is None for row in rows if "+" in row.effects)
+
+
+def test_pictures_are_drawn_into_the_page_and_described(page: Page) -> None:
+    pictures = [s for s in page.sections if isinstance(s, Picture)]
+    assert [p.title for p in pictures] == ["Where the gap is", "What explains it", "What is left over"]
+    html = page_html(page)
+    for picture, data in zip(pictures, re.findall(r'src="data:image/svg\+xml;base64,([^"]+)"', html), strict=True):
+        assert base64.b64decode(data) == picture.svg and b"<svg" in picture.svg
+        assert f'alt="{picture.words.split(chr(39))[0]}' in html
+
+
+def test_nothing_is_fetched(page: Page) -> None:
+    html = page_html(page)
+    assert "default-src &#39;none&#39;" in html
+    assert not re.search(r'(?:src|href)\s*=\s*"(?!data:)', html.split("<script", 1)[0])
+    assert not re.search(r"(?:src|href)=[\"']https?:", html)
+
+
+HOSTILE = '<script>alert("1")</script>'
+
+
+def test_hostile_names_stay_text(told: Told) -> None:
+    case, findings = told
+    d = findings.diagnosis
+    spoilt = replace(
+        d,
+        case=HOSTILE,
+        parameters={HOSTILE: Estimate(1.0, (0.5, 2.0), HOSTILE, False)},
+        remarks=(HOSTILE,),
+        faults=(DataErrorFound("unit_error", HOSTILE, 2.0, (HOSTILE,)),),
+    )
+    shown = tuple(replace(trial, name=HOSTILE) for trial in findings.held_out)
+    there = replace(findings, diagnosis=spoilt, held_out=shown)
+    html = page_html(gap_page(case, there, gap_figures(there), (), (HOSTILE,)))
+    assert "<script>alert" not in html and "&lt;script&gt;alert" in html
+    pictures = [base64.b64decode(text) for text in re.findall(r"svg\+xml;base64,([^\"]+)", html)]
+    assert not any(b"<script" in picture for picture in pictures)
+
+
+def test_words_name_reservations_and_what_is_invisible(told: Told, page: Page) -> None:
+    words = {s.title: " ".join(s.paragraphs) for s in page.sections if isinstance(s, Words)}
+    assert words["Reservations of this run"] == "a reservation"
+    assert "not a clinical device" in words["What the numbers do not contain"]
+    for name in told[1].diagnosis.absorbed:
+        assert name in words["What cannot be told apart"]
+
+
+def test_axes_have_units(told: Told) -> None:
+    assert axis_units(told[1]) == {
+        "phase": "–",
+        "fast phase": "–",
+        "band": "Hz",
+        "load": "N",
+        "beta": "rad",
+        "beta'": "rad/s",
+    }
+
+
+# Words of each verdict, on answers made by hand.
+
+GAP = {"force": ChannelGap(2.1, 0.31, 0.22, 0.85, (0.80, 0.89), 0.03)}
+WHERE = (Where("force", (0.42, 0.61), 1.0, 0.001, "constitutive"),)
+
+
+def said(**changes: object) -> list[str]:
+    """Sentences of an answer."""
+    plain = Diagnosis(
+        "case", "elbow", "explained", ("damping",), {"damping": 1.0}, ("damping",), (), WHERE, GAP, {}, 1.0, "0"
+    )
+    return verdict_sentences(replace(plain, **changes), rates((0.45, 0.04, 0.01, 0.01, 0.04, 0.45)))
+
+
+def rates(shares: tuple[float, ...], p_value: float = 0.001, axis: str = "beta'") -> tuple[Cell, ...]:
+    """Cells along the rate of beta."""
+    ends = [(k - 3.0, k - 2.0, 1.0, share, p_value, (0.0, 1.0), 0.1) for k, share in enumerate(shares)]
+    return tuple(Cell("force", axis, *each) for each in ends)
+
+
+def test_the_sentence_of_the_issue() -> None:
+    (sentence,) = said()
+    assert sentence == (
+        "damping is missing; it sits in force (phase 42–61 %, fast part of beta); adding it removes 85 % [80, 89] of "
+        "the error on trials not used; 3 % stays unexplained"
+    )
+
+
+def test_what_cannot_be_told_apart_is_said() -> None:
+    _, second = said(ambiguity=("damping", "filter_lag", "relaxation"))
+    assert second == "these data cannot tell damping from filter_lag or relaxation"
+
+
+def test_two_effects_are_missing_together() -> None:
+    first = said(effects=("damping", "preload"), ambiguity=("damping", "preload"))[0]
+    assert first.startswith("damping and preload are missing; they sit in force (")
+    assert "adding them removes 85 %" in first
+
+
+@pytest.mark.parametrize(
+    ("verdict", "ambiguity", "words"),
+    [
+        ("no_gap", (), ["nothing is missing beyond noise and trial-to-trial variation"]),
+        (
+            "unknown",
+            ("slip",),
+            [
+                "there is a gap in force (phase 42–61 %, fast part of beta) and none of the known effects explains it",
+                "slip is not ruled out",
+            ],
+        ),
+        (
+            "unresolved",
+            ("a", "b", "c", "d"),
+            ["there is a gap in force (phase 42–61 %, fast part of beta); these data cannot tell a, b, c and d apart"],
+        ),
+    ],
+)
+def test_other_verdicts(verdict: str, ambiguity: tuple[str, ...], words: list[str]) -> None:
+    assert said(verdict=verdict, effects=(), ambiguity=ambiguity) == words
+
+
+def test_a_mistake_in_the_data_is_not_called_missing() -> None:
+    fault = DataErrorFound("sign_flip", "force", 1.0, ("t03",))
+    alone, both = (said(effects=names, faults=(fault,))[0] for names in (("sign_flip",), ("damping", "sign_flip")))
+    assert alone.startswith("sign_flip is a mistake in the data; it sits in force (") and "undoing it removes" in alone
+    assert both.startswith("damping is missing; sign_flip is a mistake in the data; they sit in force (")
+    assert "adding and undoing them removes 85 %" in both
+
+
+def test_invisible_effects_faults_and_oddities_are_said() -> None:
+    fault = DataErrorFound("unit_error", "force", 1e-3, ("t01", "t03"))
+    found = said(absorbed=("preload", "slip"), faults=(fault,), remarks=("a line at 8 Hz in force",))
+    assert found[1] == "base parameters would imitate preload or slip: not to be seen here, whether there or not"
+    assert found[2] == (
+        "mistake in the data: unit_error of force (reads 0.001 times what it should) in t01 and t03, taken as undone "
+        "in all that follows"
+    )
+    assert found[3:] == ["odd: a line at 8 Hz in force"]
+
+
+@pytest.mark.parametrize(
+    ("cells", "expected"),
+    [
+        (rates((0.4, 0.1, 0.0, 0.0, 0.1, 0.4)), ["fast part of beta"]),
+        (rates((0.0, 0.0, 0.5, 0.5, 0.0, 0.0)), ["slow part of beta"]),
+        (rates((1 / 6,) * 6), []),
+        (rates((0.4, 0.1, 0.0, 0.0, 0.1, 0.4), p_value=0.2), []),
+        (rates((0.0, 0.0, 0.0, 0.0, 0.2, 0.8), axis="beta"), ["high part of beta"]),
+        (rates((0.9, 0.1, 0.0, 0.0, 0.0, 0.0), axis="load"), ["low part of load"]),
+    ],
+)
+def test_states_are_named_where_they_hold_most_of_the_gap(cells: tuple[Cell, ...], expected: list[str]) -> None:
+    assert states("force", cells) == expected

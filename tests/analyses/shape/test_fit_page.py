@@ -1,0 +1,36 @@
+"""The page of a fit: the shape is drawn where it is, colours are its distances, nothing is named that is not known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from geocontact.analyses.shape.fitting import Fitting
+from geocontact.analyses.shape.page import drawn, fit_page
+from geocontact.analyses.shape.patch import Patch
+from geocontact.geometry.fit.catalogue import SHAPES
+from geocontact.view.page.content import Scene
+from meshes.simple_shapes import block, cylinder, sphere
+from tests.geometry.bodies import moved, surface, turned
+
+BODIES = {"cylinder": cylinder(15.0, 40.0, 8), "sphere": sphere(20.0, 8), "plane": block(60.0, 60.0, 12.0, 4)}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_shape_is_drawn_where_it_is_and_colours_are_distances(shape: str) -> None:
+    body = surface(moved(BODIES[shape], turned(20, -35, 50), [3.0, -2.0, 5.0]), "body")
+    chosen = np.arange(len(body.faces)) % 3 > 0
+    counted = np.zeros(len(body.vertices), bool)
+    counted[body.faces[chosen]] = True
+    fit = SHAPES[shape](body.vertices[counted], True)
+    told = Fitting(Patch(body, chosen, True, None, -1), fit, {}, {})
+    vertices, faces = drawn(told)
+    np.testing.assert_allclose(fit.distance(vertices), 0.0, atol=1e-12)
+    assert faces.max() < len(vertices) and (np.ptp(vertices, axis=0) > 0.01).any()
+    page = fit_page(told, {}, "title")
+    scene = next(section for section in page.sections if isinstance(section, Scene))
+    shown = scene.bodies[0].distance[0]
+    np.testing.assert_allclose(shown[counted], np.abs(fit.distance(body.vertices)[counted]))
+    assert np.isinf(shown[~counted]).all()
+    assert set(scene.directions) == {"+x", "−x", "+y", "−y", "+z", "−z"}
+    assert ("Radius" in dict(page.headline)) == (shape != "plane")

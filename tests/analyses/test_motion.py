@@ -1,0 +1,71 @@
+"""Scaling, inverse kinematics, inverse dynamics and virtual markers called from Python, beside their commands."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from tests.cli.calls import MESHES, call, done
+
+LEG, SWING = MESHES / "leg.osim", MESHES / "leg_swing.mot"
+KNEE = ("right=femur_r,tibia_r",)
+
+
+@pytest.fixture(scope="module")
+def markers(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Virtual markers of the shipped swing."""
+    return gc.virtual_markers(SWING, model=LEG).write(tmp_path_factory.mktemp("markers")) / "markers.trc"
+
+
+def test_the_chain_returns_to_where_it_began(markers: Path, tmp_path: Path) -> None:
+    angles = gc.inverse_kinematics(markers, model=LEG, knee=KNEE)
+    found = angles.table("coordinates")
+    swing = np.loadtxt(SWING, skiprows=7)
+    np.testing.assert_allclose(found.to_numpy(), swing, atol=1e-4)
+    assert angles.rms_mm < 1e-3 and "16 markers" in repr(angles)
+    np.testing.assert_allclose(angles.table("knees")["right_flexion [deg]"], -found["knee [deg]"], atol=1e-4)
+    moments = gc.inverse_dynamics(angles.write(tmp_path / "ik") / "ik.mot", model=LEG)
+    assert moments.table()["ty_force [N]"].mean() == pytest.approx(23.0 * 9.80665, rel=0.02), "nothing else carries it"
+    assert [axes.get_ylabel() for axes in moments.figure().axes] == ["moment [N m]"], "no force but at the ground"
+
+
+def test_angles_and_moments_are_those_of_the_commands(markers: Path, tmp_path: Path) -> None:
+    span = ("--time", "0.1:0.9", "--knee", KNEE[0])
+    typed = done(call("ik", markers, "--model", LEG, "--out", tmp_path / "ik", *span, folder=tmp_path / "ik"))
+    called = gc.inverse_kinematics(markers, model=LEG, time=(0.1, 0.9), knee=KNEE).write(tmp_path / "called")
+    for name in ("ik.mot", "markers.csv", "knees.csv"):
+        assert typed.bytes(name) == (called / name).read_bytes(), name
+    forces = done(call("id", typed.folder / "ik.mot", "--model", LEG, "--out", tmp_path / "id", "--cutoff", "4",
+                       folder=tmp_path / "id"))  # fmt: skip
+    again = gc.inverse_dynamics(called / "ik.mot", model=LEG, cutoff=4.0).write(tmp_path / "again")
+    for name in ("id.sto", "id.json"):
+        assert forces.bytes(name) == (again / name).read_bytes(), name
+
+
+def test_a_scaled_model_is_that_of_the_command(markers: Path, tmp_path: Path) -> None:
+    pairs = "femur_r,tibia_r=femur_r0/tibia_r0"
+    options = ("--scale", pairs, "--mass", "30", "--time", "0:0")
+    typed = done(
+        call("scale", markers, "--model", LEG, "--out", tmp_path / "typed", *options, folder=tmp_path / "typed")
+    )
+    result = gc.scale(markers, model=LEG, scale=pairs, mass=30.0, time=(0.0, 0.0))
+    assert sum(body.mass for body in result.model.bodies) == pytest.approx(30.0, rel=1e-12)
+    assert list(result.table("factors")["body"]) == ["femur_r", "tibia_r"]
+    called = result.write(tmp_path / "called")
+    for name in ("scaled.osim", "scale.json"):
+        assert typed.bytes(name) == (called / name).read_bytes(), name
+    assert "Model scaled to markers.trc" in result.page(tmp_path / "page.html").read_text(encoding="utf-8")
+
+
+def test_refusals_name_arguments(markers: Path) -> None:
+    with pytest.raises(gc.InputError, match="`fill`: -1 is not a time"):
+        gc.inverse_kinematics(markers, model=LEG, fill=-1.0)
+    with pytest.raises(gc.InputError, match="`axes`: has no effect without plates"):
+        gc.inverse_dynamics(SWING, model=LEG, axes="x,z,-y")
+    with pytest.raises(gc.InputError, match="`plates`: with `loads` names the plates twice"):
+        gc.inverse_dynamics(SWING, model=LEG, loads="a.xml", plates="b.mot", plate="1=foot_r")
+    with pytest.raises(gc.InputError, match="`mass`: 0 kg is not a mass"):
+        gc.scale(markers, model=LEG, mass=0.0)

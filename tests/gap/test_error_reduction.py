@@ -1,0 +1,87 @@
+"""How far the gap shrinks, and between what and what. The cases are synthetic."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.case.problem import Problem, problem_of
+from geocontact.gap.case.whitening import sensitivity
+from geocontact.gap.reduction.error_reduction import WIDE, between, error_reduction
+from geocontact.gap.reduction.raw_input_errors import directions, passed_on, raw_input_errors
+from geocontact.gap.selection.evidence import Judged
+from geocontact.gap.selection.model_comparison import base_contender, singles
+from geocontact.systems.catalogue import system_of
+from tests.gap.cases import elbow_case
+
+
+@pytest.fixture(scope="module")
+def problem() -> Problem:
+    case = elbow_case("damping", {"damping.b": 22.0, "damping.exponent": 1.0}, seed=3)
+    return problem_of(case, system_of(case))
+
+
+def named(problem: Problem, name: str) -> Judged:
+    """The base model with one candidate."""
+    one = next(c for c in candidates(problem.system) if c.name == name)
+    return singles(problem, base_contender(problem), (one,))[0].judged
+
+
+def test_a_narrow_interval_is_one_of_the_logarithm() -> None:
+    low, middle, high = between(4.0, 1.0)
+    assert middle == 4.0
+    assert np.log(high / middle) == pytest.approx(0.25) == np.log(middle / low)
+
+
+def test_a_wide_one_goes_on_in_proportion_without_a_jump() -> None:
+    below, above = between(2.0, (WIDE - 1e-9) * 2.0), between(2.0, (WIDE + 1e-9) * 2.0)
+    assert below == pytest.approx(above)
+    low, _, high = between(2.0, 8.0)
+    assert low < 0.0 and high - 2.0 == pytest.approx(2.0 * (between(2.0, 4.0)[2] - 2.0))
+
+
+@pytest.mark.parametrize("ratio", [0.0, -0.2])
+def test_what_is_less_than_nothing_has_one_too(ratio: float) -> None:
+    low, middle, high = between(ratio, 0.3)
+    assert low < middle == ratio < high
+
+
+def test_who_passes_twice_the_noise_on_errs_the_more(problem: Problem) -> None:
+    """a = 2 b makes 2 E[a (b - a)] = -4 E[b²], with b what the noise does to the base model's prediction."""
+    base, count = base_contender(problem).judged, len(problem.calibration.trials)
+    system, held_out = problem.system.as_measured(), problem.recorded.trials[count:]
+    twice = {**base.model.values, "k": 2.0 * base.model.values["k"]}
+    outputs = problem.recorded.outputs[count:]
+    pair = [
+        (system, own, [o - system.simulate(t, own) for o, t in zip(outputs, held_out, strict=True)])
+        for own in (base.model.values, twice)
+    ]
+    level = float(base.noise.levels.inputs[0])
+    seen = [sensitivity(system, t, base.model.values, ()).to_value[:, 0, 0] for t in held_out]
+    expected = -4.0 * level**2 * float(np.mean(np.concatenate(seen) ** 2))
+    assert passed_on(problem, base, pair) == pytest.approx([expected], rel=0.3)
+    assert passed_on(problem, base, [pair[0], pair[0]]) == pytest.approx([0.0])
+
+
+def test_what_an_effect_does_otherwise_is_part_of_the_best_fit() -> None:
+    """A drift that is not straight: the straight candidate, as it is and bent."""
+    case = elbow_case(seed=3, change=lambda _, time, force: force + 0.008 * time**2)
+    problem = problem_of(case, system_of(case))
+    found = named(problem, "sensor_drift")
+    columns = [j.shape[-1] + b.shape[-1] for j, b in zip(found.model.jacobian, found.discrepancy_basis, strict=True)]
+    assert [d.shape[-1] for d in directions(found)] == columns and found.discrepancy_basis[0].shape[-1] > 0
+    straight = [b[..., :0] for b in found.discrepancy_basis]
+    plain = replace(found, discrepancy_basis=straight, whitened_basis=found.whitened_basis[:, :0])
+    bent_left, plain_left = (raw_input_errors(problem, problem, each, None).left[0][0] for each in (found, plain))
+    assert bent_left < 0.9 * plain_left
+
+
+def test_a_reduction_is_stated_with_its_interval(problem: Problem) -> None:
+    found = error_reduction(problem, problem, named(problem, "damping"), True)["force"]
+    assert 0.0 < found.low < found.reduction < found.high < 1.0
+    assert found.reduction == pytest.approx(1.0 - found.rmse_after / found.rmse_before, abs=0.15)
+    nothing = error_reduction(problem, problem, base_contender(problem).judged, False)["force"]
+    assert (nothing.low, nothing.reduction, nothing.high) == (0.0, 0.0, 0.0)

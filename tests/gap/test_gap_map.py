@@ -1,0 +1,151 @@
+"""Where the gap lies."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from geocontact.data.gap.cell import Cell
+from geocontact.gap.localise.frequency_map import PHASES, _placed, energies
+from geocontact.gap.localise.gap_map import BLOCKS, Window, _least, load_outputs, shortest, systematic
+from geocontact.systems.catalogue import system_of
+from tests.elsewhere import Elsewhere
+from tests.gap.cases import Bump, Drift, Swing, Unmeasured, elbow_case, located
+
+Found = tuple[tuple[Cell, ...], tuple[Window, ...]]
+
+
+@pytest.fixture(scope="module")
+def pushed(elsewhere: Elsewhere) -> Found:
+    found: Found = elsewhere(located, Bump(3.0, 4.0, 0.5))
+    return found
+
+
+def test_shortest_window_holds_seventy_per_cent() -> None:
+    curve = np.zeros(100)
+    curve[40:50] = 1.0
+    low, high = shortest(curve)
+    assert high - low == pytest.approx(0.07)
+    assert low >= 0.40 and high <= 0.50
+    assert shortest(np.ones(100)) == (0.0, 0.7)
+
+
+def test_a_push_is_found_where_it_is(pushed: Found) -> None:
+    cells, seen = pushed
+    worst = max((cell for cell in cells if cell.axis == "phase"), key=lambda cell: cell.share)
+    assert worst.low >= 0.15 and worst.high <= 0.35
+    assert seen[0].channel == "force" and seen[0].share == 1.0
+    assert seen[0].phase[0] >= 0.15 and seen[0].phase[1] <= 0.40
+
+
+def test_without_a_gap_no_cell_is_significant(elsewhere: Elsewhere) -> None:
+    cells, _ = elsewhere(located, None)
+    assert min(cell.p_value for cell in cells) > 0.02
+
+
+def test_shares_along_an_axis_add_up(pushed: Found) -> None:
+    cells, _ = pushed
+    for axis in {cell.axis for cell in cells}:
+        total = sum(cell.share for cell in cells if cell.axis == axis)
+        assert total == pytest.approx(1.0) or total == 0.0
+
+
+def test_what_swings_inside_a_bin_is_seen_in_the_fast_part_only(elsewhere: Elsewhere) -> None:
+    cells, _ = elsewhere(located, Swing(6.4, 7.2, 0.6, 9.0))
+    fast = [cell for cell in cells if cell.axis == "fast phase"]
+    (loud,) = (cell for cell in fast if cell.p_value <= 0.05)
+    assert (loud.low, loud.high) == (0.4, 0.45)
+    assert loud.share > 0.6 and loud.ci95[0] > 0.4
+    assert min(cell.p_value for cell in cells if cell.axis == "phase") > 0.05
+
+
+def test_a_drift_is_not_fast(elsewhere: Elsewhere) -> None:
+    """It is 13 times the noise in the end, so the trial ends far from where it began."""
+    cells, _ = elsewhere(located, Drift(0.1))
+    slow, _, fast = (cell for cell in cells if cell.axis == "band")
+    assert slow.p_value < 0.01 and fast.p_value > 0.05
+    assert min(cell.p_value for cell in cells if cell.axis == "fast phase") > 0.05
+
+
+def test_bands_hold_the_whole_of_the_square() -> None:
+    time = np.arange(800) * 0.01
+    noise = np.random.default_rng(3).standard_normal((800, 2))
+    np.testing.assert_allclose(energies(time, noise)[:, :3].sum(axis=1), (noise**2).mean(axis=0), rtol=1e-12)
+    np.testing.assert_allclose(energies(time, noise)[:, 3:].mean(axis=1), energies(time, noise)[:, 2], rtol=1e-12)
+
+
+def test_what_is_not_measured_and_steps_that_differ_make_nothing_fast() -> None:
+    rng = np.random.default_rng(4)
+    time = np.sort(np.arange(800) * 0.01 + rng.uniform(-0.004, 0.004, 800))
+    time = np.delete(time, np.arange(500, 540))
+    slow = 3.0 + np.sin(2.0 * np.pi * 2.0 * time)
+    lifted = np.where((time > 1.0) & (time < 1.4), np.nan, slow)
+    quick = np.where(abs(time - 3.0) < 0.2, np.sin(2.0 * np.pi * 12.0 * time), 0.0)
+    found = energies(time, np.column_stack([slow, lifted, quick, np.full(time.size, np.nan)]))
+    assert (found[:2, 2] < 2e-3 * found[:2, 1]).all() and (found[:2, 1] > 0.4).all()
+    assert found[2, 2] > 0.9 * found[2, :3].sum() and found[2, 3 + 7] > 0.3 * found[2, 3:].sum()
+    assert (found[3] == 0.0).all()
+
+
+def test_a_pause_in_the_recording_hides_nothing_fast() -> None:
+    time = np.delete(np.arange(600) * 0.04, np.arange(150, 450))
+    found = energies(time, np.sin(2.0 * np.pi * 9.0 * time)[:, None])
+    assert found[0, 2] == pytest.approx(0.25, rel=0.02)  # half the square of a sine, in half of the time
+    assert found[0, 3 + PHASES // 2] < 0.01 < 0.4 < found[0, 3 + 1]
+
+
+def test_a_sample_that_the_model_has_no_value_for_is_none() -> None:
+    without = np.array([[False, True], [False, False], [True, False]])
+    found = _placed(np.array([1.0, 2.0, 3.0, 4.0]), np.array([0, 1, 2, 4]), without)
+    np.testing.assert_array_equal(found, [[1.0, np.nan], [3.0, np.nan], [np.nan, np.nan]])
+
+
+def test_shares_and_floor_make_up_the_whole(elsewhere: Elsewhere, pushed: Found) -> None:
+    cells, _ = pushed
+    for axis in ("phase", "fast phase"):
+        assert all(cell.ci95[0] <= cell.share <= cell.ci95[1] for cell in cells if cell.axis == axis)
+    quiet = next(cell.floor for cell in elsewhere(located, None)[0] if cell.axis == "phase")
+    loud = next(cell.floor for cell in cells if cell.axis == "phase")
+    assert quiet > 0.9
+    assert loud < 0.9
+
+
+def test_squares_of_means_are_without_their_variance() -> None:
+    rng = np.random.default_rng(0)
+    noise = rng.standard_normal((5, BLOCKS, 4, 400))
+    sums, counts = noise.sum(axis=-1), np.full((5, BLOCKS, 4), 400.0)
+    gap = np.array([0.0, 0.0, 0.1, 0.3])
+    found = systematic(sums + counts * gap, counts)
+    np.testing.assert_allclose(found / counts.sum(axis=(0, 1)), gap**2, atol=4e-3)
+
+
+def test_no_gap_is_stated_where_nothing_was_measured(elsewhere: Elsewhere) -> None:
+    """The push is at its height when the recording ends."""
+    _, seen = elsewhere(located, Bump(7.5, 8.5, 0.5), Unmeasured(8.0))
+    assert seen[0].phase[0] > 0.4 and seen[0].phase[1] < 0.55
+
+
+def test_p_values_of_two_families_are_doubled() -> None:
+    def cell(channel: str, p_value: float) -> Cell:
+        return Cell(channel, "phase", 0.0, 1.0, 0.0, 1.0, p_value, (0.0, 1.0), 0.0)
+
+    cells = (cell("force", 0.02), cell("force", 0.3), cell("angle", 0.001), cell("calm", 0.8))
+    assert [_least(cells, name) for name in ("force", "angle", "calm", "none")] == [0.04, 0.002, 1.0, 1.0]
+
+
+@pytest.mark.parametrize(
+    ("units", "rows"),
+    [
+        ({"angle": "rad", "force": "N"}, [1]),
+        ({"force_x": "N", "force_y": "N", "cop_x": "m"}, [0, 1]),
+        ({"angle": "rad", "torque": "N m"}, [1]),
+        ({"force": "N", "torque": "N m"}, [0]),
+        ({"angle": "rad"}, []),
+    ],
+)
+def test_the_load_is_forces_else_moments_and_no_angle(units: dict[str, str], rows: list[int]) -> None:
+    base = system_of(elbow_case(duration=2.0))
+    system = replace(base, balance=replace(base.balance, outputs=tuple(units)), units=units)
+    assert load_outputs(system) == rows

@@ -1,0 +1,49 @@
+"""What the pages import from the package, and the files of the repository that they name, are there."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+IMPORT = re.compile(r"^\s*from (geocontact[\w.]*) import (.+)$", re.MULTILINE)
+IMPORTS = sorted({found for page in PAGES for found in IMPORT.findall(page.read_text(encoding="utf-8"))})
+PATH = re.compile(r"`((?:geocontact|benchmarks|tests|meshes)/[\w./-]+|\w+/[\w/]+\.py)`")
+PATHS = sorted({found for page in PAGES for found in PATH.findall(page.read_text(encoding="utf-8"))})
+
+
+def defined(module: str) -> set[str]:
+    """Names at the top of a module, by its source; submodules count as well."""
+    place = ROOT / module.replace(".", "/")
+    inside = {file.stem for file in place.iterdir()} if place.is_dir() else set()
+    tree = ast.parse((place / "__init__.py" if place.is_dir() else place.with_suffix(".py")).read_text("utf-8"))
+    for one in tree.body:
+        if isinstance(one, (ast.FunctionDef, ast.ClassDef)):
+            inside.add(one.name)
+        elif isinstance(one, (ast.Import, ast.ImportFrom)):
+            inside |= {alias.asname or alias.name for alias in one.names}
+        elif isinstance(one, (ast.Assign, ast.AnnAssign)):
+            targets = one.targets if isinstance(one, ast.Assign) else [one.target]
+            inside |= {name.id for target in targets for name in ast.walk(target) if isinstance(name, ast.Name)}
+    return inside
+
+
+def test_there_are_some() -> None:
+    assert len(IMPORTS) > 20 and len(PATHS) > 10
+
+
+@pytest.mark.parametrize(("module", "names"), IMPORTS, ids=lambda part: part.replace(" ", ""))
+def test_a_documented_import_works(module: str, names: str) -> None:
+    wanted = {name.partition(" as ")[0].strip() for name in names.partition("#")[0].strip(" ()").split(",")}
+    assert wanted <= defined(module)
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_a_documented_file_exists(path: str) -> None:
+    """Modules may be named from the package's folder, or from the one that the page is about."""
+    places = (ROOT, ROOT / "geocontact", ROOT / "geocontact" / "gap_benchmark")
+    assert any((place / path).exists() for place in places)

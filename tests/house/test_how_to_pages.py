@@ -1,0 +1,84 @@
+"""The first screen of every how-to is a command that runs on shipped data, and what it prints."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.house.first_screens import PAGES, ROOT, agrees, first_screen, missing
+
+FIRST_LINES = 25
+ABOUT_PYTHON = ("figures", "own_model")
+FILE = re.compile(r"[\w./*-]+\.(?:stl|csv|mot|osim|trc|toml|json)\b")
+MADE = re.compile(r"(?:> |--out |export\(\")([\w.-]+)")
+
+
+def name(page: Path) -> str:
+    return page.stem
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_it_begins_with_a_command_and_its_output(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    screen = first_screen(text)
+    assert text.startswith("# ") and screen.line <= FIRST_LINES
+    assert screen.language == ("python" if page.stem in ABOUT_PYTHON else "sh")
+    assert any(line.strip(" …") for line in screen.shown), "no output below the first command"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_it_names_files_that_are_shipped_or_made_by_it(page: Path) -> None:
+    code = first_screen(page.read_text(encoding="utf-8")).code
+    made = set(MADE.findall(code))
+    named = [file for file in FILE.findall(code) if file.partition("/")[0] not in made]
+    assert all((ROOT / file).is_file() and file.startswith("meshes/") for file in named), named
+
+
+@pytest.mark.parametrize(
+    ("shown", "printed", "same"),
+    [
+        ("area 1796.3 … 2505.0 mm^2", "area 1797.1 … 2503.0 mm^2", True),
+        ("area 1796.3 … 2505.0 mm^2", "area 1796.3 … 2508.0 mm^2", False),
+        ("area 1796.3 … 2505.0 mm^2", "areas 1796.3 … 2505.0 mm^2", False),
+        ("[−3, 82] of 0.0", "[\N{MINUS SIGN}3, 82] of 0.0", True),
+        ("results in result: a.csv, … run.json", "results in result: a.csv, b.csv, run.json", True),
+        ("results in result: a.csv, … run.json", "results in result: b.csv, run.json", False),
+        ("  0.1   2.5", " 0.1 2.5", True),
+        ("1e-3 N", "0.001 N", True),
+    ],
+)
+def test_lines_are_compared_by_words_and_numbers(shown: str, printed: str, same: bool) -> None:
+    assert agrees(shown, printed) == same
+
+
+def test_lines_are_looked_for_in_order() -> None:
+    assert missing(("a 1", "…", "c 3"), "a 1\nb 2\nc 3\n") == []
+    assert missing(("c 3", "a 1"), "a 1\nb 2\nc 3\n") == ["a 1"]
+    assert missing(("a 1", "d"), "a 1\nb 2\nc 3\n") == ["d"]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("bash") is None, reason="the pages speak to a shell")
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_its_first_command_prints_what_it_shows(tmp_path: Path, page: Path) -> None:
+    """Run where nothing lies but meshes/, with `geocontact` and `python` of this checkout."""
+    screen = first_screen(page.read_text(encoding="utf-8"))
+    (tmp_path / "meshes").symlink_to(ROOT / "meshes")
+    (tmp_path / "bin").mkdir()
+    for command, program in (("python", ""), ("geocontact", f' "{ROOT}/cli.py"')):
+        file = tmp_path / "bin" / command
+        file.write_text(f'#!/bin/sh\nexec "{sys.executable}"{program} "$@"\n', encoding="utf-8")
+        file.chmod(0o755)
+    path = f"{tmp_path / 'bin'}{os.pathsep}{os.environ['PATH']}"
+    environment = os.environ | {"PATH": path, "PYTHONPATH": str(ROOT), "PYTHONUNBUFFERED": "1"}
+    shell = ["bash", "-eu", "-c"] if screen.language == "sh" else [sys.executable, "-c"]
+    told = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    done = subprocess.run([*shell, screen.code], cwd=tmp_path, env=environment, **told)
+    assert done.returncode == 0, done.stdout
+    assert missing(screen.shown, done.stdout) == [], done.stdout
