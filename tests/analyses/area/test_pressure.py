@@ -37,7 +37,8 @@ def bodies(folder: Path, n: int = 30) -> tuple[Path, Path]:
 def pressed(folder: Path, at: tuple[float, float] = (0.0, 0.0), n: int = 30, **options: object) -> AreaResult:
     """The ball at the depths, `at` x and z [mm]; areas are counted the quick way, as few tests look at them."""
     motion = poses(folder, *((at[0], 20.0 - depth, at[1]) for depth in DEPTHS))
-    return pressures(*bodies(folder, n), motion, **{"rule": "clip", "threshold": 0.0} | LAYER | options)
+    quick = {"rule": "clip", "threshold": 0.0, "piece": gc.mm(1)}
+    return pressures(*bodies(folder, n), motion, **(quick | LAYER | options))
 
 
 @pytest.mark.parametrize(("law", "closed"), [("linear", linear_force), ("logarithmic", logarithmic_force)])
@@ -89,7 +90,7 @@ def test_pieces_that_are_too_large_are_told(tmp_path: Path) -> None:
     coarse = pressed(tmp_path, piece=gc.mm(4))
     (said,) = [line for line in coarse.warnings if "pieces of half the size change the largest force by" in line]
     assert said.endswith("give a smaller `piece`")
-    fine = pressed(tmp_path).record.results["pressure"]
+    fine = pressed(tmp_path, piece=None).record.results["pressure"]
     assert fine["largest_force_N"] == pytest.approx(fine["with_pieces_of_half_the_size_N"], rel=0.01)
 
 
@@ -153,8 +154,9 @@ def test_the_number_of_threads_does_not_matter(tmp_path: Path) -> None:
 def test_pressure_is_the_area_analysis_with_its_pressures_asked_for(tmp_path: Path) -> None:
     """One implementation: the same tables, of which the other one comes first."""
     motion = poses(tmp_path, (0, 19.8, 0), (0, 19.9, 0))
-    areas = area(*bodies(tmp_path), motion, pressure=True, **LAYER)
-    result = pressures(*bodies(tmp_path), motion, **LAYER)
+    given = {**LAYER, "rule": "clip", "piece": gc.mm(1)}
+    areas = area(*bodies(tmp_path), motion, pressure=True, **given)
+    result = pressures(*bodies(tmp_path), motion, **given)
     assert (list(areas.tables()), list(result.tables())) == (["area", "pressure"], ["pressure", "area"])
     for name, table in areas.tables().items():
         pd.testing.assert_frame_equal(result.table(name), table, check_exact=True)
