@@ -148,6 +148,7 @@ def test_a_wrong_case_costs_the_others_nothing(many: Many) -> None:
     assert all(f"{name}: damping is missing; it sits in force" in many.out for name in SAME)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SAME)
 def test_names_order_and_units_do_not_change_the_answer(answer: dict[str, Any], many: Many, name: str) -> None:
     """Also not from one process to another: the answer beside it was made in this one."""
