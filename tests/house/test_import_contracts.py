@@ -72,7 +72,7 @@ def test_contracts_hold() -> None:
         ("view/curves/style.py", "import geocontact.geometry.plane", VIEW),
         ("analyses/cop/run.py", "import geocontact.analyses.area.run", APART),
         ("analyses/area/options.py", "import geocontact.analyses.area.run", CIRCLES),
-        ("geometry/plane.py", "import geocontact.geometry.surface", CIRCLES),
+        ("chain/candidate.py", "import geocontact.chain.contact_sites", CIRCLES),
         ("analyses/cop/run.py", "import cyclopts", TYPED),
         ("gap/diagnose.py", "import rich", TYPED),
         ("geometry/plane.py", "import geocontact.io.mesh.meshes", IO),
