@@ -39,8 +39,8 @@ WITHHELD = {
     "tx_1mm": (Withheld(offset=(0, 0, 0, 1e-3, 0, 0)), "motion_offset"),
     "ty_1mm": (Withheld(offset=(0, 0, 0, 0, 1e-3, 0)), "motion_offset"),
     "tz_1mm": (Withheld(offset=(0, 0, 0, 0, 0, 1e-3)), "motion_offset"),
-    "radius_slow": (Withheld(discrepancy_basis=0.3), "axis_migration"),
-    "radius_fast": (Withheld(discrepancy_basis=0.1), "axis_migration"),
+    "radius_slow": (Withheld(transition=0.3), "axis_migration"),
+    "radius_fast": (Withheld(transition=0.1), "axis_migration"),
     "crosstalk": (Withheld(coupling=("PM", "AM", 0.06)), "crosstalk"),
 }
 """Name of each case: what the base is not told, and the name of it in the vocabulary."""

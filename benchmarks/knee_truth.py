@@ -117,7 +117,7 @@ class Withheld:
     ----------
     offset
         Added to the measured coordinates [rad, m].
-    discrepancy_basis
+    transition
         R falls from that of the base to 22/34 of it around 0.5 rad of flexion, along a logistic curve of this width
         [rad]; 0 where it does not. 34 and 22 mm are the distal and posterior radius of the sample knee.
     coupling
@@ -125,14 +125,14 @@ class Withheld:
     """
 
     offset: tuple[float, ...] = (0.0,) * 6
-    discrepancy_basis: float = 0.0
+    transition: float = 0.0
     coupling: tuple[str, str, float] = ("PM", "AM", 0.0)
 
     def radius(self, flexion: np.ndarray) -> np.ndarray:
         """R along a trial [m]."""
-        if self.discrepancy_basis == 0.0:
+        if self.transition == 0.0:
             return np.full_like(flexion, RADIUS)
-        return RADIUS / 34.0 * (22.0 + 12.0 / (1.0 + np.exp((flexion - 0.5) / self.discrepancy_basis)))
+        return RADIUS / 34.0 * (22.0 + 12.0 / (1.0 + np.exp((flexion - 0.5) / self.transition)))
 
     def mixed(self, cells: np.ndarray) -> np.ndarray:
         """What the cells read of what they carry."""

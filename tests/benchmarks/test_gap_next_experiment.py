@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from benchmarks.gap_next_experiment import NOTHING, TIMES, in_question, separated
 from geocontact.gap.experiment.proposal import proposed
@@ -22,6 +23,7 @@ def tried(delay: float) -> tuple[tuple[str, ...], tuple[float, float] | None]:
     return found.answer.ambiguity, told
 
 
+@pytest.mark.slow
 def test_a_delay_and_a_filter_are_told_apart_by_what_is_proposed(elsewhere: Elsewhere) -> None:
     ambiguity, told = elsewhere(tried, 0.02)
     assert set(ambiguity) == set(ALIKE)

@@ -51,6 +51,7 @@ def test_cells_of_the_truth_are_those_of_the_chain_by_other_code() -> None:
     np.testing.assert_allclose(knee_truth.cells_of(force, centre), want, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_what_is_withheld_changes_what_it_should() -> None:
     rng = np.random.default_rng(5)
     course = Course.drawn(KNEE.finer, KNEE.mean, rng, SAMPLES)
@@ -61,7 +62,7 @@ def test_what_is_withheld_changes_what_it_should() -> None:
     changed = course.cells(coupled) - plain
     assert np.abs(changed[:, [0, 2, 3]]).max() < 1e-9
     assert changed[:, 1].mean() == pytest.approx(0.1 * plain[:, 0].mean(), rel=0.05)
-    assert np.ptp(Withheld(bends=0.1).radius(course.pose[0])) > 1e-3
+    assert np.ptp(Withheld(transition=0.1).radius(course.pose[0])) > 1e-3
 
 
 def alone(*command: object) -> str:

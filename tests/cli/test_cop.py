@@ -210,6 +210,7 @@ def test_parquet_and_pictures(tmp_path: Path) -> None:
     assert result.bytes("cop.png").startswith(b"\x89PNG") and b"<svg" in result.bytes("cop.svg")
 
 
+@pytest.mark.slow
 def test_same_call_gives_the_same_bytes(tmp_path: Path) -> None:
     first = {name: done(cop(tmp_path)).bytes(name) for name in FILES - {"run.json"}}
     again = {name: done(cop(tmp_path)).bytes(name) for name in FILES - {"run.json"}}

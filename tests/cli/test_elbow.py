@@ -61,6 +61,7 @@ def test_simulated_trials_say_what_they_are(made: Path) -> None:
     assert truth["synthetic"] is True and truth["stroke_mm"] == [-10.0, 60.0]
 
 
+@pytest.mark.slow
 def test_a_simulation_with_its_figure_and_page(tmp_path: Path) -> None:
     result = done(elbow("simulate", tmp_path, *QUICK, "--stroke-mm=-10:60", "--parquet", picture=True))
     trials = {f"{kind}_{k}" for kind in ("locked", "free") for k in (1, 2, 3)} | {"surfaces"}

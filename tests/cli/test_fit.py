@@ -59,6 +59,7 @@ def test_contract_and_a_rod(tmp_path: Path) -> None:
     assert len(result.bytes("report.html")) < 5_000_000 and b"15.000 mm" in result.bytes("report.html")
 
 
+@pytest.mark.slow
 def test_writes_what_python_writes(tmp_path: Path) -> None:
     """Files by name, tables byte for byte, options as typed and in SI."""
     typed = ("--split", "z", "--profile=0:80:40", "--window", "40", "--no-robust", "--parquet")
@@ -119,6 +120,7 @@ def test_a_file_of_faces(tmp_path: Path) -> None:
     assert [entry["role"] for entry in result.record()["inputs"]] == ["mesh", "--region"]
 
 
+@pytest.mark.slow
 def test_residuals_for_paraview(tmp_path: Path) -> None:
     pyvista = pytest.importorskip("pyvista")
     result = done(fit(tmp_path / "o", CUP, "sphere", "--centre", "0,0,0", "--region", "outward>0.9", "--paraview"))
@@ -182,6 +184,7 @@ def test_meshes_refused(tmp_path: Path) -> None:
     assert not (tmp_path / "o").exists()
 
 
+@pytest.mark.slow
 def test_a_failing_run_leaves_the_old_results_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     done(fit(tmp_path / "o", SPHERE, "sphere"))
     before = inventory(tmp_path)

@@ -161,6 +161,7 @@ def test_names_order_and_units_do_not_change_the_answer(answer: dict[str, Any], 
         assert first == pytest.approx(second, rel=1e-5, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_bare_leaves_pictures_out_and_takes_old_ones_away(good: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     out.mkdir()

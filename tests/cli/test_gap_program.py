@@ -106,6 +106,7 @@ def test_a_delay_of_what_a_program_simulates_is_found(tmp_path: Path, elsewhere:
     assert told["gap"]["torque"]["reduction"] > 0.5 and (case / RAN).exists()
 
 
+@pytest.mark.slow
 @runs
 def test_what_is_planted_beside_a_program_is_in_the_measured_column(tmp_path: Path) -> None:
     case, out = wrapped(tmp_path / "own", late=0.0), tmp_path / "out"

@@ -42,6 +42,7 @@ def several(folder: Path, *names: str) -> list[object]:
     return [word for file in files for word in ("--motion", file)]
 
 
+@pytest.mark.slow
 def test_every_file_of_a_run_may_be_removed_by_the_next(tmp_path: Path) -> None:
     out = tmp_path / "out"
     done(run(out, *everything(tmp_path), picture=True))

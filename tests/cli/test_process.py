@@ -18,6 +18,7 @@ from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, ROOT, SPHERE, area, do
 from tests.contract import FILES
 
 
+@pytest.mark.slow
 def test_from_another_folder_with_relative_paths(tmp_path: Path) -> None:
     """Inputs, the result folder and a path that looks like an option are relative to where the user stands."""
     for file, name in ((FEMUR, "-x.stl"), (INSERT, "insert.stl")):
@@ -61,6 +62,7 @@ def ball_on_plate(folder: Path) -> list[str]:
     return ["area", str(SPHERE), str(PLATE), f"--motion={motion}", "--unit=mm", f"--out={folder / 'out'}"]
 
 
+@pytest.mark.slow
 def test_summary_on_a_terminal_without_unicode(tmp_path: Path) -> None:
     """Results are announced with an ellipsis and end up in an ASCII log all the same."""
     environment = os.environ | {"PYTHONIOENCODING": "ascii"}
@@ -71,6 +73,7 @@ def test_summary_on_a_terminal_without_unicode(tmp_path: Path) -> None:
     assert (tmp_path / "out/area.csv").is_file()
 
 
+@pytest.mark.slow
 def test_results_are_there_when_nobody_reads_the_summary(tmp_path: Path) -> None:
     """`geocontact area … | head -1`: the pipe is closed before the run has said everything."""
     if os.name != "posix":

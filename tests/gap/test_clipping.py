@@ -27,6 +27,7 @@ def test_the_top_of_a_movement_in_steps_is_not_flat(step: float) -> None:
         assert pile(x, step)[2] < SURE_OF_IT
 
 
+@pytest.mark.slow
 def test_a_clipped_recording_has_a_flat_top(elsewhere: Elsewhere) -> None:
     (top,) = elsewhere(flat, Clip(LEVEL))
     assert (top.channel, top.level) == ("force", LEVEL)
@@ -35,6 +36,7 @@ def test_a_clipped_recording_has_a_flat_top(elsewhere: Elsewhere) -> None:
     assert coarse.level == pytest.approx(13.5)
 
 
+@pytest.mark.slow
 def test_noise_steps_and_held_samples_are_no_flat_top(elsewhere: Elsewhere) -> None:
     for recorded in (None, held, Clip(1e3, 0.05)):
         assert elsewhere(flat, recorded) == ()

@@ -46,6 +46,7 @@ def damped(elsewhere: Elsewhere) -> Diagnosis:
     return found
 
 
+@pytest.mark.slow
 def test_nothing_is_missing_where_nothing_is(elsewhere: Elsewhere) -> None:
     found = elsewhere(diagnosis, seed=1)
     check(found)
@@ -75,6 +76,7 @@ def test_damping_is_named_and_measured(damped: Diagnosis) -> None:
     assert gap.reduction == pytest.approx(1.0 - gap.rmse_after / gap.rmse_before, abs=0.12)
 
 
+@pytest.mark.slow
 def test_where_too_many_remain_reductions_are_those_of_the_likeliest(damped: Diagnosis, elsewhere: Elsewhere) -> None:
     found = elsewhere(diagnosis_that_names_nothing, "damping", DAMPING, seed=1)
     check(found)
@@ -98,6 +100,7 @@ def test_two_effects_are_both_named(elsewhere: Elsewhere) -> None:
     assert set(found.effects) == {"dry_friction", "time_shift"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("where", [ALL, ("t02",), ("t05",)])
 def test_a_wrong_unit_is_found_in_all_trials_or_some(where: tuple[str, ...], elsewhere: Elsewhere) -> None:
     found = elsewhere(diagnosis, seed=4, recorded=Times(1000.0, where))
@@ -110,6 +113,7 @@ def test_a_wrong_unit_is_found_in_all_trials_or_some(where: tuple[str, ...], els
         assert found.gap["force"].reduction > 0.5
 
 
+@pytest.mark.slow
 def test_a_reversed_angle_that_the_offsets_nearly_hide(elsewhere: Elsewhere) -> None:
     where = ("t02", "t05")
     found = elsewhere(diagnosis_of_reversed, where, seed=7)
@@ -118,12 +122,14 @@ def test_a_reversed_angle_that_the_offsets_nearly_hide(elsewhere: Elsewhere) -> 
     assert [(f.channel, f.factor, f.trials) for f in found.faults] == [("beta", -1.0, where)]
 
 
+@pytest.mark.slow
 def test_a_wrong_unit_that_the_stiffness_takes_for_its_own(elsewhere: Elsewhere) -> None:
     found = elsewhere(diagnosis, seed=4, recorded=Times(4.4482216, ALL))
     check(found)
     assert found.probabilities.get("unit_error", 0.0) > 0.2
 
 
+@pytest.mark.slow
 def test_a_mistake_beside_an_effect(elsewhere: Elsewhere) -> None:
     found = elsewhere(diagnosis, "damping", DAMPING, seed=1, recorded=Times(1000.0, ("t02",)))
     check(found)

@@ -66,6 +66,7 @@ def test_who_passes_twice_the_noise_on_errs_the_more(problem: Problem) -> None:
     assert passed_on(problem, base, [pair[0], pair[0]]) == pytest.approx([0.0])
 
 
+@pytest.mark.slow
 def test_what_an_effect_does_otherwise_is_part_of_the_best_fit() -> None:
     """A drift that is not straight: the straight candidate, as it is and bent."""
     case = elbow_case(seed=3, change=lambda _, time, force: force + 0.008 * time**2)

@@ -111,6 +111,7 @@ def foot_changes(
     return [(a.time, *(np.column_stack([t.column(n) for n in names]) for t in (a, b))) for a, b in pairs]
 
 
+@pytest.mark.slow
 def test_missing_samples_do_not_keep_a_sensor_from_what_was_measured(elsewhere: Elsewhere) -> None:
     """A foot has no centre of pressure in the air; noise of its forces is amplified and delayed all the same."""
     gain = elsewhere(foot_changes, "sensor_gain.force_x", {"sensor_gain.force_x.gain": 0.5})

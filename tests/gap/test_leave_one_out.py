@@ -24,6 +24,7 @@ def test_it_is_the_density_given_a_fit_to_the_other_trials() -> None:
         assert found[i] == pytest.approx(exact.logpdf(residuals[i]) + 6.0 * np.log(2.0 * np.pi), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_delay_helps_in_every_trial(elsewhere: Elsewhere) -> None:
     found = elsewhere(gains, Late(0.12))
     assert len(found) == 5

@@ -134,6 +134,7 @@ def said_of(spread: Spread) -> dict[str, object]:
     return entry
 
 
+@pytest.mark.slow
 def test_a_diagnosis_names_the_cells(elsewhere: Elsewhere) -> None:
     entry = elsewhere(said_of, in_corner)
     cells = entry["cells"]

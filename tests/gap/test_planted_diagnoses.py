@@ -12,6 +12,8 @@ from geocontact.gap_benchmark.synthetic.label import Label
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 
+pytestmark = pytest.mark.slow
+
 SEED = 20261145
 
 

@@ -121,6 +121,7 @@ def test_area_of_sphere_pairs_converges_at_second_order(rule, gap, threshold):
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("rule", "sign"), [("all-vertices", -1), ("any-vertex", 1)])
 def test_counting_whole_faces_converges_at_first_order(rule, sign):
     cells, true = np.array([8, 16, 32, 64]), exact.sphere_sphere_on_first(R1, R2, 0.3, 4.0)
@@ -269,6 +270,7 @@ SMALL = {
 }
 
 
+@pytest.mark.slow
 @settings(max_examples=12, deadline=None, derandomize=True, phases=[Phase.generate])
 @given(
     names=st.tuples(st.sampled_from(list(SMALL)), st.sampled_from(list(SMALL))),
@@ -454,6 +456,7 @@ def test_region_of_no_face_has_no_area(height):
     assert found.moving[0].area > 0
 
 
+@pytest.mark.slow
 def test_unsigned_area_is_the_signed_one_without_what_lies_deeper():
     """A face taken away on the far side makes the ball open: what lies deeper than T no longer counts."""
     ball, plate, threshold = shapes.sphere(20.0, 12), shapes.block(80.0, 80.0, 12.0, 24), 0.5

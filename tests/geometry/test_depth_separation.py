@@ -173,6 +173,7 @@ def test_depth_of_counted_faces_only():
     assert found.max_penetration_fixed / MM == pytest.approx(0.5, abs=DEEP / MM)
 
 
+@pytest.mark.slow
 def test_open_bodies_overlap_without_depth():
     """Where no body is closed the distance of overlapping bodies is 0 and the depth unknown."""
     lidless = surface(without(cube((0, 0, 0), 10.0), [0]))

@@ -88,6 +88,7 @@ def knee(edge: float) -> Pressed:
     return pressed(layer(insert, edge), femur, rotation, row[1:4] * MM - [0.0, 1.2 * MM, 0.0])
 
 
+@pytest.mark.slow
 def test_force_on_the_sample_knee_is_within_one_per_cent_of_refined_pieces() -> None:
     coarse, fine = knee(0.5e-3), knee(0.1e-3)
     assert coarse.load.pressing == pytest.approx(fine.load.pressing, rel=0.01)

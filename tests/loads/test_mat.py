@@ -71,6 +71,7 @@ def test_uniform_pressure_on_a_cylinder_hardly_feels_the_facets(n: int) -> None:
     assert load.pressing[0] == pytest.approx(2.0 * RADIUS * LENGTH * HALF)
 
 
+@pytest.mark.slow
 def test_parts_of_a_cell_converge_at_second_order() -> None:
     exact = 2.0 * RADIUS * LENGTH * np.sin(HALF)
     fine, parts = cylinder(400), np.array([1, 2, 4, 8])

@@ -109,6 +109,7 @@ def test_nothing_presses_outside_the_mat(recording):
         assert (footprint.reach(mat.segment, points[None]) > 1).all()
 
 
+@pytest.mark.slow
 @each_recording
 def test_cells_laid_out_carry_the_exact_force(recording):
     """Cell pressures times the skin's area under the cell, summed with the outward normals, give the truth."""

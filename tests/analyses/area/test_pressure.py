@@ -41,6 +41,7 @@ def pressed(folder: Path, at: tuple[float, float] = (0.0, 0.0), n: int = 30, **o
     return pressures(*bodies(folder, n), motion, **(quick | LAYER | options))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("law", "closed"), [("linear", linear_force), ("logarithmic", logarithmic_force)])
 def test_ball_on_a_floor_is_the_closed_form(tmp_path: Path, law: str, closed: Callable[..., float]) -> None:
     result = pressed(tmp_path, foundation=law, n=50)
@@ -53,6 +54,7 @@ def test_ball_on_a_floor_is_the_closed_form(tmp_path: Path, law: str, closed: Ca
     assert result.warnings == ()
 
 
+@pytest.mark.slow
 def test_what_is_pressed_is_the_area_within_zero(tmp_path: Path) -> None:
     result = pressed(tmp_path, threshold=gc.mm(0, 4), rule="refined", facets="flat", at=(3.3, -7.1))
     areas = result.table("area")
@@ -67,6 +69,7 @@ def test_what_is_pressed_is_the_area_within_zero(tmp_path: Path) -> None:
     np.testing.assert_allclose(moment[:2], np.cross(centre, force)[:2], atol=1e-6)
 
 
+@pytest.mark.slow
 def test_sides_add_up(tmp_path: Path) -> None:
     table = pressed(tmp_path, split="z", at=(0.0, -0.8)).table()
     medial, lateral = table["force_medial [N]"], table["force_lateral [N]"]
@@ -77,6 +80,7 @@ def test_sides_add_up(tmp_path: Path) -> None:
     np.testing.assert_allclose(turned["force_lateral [N]"], medial, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_rays_find_the_thickness_that_may_be_given(tmp_path: Path) -> None:
     rays, given = (pressed(tmp_path, thickness=thickness).table() for thickness in ("rays", gc.mm(12)))
     thick = pressed(tmp_path, thickness=gc.mm(24))
@@ -86,6 +90,7 @@ def test_rays_find_the_thickness_that_may_be_given(tmp_path: Path) -> None:
     assert thick.record.results["pressure"]["thickness_mm"] == [24.0, 24.0]
 
 
+@pytest.mark.slow
 def test_pieces_that_are_too_large_are_told(tmp_path: Path) -> None:
     coarse = pressed(tmp_path, piece=gc.mm(4))
     (said,) = [line for line in coarse.warnings if "pieces of half the size change the largest force by" in line]
@@ -94,6 +99,7 @@ def test_pieces_that_are_too_large_are_told(tmp_path: Path) -> None:
     assert fine["largest_force_N"] == pytest.approx(fine["with_pieces_of_half_the_size_N"], rel=0.01)
 
 
+@pytest.mark.slow
 def test_large_strain_and_no_contact_are_told(tmp_path: Path) -> None:
     assert any("strained by up to 30%" in line for line in pressed(tmp_path, thickness=gc.mm(1)).warnings)
     air = pressures(*bodies(tmp_path), poses(tmp_path, (0, 20.5, 0)), **LAYER)
@@ -107,6 +113,7 @@ def test_facets_of_a_coarse_ball_stand_for_the_ball(tmp_path: Path) -> None:
     assert (flat[:2] < 0.95 * expected).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["linear", "logarithmic"])
 def test_two_layers_share_the_depth(tmp_path: Path, law: str) -> None:
     """Two of one kind, each half as far in: half the depth of one, so half the force where the law is linear."""
@@ -122,6 +129,7 @@ def test_two_layers_share_the_depth(tmp_path: Path, law: str) -> None:
     assert "another one of 2312 MPa" in page and "MOVING is rigid" in other
 
 
+@pytest.mark.slow
 def test_rays_through_the_ball_find_its_thickness_too(tmp_path: Path) -> None:
     one, two = (pressed(tmp_path, **options).table()["force [N]"] for options in ({}, SECOND))
     np.testing.assert_allclose(two[:2] / one[:2], 12.0 / (12.0 + 40.0), rtol=0.01)
@@ -146,11 +154,13 @@ def test_pressures_for_paraview(tmp_path: Path) -> None:
         assert "pressure [MPa]" not in pyvista.read(folder / f"paraview/frames/moving_{k:03d}.vtp").cell_data
 
 
+@pytest.mark.slow
 def test_the_number_of_threads_does_not_matter(tmp_path: Path) -> None:
     one, three = (pressed(tmp_path, workers=workers).table() for workers in (1, 3))
     pd.testing.assert_frame_equal(one, three, check_exact=True)
 
 
+@pytest.mark.slow
 def test_pressure_is_the_area_analysis_with_its_pressures_asked_for(tmp_path: Path) -> None:
     """One implementation: the same tables, of which the other one comes first."""
     motion = poses(tmp_path, (0, 19.8, 0), (0, 19.9, 0))

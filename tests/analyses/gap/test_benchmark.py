@@ -130,6 +130,7 @@ def counted(worked_on: list[Lot]) -> Callable[..., Iterator[tuple[Task, Worked]]
     return each
 
 
+@pytest.mark.slow
 def test_a_journal_goes_on_where_it_ended(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     journal, worked_on = tmp_path / "kept" / "cases.jsonl", []
     monkeypatch.setattr(gap_benchmark_run, "each", counted(worked_on))

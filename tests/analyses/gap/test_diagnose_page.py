@@ -21,6 +21,8 @@ from geocontact.view.page.content import Curves, Page, Picture, Table, Words
 from geocontact.view.page.write import page_html
 from tests.cli.gap_cases import diagnosed_elbow
 
+pytestmark = pytest.mark.slow
+
 Told = tuple[GapCase, Findings]
 
 

@@ -17,6 +17,8 @@ import geocontact as gc
 from tests.cli.calls import MESHES, call, done, written
 from tests.elsewhere import Elsewhere
 
+pytestmark = pytest.mark.slow
+
 ROWS, COLUMNS, AREA = 16, 8, 2e-4
 ROW, COLUMN = np.divmod(np.arange(ROWS * COLUMNS), COLUMNS)
 EDGE = (ROW >= 13) & (COLUMN >= 2) & (COLUMN <= 5)

@@ -35,6 +35,7 @@ def elbow_force(degrees: np.ndarray, x: float = 0.048, y: float = 0.059) -> np.n
     return 222.43 * deflect(np.radians(degrees), np.zeros(len(degrees)), numbers)[0]
 
 
+@pytest.mark.slow
 def test_the_exoskeleton_of_the_source() -> None:
     result = design(stroke=gc.mm(0, 60), uncertainty=gc.mm(10))
     course = result.table("force")

@@ -106,6 +106,7 @@ def test_the_bootstrap_draws_ratios_where_nothing_sets_the_scale(made: Path) -> 
         assert row["bootstrap lower"] < row["value"] < row["bootstrap upper"], name
 
 
+@pytest.mark.slow
 def test_a_known_0_sets_no_scale(made: Path) -> None:
     result = identify(*locked(made), known={"z": 0.0}, bootstrap=100)
     directions = result.summary["identifiability"]["k_and_lengths"]
@@ -130,12 +131,14 @@ def test_the_free_joints_displacement_sets_the_scale(made: Path) -> None:
     assert stop["stroke_wanting_mm"] == pytest.approx(wanting)
 
 
+@pytest.mark.slow
 def test_one_free_trial_sets_no_scale(made: Path) -> None:
     lone = identify(*locked(made), unlocked=free(made)[:1], bootstrap=0)
     assert lone.summary["scale_free"] and any("takes two free trials" in w for w in lone.warnings)
     assert lone.summary["free_joint"]["scale"] is None
 
 
+@pytest.mark.slow
 def test_a_prior_and_bounds_as_the_papers(made: Path) -> None:
     prior, bounds = {"l": gc.mm(185, 1)}, {"l": gc.mm(160, 210), "z": gc.mm(60, 130)}
     start = {"k": 300.0, "x": gc.mm(30), "y": gc.mm(40), "l": gc.mm(200), "z": gc.mm(120)}
@@ -152,6 +155,7 @@ def test_recordings_that_were_held_out_tell_r2(made: Path) -> None:
     assert held.name == "locked_3" and held.r2 > 0.95
 
 
+@pytest.mark.slow
 def test_a_stiffness_that_follows_the_pressure_is_told_about_the_recordings_mean(tmp_path: Path) -> None:
     design: dict[str, Any] = {"noise": 0.01, "trials": 4, "bits": 0, "pressure": gc.mmHg(10, 60)}
     folder = recorded(tmp_path, numbers={"s": 0.01 / gc.mmHg(1)}, **design)
@@ -187,6 +191,7 @@ def test_where_a_rotary_joint_was_free_as_well_the_displacement_is_d_lin(tmp_pat
     assert not low < 222.43 < high
 
 
+@pytest.mark.slow
 def test_offsets_that_change_from_trial_to_trial_are_warned_of(tmp_path: Path, made: Path) -> None:
     """Donning of 4 mm leaves more than noise within the trials would; without it the fit leaves what noise leaves."""
     donned = identify(*locked(recorded(tmp_path, donning=gc.mm(4))), **KNOWN)

@@ -50,6 +50,7 @@ def test_says_what_was_found_and_what_cannot_be(tmp_path: Path) -> None:
     assert result.record.results["modulus"] == numbers
 
 
+@pytest.mark.slow
 def test_compartments_have_moduli_of_their_own(tmp_path: Path) -> None:
     """Each side's law is exact; the total's is not, since sums of 1.5th powers are no such power of the sum."""
     result = found(tmp_path, force=forces(tmp_path))
@@ -100,6 +101,7 @@ def test_a_known_lag_and_an_unknown_one(tmp_path: Path) -> None:
     assert lag == pytest.approx(0.05, abs=2e-3) and free.modulus == pytest.approx(TRUE, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_bounds_of_a_free_number_are_kept(tmp_path: Path) -> None:
     late = forces(tmp_path, "late.csv", sides=False, late=0.05)
     with pytest.warns(InputWarning) as said:
@@ -121,6 +123,7 @@ def test_calibrated_threshold(tmp_path: Path) -> None:
     assert result.sides["total"].model.threshold == calibration.threshold
 
 
+@pytest.mark.slow
 def test_a_trial_that_was_not_used(tmp_path: Path) -> None:
     other, measured = areas(tmp_path, "other.csv", scale=1.3), forces(tmp_path, "other_f.csv", sides=False, scale=1.3)
     result = found(tmp_path, predict_area=other, predict_force=measured)

@@ -37,6 +37,7 @@ def test_adduction_from_tables_at_several_offsets(tmp_path: Path) -> None:
     assert "adduction" in page and "Contact force, lateral" in page
 
 
+@pytest.mark.slow
 def test_tables_at_offsets_without_a_free_one_are_those_at_none(tmp_path: Path) -> None:
     files = tilted(tmp_path, 2.0, 0.0)
     result = modulus(files, pressed(tmp_path, pd.read_csv(files[1])), **KNOWN)

@@ -63,6 +63,7 @@ def test_says_what_was_found() -> None:
     assert result.record.results["fit"]["radius_mm"] == result.fit.radius * 1e3
 
 
+@pytest.mark.slow
 def test_the_ends_of_a_rod_are_outliers_of_its_wall() -> None:
     """Without a region: caps and all."""
     robust, plain = fit(CYLINDER, "cylinder"), fit(CYLINDER, "cylinder", robust=False)
@@ -81,6 +82,7 @@ def test_units_and_placement(tmp_path: Path) -> None:
     assert 19.5e-3 < centroids < here.radius - 1e-6, "centroids of facets lie below the sphere"
 
 
+@pytest.mark.slow
 def test_inside_and_outside_of_a_cup_by_centre_and_by_the_ball_in_it(tmp_path: Path) -> None:
     ball = fit(SPHERE, "sphere").write(tmp_path / "ball") / "fit.json"
     cavity = fit(CUP, "sphere", centre=ball, region="outward<-0.9")
@@ -126,6 +128,7 @@ def test_radius_by_side_and_by_flexion() -> None:
     assert right.sides["lateral"].radius == result.sides["medial"].radius
 
 
+@pytest.mark.slow
 def test_profile_of_the_coarse_component_about_the_axis_of_the_fit() -> None:
     region = {key: KNEE[key] for key in ("axis", "region", "sagittal")}
     narrow, wide = (
@@ -153,6 +156,7 @@ def test_a_file_of_faces(tmp_path: Path) -> None:
     assert [entry["role"] for entry in result.record.inputs] == ["mesh", "`region`"]
 
 
+@pytest.mark.slow
 def test_a_file_that_names_the_axis_is_noted_once(tmp_path: Path) -> None:
     axis = fit(FEMUR, "cylinder", **KNEE).write(tmp_path / "axis") / "fit.json"
     assert json.loads(axis.read_text(encoding="utf-8"))["shape"] == "cylinder"

@@ -41,6 +41,7 @@ def stages():
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("system", "name"), EFFECTS)
 def test_the_candidate_at_its_best_leaves_a_part_of_the_effect(system, name, stages):
     stage = stages[system]

@@ -111,6 +111,7 @@ def sole_of(case):
     return Sole(*(table[c].to_numpy(float) for c in ("px [m]", "py [m]", "radius [m]")), zone, names)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("system", "kind"), list(itertools.product(SCENES, KINDS)))
 def test_every_kind_is_what_it_says(system, kind):
     made = synthetic_case(system, kind, 1)

@@ -13,6 +13,8 @@ import pytest
 from geocontact.gap_benchmark.table import lead, markdown
 from tests.gap.benchmark.test_score import LABELS, ORACLE
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[3]
 PROGRAM = """
 import json, sys

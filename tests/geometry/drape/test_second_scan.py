@@ -12,6 +12,7 @@ from tests.geometry.drape.second_scan import ELSEWHERE, bare, corners, with_mat
 from tests.geometry.drape.sheets import over, plane
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("thickness", "noise", "n", "within"), [(3.0, 0.0, 30, 0.7), (1.5, 0.1, 40, 0.6), (8.0, 0.3, 24, 1.6)]
 )

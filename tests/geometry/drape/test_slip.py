@@ -80,6 +80,7 @@ def test_marks_that_leave_nothing_over_tell_nothing():
     assert slip_covariance(mat, belt, pair, "columns") is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "point", "heading", "draws"),
     [(tube(n=40), [0.06, 0, 0.25], [0, 0.3, 1], 120), (sphere(0.12, 14), [0.02, 0.01, 0.1], [0, 1, 0.3], 40)],

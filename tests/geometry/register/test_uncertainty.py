@@ -55,6 +55,7 @@ def test_covariance_of_landmarks_is_that_of_draws():
     assert np.mean(stated, axis=0) / np.outer(scale, scale) == pytest.approx(seen / np.outer(scale, scale), abs=0.07)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("points", [400, 6000], ids=["fewer points than vertices", "more"])
 def test_intervals_of_shapes_hold_the_truth(points):
     """Vertices of the scan are noisy by 0.5 mm each; 1600 of them."""

@@ -56,6 +56,7 @@ def test_band_holds_95_percent_of_normal_samples_entirely() -> None:
     assert inside / 1000 == pytest.approx(0.95, abs=0.025)  # 0.7 % from these samples, 0.5 % from the simulated ones
 
 
+@pytest.mark.slow
 def test_band_holds_for_large_samples_of_which_not_all_ranks_are_simulated() -> None:
     rng = np.random.default_rng(12)
     bands = (normal_quantiles(rng.standard_normal(3000)) for _ in range(200))

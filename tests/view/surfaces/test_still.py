@@ -155,6 +155,7 @@ def said_and_drawn(folder: Path, renderer: str) -> str:
     return stills[0].note
 
 
+@pytest.mark.slow
 def test_stills_by_pyvista(rendering: None, tmp_path: Path) -> None:
     assert said_and_drawn(tmp_path, "pyvista") == ""
 
@@ -174,6 +175,7 @@ def test_without_pyvista_matplotlib_draws_and_says_so(
     assert "pyvista is not installed" in said_and_drawn(tmp_path, "matplotlib")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("program", [CRASH, "raise MemoryError('too large')", "import time; time.sleep(60)"])
 def test_a_render_that_fails_after_the_probe_passed(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, program: str
