@@ -60,9 +60,11 @@ def _warn(
     rows = (
         ("markers that have a weight were not recorded", [n for n in weighty if n in own and n not in there]),
         ("markers that have a weight are not in the model", [n for n in weighty if n not in own]),
-        ("coordinates that have a weight are not in the model",
-         [n for n in coordinates if n not in {c.name for c in model.coordinates}]),
-    )  # fmt: skip
+        (
+            "coordinates that have a weight are not in the model",
+            [n for n in coordinates if n not in {c.name for c in model.coordinates}],
+        ),
+    )
     for what, names in rows:
         if names:
             record.warn(f"{seen.source}: {what}: {listed(tuple(names))}")

@@ -62,11 +62,15 @@ def limits_of_agreement(difference: Float[np.ndarray, " n"]) -> Agreement:
     of_limit = t * sd * np.sqrt(1.0 / n + Z**2 / (2.0 * (n - 1)))
     lower, upper = bias - Z * sd, bias + Z * sd
     return Agreement(
-        n, bias, sd, lower, upper,
+        n,
+        bias,
+        sd,
+        lower,
+        upper,
         bias_interval=_around(bias, of_bias),
         lower_interval=_around(lower, of_limit),
         upper_interval=_around(upper, of_limit),
-    )  # fmt: skip
+    )
 
 
 def proportional_bias(mean: Float[np.ndarray, " n"], difference: Float[np.ndarray, " n"]) -> Trend:

@@ -101,6 +101,12 @@ def _notes(axes: Axes, found: Agreement) -> None:
     for name, value, interval, height in rows:
         ends = ", ".join(number(x, found.sd) for x in interval)
         axes.text(
-            1.02, height, f"{name}: {number(value, found.sd)}\n[{ends}]", transform=axes.get_yaxis_transform(),
-            va="center", ha="left", fontsize=SMALL, linespacing=1.1,
-        )  # fmt: skip
+            1.02,
+            height,
+            f"{name}: {number(value, found.sd)}\n[{ends}]",
+            transform=axes.get_yaxis_transform(),
+            va="center",
+            ha="left",
+            fontsize=SMALL,
+            linespacing=1.1,
+        )

@@ -71,8 +71,14 @@ def contact_path(
         axes.scatter(p[alone, 0], p[alone, 1], s=4.0, c=along.shown(t[alone]), cmap=_colours(), norm=scale)
         _arrows(axes, pieces)
         start = axes.plot(
-            *p[there][:1].T, MARKERS[k], color=PALETTE[k], markerfacecolor="white", markersize=5.0, ls="none", zorder=5,
-        )[0]  # fmt: skip
+            *p[there][:1].T,
+            MARKERS[k],
+            color=PALETTE[k],
+            markerfacecolor="white",
+            markersize=5.0,
+            ls="none",
+            zorder=5,
+        )[0]
         entries.append((start, f"{name}, start"))
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.08)
@@ -108,7 +114,16 @@ def _arrows(axes: Axes, pieces: Float[np.ndarray, "s 2 2"]) -> None:
     for share in ARROWS:
         tail, head = pieces[np.searchsorted(way, share * way[-1])]
         axes.annotate(
-            "", xy=head, xytext=tail, zorder=4,
-            arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 0.0, "mutation_scale": 9.0, "shrinkA": 0.0,
-                        "shrinkB": 0.0},
-        )  # fmt: skip
+            "",
+            xy=head,
+            xytext=tail,
+            zorder=4,
+            arrowprops={
+                "arrowstyle": "-|>",
+                "color": "black",
+                "lw": 0.0,
+                "mutation_scale": 9.0,
+                "shrinkA": 0.0,
+                "shrinkB": 0.0,
+            },
+        )

@@ -98,9 +98,14 @@ def panels(rows: int = 1, columns: int = 1, width: float = SINGLE, height: float
     axes = [panel for row in figure.subplots(rows, columns, squeeze=False) for panel in row]
     for letter, panel in zip("abcdefghijklmnopqrstuvwxyz" if len(axes) > 1 else "", axes, strict=False):
         panel.annotate(
-            letter, (0.0, 1.0), xycoords="axes fraction", xytext=(-30.0, 4.0), textcoords="offset points",
-            fontweight="bold", fontsize=9.0,
-        )  # fmt: skip
+            letter,
+            (0.0, 1.0),
+            xycoords="axes fraction",
+            xytext=(-30.0, 4.0),
+            textcoords="offset points",
+            fontweight="bold",
+            fontsize=9.0,
+        )
     return figure, axes
 
 
@@ -126,6 +131,13 @@ def legend(axes: Axes, entries: Sequence[tuple[Artist | tuple[Artist, ...], str]
     fitting = int(np.clip(width / (longest * letter + handle), 1, len(entries)))
     rows = -(-len(entries) // fitting)
     axes.legend(
-        [artist for artist, _ in entries], labels, ncols=-(-len(entries) // rows), loc="lower left",
-        bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2, borderpad=0.2, labelspacing=0.3, columnspacing=1.4,
-    )  # fmt: skip
+        [artist for artist, _ in entries],
+        labels,
+        ncols=-(-len(entries) // rows),
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        borderaxespad=0.2,
+        borderpad=0.2,
+        labelspacing=0.3,
+        columnspacing=1.4,
+    )

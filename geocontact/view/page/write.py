@@ -17,9 +17,14 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).resolve().parent
 KINDS = {
-    Scene: "scene", Curves: "curves", Strip: "strip", Readout: "readout", Picture: "picture", Table: "table",
+    Scene: "scene",
+    Curves: "curves",
+    Strip: "strip",
+    Readout: "readout",
+    Picture: "picture",
+    Table: "table",
     Words: "words",
-}  # fmt: skip
+}
 
 
 def write_page(page: Page, path: Path) -> int:

@@ -56,9 +56,14 @@ def _legend(figure: Figure, scene: ContactScene) -> None:
     labels = [f"{threshold * MM:g} mm" for threshold in scene.thresholds]
     bodies = [Patch(facecolor=FAR), Patch(facecolor=(*_rgb(MOVING), 0.2), edgecolor=MOVING)]
     figure.legend(
-        [*lines, *bodies], [*labels, "FIXED, farther away", "MOVING"], loc="outside lower center", ncols=6,
-        fontsize=9, frameon=False, handlelength=1.6,
-    )  # fmt: skip
+        [*lines, *bodies],
+        [*labels, "FIXED, farther away", "MOVING"],
+        loc="outside lower center",
+        ncols=6,
+        fontsize=9,
+        frameon=False,
+        handlelength=1.6,
+    )
 
 
 def _rgb(colour: str) -> tuple[float, float, float]:

@@ -131,10 +131,16 @@ def _boxed(panel: Any, boxes: Boxes, shift: float, share: float, colour: str) ->
     names = ("whislo", "q1", "med", "q3", "whishi")
     stats: list[dict[str, Any]] = [dict(zip(names, map(float, row), strict=True)) for row in boxes.quantiles]
     drawn = panel.bxp(
-        stats, positions=list(np.degrees(boxes.centre) + shift * width), widths=share * width, showfliers=False,
-        manage_ticks=False, boxprops={"color": colour}, whiskerprops={"color": colour}, capprops={"color": colour},
+        stats,
+        positions=list(np.degrees(boxes.centre) + shift * width),
+        widths=share * width,
+        showfliers=False,
+        manage_ticks=False,
+        boxprops={"color": colour},
+        whiskerprops={"color": colour},
+        capprops={"color": colour},
         medianprops={"color": BLACK},
-    )  # fmt: skip
+    )
     first: Artist = drawn["boxes"][0]
     return first
 
@@ -163,8 +169,13 @@ def conditions_figure(locked: BinMeans, stroke: RecordedStroke, locked_boxes: Bo
     for stop in stroke.stops:
         for panel in (above, below):
             panel.axvspan(np.degrees(stop.first), np.degrees(stop.last), color=GREY, alpha=0.15, lw=0)
-        below.annotate(f"{stop.side} end", (np.degrees(stop.first), stop.position * 1e3), xytext=(4, 6),
-                       textcoords="offset points", fontsize=7.0)  # fmt: skip
+        below.annotate(
+            f"{stop.side} end",
+            (np.degrees(stop.first), stop.position * 1e3),
+            xytext=(4, 6),
+            textcoords="offset points",
+            fontsize=7.0,
+        )
     below.set_xlabel(ANGLE)
     below.set_ylabel("displacement of the joint [mm]")
     return figure

@@ -49,8 +49,9 @@ def reliability_figure(answerers: Mapping[str, Stated]) -> Figure:
     for k, (name, one) in enumerate(answerers.items()):
         reach = np.clip([one.came_true - one.low, one.high - one.came_true], 0.0, None)
         place, width = one.stated + 0.012 * k, 0.8 if k == 0 else 0.5
-        drawn = axes.errorbar(place, one.came_true, reach, elinewidth=0.6, lw=width, ms=3.5,
-                              color=PALETTE[k], marker=MARKERS[k])  # fmt: skip
+        drawn = axes.errorbar(
+            place, one.came_true, reach, elinewidth=0.6, lw=width, ms=3.5, color=PALETTE[k], marker=MARKERS[k]
+        )
         entries.append((drawn[0], name))
         for x, y, n in zip(place, one.came_true, one.count, strict=True):
             if k == 0:
