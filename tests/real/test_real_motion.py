@@ -137,14 +137,14 @@ def test_reversed_knee_is_the_femur_in_the_tibia(data_dir: Path) -> None:
 
 def test_simm_files_ask_for_the_unit(data_dir: Path) -> None:
     table = read_table(data_dir / WORKSHOP / "KneeProsthesis.mot")
-    with pytest.raises(InputError, match=r"header does not say .*; pass --angles deg or rad \(SIMM"):
+    with pytest.raises(InputError, match=r"header does not say .*; pass `angles` deg or rad \(SIMM"):
         motion_from_map(table, JW_MAP)
 
 
 def test_fluoroscopy_of_dm(data_dir: Path) -> None:
     """SOURCE.md: T(x, y, z) Rx(xrot) Ry(yrot) Rz(zrot) in m and rad; zrot, labelled knee_rot, is the flexion."""
     table = read_table(data_dir / "gc6_dm_knee/fluoroscopy/Fluoroscopic Gait Data.sto")
-    with pytest.raises(InputError, match="header does not say whether angles are degrees or radians; pass --angles"):
+    with pytest.raises(InputError, match="header does not say whether angles are degrees or radians; pass `angles`"):
         motion_from_map(table, DM_MAP)
     motion = motion_from_map(table, DM_MAP, angles="rad")
     assert len(motion) == 101
@@ -159,7 +159,7 @@ def test_fluoroscopy_of_dm(data_dir: Path) -> None:
 
 def test_walking_angles_beyond_two_turns_are_not_radians(data_dir: Path) -> None:
     table = read_table(data_dir / "opensim_walk/inverse_dynamics.sto")
-    with pytest.raises(InputError, match=r"column 'hip_flexion_r_moment' reaches .* pass --angles"):
+    with pytest.raises(InputError, match=r"column 'hip_flexion_r_moment' reaches .* pass `angles`"):
         angles_of(table, ["hip_flexion_r_moment"])
 
 
