@@ -38,6 +38,12 @@ TABLES: dict[str, tuple[int, int, str | None]] = {
     "opensim_walk/inverse_dynamics.sto": (73, 23, "rad"),
     "opensim_walk/subject01_walk1_grf.mot": (1501, 18, "deg"),
     "opensim_walk/subject01_walk1_ik.mot": (73, 23, "deg"),
+    "rmr_shoulder/ABD01.mot": (1091, 17, "deg"),
+    "rmr_shoulder/ABD02.mot": (846, 17, "deg"),
+    "rmr_shoulder/ABD03.mot": (787, 17, "deg"),
+    "rmr_shoulder/FLX01.mot": (794, 17, "deg"),
+    "rmr_shoulder/FLX02.mot": (848, 17, "deg"),
+    "rmr_shoulder/SHRUG01.mot": (462, 17, "deg"),
 }
 
 
