@@ -90,6 +90,7 @@ def test_friction_and_damping_come_from_the_motion(tmp_path: Path) -> None:
     np.testing.assert_allclose(table(result)["force_x [N]"], -0.7 * normal, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_numbers_of_the_law_by_column_file_and_option_agree(tmp_path: Path) -> None:
     rows = ("0,0,0,0.02,heel,3e5,100", "0.2,0,0,0.02,toe,9e5,200")
     column = sole(tmp_path, *rows, head=f"{HEAD}, k [N/m^1.5], b [N s/m]", name="columns.csv")
@@ -121,6 +122,7 @@ def test_numbers_without_effect_are_not_told(tmp_path: Path) -> None:
     assert done(cop(tmp_path, *LAW)).warnings == []
 
 
+@pytest.mark.slow
 def test_tilted_plane_equals_the_level_one_after_turning_the_foot(tmp_path: Path) -> None:
     turn = Rotation.from_euler("XZ", [0.3, -0.5])
     qx, qy, qz, qw = turn.as_quat()

@@ -167,6 +167,7 @@ def test_reservations_are_said_and_kept(tmp_path: Path) -> None:
     assert low.warnings == ["no centre of pressure: the normal force stays below the gate of 10000 N"]
 
 
+@pytest.mark.slow
 def test_an_open_mesh_is_a_sheet(tmp_path: Path) -> None:
     text = "v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3\nf 1 3 4\n"
     sheet = done(cop(tmp_path, *LAW, "--ground", written(tmp_path / "floor.obj", text), "--unit", "m"))

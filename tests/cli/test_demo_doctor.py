@@ -36,6 +36,7 @@ def test_demo_finds_the_shipped_files() -> None:
     assert all((MESHES / name).is_file() for name in names)
 
 
+@pytest.mark.slow
 def test_doctor_on_this_machine() -> None:
     """Every feature has its line; what is missing is followed by its fix; all that is needed works here."""
     start = time.perf_counter()

@@ -97,6 +97,7 @@ def test_folders_of_motions_come_and_go(tmp_path: Path) -> None:
     assert set(inventory(out)) == PLAIN | {"slow", "slow/notes.txt"}
 
 
+@pytest.mark.slow
 def test_a_single_run_into_the_folder_of_one_motion(tmp_path: Path) -> None:
     """It is tidied like any other, and from then on it is not part of the run above it."""
     out = tmp_path / "out"

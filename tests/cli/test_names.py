@@ -71,6 +71,7 @@ def test_refusals_name_the_file_in_one_line(tmp_path: Path, name: str) -> None:
     assert " ".join(f"{name}.stl".split()) in line
 
 
+@pytest.mark.slow
 def test_relative_names_that_look_like_options(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     shutil.copy(SPHERE, "-x.stl")

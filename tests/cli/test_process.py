@@ -39,6 +39,7 @@ def test_refusal_is_one_line_and_exit_2(tmp_path: Path) -> None:
     assert inventory(tmp_path) == {}
 
 
+@pytest.mark.slow
 def test_refusal_with_a_name_that_the_terminal_cannot_show(tmp_path: Path) -> None:
     """Written with what the terminal has instead of failing on the way out."""
     command = [
@@ -124,6 +125,7 @@ def test_compiling_is_announced_when_it_keeps_the_user_waiting(tmp_path: Path, m
     assert line.startswith("compiling the distance kernels, once on this machine") and result.code == 0
 
 
+@pytest.mark.slow
 def test_many_frames_are_not_mistaken_for_compiling(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Once the kernels are there nothing is said, however long the frames take."""
     add = DistanceMaps.add

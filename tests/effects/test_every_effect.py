@@ -94,6 +94,7 @@ def test_a_mistake_says_what_it_does(name: str, one: Candidate) -> None:
         assert one.name == "side_swap"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_pairs_compose_in_either_order(name: str) -> None:
     system, trials = EXAMPLES[name]

@@ -69,6 +69,7 @@ def test_comes_back_with_the_base_held(name: str, one: Candidate) -> None:
         assert found[p.name] == pytest.approx(exact[p.name], rel=1e-4, abs=1e-5 * span(p)), (found, exact, cost)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "one"), [f for f in FITTED if not absorbed(*f)], ids=label)
 def test_comes_back_with_the_base_free(name: str, one: Candidate) -> None:
     system, trials = EXAMPLES[name]

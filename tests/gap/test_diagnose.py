@@ -28,6 +28,8 @@ from tests.gap.cases import (
     elbow_case,
 )
 
+pytestmark = pytest.mark.slow
+
 DAMPING = {"damping.b": 15.0, "damping.exponent": 1.0}
 FRICTION = {"dry_friction.rate.limit": 1.5, "dry_friction.rate.turning": 0.003}
 ALL = ("t01", "t02", "t03", "t04", "t05")

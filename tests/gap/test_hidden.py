@@ -60,6 +60,7 @@ def judged_both_ways() -> tuple[float, float, float]:
     return alone.judged.nats, undone(problem, case, alone).judged.nats, expected
 
 
+@pytest.mark.slow
 def test_a_wrong_unit_is_judged_as_if_it_had_been_written_right(elsewhere: Elsewhere) -> None:
     alone, found, expected = elsewhere(judged_both_ways)
     assert found > alone + 10.0

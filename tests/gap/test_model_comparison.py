@@ -15,6 +15,7 @@ def test_two_effects_are_found_and_each_two_are_tried_once(elsewhere: Elsewhere)
     assert gains[0] > gains[1] + 20.0
 
 
+@pytest.mark.slow
 def test_what_cannot_lead_is_left_early_and_the_leaders_stay(elsewhere: Elsewhere) -> None:
     singles, pairs, simulated, simulated_for_pairs = elsewhere(contest_work, cut=True)
     all_singles, all_pairs, at_most, at_most_for_pairs = elsewhere(contest_work, cut=False)

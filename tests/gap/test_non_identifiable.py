@@ -81,6 +81,7 @@ def test_a_mistake_is_shown_only_if_all_its_variants_are() -> None:
     assert shown([faint, small, plain]) == (), "too small to be hidden, and to be seen"
 
 
+@pytest.mark.slow
 def test_a_reversed_rotation_hides_in_where_the_site_is(elsewhere: Elsewhere) -> None:
     assert "sign_flip" in elsewhere(at_the_seat)
 

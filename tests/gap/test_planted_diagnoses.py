@@ -23,6 +23,7 @@ def answered(system: str, kind: str, place: int) -> tuple[Label, Diagnosis]:
     return planted.label, diagnose(planted.case, system_of(planted.case)).diagnosis
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("system", "kind", "place", "effects"),
     [
@@ -41,6 +42,7 @@ def test_what_was_planted_is_named(system: str, kind: str, place: int, effects: 
     assert found.where[0].p_value < 0.05
 
 
+@pytest.mark.slow
 def test_sides_that_were_exchanged_are_found_with_their_trials(elsewhere: Elsewhere) -> None:
     truth, found = elsewhere(answered, "knee", "fault", 0)
     assert tuple(truth.effects) == ("side_swap",), "drawn otherwise now: choose another place"

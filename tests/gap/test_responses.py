@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from geocontact.chain.system import System
@@ -27,6 +28,7 @@ def scene() -> tuple[System, Trial, dict[str, float], LowPass]:
     return system, trial, dict(system.start), LowPass(6.0, float(np.median(np.diff(trial.time))))
 
 
+@pytest.mark.slow
 def test_covariance_is_that_of_simulated_noise() -> None:
     system, trial, values, passed = scene()
     assert system.dynamic

@@ -90,6 +90,7 @@ def areas(case, gap, thresholds, n):
     return np.array([[a.area / MM2 for a in side] for side in (found.fixed, found.moving)])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES)
 @pytest.mark.parametrize(("gap", "thresholds"), [(-0.3, (0.5, 1.0, 4.0)), (0.4, (2.0, 4.0))])
 def test_area_is_the_closed_form_beyond_what_the_facets_cost(case, gap, thresholds):
@@ -105,6 +106,7 @@ def test_area_is_the_closed_form_beyond_what_the_facets_cost(case, gap, threshol
     assert np.abs(fine / true - 1).max() < 0.02, f"relative errors with facets:\n{fine / true - 1}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", ["refined", "clip"])
 @pytest.mark.parametrize(("gap", "threshold"), [(-0.1, 1.0), (-0.1, 4.0), (0.3, 4.0)])
 def test_area_of_sphere_pairs_converges_at_second_order(rule, gap, threshold):
@@ -196,6 +198,7 @@ def test_oblique_plane_through_the_middle_halves_a_symmetric_patch():
     assert 0 < parts[0] < found.area
 
 
+@pytest.mark.slow
 def test_medial_part_of_a_disc_is_cut_by_its_chord():
     """Plane under a sphere: segment r^2 acos(c/r) - c sqrt(r^2 - c^2) beyond the chord at distance c."""
     gap, threshold, n = -0.3, 4.0, 48
@@ -359,6 +362,7 @@ def assert_same(one, other, rel=1e-9):
     assert off <= rel, f"relative change {off:.1e}:\n{one}\n{other}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("refinement", [AS_GIVEN, Refinement()], ids=["as given", "refined"])
 @pytest.mark.parametrize("seed", range(3))
@@ -375,6 +379,7 @@ def test_nothing_changes_when_everything_moves(scene, refinement, seed):
             assert other.centroid == pytest.approx(b.apply(one.centroid), abs=1e-11, nan_ok=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("scale", [25.4, 25.4e-3])
 def test_nothing_changes_with_the_unit(scene, scale):
@@ -385,6 +390,7 @@ def test_nothing_changes_with_the_unit(scene, scale):
     assert_same(numbers(contact(moving, fixed, pose, THRESHOLDS)), numbers(there) / scale**2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("refinement", [AS_GIVEN, Refinement()], ids=["as given", "refined"])
 def test_nothing_changes_with_the_order_of_vertices_and_faces(scene, refinement):
@@ -395,6 +401,7 @@ def test_nothing_changes_with_the_order_of_vertices_and_faces(scene, refinement)
     assert_same(numbers(here), numbers(there))
 
 
+@pytest.mark.slow
 def test_bodies_change_places():
     """What moves is a matter of words: fixed and moving areas swap when the bodies do."""
     moving, fixed, pose = SCENES["sphere in cup"]()

@@ -38,6 +38,7 @@ def test_cube_over_a_face(rotation, height, gap):
     assert smallest(UNIT, UNIT, pose) / MM == pytest.approx(gap, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [1e-3, 0.5, 40.0])
 def test_crossed_edges(gap):
     """Two cubes edge to edge, the edges at right angles: no corner of either is near the other."""

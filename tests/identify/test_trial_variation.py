@@ -21,6 +21,7 @@ def misfit(residuals, designs, sd):
     return sum(-2.0 * multivariate_normal(cov=c).logpdf(r) for r, c in zip(residuals, covariances, strict=True))
 
 
+@pytest.mark.slow
 def test_variation_is_recovered_from_many_trials():
     sd = np.array([0.5, 2.0, 0.0])
     residuals, designs, true = trials(sd, 300, np.random.default_rng(1))

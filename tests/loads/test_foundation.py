@@ -109,6 +109,7 @@ def smooth_knee(faces: int) -> tuple[float, float]:
     return smooth.load.pressing, pressed(bed, pair.moving, *at).load.pressing
 
 
+@pytest.mark.slow
 def test_smooth_facets_give_the_force_of_a_mesh_refined_eight_times() -> None:
     smooth, flat = smooth_knee(10_000)
     fine, _ = smooth_knee(80_000)

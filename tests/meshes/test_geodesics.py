@@ -101,6 +101,7 @@ def gaussian_curvature(segment, at):
     return (second[0] * second[2] - second[1] ** 2) / first
 
 
+@pytest.mark.slow
 @each_mat
 def test_ribs_draw_together_by_the_gaussian_curvature(mat):
     """|S_u| = 1 - K v^2/2 + O(v^3) beside the middle line (u and v in mm), and 1 on it."""
@@ -117,6 +118,7 @@ def test_ribs_draw_together_by_the_gaussian_curvature(mat):
     assert np.abs(curvature).max() > 3e-6, "the skin is doubly curved here"
 
 
+@pytest.mark.slow
 @each_mat
 def test_rows_and_columns_are_at_right_angles_and_look_outwards(mat):
     u, v, h = np.arange(1.0, mat.rows), np.arange(1.0, mat.columns), 1e-3

@@ -12,6 +12,8 @@ from meshes.mat_recordings import DRIFT, recordings
 from meshes.moving_pressure import Footprint, resultant
 from meshes.segments import THIGH, Oval, Segment
 
+pytestmark = pytest.mark.slow
+
 FOLDER = Path(__file__).parents[2] / "meshes"
 RECORDINGS = list(recordings())
 STRETCH = {"mat_shank_16x8": (0.965, 1.018), "mat_upper_arm_16x8": (0.96, 1.03)}

@@ -161,6 +161,7 @@ def test_profile_along_the_scale_is_flat_and_one_length_known_ends_that() -> Non
     assert sharp.lower < PAPER["k"] < sharp.upper
 
 
+@pytest.mark.slow
 def test_intervals_hold_both_signs_where_offsets_of_either_fit() -> None:
     """Two minima, mirrored in the signs of x and z: whichever is the lower, both are within."""
     data = binned(trials(PAPER, Design(), [51, 0]), WIDTH)

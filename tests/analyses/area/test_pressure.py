@@ -106,6 +106,7 @@ def test_large_strain_and_no_contact_are_told(tmp_path: Path) -> None:
     assert any("the bodies never overlap" in line for line in air.warnings)
 
 
+@pytest.mark.slow
 def test_facets_of_a_coarse_ball_stand_for_the_ball(tmp_path: Path) -> None:
     smooth, flat = (pressed(tmp_path, facets=facets, n=16).table()["force [N]"] for facets in ("smooth", "flat"))
     expected = np.array([linear_force(R, depth * 1e-3, H, M) for depth in DEPTHS[:2]])
@@ -135,6 +136,7 @@ def test_rays_through_the_ball_find_its_thickness_too(tmp_path: Path) -> None:
     np.testing.assert_allclose(two[:2] / one[:2], 12.0 / (12.0 + 40.0), rtol=0.01)
 
 
+@pytest.mark.slow
 def test_region_limits_what_is_pressed(tmp_path: Path) -> None:
     half, whole = pressed(tmp_path, region="x>0").table(), pressed(tmp_path).table()
     np.testing.assert_allclose(half["force [N]"], 0.5 * whole["force [N]"], rtol=0.02)

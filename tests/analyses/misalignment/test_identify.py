@@ -14,6 +14,8 @@ import geocontact as gc
 from geocontact.axis_misalignment.explicit import Offsets, displacement
 from tests.analyses.misalignment.trials import KNOWN, PAPER, changed, free, locked, quietly, recorded
 
+pytestmark = pytest.mark.slow
+
 
 def identify(*recordings: Path, **options: Any) -> Any:
     return quietly(gc.misalignment.identify, *recordings, **options)

@@ -21,6 +21,8 @@ from geocontact.gap_benchmark.synthetic.scenes import SCENES
 from geocontact.gap_benchmark.synthetic.trials import fine_enough, truth
 from geocontact.systems.catalogue import system_of
 
+pytestmark = pytest.mark.slow
+
 LEAST = 0.01
 NEARLY = {("shoulder", "dead_zone"): 5e-5, ("shoulder", "contact_loss"): 2e-5}
 """Where nearly all of an effect is one angle between two arms, whatever its form."""

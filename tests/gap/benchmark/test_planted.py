@@ -32,6 +32,8 @@ from geocontact.gap_benchmark.synthetic.systems.swing import at_rest
 from geocontact.gap_benchmark.synthetic.trials import DataError, as_measured, fine_enough, record, samples, truth
 from geocontact.systems.catalogue import system_of
 
+pytestmark = pytest.mark.slow
+
 ALLOWED = {"numpy", "scipy", "pandas", "numba", "jaxtyping"}
 STANDARD = {"__future__", "collections", "dataclasses", "functools", "inspect", "math", "typing"}
 

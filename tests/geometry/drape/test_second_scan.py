@@ -50,6 +50,7 @@ def test_nothing_that_stands_off_is_told():
         scan_difference(without, bare())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turn", [0.0, 0.4, 1.2])
 @pytest.mark.parametrize("size", [(0.2, 0.12), (0.15, 0.15)], ids=["oblong", "square"])
 def test_a_rectangle_on_a_plane_is_exact(turn, size):

@@ -23,6 +23,7 @@ def corners(laid):
     return np.array([laid.nodes[int(i), int(j)] for i, j in CORNERS])
 
 
+@pytest.mark.slow
 def test_on_a_plane_it_is_the_rigid_fit_in_the_plane():
     """Four corners pulled apart by e along the rows: nothing moves, s^2 = 4 e^2 / 5; above the skin they may be."""
     e = 1e-3

@@ -33,6 +33,7 @@ def test_the_interval_holds_the_radius_as_often_as_it_says(kind):
     assert np.median(half) / np.std(radius) == pytest.approx(2.0, rel=0.35)
 
 
+@pytest.mark.slow
 def test_a_finer_mesh_does_not_narrow_the_interval_of_a_wrong_shape():
     """An ellipse of half-axes 36 and 38 mm; independent points would promise half the width with four times as many."""
     wide = []

@@ -136,6 +136,7 @@ def test_the_rim_of_an_open_sheet():
     ).any()
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # its own imports warn
 def test_open3d_finds_the_same():
     pytest.importorskip("open3d", reason="open3d is not installed, or lacks its system libraries", exc_type=ImportError)

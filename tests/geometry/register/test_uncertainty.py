@@ -40,6 +40,7 @@ def test_intervals_of_landmarks_hold_the_truth(n):
     assert np.mean(hits, axis=0) == pytest.approx(np.full(6, 0.95), abs=0.02)
 
 
+@pytest.mark.slow
 def test_covariance_of_landmarks_is_that_of_draws():
     """All of the matrix, not only its diagonal; weights are inverse variances."""
     rng = np.random.default_rng(1)

@@ -24,6 +24,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "out" / "report.html"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("device", [DESKTOP, PHONE], ids=["1280x800", "390x844"])
 def test_opens_and_shows_its_drawings(report: Path, opened: Open, device: dict[str, Any]) -> None:
     here = opened(report, device=device)

@@ -76,6 +76,7 @@ def alike(one: np.ndarray, other: np.ndarray) -> bool:
     return bool((np.abs(one.astype(int) - other) > 16).any(axis=2).mean() < 1e-3)
 
 
+@pytest.mark.slow
 def test_slider_and_keys_choose_the_frame(rendering: None) -> None:
     """Without a screen: the picture changes with the frame, and is the same again when the frame is."""
     plotter = arranged(series(4), OBLIQUE, off_screen=True)
