@@ -14,7 +14,7 @@ import pytest
 from nbclient import NotebookClient
 
 import geocontact as gc
-from tests.cli.calls import FEMUR, INSERT, MESHES, call, done, unpictured
+from tests.cli.calls import FEMUR, INSERT, MESHES, Call, call, done, unpictured
 from tests.unchecked import unchecked
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -177,12 +177,17 @@ def by_commands(made: Path, out: Path) -> list[str]:
     )
     with unpictured():
         calls = [done(call(*command, "--out", out / str(k))) for k, command in enumerate(commands)]
+    return said_of(calls)
+
+
+def said_of(calls: list[Call]) -> list[str]:
+    """Sentences of commands, without where their results are."""
     return [line for each in calls for line in each.out.splitlines() if not line.startswith("results in ")]
 
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("default")  # of the notebook machinery itself
-def test_motion_finds_the_angles_and_the_marker_that_is_off(run):
+def test_motion_finds_the_angles_and_the_marker_that_is_off(run, tmp_path):
     said = run(ROOT / "notebooks" / "motion.ipynb")
     assert "16 markers in 101 frames" in said
     assert float(re.findall(r"knee: off by at most ([\d.e+-]+) deg", said)[0]) < 1e-4
@@ -191,6 +196,22 @@ def test_motion_finds_the_angles_and_the_marker_that_is_off(run):
     carried, weight = map(float, re.findall(r"pelvis: (\d+) N on average, a weight of (\d+) N", said)[0])
     assert carried == pytest.approx(weight, rel=0.05)
     assert "moments.html written" in said
+    made, out, leg = tmp_path / "motion-result", tmp_path / "commands", ("--model", MESHES / "leg.osim")
+    commands = (
+        ("markers", MESHES / "leg_swing.mot"),
+        ("ik", made / "virtual" / "markers.trc", "--knee", "right=femur_r,tibia_r"),
+        ("id", made / "angles" / "ik.mot"),
+    )
+    with unpictured():
+        calls = [done(call(*command, *leg, "--out", out / command[0])) for command in commands]
+    for line in said_of(calls):
+        assert line in said, "the command says something else"
+    for command, folder, files in (
+        ("markers", "virtual", ("markers.trc",)),
+        ("ik", "angles", ("ik.mot", "markers.csv", "knees.csv")),
+    ):
+        for file in files:
+            assert (made / folder / file).read_bytes() == (out / command / file).read_bytes(), file
 
 
 ONLY = {"geocontact", "pandas", "matplotlib", "matplotlib.pyplot", "pathlib"}

@@ -7,18 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.same_outputs.inputs.text import storage, written
+from meshes.leg_files import BODIES, JOINTS, PLACES, leg_model
 
 TIME = np.arange(41) / 100.0
-BODIES = {"pelvis": 10.0, "femur_r": 8.0, "tibia_r": 4.0, "foot_r": 1.0}
-"""Masses [kg]."""
-JOINTS = (
-    ("FreeJoint", "base", "ground", "pelvis", (0, 0, 0), ("tilt", "list", "turn", "tx", "ty", "tz")),
-    ("BallJoint", "hip_r", "pelvis", "femur_r", (0, -0.1, 0.1), ("hip_x", "hip_y", "hip_z")),
-    ("PinJoint", "knee_r", "femur_r", "tibia_r", (0, -0.4, 0), ("knee",)),
-    ("PinJoint", "ankle_r", "tibia_r", "foot_r", (0, -0.4, 0), ("ankle",)),
-)
-PLACES = np.array(((0.1, 0.0, 0.03), (-0.08, 0.05, 0.0), (0.0, -0.2, 0.08), (0.05, -0.1, -0.07)))
-"""Of the markers of each body, in its frame [m]."""
 ASKED = "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames"
 COORDINATES = tuple(name for joint in JOINTS for name in joint[-1])
 LENGTHS = ("tx", "ty", "tz")
@@ -26,7 +17,7 @@ LENGTHS = ("tx", "ty", "tz")
 
 def make(home: Path, meshes: Path) -> None:
     """Markers are off by 2 mm; the static trial is that of a longer thigh and a shorter shank."""
-    written(home / "leg.osim", model())
+    written(home / "leg.osim", leg_model())
     phase = 2.0 * np.pi * (1.3 * TIME[:, None] + np.linspace(0.0, 0.8, len(COORDINATES)))
     swing = 0.25 * np.sin(phase)
     swing[:, COORDINATES.index("ty")] += 1.0
@@ -64,7 +55,7 @@ def markers(row: np.ndarray, thigh: float = 1.0, shank: float = 1.0) -> np.ndarr
         for axis, name in zip(axes, names, strict=False):
             rotation = rotation @ turned(axis, value[name])
         frames[child] = rotation, origin
-        found.append(origin + sizes.get(child, 1.0) * PLACES @ rotation.T)
+        found.append(origin + sizes.get(child, 1.0) * np.array(PLACES) @ rotation.T)
     return np.concatenate(found)
 
 
@@ -92,44 +83,6 @@ def reaction(home: Path) -> None:
     loads = f'<objects><ExternalForce name="right">{force}</ExternalForce></objects><datafile>grf.mot</datafile>'
     text = f'<OpenSimDocument Version="40000"><ExternalLoads name="loads">{loads}</ExternalLoads></OpenSimDocument>'
     written(home / "loads.xml", f'<?xml version="1.0"?>{text}')
-
-
-def model() -> str:
-    """The .osim file."""
-    parts = {
-        "BodySet": "".join(map(_body, BODIES)),
-        "JointSet": "".join(_joint(*joint) for joint in JOINTS),
-        "MarkerSet": "".join(_marker(body, k) for body in BODIES for k in range(4)),
-    }
-    sets = "\n".join(f"<{name}><objects>{text}</objects></{name}>" for name, text in parts.items())
-    return f"""<?xml version="1.0"?><OpenSimDocument Version="40000"><Model name="synthetic leg">
-<gravity>0 -9.80665 0</gravity><Ground name="ground"/>
-{sets}
-</Model></OpenSimDocument>"""
-
-
-def _body(name: str) -> str:
-    mass = BODIES[name]
-    inertia = f"{0.02 * mass} {0.01 * mass} {0.015 * mass} 0 0 0"
-    return f"""<Body name="{name}"><mass>{mass}</mass><mass_center>0 -0.15 0</mass_center>
-<inertia>{inertia}</inertia></Body>"""
-
-
-def _joint(kind: str, name: str, parent: str, child: str, at: tuple[float, ...], coordinates: tuple[str, ...]) -> str:
-    path = "/ground" if parent == "ground" else f"/bodyset/{parent}"
-    held = "".join(f'<Coordinate name="{c}"/>' for c in coordinates)
-    return f"""<{kind} name="{name}"><socket_parent_frame>{name}_in</socket_parent_frame>
-<socket_child_frame>{name}_out</socket_child_frame><coordinates>{held}</coordinates><frames>
-<PhysicalOffsetFrame name="{name}_in"><socket_parent>{path}</socket_parent>
-<translation>{" ".join(map(str, at))}</translation></PhysicalOffsetFrame>
-<PhysicalOffsetFrame name="{name}_out"><socket_parent>/bodyset/{child}</socket_parent></PhysicalOffsetFrame>
-</frames></{kind}>"""
-
-
-def _marker(body: str, k: int) -> str:
-    place = " ".join(map(str, PLACES[k]))
-    return f"""<Marker name="{body}{k}"><socket_parent_frame>/bodyset/{body}</socket_parent_frame>
-<location>{place}</location></Marker>"""
 
 
 def _task(body: str, k: int) -> str:
