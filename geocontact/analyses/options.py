@@ -71,10 +71,14 @@ class Spelled:
 
 @dataclass(frozen=True)
 class Requires:
-    """The option has no effect unless the other one is given; `remedy` is what to do, "give `other`" unless told."""
+    """The option has no effect unless the other one is given, or `alternative` where there is one.
+
+    `remedy` is what to do, "give `other`" unless told.
+    """
 
     other: str
     remedy: str = ""
+    alternative: str = ""
 
 
 @dataclass(frozen=True)
@@ -191,7 +195,7 @@ class Options:
         for one in declared(type(self)):
             if self.given(one.name):
                 for rule in one.rules:
-                    _refuse(one.name, rule, self.given(rule.other))
+                    _refuse(one.name, rule, any(map(self.given, _others(rule))))
 
     def given(self, name: str) -> bool:
         """Whether an option was given: it is neither None, nor False, nor empty."""
@@ -208,11 +212,17 @@ class Options:
         }
 
 
+def _others(rule: Requires | Excludes | Needs) -> tuple[str, ...]:
+    """Options that a rule speaks of."""
+    alternative = rule.alternative if isinstance(rule, Requires) else ""
+    return (rule.other, alternative) if alternative else (rule.other,)
+
+
 def _refuse(name: str, rule: Requires | Excludes | Needs, other: bool) -> None:
     match rule:
         case Requires() if not other:
-            what = f"has no effect without `{rule.other}`"
-            raise InputError("", f"`{name}`", what, rule.remedy or f"give `{rule.other}`")
+            named = " or ".join(f"`{each}`" for each in _others(rule))
+            raise InputError("", f"`{name}`", f"has no effect without {named}", rule.remedy or f"give {named}")
         case Excludes() if other:
             what = rule.why or f"has no effect with `{rule.other}`"
             raise InputError("", f"`{name}`", what, rule.remedy)

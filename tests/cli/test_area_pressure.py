@@ -36,7 +36,7 @@ def pressed(
 
 
 def test_files_page_and_maps(tmp_path: Path) -> None:
-    result = done(pressed(tmp_path, "--save-map", "--parquet", "--split", "z", picture=True))
+    result = done(pressed(tmp_path, "--save-map", "--parquet", "--split", "z", "--side", "right", picture=True))
     more = {"area.parquet", "distances.npz", "pressure.parquet", "pressure.npz"}
     assert set(inventory(result.folder)) == FILES | PRESSURE | more
     page = result.bytes("report.html").decode()

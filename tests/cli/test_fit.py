@@ -62,7 +62,7 @@ def test_contract_and_a_rod(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_writes_what_python_writes(tmp_path: Path) -> None:
     """Files by name, tables byte for byte, options as typed and in SI."""
-    typed = ("--split", "z", "--profile=0:80:40", "--window", "40", "--no-robust", "--parquet")
+    typed = ("--split", "z", "--side", "right", "--profile=0:80:40", "--window", "40", "--no-robust", "--parquet")
     result = done(fit(tmp_path / "o", FEMUR, "cylinder", *KNEE, *typed))
     assert set(inventory(result.folder)) == FILES | PROFILE | {"profile.parquet"}
     python = gc.fit_shape(
@@ -73,6 +73,7 @@ def test_writes_what_python_writes(tmp_path: Path) -> None:
         sagittal="-y,-x",
         region=KNEE[-1],
         split="z",
+        side="right",
         profile=gc.deg(0, 80, 40),
         window=gc.deg(40),
         robust=False,

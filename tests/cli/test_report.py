@@ -29,7 +29,20 @@ def everything(tmp_path_factory: pytest.TempPathFactory) -> tuple[Call, mock.Moc
     """A knee with a comparison, stills and the series, the last two only noted down; most contact in frame 2 of 3."""
     folder = tmp_path_factory.mktemp("report")
     measured = written(folder / "measured.csv", "time [s],threshold [mm],area_fixed [mm^2]\n0.3,4,2400\n")
-    options = ("--threshold", "4,1", "--split", "z", "--compare", measured, "--tolerance", "90%", "--bounds", "1e-9")
+    options = (
+        "--threshold",
+        "4,1",
+        "--split",
+        "z",
+        "--side",
+        "right",
+        "--compare",
+        measured,
+        "--tolerance",
+        "90%",
+        "--bounds",
+        "1e-9",
+    )
     patched = "geocontact.analyses.area.scene"
     with (
         mock.patch(f"{patched}.draw_stills", return_value=(Still(Path("x.png"), "matplotlib", NOTE),)) as stills,

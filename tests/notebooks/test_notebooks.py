@@ -59,7 +59,7 @@ def test_kept_without_outputs_and_with_any_python(notebook):
 def test_contact_area_writes_what_the_command_writes(run, tmp_path):
     said = run(ROOT / "notebooks" / "contact_area.ipynb", GEOCONTACT_DATA=str(tmp_path / "none"))
     assert "101 frames, signed: both" in said and "no real data here; everything above is synthetic" in said
-    given = ("--unit", "mm", "--motion", MESHES / "gait.csv", "--threshold", "1,4", "--split", "z")
+    given = ("--unit", "mm", "--motion", MESHES / "gait.csv", "--threshold", "1,4", "--split", "z", "--side", "right")
     with unpictured():
         assert call("area", FEMUR, INSERT, *given, "--out", tmp_path / "out").code == 0
     notebook = tmp_path / "contact-area-result"
@@ -163,8 +163,8 @@ def by_commands(made: Path, out: Path) -> list[str]:
         ROOT / "meshes" / f"{name}.stl"
         for name in ("femoral_component_right_medium", "femoral_component_right_coarse", "tibial_insert_right_coarse")
     )
-    how = ("--unit", "mm", "--motion", made / "gait.csv", "--split", "z", "--rule", "clip")
-    patch = ("--axis", "0,0,0,0,0,1", "--sagittal=-y,-x", "--region", "outward>0.5", "--split", "z")
+    how = ("--unit", "mm", "--motion", made / "gait.csv", "--split", "z", "--side", "right", "--rule", "clip")
+    patch = ("--axis", "0,0,0,0,0,1", "--sagittal=-y,-x", "--region", "outward>0.5", "--split", "z", "--side", "right")
     layer = ("--pressure", "--modulus", "500MPa", "--poisson", "0.46", "--piece", "1mm", "--region", "ny>0.25")
     bent = ("--profile", made / "radii" / "profile.csv", "--flexion", ROOT / "meshes" / "gait.mot")
     given = ("--area", made / "area.csv", "--force", made / "forces.csv", "--threshold", "1", "--poisson", "0.25,0.46")

@@ -22,6 +22,7 @@ from geocontact.analyses.options import (
     Spelled,
     Typed,
 )
+from geocontact.analyses.sides import Medial, Side, medial_side
 from geocontact.data.errors import InputError
 
 RAYS, FLAT = "rays", "flat"
@@ -76,7 +77,8 @@ class AreaOptions(Options):
     convention
         grood-suntay: columns are clinical knee angles; needs `side`.
     side
-        Side of the knee.
+        Side of the body, for `convention`, and for `split` z: right says that medial is -z, left that it is +z, in a
+        frame whose z points to the subject's right (ISB, OpenSim).
     sweep
         Instead of `motion`: turn MOVING about `axis`; name, start, stop and step, typed flexion=0:90:1 in degrees.
     axis
@@ -91,9 +93,9 @@ class AreaOptions(Options):
     assume_closed
         Treat a surface as closed although its edges do not show it.
     split
-        x, y or z (or z=1.5): medial and lateral parts of FIXED apart.
+        x, y or z (or z=1.5): medial and lateral parts of FIXED apart; needs `side` or `medial`.
     medial
-        Side of the splitting plane that is medial; - unless given.
+        Side of the splitting plane that is medial, instead of `side`.
     region
         Faces of FIXED that count: "ny>0.25" in x y z nx ny nz (mesh unit), or a file of face numbers.
     region_moving
@@ -163,7 +165,7 @@ class AreaOptions(Options):
         Excludes("osim", "has no effect with `osim`: the joint says what its coordinates are", "give one"),
         Needs("side", "give right or left"),
     ] = None
-    side: Annotated[Literal["right", "left"] | None, READS_NO_FILE, Requires("convention")] = None
+    side: Annotated[Side | None, Requires("convention", alternative="split")] = None
     sweep: Sweep | None = None
     axis: Annotated[Expression | None, Requires("sweep")] = None
     place_moving: str | None = None
@@ -171,7 +173,7 @@ class AreaOptions(Options):
     adduction: Turn | None = None
     assume_closed: Literal["moving", "fixed", "both"] | None = None
     split: str | None = None
-    medial: Annotated[Literal["-", "+"] | None, Spelled(dashed=True), Requires("split")] = None
+    medial: Annotated[Medial | None, Requires("split")] = None
     region: Expression | None = None
     region_moving: Expression | None = None
     rule: Literal["refined", "clip", "all-vertices", "any-vertex", "centroid"] = "refined"
@@ -205,6 +207,7 @@ class AreaOptions(Options):
             raise InputError("", "`moving_body`", what, "swap the two meshes, or give `osim` and `joint`")
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one thread", "give 1 or more")
+        self._refuse_sides()
         self._refuse_thresholds()
         for name, kind in POSITIVE.items():
             value = getattr(self, name)
@@ -217,6 +220,12 @@ class AreaOptions(Options):
         if self.adduction is not None and not _small(*self.adduction):
             what = f"{self.adduction} is no small turn about x, y or z"
             raise InputError("", "`adduction`", what, "give an axis and at most 45 degrees")
+
+    def _refuse_sides(self) -> None:
+        if self.split is not None:
+            medial_side(self.split, self.side, self.medial)
+        if self.medial is not None and self.side is not None and self.convention is None:
+            raise InputError("", "`side`", "has no effect with `medial`, which says what is medial", "give one")
 
     def _refuse_thresholds(self) -> None:
         values = self.threshold

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 
 from geocontact.analyses.checks import refuse
 from geocontact.analyses.options import Degrees, Excludes, Expression, MeshUnit, Options, Requires, Spelled, Typed
+from geocontact.analyses.sides import Medial, Side, medial_side
 
 NEEDS = {
     "radial": "`axis` or `centre`",
@@ -19,7 +20,6 @@ NEEDS = {
 """Names that a region may use, by the options that say where they are counted from."""
 
 AngleRange = Annotated[tuple[float, float, float], Typed("rad", "degree_range"), Spelled(dashed=True)]
-Side = Annotated[Literal["-", "+"], Spelled(dashed=True)]
 Profile = Requires("profile")
 
 
@@ -57,9 +57,13 @@ class ShapeOptions(Options):
     robust
         Whether points far off do not count; else it is plain least squares.
     split
-        x, y or z (or z=1.5): medial and lateral points are fitted apart as well, cylinders along the axis of the whole.
+        x, y or z (or z=1.5): medial and lateral points are fitted apart as well, cylinders along the axis of the whole;
+        needs `side` or `medial`.
+    side
+        Side of the body, for `split` z: right says that medial is -z, left that it is +z, in a frame whose z points to
+        the subject's right (ISB, OpenSim).
     medial
-        Side of the splitting plane that is medial; - unless given.
+        Side of the splitting plane that is medial, instead of `side`.
     profile
         Also tell the radius as a function of flexion: start, stop and step, typed -30:120:5 in degrees, about `axis` or
         the fitted cylinder's axis.
@@ -88,7 +92,10 @@ class ShapeOptions(Options):
     points: Literal["vertices", "faces"] = "vertices"
     robust: bool = True
     split: str | None = None
-    medial: Annotated[Side | None, Requires("split")] = None
+    side: Annotated[Side | None, Requires("split")] = None
+    medial: Annotated[
+        Medial | None, Requires("split"), Excludes("side", "with `side` says twice what is medial", "give one")
+    ] = None
     profile: AngleRange | None = None
     window: Annotated[Degrees | None, Profile] = None
     paraview: bool = False
@@ -97,6 +104,8 @@ class ShapeOptions(Options):
     def refuse_impossible(self) -> None:
         """Places that nothing is counted from, a profile without an axis, angles that cannot be."""
         self._refuse_places()
+        if self.split is not None:
+            medial_side(self.split, self.side, self.medial)
         needs_axis = self.profile is not None and self.shape != "cylinder" and self.axis is None
         refuse(
             (

@@ -36,7 +36,7 @@ class Settings:
     split
         Plane in FIXED's frame between medial and lateral.
     medial_side
-        +1 or -1, the side of the plane that is medial.
+        +1 or -1, the side of the plane that is medial; 0 without a plane.
     sensitivity
         Further thresholds [m] at which FIXED's area is wanted to see how much the choice matters: triangles cut once as
         given, no bounds. Distances reach as far as the largest of all thresholds.
@@ -48,7 +48,7 @@ class Settings:
     fixed_faces: Bool[np.ndarray, " f"] | None = None
     moving_faces: Bool[np.ndarray, " g"] | None = None
     split: Plane | None = None
-    medial_side: int = -1
+    medial_side: int = 0
     sensitivity: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
@@ -57,6 +57,8 @@ class Settings:
             raise ValueError("thresholds must be finite and not negative")
         if self.rule not in RULES:
             raise ValueError(f"rule must be one of {', '.join(RULES)}, not {self.rule!r}")
+        if self.medial_side not in ((0,) if self.split is None else (-1, 1)):
+            raise ValueError("split and medial_side belong together: -1 or +1 is the side of the plane that is medial")
 
 
 @dataclass(frozen=True)
@@ -232,7 +234,7 @@ def area_evolution(
         min_distance=np.array(lowest),
         max_penetration_fixed=np.array(deepest),
         signed=pair.signed,
-        medial_side=settings.medial_side if settings.split is not None else 0,
+        medial_side=settings.medial_side,
         split_normal=settings.split.normal if settings.split is not None else (0.0, 0.0, 0.0),
         sensitivity_thresholds=settings.sensitivity,
         sensitivity=np.array(sensitivity),

@@ -20,5 +20,7 @@ def warm_up() -> None:
     vertices = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) * 1e-2
     faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     tetrahedron = Surface(vertices, faces, "tetrahedron")
-    pair = ContactPair(tetrahedron, tetrahedron, Settings(thresholds=(1e-3,), split=Plane.across("x", 1e-3)))
+    pair = ContactPair(
+        tetrahedron, tetrahedron, Settings(thresholds=(1e-3,), split=Plane.across("x", 1e-3), medial_side=1)
+    )
     pair.at(np.eye(3), np.full(3, 1e-3))

@@ -37,7 +37,9 @@ FIXED, MOVING = "area_fixed [mm^2]", "area_moving [mm^2]"
 @pytest.fixture(scope="module")
 def split(tmp_path_factory: pytest.TempPathFactory) -> AreaResult:
     """The coarse knee at two frames and three thresholds, split."""
-    return area(FEMUR, INSERT, gait(tmp_path_factory.mktemp("knee")), threshold=gc.mm(0.1, 1, 4), split="z")
+    return area(
+        FEMUR, INSERT, gait(tmp_path_factory.mktemp("knee")), threshold=gc.mm(0.1, 1, 4), split="z", side="right"
+    )
 
 
 def test_columns_are_those_of_the_contract_in_their_order(split: AreaResult, knee: AreaResult) -> None:
@@ -148,7 +150,20 @@ def test_python_writes_the_bytes_that_the_command_writes(tmp_path: Path) -> None
     motion, faces = gait(tmp_path, [30]), written(tmp_path / "faces.txt", " ".join(map(str, range(300))))
     place = shifted(tmp_path, (0, 0.1, 0))
     measured = written(tmp_path / "measured.csv", f"time [s],threshold [mm],{MOVING}\n0.3,1,700\n")
-    typed = ["--threshold", "0.5,1", "--split", "z=1", "--bounds", "5%", "--adduction", "x=-1", "--tolerance", "900%"]
+    typed = [
+        "--threshold",
+        "0.5,1",
+        "--split",
+        "z=1",
+        "--side",
+        "left",
+        "--bounds",
+        "5%",
+        "--adduction",
+        "x=-1",
+        "--tolerance",
+        "900%",
+    ]
     named = ["--region-moving", faces, "--place-moving", place, "--compare", measured, "--save-map", "--motion", motion]
     layer = ["--pressure", "--modulus", "500MPa", "--poisson", "0.46", "--piece", "1", "--thickness", "8"]
     with unpictured():
@@ -160,6 +175,7 @@ def test_python_writes_the_bytes_that_the_command_writes(tmp_path: Path) -> None
             motion,
             threshold=(5e-4, 1e-3),
             split="z=1",
+            side="left",
             bounds=gc.percent(5),
             adduction=("x", gc.deg(-1)),
             tolerance=9.0,

@@ -62,7 +62,25 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "side without a convention": (
         MOTION | {"side": "left"},
-        "`side`: has no effect without `convention`; give `convention`",
+        "`side`: has no effect without `convention` or `split`; give `convention` or `split`",
+    ),
+    "split without a side": (
+        MOTION | {"split": "z=1"},
+        (
+            "`split`: 'z=1' does not say which side of the plane is medial; give `side` right or left "
+            "where z points to the subject's right, else `medial` - or +"
+        ),
+    ),
+    "side of a plane across x": (
+        MOTION | {"split": "x", "side": "left"},
+        (
+            "`side`: left does not say which side of a plane across x is medial: z is what points to the right; "
+            "give `medial` - or +"
+        ),
+    ),
+    "side with medial": (
+        MOTION | {"split": "z", "side": "left", "medial": "+"},
+        "`side`: has no effect with `medial`, which says what is medial; give one",
     ),
     "convention without a side": (
         MOTION | {"convention": "grood-suntay"},
@@ -139,6 +157,12 @@ def test_what_cannot_be_or_has_no_effect_is_refused_in_python_words(given: dict[
     with pytest.raises(InputError) as refused:
         AreaOptions(**BODIES, **given)
     assert str(refused.value) == said
+
+
+def test_the_side_of_a_convention_goes_with_a_medial_direction() -> None:
+    """The knee angles' side, beside a plane in a frame whose z is not to the right."""
+    given = {"convention": "grood-suntay", "side": "left", "split": "x", "medial": "-"}
+    assert AreaOptions(**BODIES, **MOTION, **given).medial == "-"
 
 
 def test_a_sound_call_is_not_refused() -> None:

@@ -71,7 +71,7 @@ def test_what_is_pressed_is_the_area_within_zero(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_sides_add_up(tmp_path: Path) -> None:
-    table = pressed(tmp_path, split="z", at=(0.0, -0.8)).table()
+    table = pressed(tmp_path, split="z", side="right", at=(0.0, -0.8)).table()
     medial, lateral = table["force_medial [N]"], table["force_lateral [N]"]
     np.testing.assert_allclose(medial + lateral, table["force [N]"], rtol=1e-9)
     assert (medial[:2] > lateral[:2]).all() and (lateral[:2] > 0.0).all()
