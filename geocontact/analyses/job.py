@@ -58,6 +58,7 @@ class Job(Generic[I, R]):
         asked = self.options(*inputs, **options)
         record = Record(self.command, asked.in_si(), asked.in_si())
         with record.catching_warnings():
+            tell_doubts(asked, record)
             result = self.run(self.read(asked, record), asked, record)
         for line in record.warnings:
             warnings.warn(line, InputWarning, stacklevel=2)
@@ -71,6 +72,12 @@ def _parameter(one: Declared) -> Parameter:
     kind = Parameter.POSITIONAL_OR_KEYWORD if one.positional else Parameter.KEYWORD_ONLY
     default = Parameter.empty if one.required else one.default
     return Parameter(one.name, kind, default=default, annotation=one.kind | None if one.optional else one.kind)
+
+
+def tell_doubts(options: Options, record: Record) -> None:
+    """What is unusual about the options is a reservation of the result."""
+    for line in options.doubts():
+        record.warn(line)
 
 
 @dataclass(frozen=True)
@@ -96,5 +103,6 @@ def execute(job: Job[Any, R], options: Options, out: Path, call: Call) -> tuple[
     """Evaluate and write into `out`, whole or not at all; the result and the names of the files."""
     record = Record(job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell)
     with record.catching_warnings(), written_whole(out) as draft:
+        tell_doubts(options, record)
         result = job.run(job.read(options, record), options, record)
         return result, result.put(draft)

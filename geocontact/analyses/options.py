@@ -2,12 +2,14 @@
 
 The options of an analysis are a frozen dataclass below `Options`: inputs first, then keyword-only options, values
 in SI. What else there is to know of an option stands in its annotation: its unit (`Typed`), how the command line spells
-it (`Spelled`), and with which other options it has an effect (`Requires`, `Excludes`, `Needs`). A message names an
+it (`Spelled`), with which other options it has an effect (`Requires`, `Excludes`, `Needs`), and what it can be
+(`data.plausible`: what is impossible is refused, what is unusual is a reservation of the result). A message names an
 option in backticks, which is how Python spells it; the command line turns that into its own spelling.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import MISSING, Field, dataclass, fields
 from functools import cache
 from os import PathLike, fspath
@@ -16,6 +18,7 @@ from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import ByName, ByPlace, Plausible, Range, numbers_in
 
 
 @dataclass(frozen=True)
@@ -122,6 +125,8 @@ class Declared:
         Its type without None and without annotations.
     optional
         Whether it may be None.
+    range
+        What its values can be.
     words
         What the docstring of the options says of it.
     settable
@@ -136,6 +141,7 @@ class Declared:
     typed: Typed | None
     spelled: Spelled
     rules: tuple[Requires | Excludes | Needs, ...]
+    range: Range | None
     words: str
     settable: bool = True
 
@@ -185,7 +191,24 @@ class Options:
         for one in declared(type(self)):
             object.__setattr__(self, one.name, one.coerced(getattr(self, one.name)))
         self.refuse_without_effect()
+        self.refuse_implausible()
         self.refuse_impossible()
+
+    def refuse_implausible(self) -> None:
+        """InputError for the first value that its quantity cannot have."""
+        for place, known, value in self._ranged():
+            known.require(value, place)
+
+    def doubts(self) -> tuple[str, ...]:
+        """What is unusual about the values, each one line."""
+        found = [(place, known.doubt(value)) for place, known, value in self._ranged()]
+        return tuple(dict.fromkeys(f"{place}: {doubt}" for place, doubt in found if doubt))
+
+    def _ranged(self) -> Iterator[tuple[str, Plausible, float]]:
+        """Every number that has a range, and where it was given: "`known` k"."""
+        for one in declared(type(self)):
+            for name, known, value in numbers_in(one.range, getattr(self, one.name)):
+                yield f"`{one.name}` {name}".rstrip(), known, value
 
     def refuse_impossible(self) -> None:
         """InputError for values that cannot be; for an analysis to fill."""
@@ -264,6 +287,7 @@ def _declared(each: Field[Any], hint: Any, words: str) -> Declared:
         next((mark for mark in marks if isinstance(mark, Typed)), None),
         next((mark for mark in marks if isinstance(mark, Spelled)), Spelled()),
         tuple(mark for mark in marks if isinstance(mark, (Requires, Excludes, Needs))),
+        next((mark for mark in marks if isinstance(mark, (Plausible, ByPlace, ByName))), None),
         words,
         each.init,
     )

@@ -61,11 +61,11 @@ def test_a_scaled_model_is_that_of_the_command(markers: Path, tmp_path: Path) ->
 
 
 def test_refusals_name_arguments(markers: Path) -> None:
-    with pytest.raises(gc.InputError, match="`fill`: -1 is not a time"):
+    with pytest.raises(gc.InputError, match="`fill`: -1 s cannot be a gap in a recording"):
         gc.inverse_kinematics(markers, model=LEG, fill=-1.0)
     with pytest.raises(gc.InputError, match="`axes`: has no effect without plates"):
         gc.inverse_dynamics(SWING, model=LEG, axes="x,z,-y")
     with pytest.raises(gc.InputError, match="`plates`: with `loads` names the plates twice"):
         gc.inverse_dynamics(SWING, model=LEG, loads="a.xml", plates="b.mot", plate="1=foot_r")
-    with pytest.raises(gc.InputError, match="`mass`: 0 kg is not a mass"):
+    with pytest.raises(gc.InputError, match="`mass`: 0 kg cannot be the mass of a person"):
         gc.scale(markers, model=LEG, mass=0.0)

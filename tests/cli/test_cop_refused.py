@@ -59,13 +59,13 @@ def test_files_that_are_no_table(tmp_path: Path, content: bytes) -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--gate", "-1"), "--gate: -1 is not a force"),
-        (("--gate", "nan"), "--gate: nan is not a force"),
-        (("--stiffness", "-1"), "must be positive"),
-        (("--damping", "-1"), "damping and friction not negative"),
+        (("--gate", "-1"), "--gate: -1 N cannot be the force"),
+        (("--gate", "nan"), "--gate: nan is not a finite number"),
+        (("--stiffness", "-1"), "-1 cannot be the stiffness k of a sphere"),
+        (("--damping", "-1"), "-1 N s/m cannot be a damping"),
         (("--friction", "0.9"), "--friction: '0.9' is not two numbers"),
         (("--friction", "0.9,x"), "--friction: 'x' is not a finite number"),
-        (("--full-depth", "0"), "must be positive"),
+        (("--full-depth", "0"), "0 mm cannot be a depth of contact"),
         (("--point", "toe"), "toe"),
         (("--ground", "plane:0,1,0"), "has 3 numbers"),
         (("--ground", "plane:0,0,0,0"), "has no length"),

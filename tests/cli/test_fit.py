@@ -158,7 +158,7 @@ def test_residuals_for_paraview(tmp_path: Path) -> None:
         (("--profile", "0:90:5", "--sagittal=y,-y", "--axis", "0,0,0,0,0,1"), "are the same"),
         (("--profile", "0:90:5", "--sagittal=z,y", "--axis", "0,0,0,0,0,1"), "lies along the axis"),
         (("--window", "20"), "--window: has no effect without --profile"),
-        (("--profile", "0:90:5", "--sagittal=-y,x", "--window", "0"), "--window: 0 is not between"),
+        (("--profile", "0:90:5", "--sagittal=-y,x", "--window", "0"), "--window: 0 deg cannot be a window"),
         (("--parquet",), "--parquet: has no effect without --profile"),
         (("--medial", "+"), "--medial: has no effect without --split"),
         (("--place-other", "x"), "--place-other: has no effect without --other"),

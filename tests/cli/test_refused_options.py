@@ -28,6 +28,11 @@ OPTIONS: Cases = {
     "neither --motion nor --sweep": ({"--motion": None}, ("--motion", "--sweep")),
     "both --motion and --sweep": ({"--sweep": "a=0:1:1"}, ("--motion", "--sweep")),
     "threshold negative": ({"--threshold": "-1"}, ("--threshold", "-1", "negative")),
+    "threshold with a decimal comma": (
+        {"--threshold": "0,5"},
+        ("--threshold: '0,5'", "decimal comma", "write --threshold 0.5", "0mm,5"),
+    ),
+    "threshold in metres": ({"--threshold": "4m"}, ("--threshold: 4000 mm cannot be", "0 to 200 mm", "is 4 mm meant?")),
     "threshold a word": ({"--threshold": "four"}, ("--threshold", "'four'", "--threshold 4")),
     "threshold nan": ({"--threshold": "nan"}, ("--threshold", "nan", "--threshold 4")),
     "threshold infinite": ({"--threshold": "inf"}, ("--threshold", "inf", "--threshold 4")),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
@@ -18,9 +17,12 @@ from geocontact.analyses.options import (
     Spelled,
     Typed,
 )
-from geocontact.data.errors import InputError
+from geocontact.data.plausible import PLAIN, Plausible
+from geocontact.data.ranges import DAMPING, DEPTH, FORCE, FRICTION, SPEED
 
-Friction = Annotated[tuple[float, float], Typed("-", "friction")]
+EXPONENT = Plausible("the exponent of a force over depth", PLAIN, (0.1, 10.0), (0.8, 3.0))
+STIFFNESS = Plausible("the stiffness k of a sphere, in N/m^n", PLAIN, (1.0, 1e9), (1e3, 1e7))
+Friction = Annotated[tuple[float, float], Typed("-", "friction"), FRICTION]
 
 
 @dataclass(frozen=True)
@@ -84,14 +86,14 @@ class CopOptions(Options):
     ground: Expression | None = None
     unit: MeshUnit | None = None
     point: Literal["ground", "sphere"] = "ground"
-    gate: float = 20.0
+    gate: Annotated[float, FORCE] = 20.0
     law: Path | None = None
-    stiffness: float | None = None
-    damping: float | None = None
-    exponent: float | None = None
-    full_depth: Length | None = None
+    stiffness: Annotated[float | None, STIFFNESS] = None
+    damping: Annotated[float | None, DAMPING] = None
+    exponent: Annotated[float | None, EXPONENT] = None
+    full_depth: Annotated[Length | None, DEPTH] = None
     friction: Friction | None = None
-    threshold_speed: float | None = None
+    threshold_speed: Annotated[float | None, SPEED] = None
     compare: Path | None = None
     plate: Annotated[str | None, Requires("compare", "name the file of force plates")] = None
     plate_pose: Annotated[Path | None, Requires("compare", "name the file of force plates")] = None
@@ -104,8 +106,3 @@ class CopOptions(Options):
     order: Annotated[str | None, Excludes("osim")] = None
     angles: AngleUnit | None = None
     parquet: bool = False
-
-    def refuse_impossible(self) -> None:
-        """A gate that is no force."""
-        if not (math.isfinite(self.gate) and self.gate >= 0.0):
-            raise InputError("", "`gate`", f"{self.gate:g} is not a force of 0 N or more", "e.g. 20")

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
 from geocontact.analyses.options import Expression, ForceUnit, Fraction, Options, Requires
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import N, Plausible
+from geocontact.data.ranges import SHARE
 
 STRIDE, STANCE = "stride", "stance"
 FOUND = (STRIDE, STANCE)
 """Cycles that are found in the total force; all others are named by their times."""
 
+LEVEL = Plausible("the force at which load sets in", N, (1e-3, 1e5), (1.0, 5000.0))
 Cycles = Requires("cycles", "say what a cycle is")
 
 
@@ -48,16 +50,12 @@ class LoadcellOptions(Options):
     map: Expression | None = None
     matrix: Path | None = None
     cycles: Expression | None = None
-    part: Annotated[Fraction | None, Cycles] = None
-    level: Annotated[float | None, Cycles] = None
+    part: Annotated[Fraction | None, Cycles, SHARE] = None
+    level: Annotated[float | None, Cycles, LEVEL] = None
     parquet: bool = False
 
     def refuse_impossible(self) -> None:
-        """A part that is none, a level that is no force or that no cycle needs, sub-folders of one name."""
-        if self.part is not None and not 0.0 < self.part <= 1.0:
-            raise InputError("", "`part`", f"{self.part:g} is not above 0 and at most 1", "give for example 0.6")
-        if self.level is not None and not (math.isfinite(self.level) and self.level > 0.0):
-            raise InputError("", "`level`", f"{self.level:g} is not a force above 0 N", "e.g. 400")
+        """A level that no cycle needs, sub-folders of one name."""
         if self.level is not None and str(self.cycles).strip() not in FOUND:
             raise InputError("", "`level`", "has no effect here: the cycles are given", "leave it out")
         self._refuse_names()

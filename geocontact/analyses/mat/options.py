@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
@@ -22,9 +21,10 @@ from geocontact.analyses.options import (
     Typed,
 )
 from geocontact.data.errors import InputError
+from geocontact.data.ranges import BORDER, CUTOFF, DISPLACEMENT, FORCE, SHARE, TOUCH
 
 TimeWindows = Annotated[tuple[tuple[float, float], ...], Typed("s", "windows"), Spelled(dashed=True)]
-Displacement = Annotated[tuple[float, float], Typed("m, rad", "registration")]
+Displacement = Annotated[tuple[float, float], Typed("m, rad", "registration"), DISPLACEMENT]
 FromMotion = Requires("motion")
 FromSecondScan = Requires("scan_with_mat", "leave it out")
 
@@ -134,7 +134,7 @@ class MatOptions(Options):
         Path | None, Excludes("landmarks", "with `landmarks` says twice where the mat lies", "give one of them")
     ] = None
     first_corner: Annotated[Expression | None, FromSecondScan] = None
-    mat_edge: Annotated[Length | None, FromSecondScan] = None
+    mat_edge: Annotated[Length | None, FromSecondScan, BORDER] = None
     layout: Path | None = None
     kind: Literal["grid", "pedar", "tekscan", "xsensor"] | None = None
     sensor: str | None = None
@@ -155,11 +155,11 @@ class MatOptions(Options):
     angles: Annotated[AngleUnit | None, FromMotion] = None
     point: Expression | None = None
     frame: str | None = None
-    cutoff: float = 6.0
+    cutoff: Annotated[float, CUTOFF] = 6.0
     unloaded: TimeWindows | None = None
     dead: Literal["warn", "mask", "fill"] = "warn"
-    touched: Annotated[Pressure, Spelled(default="1kPa")] = 1e3
-    gate: float = 5.0
+    touched: Annotated[Pressure, Spelled(default="1kPa"), TOUCH] = 1e3
+    gate: Annotated[float, FORCE] = 5.0
     body_landmarks: Path | None = None
     body: Annotated[Path | None, Requires("icp", "give `icp`, or leave it out")] = None
     body_unit: Annotated[MeshUnit | None, Requires("body", "leave it out")] = None
@@ -170,27 +170,18 @@ class MatOptions(Options):
         None
     )
     segment: tuple[str, ...] = ()
-    accuracy: Annotated[Fraction, Spelled(default="10%")] = 0.1
-    gain: Fraction | None = None
+    accuracy: Annotated[Fraction, Spelled(default="10%"), SHARE] = 0.1
+    gain: Annotated[Fraction | None, SHARE] = None
     registration: Displacement | None = None
     compare: Path | None = None
     phases: Annotated[Path | None, Requires("compare", "leave it out")] = None
     parquet: bool = False
 
     def refuse_impossible(self) -> None:
-        """A mat that lies nowhere, a belt pushed down flat, numbers that cannot be."""
+        """A mat that lies nowhere, a belt pushed down flat."""
         if self.landmarks is None and self.scan_with_mat is None:
             what = "is missing: nothing says where the mat lies"
             raise InputError("", "`landmarks`", what, "give `landmarks`, or a second scan `scan_with_mat`")
         if self.belt is not None and self.lay == "closest":
             what = "has no effect with `lay` closest, which pushes a flat mat straight down"
             raise InputError("", "`belt`", what, "leave one of them out")
-        if not (math.isfinite(self.gate) and self.gate >= 0.0):
-            raise InputError("", "`gate`", f"{self.gate:g} is not a force of 0 N or more", "e.g. 5")
-        if not (math.isfinite(self.cutoff) and self.cutoff >= 0.0):
-            raise InputError("", "`cutoff`", f"{self.cutoff:g} is not a frequency", "e.g. 6")
-        for name, value in (("touched", self.touched), ("accuracy", self.accuracy), ("gain", self.gain)):
-            if value is not None and not (math.isfinite(value) and value > 0.0):
-                raise InputError("", f"`{name}`", f"{value:g} is not positive", "give a number above 0")
-        if self.registration is not None and min(self.registration) < 0.0:
-            raise InputError("", "`registration`", "is negative", "give a length and an angle of 0 or more")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
@@ -10,6 +9,9 @@ from typing import Annotated, Literal
 from geocontact.analyses.checks import refuse
 from geocontact.analyses.options import Degrees, Excludes, Expression, MeshUnit, Options, Requires, Spelled, Typed
 from geocontact.analyses.sides import Medial, Side, medial_side
+from geocontact.data.plausible import Plausible
+from geocontact.data.ranges import JOINT_ANGLE
+from geocontact.data.units import deg
 
 NEEDS = {
     "radial": "`axis` or `centre`",
@@ -19,7 +21,8 @@ NEEDS = {
 }
 """Names that a region may use, by the options that say where they are counted from."""
 
-AngleRange = Annotated[tuple[float, float, float], Typed("rad", "degree_range"), Spelled(dashed=True)]
+WINDOW = Plausible("a window of flexion", deg, (1.0, 180.0))
+AngleRange = Annotated[tuple[float, float, float], Typed("rad", "degree_range"), Spelled(dashed=True), JOINT_ANGLE]
 Profile = Requires("profile")
 
 
@@ -97,12 +100,12 @@ class ShapeOptions(Options):
         Medial | None, Requires("split"), Excludes("side", "with `side` says twice what is medial", "give one")
     ] = None
     profile: AngleRange | None = None
-    window: Annotated[Degrees | None, Profile] = None
+    window: Annotated[Degrees | None, Profile, WINDOW] = None
     paraview: bool = False
     parquet: Annotated[bool, Requires("profile", "leave it out")] = False
 
     def refuse_impossible(self) -> None:
-        """Places that nothing is counted from, a profile without an axis, angles that cannot be."""
+        """Places that nothing is counted from, a profile without an axis or an end."""
         self._refuse_places()
         if self.split is not None:
             medial_side(self.split, self.side, self.medial)
@@ -113,12 +116,6 @@ class ShapeOptions(Options):
                 "`profile`",
                 f"needs an axis, and a {self.shape} has none",
                 "give `axis`, or fit a cylinder",
-            ),
-            (
-                self.window is not None and not math.radians(1.0) <= self.window <= math.pi,
-                "`window`",
-                f"{math.degrees(self.window or 0.0):g} is not between 1 and 180 degrees",
-                "give for example 30 degrees",
             ),
             (
                 self.profile is not None and not _arrives(*self.profile),

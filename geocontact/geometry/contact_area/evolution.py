@@ -12,6 +12,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.data.evolution import AreaEvolution, SideAreas
 from geocontact.data.motion import Motion
+from geocontact.data.ranges import THRESHOLD
 from geocontact.geometry.contact_area.area import AS_GIVEN, AreaWithin, Refinement, area_within
 from geocontact.geometry.contact_area.depth import lowest_signed_distance
 from geocontact.geometry.contact_area.rules import CLIP, REFINED, RULES, counted_area
@@ -55,6 +56,8 @@ class Settings:
         every = (*self.thresholds, *self.sensitivity)
         if not self.thresholds or min(every) < 0.0 or not np.isfinite(every).all():
             raise ValueError("thresholds must be finite and not negative")
+        for threshold in self.thresholds:
+            THRESHOLD.require(threshold, "`thresholds`")
         if self.rule not in RULES:
             raise ValueError(f"rule must be one of {', '.join(RULES)}, not {self.rule!r}")
         if self.medial_side not in ((0,) if self.split is None else (-1, 1)):

@@ -180,7 +180,10 @@ def test_doubts_are_said_and_kept() -> None:
         ({"split": "z"}, "`split`: 'z' does not say which side of the plane is medial"),
         ({"split": "z", "side": "left", "medial": "+"}, "`medial`: with `side` says twice what is medial"),
         ({"window": 0.3}, "`window`: has no effect without `profile`"),
-        ({"profile": (0.0, 1.0, 0.1), "window": 4.0}, "`window`: 229.183 is not between 1 and 180 degrees"),
+        (
+            {"profile": (0.0, 1.0, 0.1), "window": 4.0},
+            "`window`: 229.183 deg cannot be a window of flexion: that is 1 to 180 deg; is 4 deg meant?",
+        ),
         ({"profile": (0.0, 1.0, -0.1)}, "`profile`: never arrives"),
         ({"profile": (0.0, 1.0, 0.0)}, "`profile`: never arrives"),
         ({"shape": "cone"}, "`shape`: 'cone' is not a choice; one of cylinder, sphere, plane"),

@@ -7,13 +7,17 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.misalignment.checks import require_cutoff, require_stroke, require_width
+from geocontact.analyses.misalignment.checks import require_stroke
+from geocontact.analyses.misalignment.law_numbers import STROKE
 from geocontact.analyses.options import AngleUnit, Degrees, Expression, ForceUnit, Options, Requires, Spelled, Typed
 from geocontact.analyses.page_words import counted
 from geocontact.data.errors import InputError
+from geocontact.data.ranges import BIN, CUTOFF
 
-Stroke = Annotated[tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True)]
-BIN = math.radians(2.0)
+Stroke = Annotated[
+    tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
+]
+TWO_DEGREES = math.radians(2.0)
 
 
 @dataclass(frozen=True)
@@ -52,17 +56,15 @@ class CompareOptions(Options):
     map: Expression | None = None
     angles: AngleUnit | None = None
     unit: ForceUnit | None = None
-    bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0)] = BIN
-    cutoff: float | None = None
+    bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0), BIN] = TWO_DEGREES
+    cutoff: Annotated[float | None, CUTOFF] = None
     parquet: bool = False
 
     def refuse_impossible(self) -> None:
-        """Not exactly one model for each recording; a stroke, a width, a cut-off that cannot be."""
+        """Not exactly one model for each recording; a stroke that ends before it begins."""
         if (self.fit is None) == (self.simulated is None):
             raise InputError("", "`fit`", "or `simulated`: exactly one is compared with", "give one")
         if self.simulated is not None and len(self.simulated) != len(self.recordings):
             what = f"is given {len(self.simulated)} times for {counted(len(self.recordings), 'recording')}"
             raise InputError("", "`simulated`", what, "give one for each, in the same order")
         require_stroke(self.stroke)
-        require_width(self.bin, "`bin`")
-        require_cutoff(self.cutoff)

@@ -8,16 +8,16 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.misalignment.checks import require_cutoff, require_width
-from geocontact.analyses.misalignment.law_numbers import require_names
+from geocontact.analyses.misalignment.law_numbers import MEANS, NUMBERS, TOPS, require_names
 from geocontact.analyses.options import AngleUnit, Degrees, Expression, ForceUnit, Options, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
+from geocontact.data.ranges import BIN, CUTOFF
 
-Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True)]
+Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True), NUMBERS]
 Pairs = Annotated[Mapping[str, tuple[float, float]], Typed("-", "misalignment.parameters:pairs"), Spelled(dashed=True)]
 Names = Annotated[tuple[str, ...], Typed("-", "misalignment.parameters:names")]
 REPLICATES = 100, 100_000
-BIN, BOX = math.radians(2.0), math.radians(10.0)
+TWO_DEGREES, TEN_DEGREES = math.radians(2.0), math.radians(10.0)
 
 
 @dataclass(frozen=True)
@@ -71,26 +71,23 @@ class IdentifyOptions(Options):
     rotary_free: Annotated[bool, Requires("unlocked")] = False
     held_out: tuple[Path, ...] | None = None
     known: Numbers | None = None
-    prior: Pairs | None = None
-    bounds: Pairs | None = None
+    prior: Annotated[Pairs | None, MEANS] = None
+    bounds: Annotated[Pairs | None, TOPS] = None
     start: Numbers | None = None
     free: Names | None = None
     map: Expression | None = None
     angles: AngleUnit | None = None
     unit: ForceUnit | None = None
-    bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0)] = BIN
-    box: Annotated[Degrees, Spelled("box-deg", "box_deg", default=10.0)] = BOX
-    cutoff: float | None = None
+    bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0), BIN] = TWO_DEGREES
+    box: Annotated[Degrees, Spelled("box-deg", "box_deg", default=10.0), BIN] = TEN_DEGREES
+    cutoff: Annotated[float | None, CUTOFF] = None
     bootstrap: int = 500
     parquet: bool = False
 
     def refuse_impossible(self) -> None:
-        """Numbers that the law does not have; widths, cut-off and replicates that cannot be."""
+        """Numbers that the law does not have, replicates that cannot be."""
         for name in ("known", "prior", "bounds", "start"):
             require_names(getattr(self, name), f"`{name}`")
-        require_width(self.bin, "`bin`")
-        require_width(self.box, "`box`")
-        require_cutoff(self.cutoff)
         if self.bootstrap != 0 and not REPLICATES[0] <= self.bootstrap <= REPLICATES[1]:
             what = f"{self.bootstrap} is not {REPLICATES[0]} to {REPLICATES[1]}"
             raise InputError("", "`bootstrap`", what, "give 500, or 0 for none")

@@ -2,32 +2,34 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
 from geocontact.analyses.misalignment.checks import (
-    MIXED_UP,
     require_at_least_0,
     require_rising,
     require_span,
     require_stroke,
     require_within,
 )
-from geocontact.analyses.misalignment.law_numbers import require_names
+from geocontact.analyses.misalignment.law_numbers import NUMBERS, STROKE, require_names
 from geocontact.analyses.options import AngleUnit, Excludes, Expression, Millimetres, Options, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import Plausible
+from geocontact.data.ranges import BAND, CUFF, LENGTH_OF_TRIAL, MEMORY, NOISE, RATE, SHIFT
+from geocontact.data.units import deg
 
+ELBOW = Plausible("an angle of an elbow", deg, (-30.0, 180.0))
 ALONG = Excludes("recordings", "has no effect along a recording")
-Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True)]
-Band = Annotated[tuple[float, float], Typed("Hz", "misalignment.parameters:pair")]
-Angles = Annotated[tuple[float, float], Typed("rad", "misalignment.parameters:degrees"), Spelled(dashed=True)]
-Stroke = Annotated[tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True)]
-Pressures = Annotated[tuple[float, float], Typed("Pa", "misalignment.parameters:mercury")]
-EXTREMES = math.radians(-30.0), math.radians(180.0)
-"""rad; no elbow is straighter or more bent."""
+Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True), NUMBERS]
+Band = Annotated[tuple[float, float], Typed("Hz", "misalignment.parameters:pair"), BAND]
+Angles = Annotated[tuple[float, float], Typed("rad", "misalignment.parameters:degrees"), Spelled(dashed=True), ELBOW]
+Stroke = Annotated[
+    tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
+]
+Pressures = Annotated[tuple[float, float], Typed("Pa", "misalignment.parameters:mercury"), CUFF]
 
 
 @dataclass(frozen=True)
@@ -78,15 +80,15 @@ class SimulateOptions(Options):
     _: KW_ONLY
     numbers: Numbers | None = None
     trials: Annotated[int | None, ALONG] = None
-    seconds: Annotated[float | None, ALONG] = None
-    rate: Annotated[float | None, ALONG] = None
+    seconds: Annotated[float | None, ALONG, LENGTH_OF_TRIAL] = None
+    rate: Annotated[float | None, ALONG, RATE] = None
     band: Annotated[Band | None, ALONG] = None
     range: Annotated[Angles | None, ALONG] = None
     stroke: Stroke | None = None
     pressure: Annotated[Pressures | None, ALONG] = None
-    noise: Annotated[float | None, ALONG] = None
-    memory: Annotated[float | None, ALONG] = None
-    donning: Annotated[Millimetres | None, Spelled("donning-mm", "donning_mm"), ALONG] = None
+    noise: Annotated[float | None, ALONG, NOISE] = None
+    memory: Annotated[float | None, ALONG, MEMORY] = None
+    donning: Annotated[Millimetres | None, Spelled("donning-mm", "donning_mm"), ALONG, SHIFT] = None
     bits: Annotated[int | None, ALONG] = None
     seed: Annotated[int | None, ALONG] = None
     map: Annotated[Expression | None, Requires("recordings")] = None
@@ -102,19 +104,12 @@ class SimulateOptions(Options):
         require_names(self.numbers, "`numbers`")
         require_within(self.trials, "`trials`", (1, 1000), 6)
         require_within(self.bits, "`bits`", (0, 32), 12)
-        require_within(self.seconds, "`seconds`", (1.0, 3600.0), 60)
-        require_within(self.rate, "`rate`", (5.0, 1e4), 1000)
-        for name in ("noise", "memory", "donning", "seed"):
-            require_at_least_0(getattr(self, name), f"`{name}`")
+        require_at_least_0(self.seed, "`seed`")
         for name in ("band", "pressure"):
             require_rising(getattr(self, name), f"`{name}`")
         require_stroke(self.stroke)
         if self.range is not None:
             require_span(self.range)
-            if self.range[0] < EXTREMES[0] or self.range[1] > EXTREMES[1]:
-                raise InputError("", "`range`", "is beyond any elbow", f"{MIXED_UP} 8 to 92 degrees are usual")
-        if self.band is not None and self.band[0] <= 0.0:
-            raise InputError("", "`band`", f"{self.band[0]:g} is not above 0 Hz", "give for example 0.05 to 0.35 Hz")
         if (self.numbers or {}).get("s", 0.0) != 0.0 and not self.recordings and self.pressure is None:
             what = "s has no effect without a cuff pressure"
             raise InputError("", "`numbers`", what, "give `pressure`, for example 10 to 60 mmHg")
