@@ -103,7 +103,10 @@ MOTIONS: Cases = {
 
 
 APART: Cases = {
-    "poses": ({"--motion": lambda f: poses(f, (0, 55, 0), (0, 60, 0))}, ("35 mm apart in every frame", "check unit")),
+    "poses": (
+        {"--motion": lambda f: poses(f, (0, 55, 0), (0, 60, 0))},
+        ("35 mm apart in every frame", "check unit", "--place-moving", "nearest in frame 1 of 2, 0 s"),
+    ),
     "joint": ({**JOINT, "--motion": FAR}, ("99 mm apart in every frame", "wrong direction? try --moving parent")),
     "joint the other way round": (
         {**JOINT, "--motion": FAR, "--moving": "parent"},

@@ -108,7 +108,7 @@ def test_each_motion_has_its_own_inputs_and_reservations(tmp_path: Path) -> None
         assert digest not in said
 
 
-@pytest.mark.parametrize("threshold", ["0", "0,1"])
+@pytest.mark.parametrize("threshold", ["0", "0mm,1"])
 def test_a_threshold_of_zero_is_an_analysis_like_any_other(tmp_path: Path, threshold: str) -> None:
     motion = poses(tmp_path, (0, 19.5, 0), (0, 22, 0))
     result = done(

@@ -13,7 +13,7 @@ from jaxtyping import Float, Int
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import Mesh
 from geocontact.io.mesh.merge import merge_coincident
-from geocontact.io.mesh.mesh_checks import check_faces, metres_per, require_finite, require_plausible
+from geocontact.io.mesh.mesh_checks import SIZES, check_faces, metres_per, require_finite, require_plausible
 from geocontact.io.mesh.obj import read_obj
 from geocontact.io.mesh.ply import read_ply
 from geocontact.io.mesh.stl import read_stl
@@ -25,7 +25,7 @@ READERS: dict[str, _Reader] = {".stl": read_stl, ".ply": read_ply, ".obj": read_
 """Reader of each file name extension; no other file is opened."""
 
 
-def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, float] = (5e-3, 3.0)) -> Mesh:
+def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, float] = SIZES) -> Mesh:
     """Read a triangle surface; vertices come back in metres.
 
     Face i of the mesh is face i of the file (polygons become consecutive triangles, with a warning). Coincident

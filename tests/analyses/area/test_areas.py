@@ -115,7 +115,22 @@ def test_nothing_in_contact_is_a_result(tmp_path: Path) -> None:
     table = result.table()
     assert table[FIXED][0] == table[MOVING][0] == table["area_fixed_upper [mm^2]"][0] == 0.0
     assert table["min_distance [mm]"][0] == pytest.approx(10.0, abs=0.02)
+    (said,) = result.warnings
+    assert (
+        "nothing of FIXED is within 4 mm in any frame: the least distance of the bodies is 10 mm, in frame 1 of 1, 0 s"
+        in said
+    )
+    assert "check unit, where each mesh sits in its body (`place_moving`, `place_fixed`)" in said
     result.figure().draw_without_rendering()
+
+
+def test_the_least_distance_is_told_with_its_frame(tmp_path: Path) -> None:
+    """Also where the bodies touch and the faces that count do not."""
+    motion = poses(tmp_path, (0, 32, 0), (0, 29, 0), (0, 31, 0))
+    (said,) = area(SPHERE, PLATE, motion).warnings
+    assert "is 9 mm, in frame 2 of 3, 1 s; check unit" in said
+    (said,) = area(SPHERE, PLATE, poses(tmp_path, (0, 20.5, 0)), region="y<-5").warnings
+    assert "is 0.5 mm, in frame 1 of 1, 0 s; the faces that count are elsewhere, check `region`" in said
 
 
 def opened(folder: Path, mesh: Path, direction: int) -> Path:
