@@ -41,6 +41,16 @@ class MedialSide:
         return f"{'+' if self.sign > 0 else '-'}{self.axis} ({self.why})"
 
 
+def refuse_other_axes(space: str, name: str, side: str | None, medial: str | None) -> None:
+    """InputError where the side is to say what is medial in a frame whose file says that z points up."""
+    from geocontact.data.mesh import AXES  # numpy: not for --help
+
+    if space and side is not None and medial is None:
+        towards = MEDIAL[side] if space == "RAS" else {"-": "+", "+": "-"}[MEDIAL[side]]
+        what = f"does not say which side of z is medial in {name}: its header says SPACE={space}, {AXES[space]}"
+        raise InputError("", "`side`", what, f"give `split` x and `medial` {towards}")
+
+
 def medial_side(split: str, side: str | None, medial: str | None) -> MedialSide:
     """What is medial of the plane `split` ("z", "z=1.5"), as said or by the side of the body; InputError if neither."""
     axis = split.partition("=")[0].strip()

@@ -23,7 +23,18 @@ from geocontact.analyses.options import (
 )
 from geocontact.analyses.sides import Medial, Side, medial_side
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import DIFFERENCE, JOINT_ANGLE, LAYER, LAYER_RATIO, PIECE, SHARE, THRESHOLD, TURN, YOUNG
+from geocontact.data.ranges import (
+    DIFFERENCE,
+    FRAME_RATE,
+    JOINT_ANGLE,
+    LAYER,
+    LAYER_RATIO,
+    PIECE,
+    SHARE,
+    THRESHOLD,
+    TURN,
+    YOUNG,
+)
 
 RAYS, FLAT = "rays", "flat"
 
@@ -49,7 +60,13 @@ class AreaOptions(Options):
     unit
         Unit of both meshes; never guessed.
     motion
-        Poses (.csv) or coordinates (.mot .sto); several, or a pattern in quotes: one sub-folder each.
+        Poses (.csv, or rows of 16 or 12 numbers in a .csv or .txt) or coordinates (.mot .sto); several, or a pattern in
+        quotes: one sub-folder each.
+    motion_fixed
+        Poses of FIXED where it moves too: `motion` and these are in one frame then, such as the laboratory's. As many
+        as motions, in their order; interpolated to their times.
+    rate
+        Frames per second [Hz] of poses without times, which rows of numbers are; 1 numbers the frames.
     threshold
         Largest distance that counts, or several: 0.1,0.5,1,4
     osim
@@ -135,6 +152,13 @@ class AreaOptions(Options):
     _: KW_ONLY
     unit: MeshUnit
     motion: tuple[str, ...] | None = None
+    motion_fixed: Annotated[
+        tuple[str, ...] | None,
+        READS_NO_FILE,
+        Excludes("osim", "has no effect with `osim`: the joint's poses are in FIXED already"),
+        Excludes("convention", "has no effect with `convention`: knee angles are in FIXED already"),
+    ] = None
+    rate: Annotated[float | None, READS_NO_FILE, FRAME_RATE] = None
     threshold: Annotated[Lengths, Spelled(default="4"), THRESHOLD] = (4e-3,)
     osim: Annotated[Path | None, READS_NO_FILE] = None
     joint: Annotated[str | None, READS_NO_FILE] = None

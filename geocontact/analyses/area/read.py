@@ -10,9 +10,9 @@ from geocontact.analyses import quantities
 from geocontact.analyses.area.motions import motions_given
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.reference_areas import Reference, read_reference
-from geocontact.analyses.bodies import chosen_faces, read_body
+from geocontact.analyses.bodies import chosen_faces, read_body, refuse_two_spaces
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.sides import MedialSide, medial_side
+from geocontact.analyses.sides import MedialSide, medial_side, refuse_other_axes
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import Refinement
 from geocontact.geometry.contact_area.evolution import Settings
@@ -69,6 +69,9 @@ def read(o: AreaOptions, record: Record) -> Bodies:
     closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
     moving = read_body(record, "moving", o.moving, o.unit, o.place_moving, closed["moving"])
     fixed = read_body(record, "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
+    refuse_two_spaces(moving, fixed)
+    if split is not None:
+        refuse_other_axes(fixed.space, fixed.name, o.side, o.medial)
     settings = _settings(record, o, split, moving, fixed)
     if split is not None:
         record.say(f"medial is {split[1].words} of {fixed.name}")

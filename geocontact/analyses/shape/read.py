@@ -13,7 +13,7 @@ from geocontact.analyses.bodies import chosen_faces, read_surface
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shape.options import NEEDS, ShapeOptions
 from geocontact.analyses.shape.patch import Patch
-from geocontact.analyses.sides import medial_side
+from geocontact.analyses.sides import medial_side, refuse_other_axes
 from geocontact.data.errors import InputError
 from geocontact.geometry.patch_names import Values, about, about_flexion, about_other
 from geocontact.geometry.sagittal import Sagittal
@@ -45,6 +45,7 @@ def read(o: ShapeOptions, record: Record) -> Inputs:
     if o.split is None:
         return Inputs(Patch(surface, counted, o.points == "vertices", None, 0), axis)
     plane, side = quantities.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
+    refuse_other_axes(surface.space, surface.name, o.side, o.medial)
     record.say(f"medial is {side.words} of {surface.name}")
     return Inputs(Patch(surface, counted, o.points == "vertices", plane, side.sign), axis)
 
