@@ -133,7 +133,7 @@ OPTIONS: Cases = {
         ("place.txt", "mirror", "mirror the mesh"),
     ),
     "placement of nan": (placed(RIGID.replace("0 0\n", "nan 0\n", 1) + "0 0 0 1\n"), ("place.txt", "finite")),
-    "placement with a bad last row": (placed(RIGID + "0 0 0 2\n"), ("place.txt row 4", "0 0 0 1")),
+    "placement with a bad last row": (placed(RIGID + "0 0 0 2\n"), ("place.txt", "last row", "0 0 0 1")),
     "placement file missing": ({"--place-moving": "nowhere.txt"}, ("nowhere.txt", "check the path")),
     "placement by an unknown body": ({"--place-fixed": f"{KNEE}:patella"}, ("knee.osim", "'patella'", "tibial_insert")),
     "placement by a missing model": ({"--place-fixed": "nowhere.osim:tibia"}, ("nowhere.osim", "check the path")),

@@ -12,7 +12,6 @@ from geocontact.data.errors import InputError
 from tests.analyses.area.calls import area
 from tests.cli.calls import PLATE, SPHERE, poses, shifted, written
 
-
 SIDES = [("LPS", "right", "+"), ("LPS", "left", "-"), ("RAS", "right", "-")]
 
 
