@@ -84,7 +84,7 @@ class Plausible:
         if self.or_zero and value == 0.0:
             return True
         low, high = (end * self.unit.factor for end in ends)
-        return low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high)
+        return bool(low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high))
 
     def _question(self, value: float) -> str:
         """Whether the number that was written was meant in another unit, in which it would be usual."""
