@@ -104,6 +104,7 @@ def test_options(tmp_path: Path, options: tuple[str, ...], words: str) -> None:
         ("k = 1e4", ("--stiffness", "2e4"), "--stiffness: is given a second time by k in"),
         ("n = 1.5", ("--exponent", "1.2"), "--exponent: is given a second time by n in"),
         ("n = -1.5", (), "must be positive"),
+        ("k = 0.5", (), "law.toml k: 0.5 cannot be the stiffness k of a sphere, in N/m^n"),
     ],
 )
 def test_law_files(tmp_path: Path, law: str, options: tuple[str, ...], words: str) -> None:

@@ -17,11 +17,23 @@ from geocontact.analyses.options import (
     Spelled,
     Typed,
 )
-from geocontact.data.plausible import PLAIN, Plausible
+from geocontact.data.plausible import PLAIN, ByName, Plausible
 from geocontact.data.ranges import DAMPING, DEPTH, FORCE, FRICTION, SPEED
 
 EXPONENT = Plausible("the exponent of a force over depth", PLAIN, (0.1, 10.0), (0.8, 3.0))
 STIFFNESS = Plausible("the stiffness k of a sphere, in N/m^n", PLAIN, (1.0, 1e9), (1e3, 1e7))
+LAW = ByName(
+    (
+        ("k", STIFFNESS),
+        ("b", DAMPING),
+        ("n", EXPONENT),
+        ("delta_full", DEPTH),
+        ("mu_s", FRICTION),
+        ("mu_k", FRICTION),
+        ("v_th", SPEED),
+    )
+)
+"""What the numbers of the force law can be, wherever they come from."""
 Friction = Annotated[tuple[float, float], Typed("-", "friction"), FRICTION]
 
 
