@@ -15,6 +15,7 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
+from geocontact.analyses.documented import Documented, documented
 from geocontact.data.errors import InputError
 
 
@@ -120,6 +121,8 @@ class Declared:
         Whether it may be None.
     words
         What the docstring of the options says of it.
+    section
+        Heading of the docstring that it stands under, "" where there is none.
     settable
         Whether it may be given; else it is what the class says.
     """
@@ -133,6 +136,7 @@ class Declared:
     spelled: Spelled
     rules: tuple[Requires | Excludes | Needs, ...]
     words: str
+    section: str = ""
     settable: bool = True
 
     @property
@@ -236,13 +240,14 @@ def declared(options: type[Options]) -> tuple[Declared, ...]:
 @cache
 def _all(options: Any) -> tuple[Declared, ...]:
     hints = get_type_hints(options, include_extras=True)
-    words: dict[str, str] = {}
+    told: dict[str, Documented] = {}
     for base in reversed(options.__mro__):
-        words |= documented(base.__doc__ or "")
-    return tuple(_declared(each, hints[each.name], words.get(each.name, "")) for each in fields(options))
+        for name, one in documented(base.__doc__ or "").items():
+            told[name] = Documented(one.section or told.get(name, one).section, one.lines)
+    return tuple(_declared(each, hints[each.name], told.get(each.name, Documented(""))) for each in fields(options))
 
 
-def _declared(each: Field[Any], hint: Any, words: str) -> Declared:
+def _declared(each: Field[Any], hint: Any, told: Documented) -> Declared:
     kind, marks, optional = _taken_apart(hint)
     default = each.default if each.default_factory is MISSING else each.default_factory()
     return Declared(
@@ -254,7 +259,8 @@ def _declared(each: Field[Any], hint: Any, words: str) -> Declared:
         next((mark for mark in marks if isinstance(mark, Typed)), None),
         next((mark for mark in marks if isinstance(mark, Spelled)), Spelled()),
         tuple(mark for mark in marks if isinstance(mark, (Requires, Excludes, Needs))),
-        words,
+        told.words,
+        told.section,
         each.init,
     )
 
@@ -272,20 +278,3 @@ def _taken_apart(hint: Any) -> tuple[Any, list[Any], bool]:
             optional = True
         else:
             return hint, marks, optional
-
-
-def documented(docstring: str) -> dict[str, str]:
-    """What the section Parameters of a numpy docstring says of each name; names may share a text."""
-    found: dict[str, list[str]] = {}
-    names: tuple[str, ...] = ()
-    _, _, section = docstring.partition("Parameters\n")
-    lines = section.splitlines()[1:]
-    margin = min((len(line) - len(line.lstrip()) for line in lines if line.strip()), default=0)
-    for line in lines:
-        if line.strip() and len(line) - len(line.lstrip()) == margin:
-            names = tuple(part.strip() for part in line.split(","))
-            found |= {name: [] for name in names}
-        elif line.strip():
-            for name in names:
-                found[name].append(line.strip())
-    return {name: " ".join(text) for name, text in found.items()}

@@ -9,7 +9,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any
 
-from cyclopts import Parameter
+from cyclopts import Group, Parameter
 
 from geocontact.analyses.job import Call, execute
 from geocontact.analyses.options import Declared, Options, declared
@@ -67,7 +67,7 @@ def command(
             after(result, folder)
         return int(result.exit_code)
 
-    run.__doc__ = spell(words)
+    run.__doc__ = in_paragraphs(spell(words))
     run.__name__ = options.__name__
     run.__signature__ = _signature(known, rest, spell, out)  # type: ignore[attr-defined]
     return run
@@ -78,6 +78,11 @@ def _shortened(files: list[str]) -> list[str]:
     if len(files) <= MOST_FILES:
         return files
     return sorted({name if "/" not in name else f"{name.partition('/')[0]}/…" for name in files})
+
+
+def in_paragraphs(text: str) -> str:
+    """Text whose lines are as long as the terminal makes them; blank lines stay."""
+    return "\n\n".join(" ".join(paragraph.split()) for paragraph in text.strip().split("\n\n"))
 
 
 def speller(known: tuple[Declared, ...]) -> Callable[[str], str]:
@@ -155,10 +160,12 @@ def _signature(known: tuple[Declared, ...], rest: str, spell: Callable[[str], st
         words = f"Further ones, as a shell pattern after `{rest}` gives them."
         parameters.append(_parameter(f"more_{rest}s", inspect.Parameter.VAR_POSITIONAL, str, {"help": spell(words)}))
     keywords = [one for one in known if not argument(one)]
-    required = [_keyword(one, spell) for one in keywords if one.required]
+    sections = list(dict.fromkeys(one.section for one in known))
+    options = {one.name: _keyword(one, sections.index(one.section), spell) for one in keywords}
+    required = [options[one.name] for one in keywords if one.required]
     folder = _parameter("out", inspect.Parameter.KEYWORD_ONLY, Path, {"help": out})
     return inspect.Signature(
-        [*parameters, *required, folder, *(_keyword(o, spell) for o in keywords if not o.required)]
+        [*parameters, *required, folder, *(options[one.name] for one in keywords if not one.required)]
     )
 
 
@@ -175,11 +182,14 @@ def _positional(one: Declared, spell: Callable[[str], str]) -> list[inspect.Para
     return [first, many.replace(name=f"more_{one.name}", annotation=Annotated[Path, more])]
 
 
-def _keyword(one: Declared, spell: Callable[[str], str]) -> inspect.Parameter:
+def _keyword(one: Declared, place: int, spell: Callable[[str], str]) -> inspect.Parameter:
+    """An option; `place` is where the section that it belongs to stands among the sections."""
     hint = f" ({one.typed.hint})" if one.typed is not None and one.typed.hint else ""
     told: dict[str, Any] = {"name": f"--{option(one)}", "help": spell(one.words) + hint}
+    if one.section:
+        told["group"] = Group(one.section, sort_key=place)
     if one.kind is bool and one.default is False:
-        told["negative"] = ""
+        told |= {"negative": "", "show_default": False}
     if one.spelled.dashed:
         told["allow_leading_hyphen"] = True
     if one.several or one.spelled.each:

@@ -29,6 +29,9 @@ class IdentifyOptions(Options):
     recordings
         Tables of angle and force with the compensation joint locked (.csv .mot .sto .c3d): time, beta, force; pressure
         as far as it is there.
+
+    Further recordings
+    ------------------
     unlocked
         Recording with the compensation joint free and its displacement, as often as there are. Where nothing else is
         known of k and the lengths, two or more set their scale.
@@ -37,6 +40,9 @@ class IdentifyOptions(Options):
         d_lin and not by d_tot.
     held_out
         Recording that is not fitted and tells R², as often as there are; each in turn of those fitted by default.
+
+    Numbers of the law
+    ------------------
     known
         Numbers known from elsewhere (N/m, mm, N s/m, 1/mmHg): l=169,z=127.
     prior
@@ -47,12 +53,18 @@ class IdentifyOptions(Options):
         Where the search begins: k=300,x=30,y=40,l=200,z=120.
     free
         Free besides k, x, y, l, z: b (damping), s (stiffness over cuff pressure).
+
+    Columns and units
+    -----------------
     map
         Columns by what they are, where they have other names: beta=elbow_flexion,force=-Fx.
     angles
         Unit of the angle where its file does not say.
     unit
         Unit of the force where its file does not say.
+
+    How it is fitted
+    ----------------
     bin
         Width of the bins that are fitted.
     box

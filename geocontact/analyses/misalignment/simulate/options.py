@@ -38,9 +38,15 @@ class SimulateOptions(Options):
     ----------
     recordings
         Angles to simulate along (.csv .mot .sto .c3d); none to make recordings.
+
+    The law
+    -------
     numbers
         Numbers of the law (N/m, mm, N s/m, 1/mmHg), as many as there are to change; the paper's
         k=222.43,x=48,y=59,l=169,z=127,b=0,s=0 unless given.
+
+    The experiment
+    --------------
     trials
         Locked trials, and as many with the compensation joint free where `stroke` is given; 6 unless given.
     seconds
@@ -56,16 +62,22 @@ class SimulateOptions(Options):
         unless given.
     pressure
         Range of cuff pressures [mmHg], one drawn for each trial, such as 10:60; no pressure unless given.
+    bits
+        Of the converter, 0 for none; 12 unless given.
+
+    What is drawn at random
+    -----------------------
     noise
         Standard deviation of what the person adds to the force [N]; 0.8 unless given.
     memory
         Its correlation time [s]; 0.3 unless given.
     donning
         Standard deviation of both offsets from trial to trial; 0 unless given.
-    bits
-        Of the converter, 0 for none; 12 unless given.
     seed
         Of what is drawn at random; 0 unless given.
+
+    Columns and units
+    -----------------
     map
         Column of the angle in the recordings, where it has another name: beta=elbow_flexion.
     angles
