@@ -11,6 +11,7 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Signals
+from geocontact.io.text.column_names import ColumnNames
 from geocontact.io.text.csv_text import Column, open_csv, split_commas
 from geocontact.io.text.table_rows import read_rows
 
@@ -50,7 +51,7 @@ def read_trial(path: Path) -> TrialTable:
     _check_finite(values, lines, names, file)
     _check_time(values[:, 0], lines, file)
     channels = columns[1:]
-    signals = Signals(values[:, 0], values[:, 1:], names[1:], tuple(column.si for column in channels))
+    signals = Signals(values[:, 0], values[:, 1:], ColumnNames(names[1:]), tuple(column.si for column in channels))
     return TrialTable(file, signals, channels)
 
 

@@ -10,9 +10,9 @@ from geocontact.data.motion import Motion
 from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
 from geocontact.io.motion.poses import motion_from_csv, motion_from_joint, motion_from_map
 from geocontact.io.opensim.osim import read_joint
-from geocontact.io.text.tables import read_table
+from geocontact.io.text.tables import CELLS, read_table
 
-SUFFIXES = (".csv", ".mot", ".sto")
+SUFFIXES = (*CELLS, ".mot", ".sto")
 
 
 def read_motion(
@@ -57,6 +57,6 @@ def read_motion(
         return motion_from_grood_suntay(read_table(path), mapping, grood_suntay_side, body, angles)
     if mapping is not None:
         return motion_from_map(read_table(path), mapping, order, angles)
-    if Path(fspath(path)).suffix.lower() == ".csv":
+    if Path(fspath(path)).suffix.lower() in CELLS:
         return motion_from_csv(path, order, angles)
     raise InputError(path, "", "coordinates need a model to become poses", "give `osim` and `joint`, or `map`")
