@@ -13,7 +13,7 @@ from functools import cache
 from os import PathLike, fspath
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin, get_type_hints
 
 from geocontact.analyses.documented import Documented, documented
 from geocontact.data.errors import InputError
@@ -179,7 +179,12 @@ class Declared:
 
 @dataclass(frozen=True)
 class Options:
-    """Base of the options of every analysis: values are coerced, and options without effect are refused."""
+    """Base of the options of every analysis: values are coerced, and options without effect are refused.
+
+    `over_time` says whether results have tables over time, which can be written as netCDF.
+    """
+
+    over_time: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         for one in declared(type(self)):

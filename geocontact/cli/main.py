@@ -41,6 +41,7 @@ app.command("geocontact.cli.loadcells:loadcells", name="loadcells")
 app.command("geocontact.cli.markers:markers", name="markers")
 app.command("geocontact.cli.mat:mat", name="mat")
 app.command("geocontact.cli.modulus:modulus", name="modulus")
+app.command("geocontact.cli.rerun:rerun", name="rerun")
 app.command("geocontact.cli.scale:scale", name="scale")
 app.command("geocontact.cli.view:view", name="view")
 app.register_install_completion_command(
@@ -61,8 +62,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def run(tokens: Sequence[str], debug: bool = False) -> int:
     """Exit code of one call; with `debug` a traceback precedes the line that says what went wrong."""
-    _load_what_is_listed(tokens)
     try:
+        _load_what_is_listed(tokens)
         result = app(list(tokens), exit_on_error=False, print_error=False, result_action="return_value")
         return result if isinstance(result, int) else 0
     except MissingArgumentError as error:

@@ -19,7 +19,7 @@ from geocontact.analyses.options import Length, Options, Spelled
 from geocontact.analyses.plain_page import write_plain_page
 from geocontact.analyses.result import Result
 from geocontact.analyses.run_record import Record
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 from geocontact.data.errors import InputError, InputWarning
 
 
@@ -75,7 +75,7 @@ def run(value: float, o: DoubleOptions, record: Record) -> Doubled:
 
 
 double = Job("double", DoubleOptions, read_length, run)
-from_command = command("tests.analyses.test_job:double", DoubleOptions, "Twice, see `more`.")
+from_command = Command("tests.analyses.test_job:double", DoubleOptions, "Twice, see `more`.")
 
 
 @pytest.fixture

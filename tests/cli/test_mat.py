@@ -98,7 +98,6 @@ def test_python_writes_what_the_command_writes(tmp_path: Path) -> None:
         segment=("near=x < 40", "far=x > 40"),
         compare=model,
         phases=phases,
-        parquet=True,
     )
     with unpictured():
         result.write(tmp_path / "p" / "out")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     AngleUnit,
@@ -153,14 +153,14 @@ class AreaOptions(Options):
         Of its layer: a length such as 3mm, or rays.
     piece
         Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
-    parquet
-        Also write the tables as .parquet.
 
     Work
     ----
     workers
         Threads; all cores by default. Results do not depend on it.
     """
+
+    over_time: ClassVar[bool] = True
 
     moving: Path
     fixed: Path
@@ -217,7 +217,6 @@ class AreaOptions(Options):
     poisson_moving: Annotated[float | None, OF_SECOND] = None
     thickness_moving: Annotated[Thickness | None, OF_SECOND] = None
     piece: Annotated[Length | None, OF_LAYER] = None
-    parquet: bool = False
     workers: int | None = None
 
     def refuse_impossible(self) -> None:

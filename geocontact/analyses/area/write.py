@@ -44,7 +44,7 @@ def write_motion(record: Record, o: AreaOptions, bodies: Bodies, one: MotionResu
         if name == "comparison":
             table.to_csv(folder / "comparison.csv", index=False)
         else:
-            write_table(table, folder, o.parquet, name)
+            write_table(table, folder, name)
     save_both(figure_of(bodies, one), folder, "area")
     shown = None
     if one.pressure is not None:

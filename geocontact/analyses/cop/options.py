@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     AngleUnit,
@@ -89,9 +89,9 @@ class CopOptions(Options):
         Order of intrinsic rotations: XYZ is R = Rx Ry Rz.
     angles
         Unit of angles where the file does not say.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     spheres: Path
     _: KW_ONLY
@@ -118,7 +118,6 @@ class CopOptions(Options):
     map: Annotated[Expression | None, Excludes("osim", "with `osim` names the columns twice", "give one")] = None
     order: Annotated[str | None, Excludes("osim")] = None
     angles: AngleUnit | None = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """A gate that is no force."""

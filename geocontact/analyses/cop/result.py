@@ -68,7 +68,7 @@ class CopResult(Result):
         """Tables and figure."""
         line = FRAME.format(CENTRES[self.options.point])
         for name, table in self.tables().items():
-            write_table(table, folder, self.options.parquet, name)
+            write_table(table, folder, name)
             file = folder / f"{name}.csv"
             file.write_text(f"{line}\n{file.read_text(encoding='utf-8')}", encoding="utf-8", newline="\n")
         save_both(self.figure(), folder, "cop")

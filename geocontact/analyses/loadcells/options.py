@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import Expression, ForceUnit, Fraction, Options, Requires
 from geocontact.data.errors import InputError
@@ -38,9 +38,9 @@ class LoadcellOptions(Options):
         Take this first part of each cycle for the whole: 60% is the stance of a gait cycle.
     level
         Total force [N] at which load sets in, for stride and stance; a quarter of the largest unless given.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     recordings: tuple[Path, ...]
     _: KW_ONLY
@@ -50,7 +50,6 @@ class LoadcellOptions(Options):
     cycles: Expression | None = None
     part: Annotated[Fraction | None, Cycles] = None
     level: Annotated[float | None, Cycles] = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """A part that is none, a level that is no force or that no cycle needs, sub-folders of one name."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     AngleUnit,
@@ -145,9 +145,9 @@ class MatOptions(Options):
     phases
         Phases of the recording for `compare`: name, start [s], end [s]; a name may come back in every cycle. Tenths of
         the recording without.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     frames: Path
     _: KW_ONLY
@@ -199,7 +199,6 @@ class MatOptions(Options):
     registration: Displacement | None = None
     compare: Path | None = None
     phases: Annotated[Path | None, Requires("compare", "leave it out")] = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """A mat that lies nowhere, a belt pushed down flat, numbers that cannot be."""

@@ -42,7 +42,7 @@ class MatResult(MatFindings):
     def write_files(self, folder: Path) -> None:
         """Tables, surface, figure and page."""
         for name, table in self.tables().items():
-            write_table(table, folder, self.options.parquet, name)
+            write_table(table, folder, name)
             if name in REFERRED:
                 self._name_point_and_frame(folder / f"{name}.csv")
         try:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.checks import bootstrap_rule, refuse
 from geocontact.analyses.options import (
@@ -83,9 +83,9 @@ class ModulusOptions(Options):
         Its measured forces.
     bootstrap
         Replicates of the block bootstrap, 0 for none; 200 at most where more than E* is free.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     area: Annotated[tuple[Path, ...], Spelled(keyword=True)]
     force: Annotated[Path, Spelled(keyword=True)]
@@ -106,7 +106,6 @@ class ModulusOptions(Options):
     predict_area: tuple[Path, ...] | None = None
     predict_force: Annotated[Path | None, Requires("predict_area", "give it too")] = None
     bootstrap: int = 1000
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Numbers that cannot be, unknowns that no input tells of, a radius said twice or not at all."""

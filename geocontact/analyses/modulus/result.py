@@ -79,7 +79,7 @@ class ModulusResult(Result):
         (folder / "modulus.json").write_text(text + "\n", encoding="utf-8")
         for name, table in self.tables().items():
             if name != "modulus":  # which modulus.json holds
-                write_table(table, folder, self.options.parquet, name)
+                write_table(table, folder, name)
         self._write_report(folder / "report.html", save_both(self.figure(), folder, "modulus"))
 
     def write_page(self, file: Path) -> None:

@@ -79,8 +79,6 @@ class ShapeOptions(Options):
     -------
     paraview
         Also write the surface with its residuals for ParaView (fit.vtp).
-    parquet
-        Also write the profile as .parquet.
     """
 
     mesh: Path
@@ -104,7 +102,6 @@ class ShapeOptions(Options):
     profile: AngleRange | None = None
     window: Annotated[Degrees | None, Profile] = None
     paraview: bool = False
-    parquet: Annotated[bool, Requires("profile", "leave it out")] = False
 
     def refuse_impossible(self) -> None:
         """Places that nothing is counted from, a profile without an axis, angles that cannot be."""

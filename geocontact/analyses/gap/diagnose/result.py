@@ -65,7 +65,7 @@ class DiagnoseResult(Result):
         """Answer and tables, and unless they are not wanted figures and page."""
         write_json(folder / "diagnosis.json", self.diagnosis.as_dict())
         for name, table in self.tables().items():
-            write_table(table, folder, parquet=False, name=name)
+            write_table(table, folder, name)
         if self.options.bare:
             return
         figures = self.figures()

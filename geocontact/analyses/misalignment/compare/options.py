@@ -40,8 +40,6 @@ class CompareOptions(Options):
         Width of the bins of the picture.
     cutoff
         Cut-off of a zero-lag low-pass over the measured channels [Hz]; none unless given.
-    parquet
-        Also write the tables as .parquet.
     """
 
     recordings: tuple[Path, ...]
@@ -54,7 +52,6 @@ class CompareOptions(Options):
     unit: ForceUnit | None = None
     bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0)] = BIN
     cutoff: float | None = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Not exactly one model for each recording; a stroke, a width, a cut-off that cannot be."""

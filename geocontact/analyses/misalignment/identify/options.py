@@ -73,8 +73,6 @@ class IdentifyOptions(Options):
         Cut-off of a zero-lag low-pass over force and angle [Hz]; none unless given.
     bootstrap
         Replicates of the wild bootstrap, 0 for none. Each is searched from every minimum that fits nearly as well.
-    parquet
-        Also write the tables as .parquet.
     """
 
     recordings: tuple[Path, ...]
@@ -94,7 +92,6 @@ class IdentifyOptions(Options):
     box: Annotated[Degrees, Spelled("box-deg", "box_deg", default=10.0)] = BOX
     cutoff: float | None = None
     bootstrap: int = 500
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Numbers that the law does not have; widths, cut-off and replicates that cannot be."""

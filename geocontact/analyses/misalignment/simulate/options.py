@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.misalignment.checks import (
     MIXED_UP,
@@ -82,9 +82,9 @@ class SimulateOptions(Options):
         Column of the angle in the recordings, where it has another name: beta=elbow_flexion.
     angles
         Unit of the angle where its file does not say.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     recordings: tuple[Path, ...] = ()
     _: KW_ONLY
@@ -103,7 +103,6 @@ class SimulateOptions(Options):
     seed: Annotated[int | None, ALONG] = None
     map: Annotated[Expression | None, Requires("recordings")] = None
     angles: Annotated[AngleUnit | None, Requires("recordings")] = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Two recordings of one name, and values that cannot be."""

@@ -66,7 +66,7 @@ class SimulateResult(Result):
     def write_files(self, folder: Path) -> None:
         """A table per trial that says what it is, truth.json, surfaces, page."""
         for name, table in self.tables().items():
-            write_table(table, folder, self.options.parquet, name)
+            write_table(table, folder, name)
         for each in self.trials:
             file = folder / f"{each.name}.csv"
             file.write_text(f"{HEAD}\n{file.read_text(encoding='utf-8')}", encoding="utf-8", newline="\n")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import AngleUnit, Excludes, Expression, Options, Texts, TimeSpan
 from geocontact.data.errors import InputError
@@ -41,6 +41,8 @@ class IdOptions(Options):
     angles
         Unit of angles where the file does not say it: deg or rad.
     """
+
+    over_time: ClassVar[bool] = True
 
     coordinates: Path
     _: KW_ONLY

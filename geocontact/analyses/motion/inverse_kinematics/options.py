@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
+from typing import ClassVar
 
 from geocontact.analyses.options import Expression, Options, Texts, TimeSpan
 from geocontact.data.errors import InputError
@@ -40,6 +41,8 @@ class IkOptions(Options):
     time
         First and last time [s]: 0.4:1.6.
     """
+
+    over_time: ClassVar[bool] = True
 
     markers: Path
     _: KW_ONLY
