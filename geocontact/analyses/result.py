@@ -6,7 +6,6 @@ from abc import ABC, abstractmethod
 from base64 import b64encode
 from dataclasses import dataclass, field
 from html import escape
-from io import BytesIO
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +13,7 @@ from typing import TYPE_CHECKING
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.table_forms import TableForms
+from geocontact.view.curves.sheet import png_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -133,6 +133,4 @@ class Result(ABC):
         figure = self.figure()
         if figure is None:
             return text
-        picture = BytesIO()
-        figure.savefig(picture, format="png", dpi=96)
-        return f'{text}<img src="data:image/png;base64,{b64encode(picture.getvalue()).decode("ascii")}"/>'
+        return f'{text}<img src="data:image/png;base64,{b64encode(png_of(figure)).decode("ascii")}"/>'

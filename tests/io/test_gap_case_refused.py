@@ -203,7 +203,6 @@ BAD_TRIALS = {
     "binary": ("10.5", "\0", ": is not a CSV table: it looks like binary data"),
     "no header": (TRIAL, BODY, " line 1: numbers where the header should be; one row of `name [unit]` is needed"),
     "blank first line": (TRIAL, "\n" + TRIAL, " line 1: no column names; one row of `name [unit]` is needed above"),
-    "comment first": (TRIAL, "# lab 3\n" + TRIAL, " line 1: the first column is '# lab 3'; put `time [s]` first"),
     "header alone": (BODY, "", " line 2: no rows below the column labels"),
     "one row": (BODY, BODY.split("\n")[0], ": 1 row; a trial needs at least 2"),
     "time alone": (TRIAL, "time [s]\n0\n1\n", " line 1: time is the only column"),

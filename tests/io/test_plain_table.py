@@ -165,6 +165,13 @@ def test_one_cell_that_can_only_be_a_decimal_comma_settles_it(tmp_path: Path) ->
     np.testing.assert_array_equal(table.needed("a"), [1.15, 1.25])
 
 
+def test_notes_above_the_header_are_passed_over(tmp_path: Path) -> None:
+    text = "# synthetic, made 2026\n# and more\n" + TABLES["trial"][1]
+    assert read_trial(written(tmp_path, text)).signals.channels == ("beta", "force")
+    with pytest.raises(InputError, match="line 5: 'sixty' in column 'beta' is not a number"):
+        read_trial(written(tmp_path, text.replace("60.5", "sixty")))
+
+
 def test_words_keep_their_commas(tmp_path: Path) -> None:
     file = written(tmp_path, 'zone;px [m]\nheel, medial;0,5\n"a;b";1,5\n')
     table = read_side_table(file)

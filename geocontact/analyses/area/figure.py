@@ -9,6 +9,7 @@ from jaxtyping import Float, Int
 
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Course
+from geocontact.view.curves.sheet import sheet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,9 +39,8 @@ def area_figure(
         Along what the frames follow each other.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(11.0, 6.4), layout="constrained")
+    figure = sheet(11.0, 6.4)
     FigureCanvasAgg(figure)
     panels = figure.subplot_mosaic([["area", "map"], ["gap", "map"]], height_ratios=[2, 1], width_ratios=[3, 2])
     _areas(panels["area"], evolution, course.values)

@@ -42,10 +42,10 @@ def read_trial(path: Path) -> TrialTable:
     The size of a number is no reason: a trial wrong by a thousand is something to be diagnosed.
     """
     file = fspath(path)
-    with open_csv(path, LARGEST_TRIAL) as (stream, columns):
+    with open_csv(path, LARGEST_TRIAL) as (stream, columns, first):
         _check_header(columns, file)
         names = tuple(column.name for column in columns)
-        values, lines = read_rows(stream, 2, names, file, split_commas)
+        values, lines = read_rows(stream, first, names, file, split_commas)
     with np.errstate(over="ignore"):
         values = values * np.array([column.factor for column in columns])
     _check_finite(values, lines, names, file)

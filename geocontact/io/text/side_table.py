@@ -26,24 +26,24 @@ def read_side_table(path: Path, wanted: Iterable[str] = ()) -> pd.DataFrame:
     No cell may be empty. Columns in `wanted` are named so where the file has other upper and lower case.
     """
     file = fspath(path)
-    with open_csv(path, LARGEST_TABLE) as (stream, columns):
+    with open_csv(path, LARGEST_TABLE) as (stream, columns, first):
         cells: list[list[str | float]] = [[] for _ in columns]
-        for row, place in _rows(stream, file):
+        for row, place in _rows(stream, file, first - 1):
             _append(row, cells, columns, file, place)
     if not cells[0]:
-        raise InputError(file, "line 2", "no rows below the column names", "is the file complete?")
+        raise InputError(file, f"line {first}", "no rows below the column names", "is the file complete?")
     return named(pd.DataFrame({column.label: values for column, values in zip(columns, cells, strict=True)}), wanted)
 
 
-def _rows(stream: TextIOBase, file: str) -> Iterator[tuple[list[str], str]]:
+def _rows(stream: TextIOBase, file: str, above: int) -> Iterator[tuple[list[str], str]]:
     """Cells of each row that has any, and the line it ends in."""
     reader = csv.reader(stream, skipinitialspace=True)
     try:
         for row in reader:
             if any(cell.strip() for cell in row):
-                yield row, f"line {reader.line_num + 1}"
+                yield row, f"line {reader.line_num + above}"
     except csv.Error as error:
-        place = f"line {reader.line_num + 1}"
+        place = f"line {reader.line_num + above}"
         raise InputError(file, place, f"cannot be split ({error})", "check its quotes") from error
 
 

@@ -26,6 +26,9 @@ Band = Annotated[tuple[float, float], Typed("Hz", "misalignment.parameters:pair"
 Angles = Annotated[tuple[float, float], Typed("rad", "misalignment.parameters:degrees"), Spelled(dashed=True)]
 Stroke = Annotated[tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True)]
 Pressures = Annotated[tuple[float, float], Typed("Pa", "misalignment.parameters:mercury")]
+FEWEST = 4
+"""Trials of a gap case: two to fit to, two held out."""
+
 EXTREMES = math.radians(-30.0), math.radians(180.0)
 """rad; no elbow is straighter or more bent."""
 
@@ -60,6 +63,8 @@ class SimulateOptions(Options):
     stroke
         Stroke of the compensation joint, such as -10:40: free trials are made besides, with its displacement. None
         unless given.
+    case
+        Also write the locked trials as a gap case (folder case) that `geocontact gap diagnose` reads.
     pressure
         Range of cuff pressures [mmHg], one drawn for each trial, such as 10:60; no pressure unless given.
     bits
@@ -95,6 +100,7 @@ class SimulateOptions(Options):
     band: Annotated[Band | None, ALONG] = None
     range: Annotated[Angles | None, ALONG] = None
     stroke: Stroke | None = None
+    case: Annotated[bool, ALONG] = False
     pressure: Annotated[Pressures | None, ALONG] = None
     noise: Annotated[float | None, ALONG] = None
     memory: Annotated[float | None, ALONG] = None
@@ -112,6 +118,9 @@ class SimulateOptions(Options):
             raise InputError("", "", f"two recordings are named {twice!r}", "rename one")
         require_names(self.numbers, "`numbers`")
         require_within(self.trials, "`trials`", (1, 1000), 6)
+        if self.case and self.trials is not None and self.trials < FEWEST:
+            what = f"{self.trials} trials are too few for `case`"
+            raise InputError("", "`trials`", what, f"give {FEWEST} or more: some are held out")
         require_within(self.bits, "`bits`", (0, 32), 12)
         require_within(self.seconds, "`seconds`", (1.0, 3600.0), 60)
         require_within(self.rate, "`rate`", (5.0, 1e4), 1000)
