@@ -40,7 +40,7 @@ GOOD = "0,0,0,0.02,heel"
         (f"{HEAD}, k [N/m^n]", [f"{GOOD},0"], "line 2: k is 0; it must be positive"),
         (f"{HEAD}, b [N s/m]", [f"{GOOD},-1"], "line 2: b is -1; it must not be negative"),
         (f"{HEAD}, b [Ns/mm]", [f"{GOOD},1"], "column 'b' is in 'Ns/mm'"),
-        (HEAD.replace(",", ";"), [GOOD.replace(",", ";")], "no column px, py, radius"),
+        (HEAD.replace(",", "\t"), [GOOD.replace(",", "\t")], "no column px, py, radius"),
     ],
 )
 def test_tables_of_spheres(tmp_path: Path, head: str, rows: list[str], words: str) -> None:
