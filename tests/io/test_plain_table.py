@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import sys
 from collections.abc import Callable
 from io import StringIO
 from pathlib import Path
@@ -141,7 +142,7 @@ def test_a_workbook_that_is_none(tmp_path: Path) -> None:
 
 
 def test_without_what_reads_workbooks_it_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geocontact.io.text.spreadsheet.find_spec", lambda _: None)
+    monkeypatch.setitem(sys.modules, "openpyxl", None)
     with pytest.raises(InputError, match=r"x.xlsx: reading .xlsx needs openpyxl; pip install openpyxl, or save"):
         read_table(written(tmp_path, "", "x.xlsx"))
 

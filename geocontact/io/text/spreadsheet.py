@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import warnings
-from importlib.util import find_spec
 from io import StringIO
 from os import PathLike, fspath
 from pathlib import Path
@@ -27,8 +26,11 @@ def sheet_text(path: str | PathLike[str]) -> str:
     Cells hold what the workbook stores, not what it shows: numbers with all their digits.
     """
     file = fspath(path)
-    if find_spec("openpyxl") is None:
-        raise InputError(file, "", "reading .xlsx needs openpyxl", "pip install openpyxl, or save the sheet as .csv")
+    try:
+        import openpyxl  # noqa: F401  pandas reads through it
+    except ImportError as error:
+        remedy = "pip install openpyxl, or save the sheet as .csv"
+        raise InputError(file, "", "reading .xlsx needs openpyxl", remedy) from error
     if Path(path).is_file() and Path(path).stat().st_size > LARGEST_SHEET:
         raise InputError(file, "", f"is larger than the {LARGEST_SHEET / 1e6:.0f} MB that are read", "cut it")
     import pandas as pd
