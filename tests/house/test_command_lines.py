@@ -37,8 +37,8 @@ STAND_INS = {
 PLATE = """\
 import math
 rows = [[k / 100, 0, 600 + 400 * k / 100, 0, 0.05 + 0.2 * k / 100, 0, 0, 0, 0, 0] for k in range(61)]
-names = ["time", *(f"ground_force_{kind}{axis}" for kind in "vp" for axis in "xyz")]
-names += [f"ground_torque_{axis}" for axis in "xyz"]
+names = ["time", *(f"ground_force_r_{kind}{axis}" for kind in "vp" for axis in "xyz")]
+names += [f"ground_torque_r_{axis}" for axis in "xyz"]
 head = f"grf\\nversion=1\\nnRows={len(rows)}\\nnColumns={len(names)}\\ninDegrees=yes\\nendheader\\n"
 open("grf.mot", "w").write(head + "\\n".join("\\t".join(map(str, row)) for row in [names, *rows]) + "\\n")
 """
