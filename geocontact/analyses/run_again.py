@@ -14,6 +14,7 @@ from geocontact.analyses.stale_results import RUN, digest
 from geocontact.data.errors import InputError
 
 REMEDY = f"name the {RUN} that a command or `Result.write` left beside its results"
+SECONDS = "seconds"
 _UNIT = re.compile(r" \[[^\]]*\]$")
 
 
@@ -78,6 +79,23 @@ def results_of(folder: Path) -> dict[str, str]:
         place = run.parent.relative_to(folder)
         found |= {(place / name).as_posix(): known for name, known in told.items()} if isinstance(told, dict) else {}
     return found
+
+
+def differing(before: Mapping[str, str], after: Mapping[str, str], old: Path, new: Path) -> list[str]:
+    """Files of either run that the other has not, or has with other content; the time a run took is no content."""
+    return [
+        name
+        for name in sorted({*before, *after})
+        if before.get(name) != after.get(name) and not _alike(old / name, new / name)
+    ]
+
+
+def _alike(old: Path, new: Path) -> bool:
+    """Whether two files of JSON differ in nothing but the seconds that they tell."""
+    if old.suffix != ".json" or not (old.is_file() and new.is_file()):
+        return False
+    one, other = _content(old), _content(new)
+    return {**one, SECONDS: None} == {**other, SECONDS: None}
 
 
 def _content(file: Path) -> dict[str, Any]:

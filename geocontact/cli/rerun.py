@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from geocontact.analyses.run_again import EarlierRun, read_run, results_of
+from geocontact.analyses.run_again import EarlierRun, differing, read_run, results_of
 from geocontact.analyses.table_forms import TableForms
 from geocontact.cli.command import Command
 from geocontact.cli.main import app
@@ -49,7 +49,8 @@ def rerun(run: Path, *, out: Path | None = None) -> int:
             else:
                 command.execute_in_si(earlier.in_si(), earlier.options, folder, forms)
         after = results_of(folder)
-    return _compared(before, after, out)
+        different = differing(before, after, earlier.folder, folder)
+    return _tell(before, after, different, out)
 
 
 def _command(earlier: EarlierRun, run: Path) -> Command:
@@ -64,10 +65,9 @@ def _command(earlier: EarlierRun, run: Path) -> Command:
     return found
 
 
-def _compared(before: dict[str, str], after: dict[str, str], out: Path | None) -> int:
+def _tell(before: dict[str, str], after: dict[str, str], different: list[str], out: Path | None) -> int:
     """Say which files differ; the exit code."""
-    names = sorted({*before, *after})
-    different = [name for name in names if before.get(name) != after.get(name)]
+    names = {*before, *after}
     for name in different:
         how = "is new" if name not in before else "is missing now" if name not in after else "differs"
         print(f"{name} {how}")

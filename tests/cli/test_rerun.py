@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.run_again import differing
+from geocontact.analyses.stale_results import digest
 from tests.cli.calls import PLATE, SPHERE, Call, area, call, done, inventory, poses, written
 
 
@@ -51,6 +53,16 @@ def test_several_motions_are_compared_folder_by_folder(tmp_path: Path) -> None:
     out = tmp_path / "out"
     done(area(out, *(f"--motion={each}" for each in motions), moving=SPHERE, fixed=PLATE, picture=True))
     assert done(call("rerun", out)).out.splitlines()[-1] == "8 of 8 files of the results are equal"
+
+
+def test_the_time_a_run_took_is_no_difference(tmp_path: Path) -> None:
+    old, new = tmp_path / "old", tmp_path / "new"
+    for folder, seconds, value in ((old, 1.0, 3), (new, 2.0, 3)):
+        folder.mkdir()
+        written(folder / "a.json", json.dumps({"seconds": seconds, "value": value}))
+        written(folder / "b.json", json.dumps({"seconds": seconds, "value": seconds}))
+    hashes = [{name: digest(folder / name) for name in ("a.json", "b.json")} for folder in (old, new)]
+    assert differing(*hashes, old, new) == ["b.json"]
 
 
 REFUSED = {
