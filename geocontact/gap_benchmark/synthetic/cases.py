@@ -19,8 +19,8 @@ from geocontact.gap_benchmark.synthetic.data_errors import draw_data_error
 from geocontact.gap_benchmark.synthetic.data_errors import words as fault_words
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs
 from geocontact.gap_benchmark.synthetic.ideal import ideal
-from geocontact.gap_benchmark.synthetic.laboratories.catalogue import LABORATORIES
 from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, SyntheticCase
+from geocontact.gap_benchmark.synthetic.laboratories.catalogue import LABORATORIES
 from geocontact.gap_benchmark.synthetic.magnitudes import magnitudes_of
 from geocontact.gap_benchmark.synthetic.outside.catalogue import unknown_effects
 from geocontact.gap_benchmark.synthetic.plan import Draw, NotFoundError, Plan, SyntheticMagnitudes

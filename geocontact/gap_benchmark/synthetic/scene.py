@@ -12,8 +12,8 @@ from jaxtyping import Float
 from geocontact.data.parameter import Parameter
 from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
-from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Values
 from geocontact.gap_benchmark.synthetic.equipment.laboratory import HOME, Laboratory
+from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Values
 from geocontact.gap_benchmark.synthetic.noise import Coloured, LowPass, Noise
 
 Rng = np.random.Generator

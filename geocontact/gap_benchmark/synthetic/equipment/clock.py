@@ -46,3 +46,7 @@ class Clock:
             keep[begin : begin + int(rng.integers(2, self.longest + 1))] = False
         keep[0] = keep[-1] = True
         return np.flatnonzero(keep)
+
+
+USUAL = Clock()
+"""Even, and loses rows now and then."""

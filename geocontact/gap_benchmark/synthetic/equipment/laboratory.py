@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
+from geocontact.gap_benchmark.synthetic.equipment.clock import USUAL, Clock
 from geocontact.gap_benchmark.synthetic.equipment.placement import IN_PLACE, Placement
-from geocontact.gap_benchmark.synthetic.equipment.recorder import Recorder
+from geocontact.gap_benchmark.synthetic.equipment.recorder import EXACT, Recorder
 
 
 @dataclass(frozen=True)
 class Laboratory:
     """Drawn for one case: what records it, when, and how far placement is off in each trial."""
 
-    recorder: Recorder = Recorder()
-    clock: Clock = Clock()
+    recorder: Recorder = EXACT
+    clock: Clock = USUAL
     placement: Placement = IN_PLACE
 
 

@@ -38,15 +38,15 @@ class Placement:
 
     def drawn(self, rng: np.random.Generator) -> Placement:
         """Of one trial, these being standard deviations."""
-        return self._times(rng.standard_normal(len(self)))
+        return self.times(rng.standard_normal(len(self)))
 
     def each(self) -> Iterator[Placement]:
         """Every single deviation alone."""
-        yield from (self._times(one) for one in np.eye(len(self)))
+        yield from (self.times(one) for one in np.eye(len(self)))
 
     def opposite(self) -> Placement:
         """As far to the other side."""
-        return self._times(np.full(len(self), -1.0))
+        return self.times(np.full(len(self), -1.0))
 
     def moved(self, course: InputCourse) -> InputCourse:
         """The true motion."""
@@ -70,15 +70,16 @@ class Placement:
             out[row] += by
         return out
 
-    @property
-    def _parts(self) -> dict[str, Mapping[Any, float]]:
-        return {"constants": self.constants, "inputs": self.inputs, "gains": self.gains, "zeros": self.zeros}
-
-    def _times(self, factors: Float[np.ndarray, " q"]) -> Placement:
+    def times(self, factors: Float[np.ndarray, " q"]) -> Placement:
+        """Each multiplied by a factor, in the order of the fields."""
         left = iter(factors.tolist())
         return Placement(
             **{part: {key: by * next(left) for key, by in one.items()} for part, one in self._parts.items()}
         )
+
+    @property
+    def _parts(self) -> dict[str, Mapping[Any, float]]:
+        return {"constants": self.constants, "inputs": self.inputs, "gains": self.gains, "zeros": self.zeros}
 
 
 IN_PLACE = Placement()

@@ -43,7 +43,7 @@ class Recorder:
 
     def noisy(self, clean: Outputs, noise: Outputs) -> Outputs:
         """Outputs with noise as it arises; that of a quotient is in `noise` as if it divided by the reference."""
-        out = clean + self._grown(clean) * noise
+        out = np.asarray(clean + self._grown(clean) * noise)
         for row, one in self.quotients.items():
             moment = clean[row] * clean[one.divisor] + one.reference * noise[row]
             by = out[one.divisor]
@@ -51,13 +51,13 @@ class Recorder:
         return out
 
     def mixing(self, clean: Outputs) -> Float[np.ndarray, "c c t"]:
-        """How much of the noise of each channel is in each output, as far as it is linear; 0 where there is no value."""
+        """How much of each channel's noise is in each output, as far as it is linear; 0 where there is no value."""
         mixed = np.eye(len(clean))[:, :, None] * self._grown(clean)
         for row, one in self.quotients.items():
             by = np.where(clean[one.divisor] != 0.0, clean[one.divisor], np.nan)
             mixed[row] = -clean[row] / by * mixed[one.divisor]
             mixed[row, row] = one.reference / by
-        return np.nan_to_num(mixed)
+        return np.asarray(np.nan_to_num(mixed))
 
     def rounded(self, values: Outputs, steps: Mapping[int, float]) -> Outputs:
         """The nearest numbers that it can write."""
@@ -71,3 +71,7 @@ class Recorder:
         for row, slope in self.growth.items():
             factor[row] = np.sqrt(1.0 + (slope * clean[row]) ** 2)
         return factor
+
+
+EXACT = Recorder()
+"""Noise is as large everywhere, and numbers are written in full."""
