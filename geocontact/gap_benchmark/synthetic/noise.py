@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -27,6 +27,7 @@ SILENT = 1e-7
 """Share of the largest power below which a frequency is left out."""
 
 
+@runtime_checkable
 class Noise(Protocol):
     """Of a sensor: its whole standard deviation, a realisation, and the covariance of `count` samples in a row."""
 
