@@ -12,9 +12,12 @@ import pytest
 import geocontact as gc
 import geocontact.gap
 from geocontact.analyses.gap.benchmark import run as gap_benchmark_run
+from geocontact.analyses.gap.benchmark.alarms import alarms
 from geocontact.analyses.gap.benchmark.case import ANSWERERS, Task, Worked, alike, failed, renamed, worked
 from geocontact.analyses.gap.benchmark.content import constants_of_all
 from geocontact.analyses.gap.benchmark.job import benchmark
+from geocontact.analyses.gap.benchmark.lines import page_lines
+from geocontact.analyses.gap.benchmark.outcome import Outcome
 from geocontact.analyses.gap.benchmark.run import mixed
 from geocontact.analyses.json_file import plain
 from geocontact.gap_benchmark.drawing import KINDS, SHARES, Lot, drawn, lots, shares
@@ -128,6 +131,26 @@ def counted(worked_on: list[Lot]) -> Callable[..., Iterator[tuple[Task, Worked]]
             yield task, Worked(task.lot, f"case{task.lot.place}", label, answers, 1.0, 1.0, None, ("it is made up",))
 
     return each
+
+
+def test_claims_of_cases_that_lack_nothing_have_a_row_by_system_and_laboratory() -> None:
+    label = plain(drawn(Lot("knee", "none", SEED, 0)).label.as_dict())
+    sure = failed(label) | {"verdict": "unknown", "probabilities": {"unknown": 0.97, "none": 0.03}}
+    quiet = failed(label) | {"verdict": "no_gap", "probabilities": {"none": 1.0}}
+
+    def one(system: str, laboratory: str, said: dict) -> Worked:
+        lot = Lot(system, "none", SEED, 0, laboratory)
+        return Worked(lot, f"{system} {laboratory}", label, dict.fromkeys(ANSWERERS, said), 1.0, 1.0)
+
+    cases = (one("knee", "recorder", sure), one("knee", "inputs", quiet), one("elbow", "inputs", quiet))
+    outcome = Outcome(SEED, ("knee", "elbow"), cases)
+    found = {
+        (row.system, row.laboratory): (row.claimed.hits, row.sure.hits, row.claimed.count) for row in alarms(outcome)
+    }
+    assert found[("knee", "recorder")] == (1, 1, 1) and found[("knee", "inputs")] == (0, 0, 1)
+    assert found[("elbow", "recorder")] == (0, 0, 0) and found[("all", "inputs")] == (0, 0, 2)
+    assert found[("all", "all")] == (1, 1, 3)
+    assert sum(line.startswith("| knee | recorder | 1/1") for line in page_lines(outcome, "today")) == 1
 
 
 @pytest.mark.slow
