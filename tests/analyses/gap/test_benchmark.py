@@ -20,7 +20,7 @@ from geocontact.analyses.gap.benchmark.lines import page_lines
 from geocontact.analyses.gap.benchmark.outcome import Outcome
 from geocontact.analyses.gap.benchmark.run import mixed
 from geocontact.analyses.json_file import plain
-from geocontact.gap_benchmark.drawing import KINDS, SHARES, Lot, drawn, lots, shares
+from geocontact.gap_benchmark.drawing import ABROAD, KINDS, SHARES, Lot, drawn, lots, shares
 from tests.house.test_gap_theory import ROWS
 
 SEED = 20
@@ -106,6 +106,23 @@ def test_an_interruption_before_the_first_case_ends_it(monkeypatch: pytest.Monke
     monkeypatch.setattr(gap_benchmark_run, "each", at_once)
     with pytest.raises(KeyboardInterrupt):
         benchmark(cases=2, kinds="none")
+
+
+@pytest.mark.parametrize(("laboratory", "expected"), [("abroad", [*ABROAD, ABROAD[0]]), ("inputs", ["inputs"] * 4)])
+def test_the_laboratory_that_is_asked_for_records(
+    monkeypatch: pytest.MonkeyPatch, laboratory: str, expected: list[str]
+) -> None:
+    asked: list[Lot] = []
+
+    def noted(work: object, tasks: list[Task], jobs: int | None) -> Iterator[tuple[Task, Worked]]:
+        asked.extend(task.lot for task in tasks)
+        raise KeyboardInterrupt
+        yield
+
+    monkeypatch.setattr(gap_benchmark_run, "each", noted)
+    with pytest.raises(KeyboardInterrupt):
+        benchmark(system="elbow", cases=4, kinds="none", laboratory=laboratory)
+    assert sorted(lot.laboratory for lot in asked) == sorted(expected)
 
 
 def test_a_case_whose_process_is_lost_counts_as_wrong(monkeypatch: pytest.MonkeyPatch) -> None:

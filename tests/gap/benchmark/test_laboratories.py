@@ -135,6 +135,15 @@ def test_an_uneven_clock_is_early_and_late_but_ends_in_time() -> None:
     assert not Clock().late(np.random.default_rng(0), 50, 10).any()
 
 
+@pytest.mark.parametrize("count", [14, 500])
+def test_rows_are_lost_but_never_most_of_a_trial(count: int) -> None:
+    clock = Clock(losing=1.0, alone=0.05, longest=12)
+    kept = [clock.kept(np.random.default_rng(seed), count) for seed in range(200)]
+    assert all(rows[0] == 0 and rows[-1] == count - 1 and len(rows) > 0.4 * count for rows in kept)
+    assert np.mean([len(rows) for rows in kept]) < 0.95 * count + 1
+    assert max(np.diff(rows).max() for rows in kept) <= 2 * max(12, count // 5)
+
+
 @pytest.mark.parametrize("system", ["elbow", "shoulder"])
 def test_what_an_uneven_clock_records_is_the_movement_at_its_times(system: str) -> None:
     """Times come with their inputs, and the base model takes them as they are."""

@@ -23,7 +23,7 @@ class Clock:
     alone
         Share of rows that such a recording loses one by one.
     longest
-        Most rows of a stretch that it loses; there are two stretches at most.
+        Most rows of a stretch that it loses, a fifth of a trial at most; there are two stretches at most.
     """
 
     uneven: float = 0.0
@@ -40,10 +40,10 @@ class Clock:
 
     def kept(self, rng: Rng, count: int) -> Int[np.ndarray, " s"]:
         """Rows that are left when some were lost, single ones and a few stretches; the first and last stay."""
-        keep = rng.random(count) > self.alone
+        keep, longest = rng.random(count) > self.alone, min(self.longest, count // 5)
         for _ in range(int(rng.integers(0, 3))):
-            begin = int(rng.integers(1, count - self.longest - 1))
-            keep[begin : begin + int(rng.integers(2, self.longest + 1))] = False
+            begin = int(rng.integers(1, count - longest - 1))
+            keep[begin : begin + int(rng.integers(2, longest + 1))] = False
         keep[0] = keep[-1] = True
         return np.flatnonzero(keep)
 
