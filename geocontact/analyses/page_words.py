@@ -2,10 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 NOT_A_DEVICE = (
     "A research result, not a clinical device: it must not be used to diagnose, "
     "to plan treatment or to select an implant for a patient."
 )
+
+
+MOST = 3  # sentences of a headline; more are left to the page
+
+
+def headline(sentences: Sequence[str], most: int = MOST) -> tuple[str, ...]:
+    """Sentences of a run as a page's headline: those of one line, with a capital and a full stop."""
+    lines = [line for line in sentences if line and "\n" not in line][:most]
+    return tuple(_sentence(line.replace("mm^2", "mm²")) for line in lines)
+
+
+def _sentence(line: str) -> str:
+    first = line.split(maxsplit=1)[0]
+    start = line[0].upper() if first.rstrip(":,;").isalpha() else line[0]  # a file's name keeps its letters
+    return f"{start}{line[1:]}" + ("" if line.endswith((".", "!", "?")) else ".")
 
 
 def counted(count: int, noun: str) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.analyses.modulus.figure import ForcePair
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
 from geocontact.view.page.write import write_page
 
@@ -31,6 +31,7 @@ def write_modulus_report(
     tables: Sequence[Table],
     lost: Sequence[str],
     warnings: Sequence[str],
+    sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page; returns its size in bytes.
 
@@ -44,6 +45,8 @@ def write_modulus_report(
         Results first; the first one's numbers make the headline.
     lost
         What the data cannot tell, a sentence each.
+    warnings, sentences
+        Reservations, and what was found.
     """
     first = next(iter(pairs.values()))
     texts = [
@@ -62,14 +65,14 @@ def write_modulus_report(
         *tables[1:],
         Words("What the numbers do not contain", [LAW, NOT_A_DEVICE]),
     ]
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
     page = Page(
         title=title,
         subtitle="Elastic modulus of a contact by the area-integrated Hertz law",
         time=first.time,
         time_label="time [s]",
-        headline=[(f"{row[0]}: {row[1]}", f"{row[2]} ({row[3]})" if row[3] else row[2]) for row in tables[0].rows],
+        headline=headline(sentences, most=2),
+        reservations=tuple(warnings),
+        facts=[(f"{row[0]}: {row[1]}", f"{row[2]} ({row[3]})" if row[3] else row[2]) for row in tables[0].rows[:5]],
         start_frame=int(np.argmax(first.measured)),
         sections=tuple(sections),
     )

@@ -91,4 +91,6 @@ class ModulusResult(Result):
         provenance = [inputs_table(self.record.inputs), options_table(self.record)]
         tables = [moduli(self.found), told_apart(self.found), sensitivity, *provenance]
         title = f"E* from {self.options.area[0].name} and {self.options.force.name}"
-        write_modulus_report(file, title, self.found.curves(), figure, tables, self.not_identifiable, self.warnings)
+        write_modulus_report(
+            file, title, self.found.curves(), figure, tables, self.not_identifiable, self.warnings, self.sentences
+        )
