@@ -3,8 +3,8 @@
     python -m benchmarks.page_pictures FOLDER
     python -m benchmarks.page_pictures FOLDER --only area pressure --again
 
-The runs lie in FOLDER/runs, the pictures beside them: KIND-1280.png, KIND-390.png, the whole page as KIND-1280-whole.png,
-and the same with -dark. Needs chromium and playwright.
+The runs lie in FOLDER/runs, the pictures beside them: KIND-1280.png and KIND-390.png, the same with -dark, and each
+with -whole for what comes below the first screen. Needs chromium and playwright.
 """
 
 from __future__ import annotations

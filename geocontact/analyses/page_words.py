@@ -21,7 +21,8 @@ def headline(sentences: Sequence[str], most: int = MOST) -> tuple[str, ...]:
 
 def _sentence(line: str) -> str:
     first = line.split(maxsplit=1)[0]
-    start = line[0].upper() if first.rstrip(":,;").isalpha() else line[0]  # a file's name keeps its letters
+    word = first.rstrip(":,;")
+    start = line[0].upper() if len(word) > 1 and word.isalpha() else line[0]  # symbols and files keep their letters
     return f"{start}{line[1:]}" + ("" if line.endswith((".", "!", "?")) else ".")
 
 

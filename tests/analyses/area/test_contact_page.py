@@ -1,14 +1,19 @@
 """The page of a contact-area analysis says what the table says."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.area import page as contact_page
+from geocontact.analyses.area.colours import colour_span
+from geocontact.analyses.area.figure import area_figure
 from geocontact.analyses.area.page import write_report
 from geocontact.analyses.area.page_sections import Told
+from geocontact.analyses.area.reference_areas import Compared, compared
 from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement
@@ -69,23 +74,73 @@ def section(found, kind, n=0):
 
 def test_where_how_much_and_when_are_said_at_the_top():
     found, evolution = page()
-    said = dict(found.headline)
+    said = dict(found.facts)
     largest = evolution.fixed.area[2, 1] * 1e6
     assert found.start_frame == 2
-    assert said["Largest contact area on the fixed body"] == f"{largest:.0f} mm² at 0.2 s (frame 3 of 4)"
+    assert said["Largest contact area on the fixed body"] == f"{largest:.0f} mm² at 0.2 s"
     assert said["Range over the motion"].startswith(f"0 … {largest:.0f} mm²")
-    assert said["Smallest distance"] == f"{evolution.min_distance[2] * 1e3:.2f} mm at 0.2 s (frame 3 of 4)"
+    assert said["Smallest distance"] == f"{evolution.min_distance[2] * 1e3:.2f} mm at 0.2 s"
     assert "50% medial, 50% lateral" in said["Where, in that frame"]
+
+
+def test_the_answer_is_one_sentence():
+    found, evolution = page()
+    largest, least = (f(evolution.fixed.area[:, 1]) * 1e6 for f in (np.max, np.min))
+    assert found.headline == [
+        f"Up to {largest:.4g} mm² of plate lie within 4 mm of ball, at 0.2 s; the least is {least:.4g} mm²."
+    ]
+
+
+def test_every_threshold_can_be_chosen():
+    found, evolution = page()
+    assert found.choices.own == "4 mm"
+    (other,) = found.choices.others
+    assert other.name == "1 mm" and other.threshold == 1 * MM and "within 1 mm of ball" in other.headline[0]
+    assert dict(other.facts)["Largest contact area on the fixed body"].startswith(
+        f"{evolution.fixed.area[:, 0].max() * 1e6:.0f} mm²"
+    )
+    changed = {type(found.sections[place]) for place in other.instead}
+    assert changed == {Readout, Curves, Words}, "scene, distance and tables are the same for every threshold"
+    numbers = next(each for each in other.instead.values() if isinstance(each, Readout))
+    assert numbers.rows[0].texts == [f"{a:.2f}" for a in evolution.fixed.area[:, 0] * 1e6]
+
+
+def test_measured_areas_stand_in_headline_and_curve():
+    here = told((22.0, 21.0, 20.5, 21.0), settings=Settings((T * MM,), refinement=AS_GIVEN))
+    ours = here.evolution.table()
+    reference = pd.DataFrame({"time [s]": [0.05, 0.2], "area_fixed [mm^2]": [100.0, 110.0]})
+    rows = compared(ours, reference, Path("measured.csv"))
+    found = contact_page.contact_page(replace(here, compared=Compared(rows, 0.02)), "", (), ())
+    worst = rows["relative [-]"].abs().max()
+    said = f"Beside 2 measured areas the largest difference is {worst:.1%}, beyond the tolerance of 2.0%."
+    assert found.headline[1] == said
+    (points,) = section(found, Curves).points
+    assert points.name == "measured, fixed body"
+    assert list(points.time) == pytest.approx([0.05, 0.2]) and list(points.values) == [100.0, 110.0]
+
+
+def test_figure_and_page_have_the_same_colour_limits():
+    found, evolution = page((20.5, 18.7))
+    *_, maps = analysed((20.5, 18.7))
+    plate = analysed((20.5, 18.7))[1]
+    course = moved((20.5, 18.7)).course
+    span = colour_span(evolution)
+    figure = area_figure(evolution, plate.vertices, plate.faces, maps.fixed_at_largest, maps.largest, "t", course, span)
+    drawn = [each for axes in figure.axes for each in axes.collections if each.get_array() is not None]
+    limits = [each.get_clim() for each in drawn if each.get_clim() != (0.0, 1.0)]
+    assert section(found, Scene).span == span
+    assert tuple(1e-3 * np.array(limits[0])) == pytest.approx(span)
 
 
 def test_overlap_is_called_overlap():
     found, _ = page((20.5, 19.5))
-    assert dict(found.headline)["Deepest overlap"].startswith("0.50 mm at 0.1 s (frame 2 of 2)")
+    assert dict(found.facts)["Deepest overlap"] == "0.50 mm at 0.1 s"
 
 
 def test_no_contact_at_all_has_no_place():
     found, _ = page((30.0, 31.0))
-    assert not any(label.startswith("Where") for label, _ in found.headline)
+    assert not any(label.startswith("Where") for label, _ in found.facts)
+    assert found.headline[0].startswith("plate never comes within 4 mm of ball: at its nearest it is 10 mm away")
     assert section(found, Readout).rows[-1].texts == ["–", "–"]
 
 
@@ -146,7 +201,7 @@ def test_words_hold_what_a_reviewer_looks_for():
     assert "plate (fixed) lies within 4 mm of ball" in words["Question"]
     width = ((evolution.fixed.upper - evolution.fixed.lower)[:, 1] * 1e6).max()
     assert f"{width:.1f} mm² apart at most" in words["Numerical error"]
-    assert words["Reservations of this run"] == "a reservation"
+    assert found.reservations == ("a reservation",)
 
 
 def test_mesh_statistics():
@@ -211,21 +266,23 @@ def test_maps_keep_every_so_many_frames_and_those_that_answer():
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
-def test_anterior_is_not_claimed_as_meshes_described_so_have_it_at_either_end(sign):
+def test_only_the_side_that_was_told_has_an_anatomical_name(sign):
+    """On an insert y looks up and on a foot's scan it may not: nothing is superior, let alone plantar, by itself."""
     named = camera_directions(np.array([0.0, 0.0, sign]))
-    assert named[f"medial ({'+' if sign > 0 else '−'}z)"] == (0, 0, sign)
-    assert named["+x"] == (1, 0, 0) and named["plantar (−y)"] == (0, -1, 0)
-    assert [name.split()[0] for name in named] == ["+x", "medial", "superior", "plantar"]
+    medial, lateral = ("+z", "−z") if sign > 0 else ("−z", "+z")
+    assert list(named) == [f"medial ({medial})", f"lateral ({lateral})", "+x", "−x", "+y", "−y"]
+    assert named[f"medial ({medial})"] == (0, 0, sign) and named["−y"] == (0, -1, 0)
 
 
-def test_another_frame_names_its_axes_only():
-    named = camera_directions(np.array([-1.0, 0.0, 0.0]))
-    assert list(named) == ["medial (−x)", "+x", "+y", "−y", "+z", "−z"]
-    assert all(np.linalg.norm(way) == 1.0 for way in named.values())
+@pytest.mark.parametrize("medial", [(-1.0, 0.0, 0.0), (0.6, 0.8, 0.0)])
+def test_a_side_across_any_axis_is_named(medial):
+    named = camera_directions(np.array(medial))
+    assert named[next(iter(named))] == medial and next(iter(named)).startswith("medial (")
+    assert all(np.linalg.norm(way) == pytest.approx(1.0) for way in named.values())
 
 
-def test_unknown_side_is_an_axis_and_not_medial():
-    assert "−z" in camera_directions(np.zeros(3))
+def test_without_a_side_the_axes_are_named():
+    assert list(camera_directions(np.zeros(3))) == ["+x", "−x", "+y", "−y", "+z", "−z"]
 
 
 def test_inputs_are_listed_with_their_hashes():
@@ -242,13 +299,13 @@ def test_colours_end_at_a_round_number_below_the_deepest_overlap():
 def test_a_sweep_runs_along_its_angle():
     found, _ = page(motion=swept([0.0, 45.0, 90.0]))
     assert found.time_label == "flexion [deg]" and list(found.time) == pytest.approx([0.0, 45.0, 90.0])
-    assert dict(found.headline)["Largest contact area on the fixed body"].endswith("at flexion 0 deg (frame 1 of 3)")
+    assert dict(found.facts)["Largest contact area on the fixed body"].endswith("at flexion 0 deg")
 
 
 def test_a_normalised_cycle_is_said():
     found, _ = page(motion=replace(moved((22.0, 20.5)), time_unit="%"))
     assert found.time_label == "cycle [%]"
-    assert "at cycle 0.1 % (frame 2 of 2)" in dict(found.headline)["Largest contact area on the fixed body"]
+    assert "at cycle 0.1 %" in dict(found.facts)["Largest contact area on the fixed body"]
 
 
 def test_strip_holds_the_refined_area_where_it_has_one():

@@ -33,4 +33,4 @@ def test_shape_is_drawn_where_it_is_and_colours_are_distances(shape: str) -> Non
     np.testing.assert_allclose(shown[counted], np.abs(fit.distance(body.vertices)[counted]))
     assert np.isinf(shown[~counted]).all()
     assert set(scene.directions) == {"+x", "−x", "+y", "−y", "+z", "−z"}
-    assert ("Radius" in dict(page.headline)) == (shape != "plane")
+    assert ("Radius" in dict(page.facts)) == (shape != "plane")
