@@ -1,4 +1,4 @@
-"""Colours of the 3-D pictures: those of the figure, with limits that depend on the thresholds alone."""
+"""Colours of distances: of stills and window, with limits that depend on the thresholds alone, and of the figure."""
 
 from __future__ import annotations
 

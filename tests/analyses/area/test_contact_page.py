@@ -1,75 +1,21 @@
 """The page of a contact-area analysis says what the table says."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
-from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.area import page as contact_page
-from geocontact.analyses.area.colours import colour_span
-from geocontact.analyses.area.figure import area_figure
 from geocontact.analyses.area.page import write_report
-from geocontact.analyses.area.page_sections import Told
-from geocontact.analyses.area.reference_areas import Compared, compared
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement
-from geocontact.geometry.contact_area.evolution import Settings, area_evolution
+from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
-from geocontact.geometry.plane import Plane
-from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Curves, Readout, Scene, Strip, Table, Words
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.surfaces.directions import camera_directions
-from meshes.simple_shapes import block, sphere
-
-MM = 1e-3
-R, T = 20.0, 4.0
-WIDE = tuple(0.5 * k * MM for k in range(13))
-
-
-def swept(degrees):
-    """The ball turned about its vertical axis at one height."""
-    motion = moved([20.5] * len(degrees))
-    return replace(motion, coordinate=("flexion", np.radians(degrees)))
-
-
-def moved(heights):
-    """The ball over the plate, its centre at these heights [mm]."""
-    shift = np.zeros((len(heights), 3))
-    shift[:, 1] = np.asarray(heights) * MM
-    return Motion(0.1 * np.arange(len(heights)), RigidTransform.from_translation(shift))
-
-
-def analysed(heights=(22.0, 21.0, 20.5, 30.0), every=1, settings=None, motion=None):
-    """Bodies, motion, evolution and maps."""
-    ball, ground = (
-        Surface(v * MM, f, name) for (v, f), name in ((sphere(R, 8), "ball"), (block(40.0, 40.0, 10.0, 16), "plate"))
-    )
-    motion = moved(heights) if motion is None else motion
-    settings = settings or Settings((1 * MM, T * MM), refinement=AS_GIVEN, split=Plane.across("z"), sensitivity=WIDE)
-    maps = DistanceMaps(ball, ground, every)
-    evolution = area_evolution(ball, ground, motion, settings, each=maps.add)
-    return ball, ground, motion, settings, evolution, maps
-
-
-def told(*args, **kwargs):
-    """What the page tells, all frames kept."""
-    *known, maps = analysed(*args, **kwargs)
-    return Told(*known, maps, np.arange(len(maps.frames)))
-
-
-def page(*args, **kwargs):
-    """The page before it becomes HTML, and the areas."""
-    here = told(*args, **kwargs)
-    return contact_page.contact_page(here, "", (), ("a reservation",)), here.evolution
-
-
-def section(found, kind, n=0):
-    return [s for s in found.sections if isinstance(s, kind)][n]
+from meshes.simple_shapes import sphere
+from tests.analyses.area.ball_on_plate import MM, WIDE, R, T, analysed, moved, page, section, swept, told
 
 
 def test_where_how_much_and_when_are_said_at_the_top():
@@ -81,55 +27,6 @@ def test_where_how_much_and_when_are_said_at_the_top():
     assert said["Range over the motion"].startswith(f"0 … {largest:.0f} mm²")
     assert said["Smallest distance"] == f"{evolution.min_distance[2] * 1e3:.2f} mm at 0.2 s"
     assert "50% medial, 50% lateral" in said["Where, in that frame"]
-
-
-def test_the_answer_is_one_sentence():
-    found, evolution = page()
-    largest, least = (f(evolution.fixed.area[:, 1]) * 1e6 for f in (np.max, np.min))
-    assert found.headline == [
-        f"Up to {largest:.4g} mm² of plate lie within 4 mm of ball, at 0.2 s; the least is {least:.4g} mm²."
-    ]
-
-
-def test_every_threshold_can_be_chosen():
-    found, evolution = page()
-    assert found.choices.own == "4 mm"
-    (other,) = found.choices.others
-    assert other.name == "1 mm" and other.threshold == 1 * MM and "within 1 mm of ball" in other.headline[0]
-    assert dict(other.facts)["Largest contact area on the fixed body"].startswith(
-        f"{evolution.fixed.area[:, 0].max() * 1e6:.0f} mm²"
-    )
-    changed = {type(found.sections[place]) for place in other.instead}
-    assert changed == {Readout, Curves, Words}, "scene, distance and tables are the same for every threshold"
-    numbers = next(each for each in other.instead.values() if isinstance(each, Readout))
-    assert numbers.rows[0].texts == [f"{a:.2f}" for a in evolution.fixed.area[:, 0] * 1e6]
-
-
-def test_measured_areas_stand_in_headline_and_curve():
-    here = told((22.0, 21.0, 20.5, 21.0), settings=Settings((T * MM,), refinement=AS_GIVEN))
-    ours = here.evolution.table()
-    reference = pd.DataFrame({"time [s]": [0.05, 0.2], "area_fixed [mm^2]": [100.0, 110.0]})
-    rows = compared(ours, reference, Path("measured.csv"))
-    found = contact_page.contact_page(replace(here, compared=Compared(rows, 0.02)), "", (), ())
-    worst = rows["relative [-]"].abs().max()
-    said = f"Beside 2 measured areas the largest difference is {worst:.1%}, beyond the tolerance of 2.0%."
-    assert found.headline[1] == said
-    (points,) = section(found, Curves).points
-    assert points.name == "measured, fixed body"
-    assert list(points.time) == pytest.approx([0.05, 0.2]) and list(points.values) == [100.0, 110.0]
-
-
-def test_figure_and_page_have_the_same_colour_limits():
-    found, evolution = page((20.5, 18.7))
-    *_, maps = analysed((20.5, 18.7))
-    plate = analysed((20.5, 18.7))[1]
-    course = moved((20.5, 18.7)).course
-    span = colour_span(evolution)
-    figure = area_figure(evolution, plate.vertices, plate.faces, maps.fixed_at_largest, maps.largest, "t", course, span)
-    drawn = [each for axes in figure.axes for each in axes.collections if each.get_array() is not None]
-    limits = [each.get_clim() for each in drawn if each.get_clim() != (0.0, 1.0)]
-    assert section(found, Scene).span == span
-    assert tuple(1e-3 * np.array(limits[0])) == pytest.approx(span)
 
 
 def test_overlap_is_called_overlap():
