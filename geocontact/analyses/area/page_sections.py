@@ -32,6 +32,8 @@ READ = (
     ("centroid z", "centroid_z [mm]", 2),
 )
 """Label, column and digits of what the page reads out in each frame, after the area of FIXED."""
+BESIDE_PRESSURES = ("min_distance [mm]", "max_penetration_fixed [mm]")
+"""Those of them that stay where pressures are read out."""
 MEASURED = {
     "area_fixed [mm^2]": "fixed body",
     "area_fixed_medial [mm^2]": "medial",
@@ -118,12 +120,13 @@ def _counted(
 
 
 def rows(told: Told, k: int) -> list[Row]:
-    """The table's row of each frame at threshold `k`, rounded to what a reader can use; pressures first."""
+    """The table's row of each frame at threshold `k`, rounded to what a reader can use; with pressures, those first."""
     e = told.evolution
+    more = READ if told.pressures is None else [one for one in READ if one[1] in BESIDE_PRESSURES]
     columns = e.table().iloc[told.frames * len(e.thresholds) + k]
     found = [] if told.pressures is None else pressure_rows(told.pressures, told.frames)
     area = ("area of the fixed body" + (f", {told.settings.rule}" if told.crude else ""), "area_fixed [mm^2]", 2)
-    for label, column, digits in (area, *READ):
+    for label, column, digits in (area, *more):
         if column in columns:
             unit = column[column.index("[") + 1 : -1].replace("^2", "²")
             texts = ["–" if np.isnan(value) else f"{value:.{digits}f}" for value in columns[column]]

@@ -9,7 +9,7 @@ import numpy as np
 
 from geocontact.analyses.modulus.figure import ForcePair
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
+from geocontact.view.page.content import Curve, Curves, Intervals, Page, Picture, Readout, Row, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 FIGURE = (
@@ -29,6 +29,7 @@ def write_modulus_report(
     pairs: Mapping[str, ForcePair],
     drawing: bytes,
     tables: Sequence[Table],
+    intervals: Intervals,
     lost: Sequence[str],
     warnings: Sequence[str],
     sentences: Sequence[str] = (),
@@ -43,6 +44,8 @@ def write_modulus_report(
         The figure (SVG).
     tables
         Results first; the first one's numbers make the headline.
+    intervals
+        E* of each side.
     lost
         What the data cannot tell, a sentence each.
     warnings, sentences
@@ -59,6 +62,7 @@ def write_modulus_report(
         curves = [Curve("measured", pair.measured), Curve("by the law", pair.predicted)]
         sections.append(Curves(f"Contact force, {side}", "N", curves))
     sections += [
+        intervals,
         tables[0],
         Words("What the data cannot tell", list(lost)),
         Picture("Force by the law and profile of E*", FIGURE, drawing, wide=True),

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.view.page.intervals import Interval, Intervals
 from geocontact.view.page.plan import Mark, Plan, Track
 from geocontact.view.page.scene import Body, FaceMap, Scene
 
@@ -22,6 +23,8 @@ __all__ = [
     "Curve",
     "Curves",
     "FaceMap",
+    "Interval",
+    "Intervals",
     "Limit",
     "Mark",
     "Page",
@@ -157,7 +160,7 @@ class Words:
     paragraphs: Sequence[str]
 
 
-Section = Scene | Curves | Strip | Plan | Readout | Picture | Table | Words
+Section = Scene | Curves | Strip | Plan | Intervals | Readout | Picture | Table | Words
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,7 +200,7 @@ class Page:
     """Everything on one page.
 
     The first screen holds the headline, the reservations, the facts, and the picture that shows the answer: the scene,
-    or else the first curves, plan or drawing of the sections.
+    or else the first curves, plan, intervals or drawing of the sections.
 
     Parameters
     ----------
@@ -255,7 +258,7 @@ class Page:
     @property
     def lead(self) -> int | None:
         """Place of the section that shows the answer on the first screen; None where there is no picture."""
-        for kinds in (Scene, (Curves, Plan, Picture)):
+        for kinds in (Scene, (Curves, Plan, Intervals, Picture)):
             for k, section in enumerate(self.sections):
                 if isinstance(section, kinds):
                     return k

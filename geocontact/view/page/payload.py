@@ -8,12 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.view.page.content import Body, Curves, FaceMap, Page, Plan, Readout, Scene, Strip
+from geocontact.view.page.content import Body, Curves, FaceMap, Intervals, Page, Plan, Readout, Scene, Strip
 from geocontact.view.page.levels import AmountLevels, Levels, across
 from geocontact.view.page.opening import opacities, opening_view
 from geocontact.view.page.pack import Block, Grid, face_words, packed
 
 MM = 1e3
+UNITS = "N m|N|kN|mm²|cm²|mm|cm|m|MPa|kPa|Pa|s|ms|%|deg|°"
+"""A line does not end between a number and one of these."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,8 @@ def payload(page: Page) -> Payload:
                 parts.append(place | {"kind": "strip"} | _strip(section))
             case Plan():
                 parts.append(place | {"kind": "plan"} | _plan(section))
+            case Intervals():
+                parts.append(place | {"kind": "intervals"} | _intervals(section))
             case Readout():
                 texts = [[shown(text) for text in row.texts] for row in section.rows]
                 parts.append(place | {"kind": "readout", "texts": texts})
@@ -68,8 +72,9 @@ def shown(text: str) -> str:
 
 
 def minus(text: str) -> str:
-    """Words with a minus sign before numbers that stand by themselves: "z -19.5 mm"."""
-    return re.sub(r"(?<!\S)-(?=\d)", "−", text)
+    """Words with a minus sign before numbers that stand by themselves, and units kept beside them: "z −19.5 mm"."""
+    signed = re.sub(r"(?<!\S)-(?=\d)", "−", text)
+    return re.sub(rf"(?<=\d) (?=(?:{UNITS})(?![\w/]))", "\u00a0", signed)
 
 
 def _levels(scene: Scene) -> Levels:
@@ -180,6 +185,14 @@ def _plan(plan: Plan) -> dict[str, object]:
         "tracks": [{"name": t.name, "x": _numbers(t.points[:, 0]), "y": _numbers(t.points[:, 1])} for t in plan.tracks],
         "marks": [{"name": mark.name, "at": [float(x) for x in mark.point]} for mark in plan.marks],
     }
+
+
+def _intervals(shown: Intervals) -> dict[str, object]:
+    rows = []
+    for one in shown.intervals:
+        value, lower, upper = _numbers(np.array([one.value, one.lower, one.upper]))
+        rows.append({"name": one.name, "value": value, "lower": lower, "upper": upper})
+    return {"title": shown.title, "unit": shown.unit, "bars": shown.bars, "intervals": rows}
 
 
 def _chosen(page: Page) -> list[float | None]:

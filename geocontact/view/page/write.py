@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from geocontact.view.page.content import (
     Choice,
     Curves,
+    Intervals,
     Page,
     Picture,
     Plan,
@@ -34,6 +35,7 @@ KINDS = {
     Curves: "curves",
     Strip: "strip",
     Plan: "plan",
+    Intervals: "intervals",
     Readout: "readout",
     Picture: "picture",
     Table: "table",
@@ -54,7 +56,7 @@ def write_page(page: Page, path: Path) -> int:
     return len(data)
 
 
-PANELS = ("curves", "strip", "plan", "readout")
+PANELS = ("curves", "strip", "plan", "intervals", "readout")
 
 
 @dataclass(frozen=True)

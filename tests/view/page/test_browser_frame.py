@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +15,8 @@ from geocontact.view.page.content import (
     Choices,
     Curve,
     Curves,
+    Interval,
+    Intervals,
     Limit,
     Page,
     Picture,
@@ -58,7 +61,7 @@ def test_answer_reservations_and_picture_are_on_the_first_screen(
     opened: Open, device: dict[str, Any], lines: int
 ) -> None:
     here = opened(replace(small_page(), reservations=RESERVATIONS[:lines]), device=device)
-    assert here.text(".answer") == small_page().headline[0]
+    assert here.text(".answer").replace("\u00a0", " ") == small_page().headline[0]
     assert inside(here, ".answer") and inside(here, ".facts")
     assert inside(here, "#view", 0.6), "most of the picture"
     assert here.tab.locator(".banner").count() == (lines > 0)
@@ -180,6 +183,31 @@ def test_a_plan_has_one_scale(opened: Open) -> None:
     before = here.tab.locator("#section-6 circle.dot").get_attribute("cy")
     here.tab.keyboard.press("ArrowRight")
     assert here.tab.locator("#section-6 circle.dot").get_attribute("cy") != before
+
+
+@DEVICES
+@pytest.mark.parametrize("bars", [False, True])
+def test_intervals_lie_where_their_axis_says(opened: Open, device: dict[str, Any], bars: bool) -> None:
+    rows = [Interval("E*, total", 6.8, 6.2, 7.6), Interval("E*, medial", 5.0), Interval("missing", float("nan"))]
+    page = Page("a", "", np.zeros(1), "", sections=[Intervals("Modulus", "MPa", rows, bars, "95 %")])
+    here = opened(page, device=device)
+    plot = "#section-0 .plot"
+    script = "p => [...document.querySelectorAll(p)].map(e => [e.textContent, e.getAttribute('x')].map(Number))"
+    ticks = here.tab.evaluate(script, f"{plot} text.tick")
+    slope, start = np.polyfit(*np.transpose(ticks), 1)
+    drawn = str(here.tab.locator(f"{plot} .whisker").get_attribute("d"))
+    ends = [(float(x) - start) / slope for x in re.findall(r"M([\d.]+) ", drawn)]
+    assert [min(ends), max(ends)] == pytest.approx([6.2, 7.6], abs=0.02)
+    assert here.tab.locator(f"{plot} .whisker").count() == 1, "what has no interval has no whiskers"
+    assert here.tab.locator(f"{plot} rect.bar").count() == 2 * bars
+    assert here.tab.locator(f"{plot} circle").count() == 2 * (not bars)
+    assert (0.0 in [value for value, _ in ticks]) or not bars, "bars start at nothing"
+    wide = here.tab.locator(f"{plot} svg").bounding_box()
+    assert wide
+    for label in here.tab.locator(f"{plot} text.label").all():
+        box = label.bounding_box()
+        assert box and wide["x"] <= box["x"] and box["x"] + box["width"] <= wide["x"] + wide["width"]
+    assert here.complaints == []
 
 
 def test_another_threshold_changes_answer_numbers_curves_and_contour(opened: Open) -> None:

@@ -263,7 +263,14 @@ def test_a_page_without_time_has_no_player() -> None:
 
 @pytest.mark.parametrize(
     ("text", "here"),
-    [("z -19.5 mm", "z −19.5 mm"), ("-3", "−3"), ("walk-3.csv", "walk-3.csv"), ("2-4", "2-4"), ("a - b", "a - b")],
+    [
+        ("z -19.5 mm", "z −19.5\u00a0mm"),
+        ("5 mmm 4 N, 3 of", "5 mmm 4\u00a0N, 3 of"),
+        ("-3", "−3"),
+        ("walk-3.csv", "walk-3.csv"),
+        ("2-4", "2-4"),
+        ("a - b", "a - b"),
+    ],
 )
 def test_numbers_that_stand_by_themselves_have_a_minus(text: str, here: str) -> None:
     assert minus(text) == here

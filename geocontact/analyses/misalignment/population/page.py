@@ -12,7 +12,19 @@ from geocontact.analyses.misalignment.population.tables import influence_table, 
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
+from geocontact.view.page.content import (
+    Curve,
+    Curves,
+    Interval,
+    Intervals,
+    Page,
+    Picture,
+    Readout,
+    Row,
+    Section,
+    Table,
+    Words,
+)
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
 
@@ -44,6 +56,7 @@ def write_population_report(path: Path, record: Record, d: Drawn, drawing: bytes
     sections: list[Section] = [
         Readout(readout, "At this force"),
         Curves("Probability of more", "%", [Curve("share of the samples", *shares)]),
+        *_shares(d),
         numbers,
         Picture("Distribution of the largest force", FIGURE, drawing, wide=True),
         page_table("Quantiles of the largest |F|", quantile_table(d)),
@@ -66,6 +79,17 @@ def write_population_report(path: Path, record: Record, d: Drawn, drawing: bytes
         plays=False,
     )
     return write_page(page, path)
+
+
+def _shares(d: Drawn) -> list[Section]:
+    """Bars of the total shares of the factors; none where they could not be known."""
+    if d.indices is None:
+        return []
+    rows = [
+        Interval(" and ".join(factor.names), float(d.indices.total[k]), *map(float, d.indices.total_interval[k]))
+        for k, factor in enumerate(d.sampling.factors)
+    ]
+    return [Intervals("Where the spread comes from", "total share of the variance", rows, bars=True)]
 
 
 def _numbers(d: Drawn) -> Table:

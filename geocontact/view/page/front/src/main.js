@@ -2,6 +2,7 @@
 import { curves, strip } from "./charts.js";
 import { continues } from "./continues.js";
 import { cursor, keys, player } from "./controls.js";
+import { intervals } from "./intervals.js";
 import { legend, scaleBar, triad } from "./overlays.js";
 import { plan } from "./plan.js";
 import { boldFirst, quantitiesOf } from "./quantities.js";
@@ -64,7 +65,7 @@ async function start() {
     time.go(frame);
   };
   const reading = { go: pointed, plays: data.plays };
-  const makers = { curves: (f, p) => curves(f, p, data.time, data.timeLabel, reading), strip, plan, readout };
+  const makers = { curves: (f, p) => curves(f, p, data.time, data.timeLabel, reading), strip, plan, intervals, readout };
   const parts = data.parts.filter((part) => element(part.id)).map((part) => makers[part.kind](element(part.id), part));
   for (const move of parts) time.listen(move);
   time.listen((frame) => (state.frame = frame));
