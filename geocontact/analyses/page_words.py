@@ -26,6 +26,11 @@ def _sentence(line: str) -> str:
     return f"{start}{line[1:]}" + ("" if line.endswith((".", "!", "?")) else ".")
 
 
+def rounded(value: float, digits: int = 4) -> str:
+    """So many significant digits, without an exponent: "160500", "0.0213"."""
+    return f"{float(f'{value:.{digits}g}'):.10g}"
+
+
 def counted(count: int, noun: str) -> str:
     """ "1 frame", "6 frames": of nouns that take an s."""
     return f"{count} {noun}{'' if count == 1 else 's'}"

@@ -29,7 +29,7 @@ from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
-from geocontact.view.page.content import Choice, Choices, Page, Readout, Section, Table
+from geocontact.view.page.content import Choice, Choices, Page, Readout, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 FRAMES = 201  # frames that the page animates at most; longer motions are thinned out, and the page says so
@@ -111,12 +111,23 @@ def contact_page(
     after = [meshes_table(told.moving, told.fixed), *comparison_tables(told), *provenance]
     pressed = [] if pressures is None else pressure_sections(pressures, frames)
     distance = distance_curve(e, frames)
+    foundation = [] if pressures is None else [pressure_words(pressures)]
 
     def sections(k: int) -> list[Section]:
         words = reviewers_words(told.moving, told.fixed, told.settings, e, k, len(frames), pressures is not None)
-        said = words if pressures is None else [*words[:2], pressure_words(pressures), *words[2:]]
         numbers = Readout(rows(told, k), title=f"This frame, threshold {in_mm(e, k)}")
-        return [*before, numbers, *pressed, area_curves(told, k), distance, *shared, *after, *said]
+        return [
+            *before,
+            numbers,
+            *pressed,
+            area_curves(told, k),
+            distance,
+            *shared,
+            *after,
+            *words[:2],
+            *foundation,
+            *words[2:],
+        ]
 
     own, others = sections(main), [k for k in np.argsort(e.thresholds)[::-1].tolist() if k != main]
     return Page(
@@ -139,9 +150,16 @@ def contact_page(
 
 def _choice(told: Told, k: int, own: Sequence[Section], other: Sequence[Section]) -> Choice:
     """The page about another threshold."""
-    instead = {n: new for n, (old, new) in enumerate(zip(own, other, strict=True)) if new is not old}
+    instead = {n: new for n, (old, new) in enumerate(zip(own, other, strict=True)) if not _same(old, new)}
     name, level = in_mm(told.evolution, k), told.evolution.thresholds[k]
     return Choice(name, headline(told, k), facts(told, k), instead, level)
+
+
+def _same(one: Section, other: Section) -> bool:
+    """Whether two sections say the same."""
+    if isinstance(one, Words) and isinstance(other, Words):
+        return (one.title, list(one.paragraphs)) == (other.title, list(other.paragraphs))
+    return one is other
 
 
 def _subtitle(told: Told) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 from geocontact.analyses.area.page_sections import Told, in_mm
 from geocontact.analyses.area.pressure import page as pressure
 from geocontact.analyses.area.reference_areas import Compared
-from geocontact.analyses.page_words import counted
+from geocontact.analyses.page_words import counted, rounded
 from geocontact.data.evolution import MM, MM2
 
 
@@ -36,8 +36,8 @@ def _contact(told: Told, k: int) -> str:
     if not area[most] > 0.0:
         least = f"{e.min_distance[nearest] * MM:.3g} mm away, at {course.at(nearest)}"
         return f"{fixed} never comes {within}: at its nearest it is {least}."
-    largest = f"Up to {area[most]:.4g} mm² of {fixed} lie {within}, at {course.at(most)}"
-    return largest + (f"; the least is {area.min():.4g} mm²." if len(area) > 1 else ".")
+    largest = f"Up to {rounded(area[most])} mm² of {fixed} lie {within}, at {course.at(most)}"
+    return largest + (f"; the least is {rounded(area.min())} mm²." if len(area) > 1 else ".")
 
 
 def _compared(compared: Compared) -> str:

@@ -33,6 +33,8 @@ def test_every_threshold_can_be_chosen():
     assert dict(other.facts)["Largest contact area on the fixed body"].startswith(
         f"{evolution.fixed.area[:, 0].max() * 1e6:.0f} mm²"
     )
+    words = [each.title for each in other.instead.values() if isinstance(each, Words)]
+    assert words == ["Question", "Numerical error"], "what does not depend on the threshold stands once"
     changed = {type(found.sections[place]) for place in other.instead}
     assert changed == {Readout, Curves, Words}, "scene, distance and tables are the same for every threshold"
     numbers = next(each for each in other.instead.values() if isinstance(each, Readout))

@@ -214,7 +214,10 @@ def test_another_threshold_changes_answer_numbers_curves_and_contour(opened: Ope
     page = small_page()
     scene, numbers = page.sections[:2]
     assert isinstance(scene, Scene) and isinstance(numbers, Readout)
-    instead = {1: Readout([Row("area within 1 mm", "mm²", ["7"] * 9)], "This frame, 1 mm")}
+    instead = {
+        1: Readout([Row("area within 1 mm", "mm²", ["7"] * 9)], "This frame, 1 mm"),
+        5: Words("Of 1 mm", ["less"]),
+    }
     other = Choice("1 mm", ["Little."], [("largest area", "7 mm²")], instead, 1e-3)
     here = opened(replace(page, choices=Choices("threshold", "4 mm", [other])))
     before = here.picture()
@@ -224,6 +227,7 @@ def test_another_threshold_changes_answer_numbers_curves_and_contour(opened: Ope
     assert here.tab.locator(".readout:visible th").all_text_contents() == ["area within 1 mm"]
     assert here.tab.locator("#legend text.main").first.text_content() == "1"
     assert here.picture() != before, "the other contour is bold"
+    assert here.tab.get_by_text("less").is_visible() and not here.tab.get_by_text("What this is").is_visible()
     assert "chosen: 1 mm" in here.text("#section-3 .chosen")
     here.tab.locator("#choice").select_option("0")
     assert here.picture() == before

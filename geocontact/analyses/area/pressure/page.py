@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.analyses.area.pressure.along import PressureEvolution
+from geocontact.analyses.page_words import rounded
 from geocontact.data.motion import Course
 from geocontact.geometry.silhouette import silhouette
 from geocontact.geometry.surface import Surface
@@ -102,7 +103,8 @@ def sentence(p: Pressures, course: Course, moving: str, fixed: str) -> str:
     force = float(p.force["total"][k])
     if not force > 0.0:
         return f"{moving} never presses on {fixed}: the bodies do not overlap in any frame."
-    return f"{moving} presses on {fixed} with up to {force:.4g} N (at {course.at(k)}) and up to {peak:.3g} MPa."
+    most = f"up to {rounded(force)} N (at {course.at(k)}) and up to {rounded(peak, 3)} MPa"
+    return f"{moving} presses on {fixed} with {most}."
 
 
 def facts(p: Pressures, course: Course) -> list[tuple[str, str]]:

@@ -89,7 +89,7 @@ def _shares(d: Drawn) -> list[Section]:
         Interval(" and ".join(factor.names), float(d.indices.total[k]), *map(float, d.indices.total_interval[k]))
         for k, factor in enumerate(d.sampling.factors)
     ]
-    return [Intervals("Where the spread comes from", "total share of the variance", rows, bars=True)]
+    return [Intervals("Total share of the variance, by factor", "", rows, bars=True)]
 
 
 def _numbers(d: Drawn) -> Table:

@@ -31,7 +31,7 @@ export function intervals(figure, part) {
     rows.forEach((row, k) => {
       const y = 6 + high * (k + (narrow ? 0.7 : 0.5));
       const place = narrow ? { x: left, y: y - 13 } : { x: left - 12, y: y + 4, "text-anchor": "end" };
-      frame.append(svg("text", { class: "label", ...place }, narrow ? words(row, part.unit) : row.name));
+      frame.append(svg("text", { class: "label", ...place }, narrow ? words(row, "") : row.name));
       if (part.bars && row.value !== null) {
         const [from, to] = [x(Math.min(0, row.value)), x(Math.max(0, row.value))];
         frame.append(svg("rect", { class: "bar c0", x: from, y: y - 6, width: to - from, height: 12 }));
