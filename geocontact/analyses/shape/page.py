@@ -9,14 +9,14 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.shape.colours import colour_end, outlying
 from geocontact.analyses.shape.fitting import Fitting
 from geocontact.geometry.fit.directions import across
-from geocontact.geometry.fit.found import OUTLYING, ShapeFit
+from geocontact.geometry.fit.found import ShapeFit
 from geocontact.view.page.content import Body, Page, Picture, Scene, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 MM = 1e3
-FINEST = 1e-6  # m; what the colours resolve at least
 ROUND = 72  # sides of the drawn cylinder, rings of the drawn sphere
 SHAPE = "fitted {}"
 BESIDE = (
@@ -110,7 +110,6 @@ def _facts(fit: ShapeFit) -> list[tuple[str, str]]:
 
 def _scene(fitted: Fitting) -> Scene:
     shape = fitted.whole.shape
-    limit = max(OUTLYING * fitted.whole.quality.noise, FINEST)
     residual = fitted.residual
     distance = np.where(np.isnan(residual), np.inf, np.abs(residual))
     bodies = [
@@ -125,8 +124,8 @@ def _scene(fitted: Fitting) -> Scene:
     bodies.append(Body(SHAPE.format(shape), vertices, faces, opacity=0.2))
     return Scene(
         bodies=bodies,
-        thresholds=(limit,),
-        span=(0.0, 1.5 * limit),
+        thresholds=(outlying(fitted.whole),),
+        span=(0.0, colour_end(fitted.whole)),
         value_name=f"distance to the fitted {shape}, to either side; the line is three times the noise",
         directions=WAYS,
     )
