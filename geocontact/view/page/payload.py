@@ -8,12 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.view.page.content import Body, Curves, FaceMap, Page, Readout, Scene, Strip
+from geocontact.view.page.content import Body, Curves, FaceMap, Intervals, Page, Plan, Readout, Scene, Strip
 from geocontact.view.page.levels import AmountLevels, Levels, across
 from geocontact.view.page.opening import opacities, opening_view
 from geocontact.view.page.pack import Block, Grid, face_words, packed
 
 MM = 1e3
+UNITS = "N m|N|kN|mm²|cm²|mm|cm|m|MPa|kPa|Pa|s|ms|%|deg|°"
+"""A line does not end between a number and one of these."""
 
 
 @dataclass(frozen=True)
@@ -36,11 +38,13 @@ def payload(page: Page) -> Payload:
         "start": page.start_frame,
         "numbers": None if page.numbers is None else [int(number) for number in page.numbers],
         "total": len(page.time) if page.total is None else int(page.total),
+        "plays": page.plays,
+        "thresholds": _chosen(page),
     }
     parts: list[dict[str, object]] = []
     position_error = distance_error = 0.0
-    for k, section in enumerate(page.sections):
-        place = {"id": f"section-{k}"}
+    for name, _, _, section in page.placed():
+        place = {"id": name}
         match section:
             case Scene():
                 levels = _levels(section)
@@ -51,6 +55,10 @@ def payload(page: Page) -> Payload:
                 parts.append(place | {"kind": "curves"} | _curves(section))
             case Strip():
                 parts.append(place | {"kind": "strip"} | _strip(section))
+            case Plan():
+                parts.append(place | {"kind": "plan"} | _plan(section))
+            case Intervals():
+                parts.append(place | {"kind": "intervals"} | _intervals(section))
             case Readout():
                 texts = [[shown(text) for text in row.texts] for row in section.rows]
                 parts.append(place | {"kind": "readout", "texts": texts})
@@ -61,6 +69,12 @@ def payload(page: Page) -> Payload:
 def shown(text: str) -> str:
     """A number with a minus sign (U+2212) in place of a leading hyphen, and none before a rounded zero."""
     return re.sub(r"^-(?=[\d.])", "−", re.sub(r"^-(?=0*\.?0*(?![\d.eE]))(?=[\d.])", "", text))
+
+
+def minus(text: str) -> str:
+    """Words with a minus sign before numbers that stand by themselves, and units kept beside them: "z −19.5 mm"."""
+    signed = re.sub(r"(?<!\S)-(?=\d)", "−", text)
+    return re.sub(rf"(?<=\d) (?=(?:{UNITS})(?![\w/]))", "\u00a0", signed)
 
 
 def _levels(scene: Scene) -> Levels:
@@ -156,7 +170,36 @@ def _curves(panel: Curves) -> dict[str, object]:
         }
         for curve in panel.curves
     ]
-    return {"title": panel.title, "unit": panel.unit, "curves": curves}
+    points = [{"name": p.name, "time": _numbers(p.time), "values": _numbers(p.values)} for p in panel.points]
+    limits = [{"name": limit.name, "value": limit.value} for limit in panel.limits]
+    return {"title": panel.title, "unit": panel.unit, "curves": curves, "points": points, "limits": limits}
+
+
+def _plan(plan: Plan) -> dict[str, object]:
+    return {
+        "title": plan.title,
+        "unit": plan.unit,
+        "across": plan.across,
+        "up": plan.up,
+        "lines": [[_numbers(line[:, 0]), _numbers(line[:, 1])] for line in plan.lines],
+        "tracks": [{"name": t.name, "x": _numbers(t.points[:, 0]), "y": _numbers(t.points[:, 1])} for t in plan.tracks],
+        "marks": [{"name": mark.name, "at": [float(x) for x in mark.point]} for mark in plan.marks],
+    }
+
+
+def _intervals(shown: Intervals) -> dict[str, object]:
+    rows = []
+    for one in shown.intervals:
+        value, lower, upper = _numbers(np.array([one.value, one.lower, one.upper]))
+        rows.append({"name": one.name, "value": value, "lower": lower, "upper": upper})
+    return {"title": shown.title, "unit": shown.unit, "bars": shown.bars, "intervals": rows}
+
+
+def _chosen(page: Page) -> list[float | None]:
+    """Bold contour of each choice [mm], the page's own first."""
+    own = next((section.threshold * MM for section in page.sections if isinstance(section, Scene)), None)
+    others = () if page.choices is None else page.choices.others
+    return [own, *(None if each.threshold is None else each.threshold * MM for each in others)]
 
 
 def _strip(strip: Strip) -> dict[str, object]:

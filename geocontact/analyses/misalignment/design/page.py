@@ -11,7 +11,7 @@ from geocontact.analyses.misalignment.design.designed import Designed
 from geocontact.analyses.misalignment.design.tables import sensitivity_table
 from geocontact.analyses.misalignment.planar_words import MODEL, page_table
 from geocontact.analyses.options_table import options_table
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
 from geocontact.view.page.tables import inputs_table
@@ -47,16 +47,17 @@ def write_design_report(path: Path, record: Record, d: Designed, summary: dict[s
         options_table(record),
         Words("What the numbers do not contain", [MODEL, NOT_A_DEVICE]),
     ]
-    if record.warnings:
-        sections.append(Words("Reservations of this run", list(record.warnings)))
     page = Page(
         title=f"Offsets and stroke that keep the force under {d.task.limit:g} N",
         subtitle="Exoskeleton beside a joint: offsets of the axes, stroke, and force on the limb",
         time=np.degrees(d.beta),
         time_label="angle [°]",
-        headline=[(row[0], row[1]) for row in numbers.rows],
+        headline=headline(record.sentences, most=2),
+        facts=[(row[0], row[1]) for row in numbers.rows[:5]],
+        reservations=tuple(record.warnings),
         start_frame=int(np.argmax(np.abs(d.force))),
         sections=tuple(sections),
+        plays=False,
     )
     return write_page(page, path)
 

@@ -79,7 +79,7 @@ class SimulateResult(Result):
 
     def _write_page(self, file: Path, picture: bytes) -> None:
         tables = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_simulation_report(file, self.trials, self.numbers, picture, tables, self.warnings)
+        write_simulation_report(file, self.trials, self.numbers, picture, tables, self.record)
 
 
 def _table(r: ElbowRecording) -> pd.DataFrame:

@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.panels import panels_by_joint
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words
 from geocontact.view.page.write import write_page
 
@@ -27,7 +27,12 @@ FILTERED = (
 
 
 def write_forces_report(
-    path: Path, title: str, forces: Forces, tables: Sequence[Table] = (), warnings: Sequence[str] = ()
+    path: Path,
+    title: str,
+    forces: Forces,
+    tables: Sequence[Table] = (),
+    warnings: Sequence[str] = (),
+    sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page; returns its size in bytes."""
     every = -(-len(forces.time) // FRAMES)
@@ -42,14 +47,14 @@ def write_forces_report(
         *tables,
         Words("What the numbers do not contain", [LEFT, FILTERED, NOT_A_DEVICE]),
     ]
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
     page = Page(
         title=title,
         subtitle=f"{int((~base).sum())} coordinates of {forces.model.name or 'the model'}",
         time=forces.time[shown],
         time_label="time [s]",
-        headline=_headline(forces, turning & ~base),
+        headline=headline(sentences, most=2),
+        facts=_facts(forces, turning & ~base),
+        reservations=tuple(warnings),
         sections=tuple(sections),
         numbers=shown + 1,
         total=len(forces.time),
@@ -57,7 +62,7 @@ def write_forces_report(
     return write_page(page, path)
 
 
-def _headline(forces: Forces, turning: Bool[np.ndarray, " n"]) -> list[tuple[str, str]]:
+def _facts(forces: Forces, turning: Bool[np.ndarray, " n"]) -> list[tuple[str, str]]:
     told = []
     if turning.any():
         sizes = np.abs(np.where(turning, forces.values, 0.0))

@@ -65,4 +65,4 @@ class IdResult(Result):
         """Moments and forces over time, and what is left over."""
         tables = [inputs_table(self.record.inputs), options_table(self.record)]
         title = f"Inverse dynamics of {self.options.coordinates.name}"
-        write_forces_report(file, title, self.forces, tables, list(self.warnings))
+        write_forces_report(file, title, self.forces, tables, self.warnings, self.sentences)

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.motion.panels import panels_by_joint
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Table, Words
@@ -30,6 +30,7 @@ def write_kinematics_report(
     found: Poses,
     tables: Sequence[Table] = (),
     warnings: Sequence[str] = (),
+    sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page; returns its size in bytes."""
     every = -(-len(found.time) // FRAMES)
@@ -46,14 +47,14 @@ def write_kinematics_report(
         *tables,
         Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),
     ]
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
     page = Page(
         title=title,
         subtitle=f"{len(found.names)} coordinates of {model.name or 'the model'} from {len(found.markers)} markers",
         time=found.time[shown],
         time_label="time [s]",
-        headline=[
+        headline=headline(sentences, most=2),
+        reservations=tuple(warnings),
+        facts=[
             ("Distance of markers, root mean square", f"{np.sqrt(np.nanmean(off**2)):.1f} mm"),
             ("Largest distance", f"{np.nanmax(off):.1f} mm"),
         ],

@@ -45,6 +45,7 @@ export async function openScene(data, canvas) {
   new ResizeObserver(fit).observe(canvas.parentElement);
   view.changed(later);
   window.addEventListener("beforeprint", draw);
+  canvas.addEventListener("webglcontextrestored", fit); // the renderer has put its programs and arrays back by then
 
   const scene = {
     view,
@@ -62,6 +63,11 @@ export async function openScene(data, canvas) {
     setQuantity(quantity) {
       showQuantity(shared, quantity);
       for (const body of bodies) body.setMap(quantity.map, shown);
+      later();
+    },
+    /** Which contour is bold: the first. */
+    setThresholds(thresholds) {
+      shared.thresholds.value = thresholds;
       later();
     },
     setVisible(k, visible) {
