@@ -26,6 +26,10 @@ PLUMB = (0.0, -1.0, 0.1 * 13.0 / 23.0)
 """Point of the ground below the mass centre of the straight leg with its pelvis."""
 
 
+HEIGHT = (10.0 * 1.0 + 8.0 * 0.9 + 4.0 * 0.5 + 1.0 * 0.1) / 23.0 - 0.15
+"""Of the mass centre of the straight leg [m]: each body's is 0.15 m below its joint."""
+
+
 def ik(folder: Path, markers: Path, *options: object) -> Call:
     model = legs.model_file(folder)
     return call("ik", markers, "--model", model, "--out", folder / "out", *options, folder=folder / "out")
@@ -144,7 +148,8 @@ def test_a_leg_that_stands_on_a_plate(tmp_path: Path) -> None:
     np.testing.assert_allclose(found.values[:, at_hip], -WEIGHT * (0.1 - PLUMB[2]), rtol=1e-9)
     told = result.record()["results"]
     assert told["peak_external_force_N"] == pytest.approx(WEIGHT, rel=1e-9)
-    assert told["residual_share_of_peak"] < 1e-8
+    assert told["residual_share_of_peak"] < 1e-8 and not result.warnings
+    assert told["mass_centre_height_m"] == pytest.approx(HEIGHT, rel=1e-9)
     assert told["residuals"] == [
         f"{n}_{k}"
         for n, k in zip(("tilt", "list", "turn", "tx", "ty", "tz"), ("moment",) * 3 + ("force",) * 3, strict=True)
@@ -158,7 +163,11 @@ def test_what_the_plate_does_not_carry_is_left_over(tmp_path: Path) -> None:
     assert len(found.time) == 11
     np.testing.assert_allclose(found.column("ty_force"), 0.1 * WEIGHT, rtol=1e-9)
     assert result.record()["results"]["residual_share_of_peak"] == pytest.approx(1 / 9, rel=1e-6)
+    (line,) = result.warnings
+    assert "22.6 N at most" in line and "11.1% of the largest measured force" in line and "check which plate" in line
+    assert "22.6 N at most" in result.out.splitlines()[0]
     bare = done(id_(tmp_path, motion))
+    assert any("226 N at most" in w and "100.0% of the weight" in w and "give --loads" in w for w in bare.warnings)
     np.testing.assert_allclose(read_table(bare.folder / "id.sto").column("ty_force"), WEIGHT, rtol=1e-9)
     assert bare.record()["results"]["residual_share_of_peak"] is None
 
@@ -295,7 +304,33 @@ def test_markers_far_from_the_model_are_warned_of(tmp_path: Path) -> None:
     seen = legs.markers_of(model, time, values)
     mixed = type(seen)(seen.time, seen.positions[:, ::-1], seen.names)
     result = done(ik(tmp_path, legs.trc_file(tmp_path, mixed)))
-    assert any("mm from the model: another subject's size" in w for w in result.warnings)
+    assert any("mm from the model" in w and "another subject's size" in w for w in result.warnings)
+
+
+def off_by(folder: Path, shift: float) -> Call:
+    """`ik` of a walk with one marker of 16 off by this [m] in one frame, and by a little in all."""
+    _, model, time, values = legs.planted(folder)
+    markers = legs.markers_of(model, time, values)
+    markers.positions[30, 13] += [0.0, 0.0, shift]
+    return done(ik(folder, legs.trc_file(folder, markers)))
+
+
+def test_marker_errors_stand_beside_opensim_s_limits(tmp_path: Path) -> None:
+    """In the last line always, in a warning beyond 2 cm of root mean square or 4 cm at most."""
+    small, large = off_by(tmp_path, 0.03), off_by(tmp_path, 0.15)
+    told = "mm at most, foot_r1 at 0.3 s (OpenSim advises less than 20 and 40 mm)"
+    assert told in small.out and not small.warnings
+    (line,) = large.warnings
+    assert told in line and "check where foot_r1 is on the model" in line
+
+
+def test_a_static_trial_has_the_limits_of_scaling(tmp_path: Path) -> None:
+    _, model, time, values = legs.planted(tmp_path)
+    markers = legs.markers_of(model, time[:1], 0.0 * values[:1])
+    markers.positions[:, 13] += [0.0, 0.0, 0.06]
+    file = legs.trc_file(tmp_path, markers)
+    result = done(call("scale", file, "--model", legs.model_file(tmp_path), "--out", tmp_path / "s"))
+    assert any("less than 10 and 20 mm" in line for line in result.warnings)
 
 
 def test_markers_from_a_file_of_their_own(tmp_path: Path) -> None:

@@ -98,6 +98,13 @@ class Multibody:
         places = [poses[m.body].apply(m.location) for m in self.markers]
         return np.stack(places, axis=1) if places else np.zeros((len(values), 0, 3))
 
+    def mass_centre(self, values: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t 3"]:
+        """Of all bodies, in the ground's frame [m], one row for each row of coordinates [rad, m]."""
+        poses = self.poses(values)
+        total = sum(body.mass for body in self.bodies)
+        places = [body.mass / total * poses[body.name].apply(body.centre) for body in self.bodies if body.mass > 0.0]
+        return np.asarray(np.sum(places, axis=0)) if places else np.zeros((len(values), 3))
+
 
 def outwards(joints: tuple[JointModel, ...]) -> tuple[tuple[JointModel, ...], tuple[JointModel, ...]]:
     """Joints in the order in which they lead away from the ground, and those that never do (a loop, a lost parent)."""
