@@ -18,8 +18,8 @@ LARGEST_RADIANS = 2.0 * pi
 """An angle beyond a full turn is taken for degrees."""
 
 FEW_DEGREES = 0.2, 2.0
-"""Degrees that no angle exceeds where they may be radians: of one or two columns, and of three or more. A whole motion
-within two degrees is rarer than one column; walking in radians stays below 1.3."""
+"""Degrees that no angle exceeds where they may be radians: of one or two columns, and of three or more under one flag
+of a .mot or .sto. A whole motion within two degrees is rarer than one column; walking in radians stays below 1.3."""
 MANY = 3
 """Columns that make a whole motion."""
 
@@ -39,7 +39,7 @@ def angles_of(table: TextTable, names: Sequence[str], angles: str | None = None)
         when "rad" makes more than a turn of it.
 
     A file that says nothing or contradicts itself is refused, and so is one that says rad and holds more than a turn.
-    One that says deg and never exceeds 0.2, or 2 in three columns and more, is used with a warning.
+    One that says deg and never exceeds 0.2, or 2 in three columns of a .mot or .sto, is used with a warning.
     """
     if angles not in (None, "deg", "rad"):
         raise InputError("", "`angles`", f"'{angles}' is not a unit of angles here", "give deg or rad")
@@ -141,7 +141,7 @@ def _check_size(table: TextTable, names: Sequence[str], values: Float[np.ndarray
         what = f"{found[1]}, too much for the radians that the header declares"
         raise InputError(table.file, found[0], what, "pass `angles` deg or rad")
     size = np.max(np.abs(values))
-    if set(units) == {"deg"} and 0.0 < size < FEW_DEGREES[len(names) >= MANY]:
+    if set(units) == {"deg"} and 0.0 < size < FEW_DEGREES[table.opensim and len(names) >= MANY]:
         what = f"no angle exceeds {size:.3g} deg; if they are radians pass `angles` rad"
         warnings.warn(InputWarning(f"{table.file}: {what}"), stacklevel=4)
 
