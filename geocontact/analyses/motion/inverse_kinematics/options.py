@@ -25,6 +25,8 @@ class IkOptions(Options):
         markers of the model count alike.
     marker_set
         Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
+    markers_map
+        Names of recorded markers as the model calls them: RHEE=R.Heel,LHEE=L.Heel, or a file with a pair in each line.
     weight
         Weight of a marker over that of `tasks`: R.Heel=10; 0 leaves it out. May be given again.
     hold
@@ -46,6 +48,7 @@ class IkOptions(Options):
     model: Path
     tasks: Path | None = None
     marker_set: Path | None = None
+    markers_map: str | None = None
     weight: Texts = ()
     hold: Texts = ()
     fill: float = 0.1

@@ -26,7 +26,7 @@ def run(seen: Seen, o: IkOptions, record: Record) -> IkResult:
         try:
             found = inverse_kinematics(tree, seen.markers, seen.tasks, lambda _: step(), fill=o.fill)
         except ValueError as error:
-            raise InputError(o.markers, "", str(error), "compare the names in the file with the model's") from error
+            raise InputError(o.markers, "", str(error), "is it the right file?") from error
     summary = _summary(found, time.perf_counter() - began)
     result = IkResult(record=record, options=o, seen=seen, poses=found, summary=summary)
     record.results.update(plain(summary))

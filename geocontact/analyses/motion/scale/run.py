@@ -30,7 +30,7 @@ def run(given: Standing, o: ScaleOptions, record: Record) -> ScaleResult:
     try:
         pose = inverse_kinematics(tree_of(made), given.markers, given.tasks)
     except ValueError as error:
-        raise InputError(o.static, "", str(error), "compare the names in the file with the model's") from error
+        raise InputError(o.static, "", str(error), "is it the right file?") from error
     if not pose.settled.all():
         record.warn("the static pose did not settle: markers and model may not belong together")
     moved = made if o.keep_markers else _placed(made, given.markers, pose)
