@@ -43,7 +43,7 @@ class Forces:
     @property
     def weight(self) -> float:
         """Of all bodies [N]."""
-        return sum(body.mass for body in self.model.bodies) * float(np.linalg.norm(self.model.gravity))
+        return self.model.mass * float(np.linalg.norm(self.model.gravity))
 
     @property
     def residual_forces(self) -> Float[np.ndarray, " t"]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +10,11 @@ from jaxtyping import Bool, Float
 
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.inverse_dynamics.residuals import force_left, moment_left, verdict
-from geocontact.analyses.motion.panels import panels_by_joint
+from geocontact.analyses.motion.panels import panels_of
+from geocontact.analyses.motion.skeleton import forces_on, scene_of, skeleton
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words
+from geocontact.data.wrench import Wrench
+from geocontact.view.page.content import Curve, Curves, Page, Scale, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 FRAMES = 1001  # that the page shows at most
@@ -32,6 +34,8 @@ def write_forces_report(
     path: Path,
     title: str,
     forces: Forces,
+    coordinates: Float[np.ndarray, "t n"],
+    loads: Mapping[str, Wrench],
     tables: Sequence[Table] = (),
     warnings: Sequence[str] = (),
     sentences: Sequence[str] = (),
@@ -42,9 +46,12 @@ def write_forces_report(
     turning = np.array([c.kind == "rotational" for c in forces.model.coordinates], dtype=bool)
     base = forces.at_ground
     values = np.asarray(forces.values)[shown]
+    model = forces.model
+    by_mass = Scale("N m/kg", 1.0 / model.mass) if model.mass > 0.0 else None
     sections: list[Section] = [
-        *panels_by_joint(forces.model, "N m", values, turning & ~base),
-        *panels_by_joint(forces.model, "N", values, ~turning & ~base),
+        scene_of(model, [skeleton(model, coordinates[shown]), *forces_on(model, loads, shown)]),
+        *panels_of(model, "N m", values, turning & ~base, by_mass),
+        *panels_of(model, "N", values, ~turning & ~base),
         *_left_over(forces, values, turning, base),
         *_residuals(forces),
         *tables,

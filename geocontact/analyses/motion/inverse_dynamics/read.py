@@ -41,6 +41,12 @@ class Loaded:
     time: Float[np.ndarray, " t"]
     loads: dict[str, Wrench]
 
+    @property
+    def shown(self) -> Float[np.ndarray, "t c"]:
+        """Filtered coordinates at the wanted times [rad, m]."""
+        first = int(np.searchsorted(self.recorded, self.time[0]))
+        return self.values[first : first + len(self.time)]
+
 
 def read(o: IdOptions, record: Record) -> Loaded:
     """Everything the options name."""

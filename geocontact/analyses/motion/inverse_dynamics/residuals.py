@@ -64,13 +64,12 @@ def words(forces: Forces) -> str:
     if not forces.at_ground.any():
         return ""
     force, moment = force_left(forces), moment_left(forces)
-    text = f"left over at the joint to the {GROUND}: {force.size:.3g} N at most, {force.time:.3g} s"
+    text = f"left over at the joint to the {GROUND}: {force.size:.3g} N at most, {force.share:.1%} of the"
     if forces.peak == 0.0:
-        return f"{text}, {force.share:.1%} of the weight, as nothing but gravity acts"
+        return f"{text} weight, as nothing but gravity acts"
     return (
-        f"{text}, {force.share:.1%} of the largest measured force (Hicks et al. 2015: below {FORCE:.0%}), and "
-        f"{moment.size:.3g} N m at {moment.time:.3g} s, {moment.share:.1%} of that at the height of the mass centre "
-        f"(below {MOMENT:.0%})"
+        f"{text} largest measured force (below {FORCE:.0%} is asked for), and {moment.size:.3g} N m, "
+        f"{moment.share:.1%} of that force at the height of the mass centre (below {MOMENT:.0%})"
     )
 
 
@@ -79,11 +78,15 @@ def warn_of_residuals(record: Record, forces: Forces) -> None:
     if not forces.at_ground.any():
         record.warn(f"no joint frees a body from the {GROUND} with six coordinates: nothing tells what is left over")
     elif forces.peak == 0.0 and force_left(forces).too_large:
-        record.warn(f"{words(forces)}: give `loads`, or `plates` with `plate`; moments are those of a body in the air")
-    elif force_left(forces).too_large or moment_left(forces).too_large:
         record.warn(
-            f"{words(forces)}: check which plate acts on which body, masses, whether plates and markers have one "
-            "clock, and `cutoff`"
+            f"{words(forces)} ({force_left(forces).time:.3g} s): give `loads`, or `plates` with `plate`; moments are "
+            "those of a body in the air"
+        )
+    elif force_left(forces).too_large or moment_left(forces).too_large:
+        when = f"at {force_left(forces).time:.3g} and {moment_left(forces).time:.3g} s, limits of Hicks et al. 2015"
+        record.warn(
+            f"{words(forces)}, {when}: check which plate acts on which body, masses, whether plates and markers have "
+            "one clock, and `cutoff`"
         )
 
 

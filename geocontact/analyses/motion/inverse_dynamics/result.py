@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.motion.figure import curves_figure
@@ -16,6 +18,7 @@ from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.inverse_dynamics.page import write_forces_report
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.result import Result
+from geocontact.data.wrench import Wrench
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.view.page.tables import inputs_table
 
@@ -31,12 +34,18 @@ class IdResult(Result):
     ----------
     forces
         Over time [N m, N].
+    coordinates
+        At the same times, filtered [rad, m].
+    loads
+        Measured ones by body, about the ground's origin.
     summary
         Numbers of the whole motion, with units in their names.
     """
 
     options: IdOptions
     forces: Forces
+    coordinates: Float[np.ndarray, "t n"]
+    loads: Mapping[str, Wrench]
     summary: dict[str, Any]
 
     def tables(self) -> dict[str, pd.DataFrame]:
@@ -65,4 +74,6 @@ class IdResult(Result):
         """Moments and forces over time, and what is left over."""
         tables = [inputs_table(self.record.inputs), options_table(self.record)]
         title = f"Inverse dynamics of {self.options.coordinates.name}"
-        write_forces_report(file, title, self.forces, tables, self.warnings, self.sentences)
+        write_forces_report(
+            file, title, self.forces, self.coordinates, self.loads, tables, self.warnings, self.sentences
+        )

@@ -23,7 +23,9 @@ def run(given: Loaded, o: IdOptions, record: Record) -> IdResult:
     summary = _summary(forces)
     record.results.update(plain(summary))
     _tell(record, forces)
-    return IdResult(record=record, options=o, forces=forces, summary=summary)
+    return IdResult(
+        record=record, options=o, forces=forces, coordinates=given.shown, loads=given.loads, summary=summary
+    )
 
 
 def _peak(loads: dict[str, Wrench]) -> float:

@@ -86,7 +86,10 @@ class IkResult(Result):
         """Coordinates over time, and how far each marker is from the model."""
         title = f"Inverse kinematics of {self.options.markers.name}"
         tables = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_kinematics_report(file, title, self.seen.model, self.poses, tables, self.warnings, self.sentences)
+        seen = self.seen
+        write_kinematics_report(
+            file, title, seen.model, self.poses, seen.markers, tables, self.warnings, self.sentences
+        )
 
     def _distances(self) -> pd.DataFrame:
         off = {f"{name} [mm]": 1e3 * d for name, d in zip(self.poses.markers, self.poses.distances.T, strict=True)}
