@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
+from geocontact.analyses.motion.cycles_picture import cycles_pictured
+from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.inverse_dynamics.residuals import force_left, moment_left, verdict
 from geocontact.analyses.motion.panels import panels_of
@@ -36,6 +38,7 @@ def write_forces_report(
     forces: Forces,
     coordinates: Float[np.ndarray, "t n"],
     loads: Mapping[str, Wrench],
+    cycles: GaitCycles,
     tables: Sequence[Table] = (),
     warnings: Sequence[str] = (),
     sentences: Sequence[str] = (),
@@ -52,6 +55,7 @@ def write_forces_report(
         scene_of(model, [skeleton(model, coordinates[shown]), *forces_on(model, loads, shown)]),
         *panels_of(model, "N m", values, turning & ~base, by_mass),
         *panels_of(model, "N", values, ~turning & ~base),
+        *cycles_pictured(cycles),
         *_left_over(forces, values, turning, base),
         *_residuals(forces),
         *tables,

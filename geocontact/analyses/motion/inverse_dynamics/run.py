@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.analyses.json_file import plain
+from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.inverse_dynamics.read import Loaded
@@ -21,11 +22,32 @@ def run(given: Loaded, o: IdOptions, record: Record) -> IdResult:
     found = forces_along(tree_of(given.model), given.recorded, given.values, given.time, given.loads)
     forces = Forces(given.time, given.model, found, _peak(given.loads), _height(given))
     summary = _summary(forces)
+    cycles = _cycles(forces, given)
+    if cycles:
+        summary["gait_cycles"] = cycles.counts
     record.results.update(plain(summary))
     _tell(record, forces)
     return IdResult(
-        record=record, options=o, forces=forces, coordinates=given.shown, loads=given.loads, summary=summary
+        record=record,
+        options=o,
+        forces=forces,
+        coordinates=given.shown,
+        loads=given.loads,
+        cycles=cycles,
+        summary=summary,
     )
+
+
+def _cycles(forces: Forces, given: Loaded) -> GaitCycles:
+    """Of all but what is left over, by the mass of the model."""
+    model = forces.model
+    if not model.mass > 0.0:
+        return GaitCycles({}, {}, {})
+    chosen = np.flatnonzero(~forces.at_ground)
+    coordinates = [model.coordinates[k] for k in chosen]
+    units = ["N m/kg" if c.kind == "rotational" else "N/kg" for c in coordinates]
+    values = np.asarray(forces.values)[:, chosen] / model.mass
+    return gait_cycles(forces.time, [c.name for c in coordinates], units, values, given.strikes)
 
 
 def _peak(loads: dict[str, Wrench]) -> float:

@@ -37,6 +37,9 @@ class IkOptions(Options):
     knee
         Knee whose angles after Grood and Suntay are written: right=femur_r,tibia_r, the bodies as the model calls them,
         x forward, y up and z to the right in both. May be given again.
+    events
+        Heel strikes of a side [s], between which the coordinates are averaged over the gait cycle: right=0.63,1.86. May
+        be given again. Those of a .c3d file count without it.
     axes
         Which of the markers' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
     time
@@ -53,6 +56,7 @@ class IkOptions(Options):
     hold: Texts = ()
     fill: float = 0.1
     knee: Texts = ()
+    events: Texts = ()
     axes: Expression | None = None
     time: TimeSpan | None = None
 

@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.motion.cycles_picture import cycles_pictured
+from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
@@ -31,6 +33,7 @@ def write_kinematics_report(
     model: Multibody,
     found: Poses,
     seen: MarkerTrajectories,
+    cycles: GaitCycles,
     tables: Sequence[Table] = (),
     warnings: Sequence[str] = (),
     sentences: Sequence[str] = (),
@@ -47,6 +50,7 @@ def write_kinematics_report(
         *panels_of(model, "deg", np.degrees(values), angular),
         *panels_of(model, "m", values, ~angular),
         Curves("Distance of markers", "mm", [Curve(n, d) for n, d in zip(found.markers, off[shown].T, strict=True)]),
+        *cycles_pictured(cycles),
         _markers(found),
         *tables,
         Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from geocontact.analyses.motion.heel_strikes import Strikes, strikes_marked, strikes_typed
 from geocontact.analyses.motion.inverse_kinematics.knees import Knee, knees_of
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.marker_names import renamed
@@ -18,12 +19,13 @@ from geocontact.io.opensim.osim_multibody import read_multibody
 
 @dataclass(frozen=True)
 class Seen:
-    """A model, its markers as they were seen, what each of them counts, and knees whose clinical angles are wanted."""
+    """A model, its markers as seen, what each counts, knees whose clinical angles are wanted, heel strikes."""
 
     model: Multibody
     markers: MarkerTrajectories
     tasks: MarkerTasks
     knees: list[Knee]
+    strikes: Strikes
 
 
 def read(o: IkOptions, record: Record) -> Seen:
@@ -34,4 +36,5 @@ def read(o: IkOptions, record: Record) -> Seen:
     knees = knees_of(o.knee, model)
     seen = renamed(record, markers_given(o.markers, o.axes, o.time), model, o.markers_map)
     record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
-    return Seen(model, seen, marker_tasks(record, model, seen, o.tasks, o.weight, o.hold), knees)
+    strikes = strikes_typed(o.events) or strikes_marked(o.markers)
+    return Seen(model, seen, marker_tasks(record, model, seen, o.tasks, o.weight, o.hold), knees, strikes)

@@ -7,10 +7,12 @@ import time
 import numpy as np
 
 from geocontact.analyses.json_file import plain
+from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.read import Seen
 from geocontact.analyses.motion.inverse_kinematics.result import IkResult
 from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
+from geocontact.analyses.motion.printed import printed
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
@@ -28,13 +30,22 @@ def run(seen: Seen, o: IkOptions, record: Record) -> IkResult:
         except ValueError as error:
             raise InputError(o.markers, "", str(error), "is it the right file?") from error
     summary = _summary(found, time.perf_counter() - began)
-    result = IkResult(record=record, options=o, seen=seen, poses=found, summary=summary)
+    cycles = _cycles(seen, found)
+    if cycles:
+        summary["gait_cycles"] = cycles.counts
+    result = IkResult(record=record, options=o, seen=seen, poses=found, cycles=cycles, summary=summary)
     record.results.update(plain(summary))
     errors = MarkerErrors.of(found)
     errors.warn(record, MOVING)
     _warn(record, found)
     record.say(f"{len(found.time)} frames, {len(found.markers)} markers: {errors.words(MOVING)}")
     return result
+
+
+def _cycles(seen: Seen, found: Poses) -> GaitCycles:
+    coordinates = seen.model.coordinates
+    units = ["deg" if c.kind == "rotational" else "m" for c in coordinates]
+    return gait_cycles(found.time, found.names, units, printed(coordinates, found.values), seen.strikes)
 
 
 def _summary(found: Poses, seconds: float) -> dict[str, object]:
