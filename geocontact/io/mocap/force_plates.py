@@ -139,7 +139,9 @@ def _from_c3d(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
     arrays = read_c3d_plates(path)
     rate, count = float(arrays["rate"]), sum(name.startswith("force_") for name in arrays)
     if not count:
-        raise InputError(file, "", "holds no force plate", "give a file recorded with force plates")
+        labels = listed(tuple(str(label) for label in arrays["labels"]), 80)
+        remedy = f"give a file recorded with force plates; analog channels are: {labels}"
+        raise InputError(file, "", "holds no force plate", remedy)
     if not rate > 0.0 or not np.isfinite(rate):
         raise InputError(file, "", f"analogue rate is {rate:g} Hz", "is the file complete?")
     return tuple(_c3d_plate(file, arrays, k) for k in range(count))

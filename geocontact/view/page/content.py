@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.view.page.intervals import Interval, Intervals
+from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.plan import Mark, Plan, Track
 from geocontact.view.page.scene import Body, FaceMap, Scene
 
@@ -26,6 +27,7 @@ __all__ = [
     "Interval",
     "Intervals",
     "Limit",
+    "Linkage",
     "Mark",
     "Page",
     "Picture",
@@ -33,6 +35,7 @@ __all__ = [
     "Points",
     "Readout",
     "Row",
+    "Scale",
     "Scene",
     "Section",
     "Strip",
@@ -69,15 +72,24 @@ class Limit:
     value: float
 
 
+@dataclass(frozen=True)
+class Scale:
+    """A second axis of a panel: its unit, and what 1 in the panel's unit is in it."""
+
+    unit: str
+    factor: float
+
+
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """A panel of curves with one axis, marks and level lines."""
+    """A panel of curves with one axis, marks and level lines; `beside` is a second scale of the same values."""
 
     title: str
     unit: str
     curves: Sequence[Curve]
     points: Sequence[Points] = ()
     limits: Sequence[Limit] = ()
+    beside: Scale | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -293,10 +305,11 @@ def _lengths(sections: Sequence[Section]) -> list[tuple[str, int]]:
     found: list[tuple[str, int]] = []
     for section in sections:
         match section:
-            case Scene(bodies=bodies, maps=maps):
+            case Scene(bodies=bodies, maps=maps, linkages=linkages):
                 found += [(f"map {each.name}", len(each.values)) for each in maps]
                 found += [(f"poses of {b.name}", len(b.poses)) for b in bodies if b.poses is not None]
                 found += [(f"distance of {b.name}", len(b.distance)) for b in bodies if b.distance is not None]
+                found += [(f"points of {one.name}", len(one.points)) for one in linkages if len(one.points) > 1]
             case Curves(curves=curves):
                 found += [(f"curve {c.name}", len(c.values)) for c in curves]
                 found += [(f"band of {c.name}", len(x)) for c in curves for x in (c.lower, c.upper) if x is not None]

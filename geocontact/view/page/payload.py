@@ -10,6 +10,7 @@ from jaxtyping import Float
 
 from geocontact.view.page.content import Body, Curves, FaceMap, Intervals, Page, Plan, Readout, Scene, Strip
 from geocontact.view.page.levels import AmountLevels, Levels, across
+from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.opening import opacities, opening_view
 from geocontact.view.page.pack import Block, Grid, face_words, packed
 
@@ -49,7 +50,8 @@ def payload(page: Page) -> Payload:
             case Scene():
                 levels = _levels(section)
                 data["scene"] = _scene(section, page.start_frame, levels, blocks)
-                position_error = max(Grid.around(body.vertices).error for body in section.bodies)
+                grids = [*(Grid.around(b.vertices) for b in section.bodies), *(each.grid for each in section.linkages)]
+                position_error = max(grid.error for grid in grids)
                 distance_error = levels.error
             case Curves():
                 parts.append(place | {"kind": "curves"} | _curves(section))
@@ -100,6 +102,7 @@ def _scene(scene: Scene, frame: int, levels: Levels, blocks: list[Block]) -> dic
         "up": [float(x) for x in scene.up],
         "view": opening_view(scene, frame).tolist(),
         "maps": [_map(each, k, blocks) for k, each in enumerate(scene.maps)],
+        "linkages": [_linkage(each, k, middle, blocks) for k, each in enumerate(scene.linkages)],
     }
 
 
@@ -110,12 +113,28 @@ def _map(each: FaceMap, k: int, blocks: list[Block]) -> dict[str, object]:
     return described | {"values": blocks[-1].described()}
 
 
+def _linkage(each: Linkage, k: int, middle: Float[np.ndarray, " 3"], blocks: list[Block]) -> dict[str, object]:
+    blocks.append(packed(f"linkage-{k}", each.words()))
+    return {
+        "name": each.name,
+        "tone": each.tone,
+        "radius": each.radius * MM,
+        "width": each.width * MM,
+        "lines": each.lines.tolist(),
+        "corner": ((each.grid.corner - middle) * MM).tolist(),
+        "size": (each.grid.size * MM).tolist(),
+        "points": blocks[-1].described(),
+    }
+
+
 def _middle(scene: Scene, frame: int) -> Float[np.ndarray, " 3"]:
-    """Middle of the bodies at the opening frame [m]: single precision in the browser loses nothing about it."""
+    """Middle of the bodies at the opening frame and of where linkages go [m]: single precision is enough about it."""
     corners = []
     for body in scene.bodies:
         placed = body.vertices if body.poses is None else body.poses[frame].apply(body.vertices)
         corners += [placed.min(axis=0), placed.max(axis=0)]
+    for each in scene.linkages:
+        corners += [each.places.min(axis=0), each.places.max(axis=0)]
     return np.asarray(0.5 * (np.min(corners, axis=0) + np.max(corners, axis=0)))
 
 
@@ -172,7 +191,9 @@ def _curves(panel: Curves) -> dict[str, object]:
     ]
     points = [{"name": p.name, "time": _numbers(p.time), "values": _numbers(p.values)} for p in panel.points]
     limits = [{"name": limit.name, "value": limit.value} for limit in panel.limits]
-    return {"title": panel.title, "unit": panel.unit, "curves": curves, "points": points, "limits": limits}
+    beside = None if panel.beside is None else {"unit": panel.beside.unit, "factor": panel.beside.factor}
+    described = {"title": panel.title, "unit": panel.unit, "curves": curves, "points": points, "limits": limits}
+    return described | {"beside": beside}
 
 
 def _plan(plan: Plan) -> dict[str, object]:

@@ -27,6 +27,7 @@ export function curves(figure, part, time, timeLabel, { go, plays }) {
     x: course([...time, ...part.points.flatMap((p) => p.time)], time),
     y: extent(all, part.unit),
     xLabel: timeLabel,
+    beside: part.beside,
     height: figure.classList.contains("lead") ? () => Math.max(220, Math.min(340, 0.42 * window.innerHeight)) : () => 190,
     label: `${part.title}: ${part.curves.map((c) => describe(c, part.unit)).join("; ")}`,
     paint(p) {

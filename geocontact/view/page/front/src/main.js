@@ -3,6 +3,7 @@ import { curves, strip } from "./charts.js";
 import { continues } from "./continues.js";
 import { cursor, keys, player } from "./controls.js";
 import { intervals } from "./intervals.js";
+import { names } from "./linkages.js";
 import { legend, scaleBar, triad } from "./overlays.js";
 import { plan } from "./plan.js";
 import { boldFirst, quantitiesOf } from "./quantities.js";
@@ -38,14 +39,16 @@ async function picture(data, time) {
   const colour = () => {
     chosen = choices[Number(element("colours")?.value ?? 0)];
     scene.setQuantity(chosen);
-    legend(element("legend"), data.scene, chosen);
+    if (data.scene.bodies.length) legend(element("legend"), data.scene, chosen);
+    else names(element("legend"), data.scene);
   };
   element("colours")?.addEventListener("change", colour);
   colour();
   const overlays = [triad(element("triad"), data.scene, scene.view), scaleBar(element("scale"), scene.view)];
   for (const draw of overlays) scene.drawn(draw);
   const drawings = () => ({ legend: element("legend").firstChild, triad: element("triad").firstChild, scale: element("scale") });
-  tools(scene, drawings, () => [data.title, `${chosen.name} [${chosen.unit}], ${time.words(time.frame())}`]);
+  const meaning = () => (data.scene.bodies.length ? `${chosen.name} [${chosen.unit}], ` : "");
+  tools(scene, drawings, () => [data.title, meaning() + time.words(time.frame())]);
   time.listen(scene.show);
   scene.choose = (threshold) => {
     const thresholds = boldFirst(data.scene.thresholds, threshold);
