@@ -17,6 +17,7 @@ from geocontact.analyses.mat.tables import mat_tables
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
 from geocontact.io.text.results import write_table
+from geocontact.io.text.written_units import CASES, RESULTS
 from geocontact.view.surfaces.mat_vtp import write_mat_vtp
 
 if TYPE_CHECKING:
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 MM = 1e3
 REFERRED = ("wrench", "uncertainty", "segments")
 """Tables that refer to a point and a frame, which run.json names."""
+OF_A_CASE = ("cells", "frames_cells")
+"""Tables as gap cases hold them, in SI."""
 WORDS = "forces are those of the mat on the body"
 
 
@@ -43,7 +46,8 @@ class MatResult(MatFindings):
     def write_files(self, folder: Path) -> None:
         """Tables, surface, figure and page."""
         for name, table in self.tables().items():
-            write_table(table, folder, self.options.parquet, name)
+            units = CASES if name in OF_A_CASE else RESULTS
+            write_table(table, folder, self.options.parquet, name, units)
             if name in REFERRED:
                 self.record.tables[f"{name}.csv"] = self._point_and_frame()
         try:
