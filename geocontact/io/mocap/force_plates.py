@@ -79,8 +79,21 @@ def read_force_plates(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
 def plate_named(plates: tuple[ForcePlate, ...], name: str | None, path: Path, option: str) -> ForcePlate:
     """The plate of this name or number, counted from 1; the only one where none is named.
 
-    `option` is how the user names one, for messages.
+    `option` is how the user names one, for messages. A plate that pulls at the foot is refused: its file holds the
+    forces on the plate.
     """
+    plate = _named(plates, name, path, option)
+    pushing = plate.wrench.force @ plate.normal
+    loaded = pushing[np.abs(pushing) >= LOADED]
+    usual = float(np.median(loaded)) if len(loaded) else 0.0
+    if usual < 0.0:
+        up = "xyz"[int(np.argmax(np.abs(plate.normal)))]
+        what = f"its force along {up}, which is up, is {usual:.4g} N under load: that is the force on the plate"
+        raise InputError(path, plate.name, what, "give the force on the foot: turn the sign of forces and torques")
+    return plate
+
+
+def _named(plates: tuple[ForcePlate, ...], name: str | None, path: Path, option: str) -> ForcePlate:
     names = [plate.name for plate in plates]
     if name is None:
         if len(plates) == 1:

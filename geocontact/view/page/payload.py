@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.data.seconds import seconds
 from geocontact.view.page.content import Body, Curves, FaceMap, Intervals, Page, Plan, Readout, Scene, Strip
 from geocontact.view.page.levels import AmountLevels, Levels, across
 from geocontact.view.page.linkage import Linkage
@@ -17,6 +18,8 @@ from geocontact.view.page.pack import Block, Grid, face_words, packed
 MM = 1e3
 UNITS = "N m|N|kN|mm²|cm²|mm|cm|m|MPa|kPa|Pa|s|ms|%|deg|°"
 """A line does not end between a number and one of these."""
+LATE = 1e5
+"""s; from here on the digits that a page shows do not tell frames apart."""
 
 
 @dataclass(frozen=True)
@@ -32,9 +35,10 @@ class Payload:
 def payload(page: Page) -> Payload:
     """Everything the script draws; texts that the HTML holds already are left out."""
     blocks: list[Block] = []
+    time, label = _clock(page)
     data: dict[str, object] = {
-        "time": _numbers(page.time),
-        "timeLabel": page.time_label,
+        "time": _numbers(time),
+        "timeLabel": label,
         "title": page.title,
         "start": page.start_frame,
         "numbers": None if page.numbers is None else [int(number) for number in page.numbers],
@@ -231,6 +235,14 @@ def _strip(strip: Strip) -> dict[str, object]:
         "thresholds": _numbers(strip.thresholds),
         "values": [_numbers(row) for row in strip.values],
     }
+
+
+def _clock(page: Page) -> tuple[Float[np.ndarray, " t"], str]:
+    """Times and their label; times of a clock that counts from 1970 are shown from the first one on."""
+    if not page.time_label.startswith("time") or not len(page.time) or abs(page.time[0]) < LATE:
+        return page.time, page.time_label
+    name, bracket, unit = page.time_label.partition(" [")
+    return page.time - page.time[0], f"{name} after {seconds(float(page.time[0]))}{bracket}{unit}"
 
 
 def _numbers(values: Float[np.ndarray, " t"]) -> list[float | None]:

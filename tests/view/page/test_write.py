@@ -19,7 +19,7 @@ from geocontact.view.page.content import Body, Curve, Curves, Page, Readout, Row
 from geocontact.view.page.opening import opening_view
 from geocontact.view.page.payload import minus, payload, shown
 from geocontact.view.page.write import page_html, write_page
-from tests.view.page.examples import DIRECTIONS, ball, plate, small_page
+from tests.view.page.examples import DIRECTIONS, ball, curves_page, plate, small_page
 from tests.view.page.hostile import HOSTILE, hostile_page
 
 
@@ -274,3 +274,12 @@ def test_a_page_without_time_has_no_player() -> None:
 )
 def test_numbers_that_stand_by_themselves_have_a_minus(text: str, here: str) -> None:
     assert minus(text) == here
+
+
+def test_times_of_a_late_clock_are_counted_from_the_first_frame() -> None:
+    """Seven digits of a clock that counts from 1970 are the same for all frames."""
+    page = replace(curves_page(200), time=1.76e9 + 0.25 + 1e-3 * np.arange(200), time_label="time [s]")
+    data = payload(page).data
+    assert data["timeLabel"] == "time after 1760000000.25 [s]"
+    np.testing.assert_allclose(np.array(data["time"]), 1e-3 * np.arange(200), atol=1e-6)
+    assert payload(replace(page, time_label="force [N]")).data["timeLabel"] == "force [N]"

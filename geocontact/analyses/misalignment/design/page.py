@@ -64,13 +64,14 @@ def write_design_report(path: Path, record: Record, d: Designed, summary: dict[s
 
 def _numbers(told: dict[str, Any]) -> Table:
     one, radius, stroke, points = told["offset"], told["admissible_radius"], told["needed_stroke"], told["map"]
-    beyond = "" if radius["passed_within_map"] else " or more"
+    beyond = "" if radius["exceeded_within_map"] else " or more"
     least, largest = stroke["free_of_force_mm"]
+    robust = "robust radius" if one["admissible"] else "robust radius; the limit is exceeded at the offsets themselves"
     without = f"{points['pole']} with a pole, {points['fold']} with a fold"
     rows = [
         ("largest |F| at these offsets", f"{one['peak_N']:.2f} N", f"at {one['peak_at_deg']:.1f}°"),
-        ("limit", f"{told['limit_N']:g} N", "kept" if one["admissible"] else "passed"),
-        ("offsets may go in any direction", f"{radius['radius_mm']:.2f} mm{beyond}", "robust radius"),
+        (f"limit of {told['limit_N']:g} N", one["limit"], "at these offsets"),
+        ("offsets may go in any direction", f"{radius['radius_mm']:.2f} mm{beyond}", robust),
         ("free of force between", f"{least:.2f} … {largest:.2f} mm", f"offsets within {stroke['uncertainty_mm']:g} mm"),
         ("lower stroke end at most", f"{stroke['lower_end_at_most_mm']:.2f} mm", "for the limit"),
         ("upper stroke end at least", f"{stroke['upper_end_at_least_mm']:.2f} mm", "for the limit"),
