@@ -237,7 +237,7 @@ def _as(kind: Any, value: Any) -> Any:
 
 
 def declared(options: type[Options]) -> tuple[Declared, ...]:
-    """The options of a class in the order of their declaration."""
+    """The options of a class in the order of their declaration, those of its base first, positional ones before all."""
     anything: Any = options
     return _all(anything)
 
@@ -249,7 +249,8 @@ def _all(options: Any) -> tuple[Declared, ...]:
     for base in reversed(options.__mro__):
         for name, one in documented(base.__doc__ or "").items():
             told[name] = Documented(one.section or told.get(name, one).section, one.lines)
-    return tuple(_declared(each, hints[each.name], told.get(each.name, Documented(""))) for each in fields(options))
+    ordered = sorted(fields(options), key=lambda each: bool(each.kw_only))
+    return tuple(_declared(each, hints[each.name], told.get(each.name, Documented(""))) for each in ordered)
 
 
 def _declared(each: Field[Any], hint: Any, told: Documented) -> Declared:

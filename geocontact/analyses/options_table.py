@@ -14,7 +14,7 @@ def options_table(record: Record) -> Table:
     told = {key: value for key, value in record.options.items() if key != "out"}
     given = [(key, _shown(value)) for key, value in told.items() if value not in (None, False, [], ())]
     rows = [("command", f"geocontact {record.command}"), *given, *record.versions().items()]
-    return Table("How it was made", ("option", "value"), rows)
+    return Table("How it was made", ("option", "value"), rows, folded=True)
 
 
 def _shown(value: object) -> str:

@@ -129,7 +129,7 @@ class AreaOptions(Options):
     paraview
         Also write both bodies with their distances over time for ParaView (folder paraview).
     stills
-        Also write 3-D pictures of the frame with the largest area (still_superior.png and others).
+        Also write 3-D pictures of the frame with the largest area (still_plus_y.png and others).
 
     Pressure of an elastic layer
     ----------------------------

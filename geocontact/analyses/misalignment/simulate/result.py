@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 CASE = "case"
-HEAD = "# synthetic: geocontact elbow simulate"
+SYNTHETIC = {"synthetic": True, "words": "made by geocontact elbow simulate; nobody was measured"}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -71,8 +71,7 @@ class SimulateResult(Result):
         for name, table in self.tables().items():
             write_table(table, folder, name)
         for each in self.trials:
-            file = folder / f"{each.name}.csv"
-            file.write_text(f"{HEAD}\n{file.read_text(encoding='utf-8')}", encoding="utf-8", newline="\n")
+            self.record.tables[f"{each.name}.csv"] = SYNTHETIC
         if self.options.case:
             locked = [each for each in self.trials if each.displacement is None]
             write_gap_case(gap_case(locked, self.numbers), folder / CASE, UNITS)
@@ -85,7 +84,7 @@ class SimulateResult(Result):
 
     def _write_page(self, file: Path, picture: bytes) -> None:
         tables = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_simulation_report(file, self.trials, self.numbers, picture, tables, self.warnings)
+        write_simulation_report(file, self.trials, self.numbers, picture, tables, self.record)
 
 
 def _table(r: ElbowRecording) -> pd.DataFrame:
