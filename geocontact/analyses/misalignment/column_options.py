@@ -14,7 +14,6 @@ class ColumnOptions(Options):
 
     Parameters
     ----------
-
     Columns and units
     -----------------
     map
