@@ -133,7 +133,8 @@ def _columns(header: str, file: str, line: int) -> tuple[Column, ...]:
 def _cells(header: str, file: str, line: int) -> list[str]:
     """Cells of the header row."""
     if not header.strip():
-        raise InputError(file, f"line {line}", "no column names", "one row of `name [unit]` is needed")
+        remedy = "one row of `name [unit]` is needed above the numbers"
+        raise InputError(file, f"line {line}", "no column names", remedy)
     if "\t" in header and "," not in header:
         remedy = "save it with commas between columns and decimal points"
         raise InputError(file, f"line {line}", "columns are separated by tabs", remedy)
