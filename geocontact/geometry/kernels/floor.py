@@ -5,33 +5,45 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.rise import plane_of, rise_of, size_of
+from geocontact.geometry.kernels.tree import offset
+from geocontact.geometry.kernels.triangle import closest_point
 
 
 @kernel
-def promising(faces, points, closest, signed, bar):
-    """Faces that may reach below `bar` and, for each, a value that no point of it is below.
+def promising(tree, place, above, reach, faces, edges, points, signed, slot, bar):
+    """Faces that may reach below `bar` <= 0 and, for each, a value that no point of it is below.
 
-    signed (n,) is infinite beyond a point's limit, and such a point is outside by more than any edge at it.
+    faces (k, 3) index points (n, 3), signed (n,), slot (n,) as `signed_distances` finds them; edges (k, 3) are the
+    lengths opposite to each corner. signed is infinite beyond a point's limit, and such a point is outside by more than
+    any edge at it. place (m,) is the place of each slot. above (m,) holds what `rise_of` gives for each slot with the
+    radius `reach` beyond its triangle, NaN where it has not been asked for; a reach of 0 leaves it aside.
     """
+    leaves = tree.leaves
     keep = np.empty(len(faces), np.int64)
     floors = np.empty(len(faces))
     count = 0
+    v = np.empty((3, 3))
     for f in range(len(faces)):
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
-        e0 = _apart(points, j, k)
-        e1 = _apart(points, k, i)
-        e2 = _apart(points, i, j)
-        low = max(
-            signed[i] - max(e1, e2),
-            signed[j] - max(e2, e0),
-            signed[k] - max(e0, e1),
-        )  # 1-Lipschitz
+        e0, e1, e2 = edges[f, 0], edges[f, 1], edges[f, 2]
+        low = max(signed[i] - max(e1, e2), signed[j] - max(e2, e0), signed[k] - max(e0, e1))  # 1-Lipschitz
         if low >= bar:
             continue
-        # the distance to one point of the other surface is convex, so its largest value is at a corner
-        depth = min(_farthest(points, closest, i, j, k, i), _farthest(points, closest, i, j, k, j))
-        depth = min(depth, _farthest(points, closest, i, j, k, k))
-        low = max(low, -depth)
+        for c in range(3):
+            for x in range(3):
+                v[c, x] = points[faces[f, c], x]
+        for c in range(3):
+            s = slot[faces[f, c]]
+            if s >= 0 and low < bar:  # the distance to a triangle is convex, so its largest value is at a corner
+                low = max(low, -_farthest(leaves, place[s], v))
+        for c in range(3):
+            s = slot[faces[f, c]]
+            if s >= 0 and low < bar and reach > 0.0:
+                radius = reach + size_of(leaves, place[s])
+                if np.isnan(above[s]):
+                    above[s] = rise_of(tree, place[s], 1, radius, True)
+                low = max(low, _over_plane(leaves, place[s], above[s], radius, v))
         if low < bar:
             keep[count] = f
             floors[count] = low
@@ -40,18 +52,26 @@ def promising(faces, points, closest, signed, bar):
 
 
 @kernel
-def _apart(points, i, j):
-    return np.sqrt(
-        (points[i, 0] - points[j, 0]) ** 2 + (points[i, 1] - points[j, 1]) ** 2 + (points[i, 2] - points[j, 2]) ** 2
-    )
+def _over_plane(leaves, place, rise, radius, v):
+    """Bound of the signed distance over a triangle v (3, 3) by the face at a place; -inf where it does not hold."""
+    if rise == np.inf:
+        return -np.inf
+    cx, cy, cz, nx, ny, nz = plane_of(leaves, place)
+    low = np.inf
+    for c in range(3):
+        dx, dy, dz = v[c, 0] - cx, v[c, 1] - cy, v[c, 2] - cz
+        g = dx * nx + dy * ny + dz * nz - rise
+        if np.sqrt(dx * dx + dy * dy + dz * dz) + abs(g) >= radius:
+            return -np.inf
+        low = min(low, g)
+    return low
 
 
 @kernel
-def _farthest(points, closest, i, j, k, foot):
+def _farthest(leaves, place, v):
+    """Largest distance of the corners v (3, 3) to the triangle at a place."""
     far2 = 0.0
-    for v in (i, j, k):
-        d2 = 0.0
-        for x in range(3):
-            d2 += (points[v, x] - closest[foot, x]) ** 2
-        far2 = max(far2, d2)
+    for c in range(3):
+        qx, qy, qz, _, _ = closest_point(leaves, offset(place), v[c, 0], v[c, 1], v[c, 2])
+        far2 = max(far2, (v[c, 0] - qx) ** 2 + (v[c, 1] - qy) ** 2 + (v[c, 2] - qz) ** 2)
     return np.sqrt(far2)
