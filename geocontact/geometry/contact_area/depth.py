@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from geocontact.geometry.contact_area.rise import LEVELS, Rise
+from geocontact.geometry.contact_area.rise import Rise
 from geocontact.geometry.contact_area.sampled import Distances, Sampled, measure
 from geocontact.geometry.contact_area.subdivision import compact, quartered
 from geocontact.geometry.kernels.floor import promising
@@ -41,14 +41,14 @@ def lowest_signed_distance(
     points = _unlimited(other, distances)
     faces, edges, signed = sampled.faces, sampled.edges, points.signed
     best = min(known, float(signed[faces].min()))
-    reach = rise.reach if rise.signed else 0.0
-    for division in range(DIVISIONS):
-        level = min(division, LEVELS - 1)
+    above = rise.above
+    for _ in range(DIVISIONS):
         keep, floor = promising(
             other.tree,
             rise.place,
-            rise.above[level],
-            reach * 0.5**level,
+            above,
+            rise.reach,
+            rise.signed,
             faces,
             edges,
             points.points,
@@ -63,6 +63,7 @@ def lowest_signed_distance(
         faces, points = quartered(*compact(faces[keep], points), other, np.inf)
         edges, signed = np.repeat(0.5 * edges[keep], 4, axis=0), points.signed
         best = min(best, float(signed.min()))
+        above = rise.above[:0]  # known for triangles as given, worth finding anew for smaller ones
     return best
 
 

@@ -12,7 +12,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.data.evolution import AreaEvolution, SideAreas
 from geocontact.data.motion import Motion
-from geocontact.geometry.contact_area.area import AS_GIVEN, AreaWithin, Refinement, area_within
+from geocontact.geometry.contact_area.area import AS_GIVEN, AreaWithin, Refinement, area_within, areas_cut_once
 from geocontact.geometry.contact_area.depth import lowest_signed_distance
 from geocontact.geometry.contact_area.gap import Edges, Facing, least_distance
 from geocontact.geometry.contact_area.rise import Rise
@@ -119,14 +119,10 @@ class ContactPair:
             _in_frame(self._area(self._moving, self.fixed, on_moving, t, rotation, translation), rotation, translation)
             for t in self.settings.thresholds
         ]
-        clipped = [
-            area_within(self._fixed, self.moving, on_fixed, t, back, origin, AS_GIVEN).area
-            for t in self.settings.sensitivity
-        ]
         return FrameContact(
             fixed=[self._area(self._fixed, self.moving, on_fixed, t, back, origin) for t in self.settings.thresholds],
             moving=moving,
-            sensitivity=np.array(clipped),
+            sensitivity=areas_cut_once(self._fixed, on_fixed, self.settings.sensitivity),
             min_distance=lowest,
             max_penetration_fixed=penetration,
             fixed_distances=on_fixed,

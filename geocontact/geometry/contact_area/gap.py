@@ -101,7 +101,7 @@ def _over_edges(
     keep, floor = near_edges(
         tree,
         rise.place,
-        rise.above[0],
+        rise.above,
         rise.below,
         rise.reach,
         rise.signed,

@@ -9,9 +9,6 @@ from jaxtyping import Float, Int
 
 from geocontact.geometry.surface import Surface
 
-LEVELS = 8
-"""Radii that are told apart, each half of the one before; a triangle divided more often takes the smallest."""
-
 USUAL = 0.9
 """Share of the other surface's faces that are small enough to be bounded without being divided."""
 
@@ -25,13 +22,13 @@ class Rise:
 
     What stands there depends on the surface and the radius alone, so threads may share it in any order.
 
-    place (m,) is the place of each slot in the tree; above (LEVELS, m) and below (m,) are what `rise_of` gives, NaN
-    where it has not been asked for; reach is how far the first radius goes beyond each face [m]. With `signed` what is
-    free above is known to be outside.
+    place (m,) is the place of each slot in the tree; above and below (m,) are what `rise_of` gives on either side, NaN
+    where it has not been asked for; reach is how far the radius goes beyond each face [m]. With `signed` what is free
+    above is known to be outside.
     """
 
     place: Int[np.ndarray, " m"]
-    above: Float[np.ndarray, "l m"]
+    above: Float[np.ndarray, " m"]
     below: Float[np.ndarray, " m"]
     reach: float
     signed: bool
@@ -45,7 +42,7 @@ class Rise:
         usual = float(np.quantile(other.edge_length.max(axis=1), USUAL))
         return cls(
             place=place,
-            above=np.full((LEVELS, count), np.nan),
+            above=np.full(count, np.nan),
             below=np.full(count, np.nan),
             reach=BEYOND * usual,
             signed=surface.closed and surface.normals_trusted,

@@ -9,15 +9,18 @@ from geocontact.geometry.kernels.rise import plane_of, rise_of, size_of
 from geocontact.geometry.kernels.tree import offset
 from geocontact.geometry.kernels.triangle import closest_point
 
+MARGIN = 0.25  # edges of a triangle that the radius about it leaves for the rise
+
 
 @kernel
-def promising(tree, place, above, reach, faces, edges, points, signed, slot, bar):
+def promising(tree, place, above, reach, use, faces, edges, points, signed, slot, bar):
     """Faces that may reach below `bar` <= 0 and, for each, a value that no point of it is below.
 
     faces (k, 3) index points (n, 3), signed (n,), slot (n,) as `signed_distances` finds them; edges (k, 3) are the
     lengths opposite to each corner. signed is infinite beyond a point's limit, and such a point is outside by more than
-    any edge at it. place (m,) is the place of each slot. above (m,) holds what `rise_of` gives for each slot with the
-    radius `reach` beyond its triangle, NaN where it has not been asked for; a reach of 0 leaves it aside.
+    any edge at it. place (m,) is the place of each slot. With `use` the rise over the planes of faces counts. above
+    (m,) holds it for each slot with the radius `reach` beyond its triangle, NaN where it has not been asked for; where
+    above is empty it is found anew for each face, with no larger radius than that face needs.
     """
     leaves = tree.leaves
     keep = np.empty(len(faces), np.int64)
@@ -39,11 +42,16 @@ def promising(tree, place, above, reach, faces, edges, points, signed, slot, bar
                 low = max(low, -_farthest(leaves, place[s], v))
         for c in range(3):
             s = slot[faces[f, c]]
-            if s >= 0 and low < bar and reach > 0.0:
-                radius = reach + size_of(leaves, place[s])
-                if np.isnan(above[s]):
-                    above[s] = rise_of(tree, place[s], 1, radius, True)
-                low = max(low, _over_plane(leaves, place[s], above[s], radius, v))
+            if s < 0 or low >= bar or not use:
+                continue
+            if len(above) == 0:
+                low = max(low, _over_plane_nearby(tree, place[s], MARGIN * max(e0, max(e1, e2)), v))
+                continue
+            cx, cy, cz, nx, ny, nz = plane_of(leaves, place[s])
+            radius = reach + size_of(leaves, place[s])
+            if np.isnan(above[s]):
+                above[s] = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, True)
+            low = max(low, _over_plane(cx, cy, cz, nx, ny, nz, above[s], radius, v))
         if low < bar:
             keep[count] = f
             floors[count] = low
@@ -52,11 +60,26 @@ def promising(tree, place, above, reach, faces, edges, points, signed, slot, bar
 
 
 @kernel
-def _over_plane(leaves, place, rise, radius, v):
-    """Bound of the signed distance over a triangle v (3, 3) by the face at a place; -inf where it does not hold."""
+def _over_plane_nearby(tree, place, margin, v):
+    """Bound of the signed distance over a triangle v (3, 3) by the plane of the face at a place, about v's middle."""
+    cx, cy, cz, nx, ny, nz = plane_of(tree.leaves, place)
+    mx, my, mz = v[:, 0].sum() / 3.0, v[:, 1].sum() / 3.0, v[:, 2].sum() / 3.0
+    h = (mx - cx) * nx + (my - cy) * ny + (mz - cz) * nz
+    cx, cy, cz = mx - h * nx, my - h * ny, mz - h * nz
+    radius = 0.0
+    for c in range(3):
+        dx, dy, dz = v[c, 0] - cx, v[c, 1] - cy, v[c, 2] - cz
+        h = dx * nx + dy * ny + dz * nz
+        radius = max(radius, np.sqrt(dx * dx + dy * dy + dz * dz) + abs(h))
+    radius += margin
+    return _over_plane(cx, cy, cz, nx, ny, nz, rise_of(tree, cx, cy, cz, nx, ny, nz, radius, True), radius, v)
+
+
+@kernel
+def _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v):
+    """Bound of the signed distance over a triangle v (3, 3) by the rise over a plane; -inf where it does not hold."""
     if rise == np.inf:
         return -np.inf
-    cx, cy, cz, nx, ny, nz = plane_of(leaves, place)
     low = np.inf
     for c in range(3):
         dx, dy, dz = v[c, 0] - cx, v[c, 1] - cy, v[c, 2] - cz

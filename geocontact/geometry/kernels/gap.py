@@ -89,11 +89,11 @@ def _clear_of(tree, place, s, above, below, radius, signed, points, i, j):
         return 0.0
     if a > 0.0:
         if np.isnan(above[s]):
-            above[s] = rise_of(tree, place, 1, radius, signed)
+            above[s] = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed)
         rise = above[s]
     else:
         if np.isnan(below[s]):
-            below[s] = rise_of(tree, place, -1, radius, signed)
+            below[s] = rise_of(tree, cx, cy, cz, -nx, -ny, -nz, radius, signed)
         rise = below[s]
     a, b = abs(a) - rise, abs(b) - rise
     if a <= 0.0 or b <= 0.0:

@@ -50,19 +50,17 @@ def size_of(leaves, place):
 
 
 @kernel
-def rise_of(tree, place, way, radius, signed):
-    """Height that the surface reaches within `radius` above (`way` 1) or below (-1) the triangle at a place.
+def rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed):
+    """Height over the plane through c across the unit vector n that the surface reaches within `radius` of c.
 
-    Infinite where the triangle has no normal, where the surface reaches as far as the radius, and, when `signed`, where
-    what is free of it is not outside (above) or inside (below).
+    Infinite where it reaches as far as the radius, where n is zero and, when `signed`, where what is higher is not
+    outside.
     """
-    boxes, child, leaves, slots, fill = tree.boxes, tree.child, tree.leaves, tree.slots, tree.fill
-    cx, cy, cz, nx, ny, nz = plane_of(leaves, place)
     if nx == 0.0 and ny == 0.0 and nz == 0.0:
         return np.inf
-    nx, ny, nz = way * nx, way * ny, way * nz
+    boxes, child, leaves, slots, fill = tree.boxes, tree.child, tree.leaves, tree.slots, tree.fill
     nodes, keys, square, fan = scratch()
-    height = 0.0
+    height = -np.inf
     r2 = radius * radius * (1.0 + ROUND)
     nodes[0] = 0
     waiting = 1
@@ -80,27 +78,36 @@ def rise_of(tree, place, way, radius, signed):
         leaf_distances(leaves, U(leaf) * U(ROWS * LEAF), cx, cy, cz, square, fill[leaf])
         for j in range(fill[leaf]):
             if square[j] <= r2:
-                height = max(height, _highest(leaves, leaf * LEAF + j, cx, cy, cz, nx, ny, nz))
+                height = max(height, _highest(leaves, leaf * LEAF + j, cx, cy, cz, nx, ny, nz, radius))
     height += ROUND * radius
     if height >= radius:
         return np.inf
     if signed:
-        step = 0.5 * (height + radius)
+        step = 0.5 * (max(height, -radius) + radius)
         x, y, z = cx + step * nx, cy + step * ny, cz + step * nz
         _, found = nearest(boxes, child, leaves, fill, x, y, z, np.inf, nodes, keys, square, fan)
         _, _, _, side = side_of(leaves, slots, tree.normal, found, x, y, z)
-        if side != way:
+        if side <= 0:
             return np.inf
     return height
 
 
 @kernel
-def _highest(leaves, place, cx, cy, cz, nx, ny, nz):
-    """Largest height of a corner of the triangle at a place over the plane through c across n."""
+def _highest(leaves, place, cx, cy, cz, nx, ny, nz, radius):
+    """Bound of the height over the plane through c across n that a triangle has within `radius` of c.
+
+    That of its highest corner, and that of the highest point of its plane within the radius: its foot's and as much as
+    the plane can rise from there.
+    """
     o = offset(place)
-    a = (leaves[o] - cx) * nx + (leaves[o + U(LEAF)] - cy) * ny + (leaves[o + U(2 * LEAF)] - cz) * nz
+    dx, dy, dz = leaves[o] - cx, leaves[o + U(LEAF)] - cy, leaves[o + U(2 * LEAF)] - cz
+    mx, my, mz = leaves[o + U(3 * LEAF)], leaves[o + U(4 * LEAF)], leaves[o + U(5 * LEAF)]
     u = leaves[o + U(6 * LEAF)] * nx + leaves[o + U(7 * LEAF)] * ny + leaves[o + U(8 * LEAF)] * nz
     v = leaves[o + U(9 * LEAF)] * nx + leaves[o + U(10 * LEAF)] * ny + leaves[o + U(11 * LEAF)] * nz
+    a = dx * nx + dy * ny + dz * nz
     b = a + leaves[o + U(12 * LEAF)] * u
     c = a + leaves[o + U(13 * LEAF)] * u + leaves[o + U(14 * LEAF)] * v
-    return max(a, max(b, c))
+    foot = dx * mx + dy * my + dz * mz
+    rise = foot * (mx * nx + my * ny + mz * nz)
+    rise += np.sqrt(max(radius * radius - foot * foot, 0.0) * (u * u + v * v))
+    return min(max(a, max(b, c)), rise)
