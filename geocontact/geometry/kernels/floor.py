@@ -27,6 +27,7 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
     floors = np.empty(len(faces))
     count = 0
     v = np.empty((3, 3))
+    far = np.empty((3, 3))
     for f in range(len(faces)):
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         e0, e1, e2 = edges[f, 0], edges[f, 1], edges[f, 2]
@@ -38,8 +39,9 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
                 v[c, x] = points[faces[f, c], x]
         for c in range(3):
             s = slot[faces[f, c]]
-            if s >= 0 and low < bar:  # the distance to a triangle is convex, so its largest value is at a corner
-                low = max(low, -_farthest(leaves, place[s], v))
+            for corner in range(3):
+                far[c, corner] = np.inf if s < 0 else _to_triangle(leaves, place[s], v, corner)
+        low = max(low, -_farthest(far))
         for c in range(3):
             s = slot[faces[f, c]]
             if s < 0 or low >= bar or not use:
@@ -91,10 +93,35 @@ def _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v):
 
 
 @kernel
-def _farthest(leaves, place, v):
-    """Largest distance of the corners v (3, 3) to the triangle at a place."""
-    far2 = 0.0
-    for c in range(3):
-        qx, qy, qz, _, _ = closest_point(leaves, offset(place), v[c, 0], v[c, 1], v[c, 2])
-        far2 = max(far2, (v[c, 0] - qx) ** 2 + (v[c, 1] - qy) ** 2 + (v[c, 2] - qz) ** 2)
-    return np.sqrt(far2)
+def _to_triangle(leaves, place, v, corner):
+    """Distance of one of the corners v (3, 3) to the triangle at a place."""
+    x, y, z = v[corner, 0], v[corner, 1], v[corner, 2]
+    qx, qy, qz, _, _ = closest_point(leaves, offset(place), x, y, z)
+    return np.sqrt((x - qx) ** 2 + (y - qy) ** 2 + (z - qz) ** 2)
+
+
+@kernel
+def _farthest(far):
+    """Bound of the distance over a triangle by those of its corners to three faces: far (face, corner).
+
+    The distance to a face is convex, and so is a weighted mean of two of them, which the smaller one is not above: its
+    largest value is at a corner. The mean tells what is deepest half-way between two walls.
+    """
+    best = np.inf
+    for i in range(3):
+        best = min(best, max(far[i, 0], max(far[i, 1], far[i, 2])))
+    for i in range(3):
+        j = (i + 1) % 3
+        if far[i, 0] == np.inf or far[j, 0] == np.inf:
+            continue
+        for c in range(3):  # the best weight is one at which two corners are alike
+            d = (c + 1) % 3
+            slope = far[i, c] - far[j, c] - far[i, d] + far[j, d]
+            if slope == 0.0:
+                continue
+            w = (far[j, d] - far[j, c]) / slope
+            if 0.0 < w < 1.0:
+                mean = w * far[i, 0] + (1.0 - w) * far[j, 0]
+                mean = max(mean, w * far[i, 1] + (1.0 - w) * far[j, 1])
+                best = min(best, max(mean, w * far[i, 2] + (1.0 - w) * far[j, 2]))
+    return best
