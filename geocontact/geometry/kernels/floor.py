@@ -65,7 +65,7 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
 def _over_plane_nearby(tree, place, margin, v):
     """Bound of the signed distance over a triangle v (3, 3) by the plane of the face at a place, about v's middle."""
     cx, cy, cz, nx, ny, nz = plane_of(tree.leaves, place)
-    mx, my, mz = v[:, 0].sum() / 3.0, v[:, 1].sum() / 3.0, v[:, 2].sum() / 3.0
+    mx, my, mz = _middle(v, 0), _middle(v, 1), _middle(v, 2)
     h = (mx - cx) * nx + (my - cy) * ny + (mz - cz) * nz
     cx, cy, cz = mx - h * nx, my - h * ny, mz - h * nz
     radius = 0.0
@@ -75,6 +75,11 @@ def _over_plane_nearby(tree, place, margin, v):
         radius = max(radius, np.sqrt(dx * dx + dy * dy + dz * dz) + abs(h))
     radius += margin
     return _over_plane(cx, cy, cz, nx, ny, nz, rise_of(tree, cx, cy, cz, nx, ny, nz, radius, True), radius, v)
+
+
+@kernel
+def _middle(v, axis):
+    return (v[0, axis] + v[1, axis] + v[2, axis]) / 3.0
 
 
 @kernel
