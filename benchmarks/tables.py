@@ -68,11 +68,15 @@ def whole_table(whole: Whole, ours: Row, both: Row, rows: Sequence[Row]) -> str:
     cells = [["whole `area` command", f"{min(whole.all):.3g}", f"{all_:.3g}", f"{all_ / one:.3g}", f"{all_ / two:.3g}"]]
     for name, seconds in whole.parts.items():
         middle = float(np.median(seconds))
-        cells.append([f"  of it {name}", f"{min(seconds):.3g}", f"{middle:.3g}", f"{middle / one:.3g}", f"{middle / two:.3g}"])
+        cells.append(
+            [f"  of it {name}", f"{min(seconds):.3g}", f"{middle:.3g}", f"{middle / one:.3g}", f"{middle / two:.3g}"]
+        )
     for row in rows:
         if row.cpu and row.engine.package != "geocontact":
             middle = float(np.median(row.cpu))
-            cells.append([f"{row.engine.name}, map + clip of one body ÷ whole command", "", f"{middle / all_:.3g}", "", ""])
+            cells.append(
+                [f"{row.engine.name}, map + clip of one body ÷ whole command", "", f"{middle / all_:.3g}", "", ""]
+            )
     return markdown(head, cells)
 
 

@@ -64,11 +64,9 @@ class Whole:
 
 def whole_command(pair: Pair, rounds: int) -> Whole:
     """Run it once to load every cache and then `rounds` times."""
-    runs = []
     with tempfile.TemporaryDirectory() as folder:
         arguments = _written(pair, Path(folder))
-        for _ in range(rounds + 1):
-            runs.append(_once(arguments))
+        runs = [_once(arguments) for _ in range(rounds + 1)]
     parts = {name: [run[name] for run in runs[1:]] for name in runs[0] if name != "all"}
     return Whole([run["all"] for run in runs[1:]], parts)
 

@@ -160,9 +160,7 @@ def area_within(
     )
 
 
-def areas_cut_once(
-    sampled: Sampled, distances: Distances, thresholds: tuple[float, ...]
-) -> Float[np.ndarray, " s"]:
+def areas_cut_once(sampled: Sampled, distances: Distances, thresholds: tuple[float, ...]) -> Float[np.ndarray, " s"]:
     """Areas [m^2] of triangles cut as given, each as `area_within` with `AS_GIVEN` finds it, at many thresholds [m].
 
     No certificates are needed for that: signed distances of corners differ by no more than the edge between them, so

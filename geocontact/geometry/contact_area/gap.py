@@ -93,9 +93,7 @@ def _measured(side: Facing, best: float) -> tuple[Float[np.ndarray, " n"], Int[n
     return distance, slot
 
 
-def _over_edges(
-    side: Facing, distance: Float[np.ndarray, " n"], slot: Int[np.ndarray, " n"], best: float
-) -> float:
+def _over_edges(side: Facing, distance: Float[np.ndarray, " n"], slot: Int[np.ndarray, " n"], best: float) -> float:
     """The less of `best` and the least distance of the edges of one side to the other surface [m]."""
     edges, points, rise, tree = side.edges, side.distances.points, side.rise, side.other.tree
     keep, floor = near_edges(

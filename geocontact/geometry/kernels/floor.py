@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.geometry.kernels.rise import plane_of, rise_of, size_of
+from geocontact.geometry.kernels.rise import free_above, plane_of, rise_of, size_of
 from geocontact.geometry.kernels.tree import offset
 from geocontact.geometry.kernels.triangle import closest_point
 
@@ -47,7 +47,8 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
             if s < 0 or low >= bar or not use:
                 continue
             if len(above) == 0:
-                low = max(low, _over_plane_nearby(tree, place[s], MARGIN * max(e0, max(e1, e2)), v))
+                margin = MARGIN * max(e0, max(e1, e2))
+                low = max(low, _over_plane_nearby(tree, place[s], margin, v, signed[i], signed[j], signed[k]))
                 continue
             cx, cy, cz, nx, ny, nz = plane_of(leaves, place[s])
             radius = reach + size_of(leaves, place[s])
@@ -62,19 +63,30 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
 
 
 @kernel
-def _over_plane_nearby(tree, place, margin, v):
-    """Bound of the signed distance over a triangle v (3, 3) by the plane of the face at a place, about v's middle."""
+def _over_plane_nearby(tree, place, margin, v, a, b, c):
+    """Bound of the signed distance over a triangle v (3, 3) by the plane of the face at a place, about v's middle.
+
+    a, b, c are the signed distances of its corners: one that is outside and above says that what is free is outside.
+    """
     cx, cy, cz, nx, ny, nz = plane_of(tree.leaves, place)
     mx, my, mz = _middle(v, 0), _middle(v, 1), _middle(v, 2)
     h = (mx - cx) * nx + (my - cy) * ny + (mz - cz) * nz
     cx, cy, cz = mx - h * nx, my - h * ny, mz - h * nz
     radius = 0.0
-    for c in range(3):
-        dx, dy, dz = v[c, 0] - cx, v[c, 1] - cy, v[c, 2] - cz
+    for corner in range(3):
+        dx, dy, dz = v[corner, 0] - cx, v[corner, 1] - cy, v[corner, 2] - cz
         h = dx * nx + dy * ny + dz * nz
         radius = max(radius, np.sqrt(dx * dx + dy * dy + dz * dz) + abs(h))
     radius += margin
-    return _over_plane(cx, cy, cz, nx, ny, nz, rise_of(tree, cx, cy, cz, nx, ny, nz, radius, True), radius, v)
+    rise = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, False)
+    low = _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v)
+    if low == -np.inf:
+        return low
+    for corner, signed in enumerate((a, b, c)):
+        h = (v[corner, 0] - cx) * nx + (v[corner, 1] - cy) * ny + (v[corner, 2] - cz) * nz
+        if h > rise and signed > 0.0:
+            return low
+    return low if free_above(tree, cx, cy, cz, nx, ny, nz, rise, radius) else -np.inf
 
 
 @kernel

@@ -104,7 +104,7 @@ def _clear_of(tree, place, s, above, below, radius, signed, points, i, j):
 
 @kernel
 def edge_gap(tree, start, end, floors, best):
-    """Least distance of edges start (q, 3) to end (q, 3) to the surface, 0 where one meets it, `best` if none is nearer.
+    """Least distance of edges, start to end (q, 3), to the surface: 0 where one meets it, `best` if none is nearer.
 
     floors (q,), growing: no point of an edge is nearer than that. The ends themselves are taken as measured already.
     """

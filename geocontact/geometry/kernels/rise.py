@@ -5,7 +5,7 @@ than h above its plane. What lies higher and within the radius is then free of t
 g(x) = n (x - c) - h and |x - c| + |g(x)| < radius:
 
 * g(x) > 0: no point of the surface is nearer to x than g(x);
-* where that free part is outside, also g(x) <= 0: x is outside, or going along n it comes out of the body within |g(x)|.
+* where that free part is outside, also g(x) <= 0: x is outside, or going along n leads out of the body within |g(x)|.
 
 So the signed distance is not below g. The first of the two holds below the plane as well.
 """
@@ -58,8 +58,8 @@ def rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed):
     """
     if nx == 0.0 and ny == 0.0 and nz == 0.0:
         return np.inf
-    boxes, child, leaves, slots, fill = tree.boxes, tree.child, tree.leaves, tree.slots, tree.fill
-    nodes, keys, square, fan = scratch()
+    boxes, child, leaves, fill = tree.boxes, tree.child, tree.leaves, tree.fill
+    nodes, _, square, fan = scratch()
     height = -np.inf
     r2 = radius * radius * (1.0 + ROUND)
     nodes[0] = 0
@@ -82,14 +82,20 @@ def rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed):
     height += ROUND * radius
     if height >= radius:
         return np.inf
-    if signed:
-        step = 0.5 * (max(height, -radius) + radius)
-        x, y, z = cx + step * nx, cy + step * ny, cz + step * nz
-        _, found = nearest(boxes, child, leaves, fill, x, y, z, np.inf, nodes, keys, square, fan)
-        _, _, _, side = side_of(leaves, slots, tree.normal, found, x, y, z)
-        if side <= 0:
-            return np.inf
+    if signed and not free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
+        return np.inf
     return height
+
+
+@kernel
+def free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
+    """Whether what is higher than `height` within the radius, being free of the surface, is outside."""
+    nodes, keys, square, fan = scratch()
+    step = 0.5 * (max(height, -radius) + radius)
+    x, y, z = cx + step * nx, cy + step * ny, cz + step * nz
+    _, found = nearest(tree.boxes, tree.child, tree.leaves, tree.fill, x, y, z, np.inf, nodes, keys, square, fan)
+    _, _, _, side = side_of(tree.leaves, tree.slots, tree.normal, found, x, y, z)
+    return side > 0
 
 
 @kernel
