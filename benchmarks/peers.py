@@ -64,8 +64,7 @@ def main() -> None:
         "machine": about,
         "versions": versions({e.package for e in engines}),
         "rows": tables.record(pair, rows),
-        "whole_command_cpu_s": whole.all,
-        "whole_command_parts_cpu_s": whole.parts,
+        "whole_command": {"machine": about, "cpu_s": whole.all, "parts_cpu_s": whole.parts},
         "peak_memory_MB": memory,
     }
     options.out.mkdir(parents=True, exist_ok=True)

@@ -70,6 +70,8 @@ def test_time_and_error_of_cylinder_fits() -> None:
             assert one["largest_error_m"] < 2e-5 and one["seconds"] < 0.7
 
 
+BOTH = "geocontact, map + clip of both bodies"
+FRAMES = "geocontact, all that `area` finds, gap and depth included"
 PEERS = {
     "**geocontact, map + clipped area**": "geocontact, map + clip",
     "geocontact, map + refined area with certified bounds": "geocontact, map + refined area with bounds",
@@ -102,6 +104,24 @@ def test_speed_beside_other_libraries() -> None:
     text = (ROOT / "docs/reference/speed.md").read_text(encoding="utf-8")
     assert f"{above['geocontact, map + clip']:.0f} MB above the loaded pair" in " ".join(text.split())
     assert "4.5 % wrong" in text and round(1e3 * told["warp (CPU), bounded to 4 mm"]["relative_area_error"]) == 45
+
+
+def test_speed_of_the_whole_command() -> None:
+    told = results("peers-knee")["whole_command"]
+    both, frames = (
+        float(np.median(next(one["cpu_s"] for one in told["rows"] if one["engine"] == name))) for name in (BOTH, FRAMES)
+    )
+    parts = {name: float(np.median(seconds)) for name, seconds in told["parts_cpu_s"].items()}
+    parts |= {"**whole command**": float(np.median(told["cpu_s"])), "its frames": frames}
+    for label, *cells in rows("reference/speed.md"):
+        for name, seconds in parts.items():
+            if name != "frames" and label.startswith(name) and len(cells) == 3:
+                assert near(cells[0], seconds) and near(cells[1], seconds / both), label
+    beside = told["beside_peers"]
+    libigl = next(one["cpu_s"] for one in beside["rows"] if one["engine"] == "libigl AABB")
+    text = " ".join((ROOT / "docs/reference/speed.md").read_text(encoding="utf-8").split())
+    ours, theirs = float(np.median(beside["cpu_s"])), float(np.median(libigl))
+    assert f"took {ours:.2f} s and libigl {theirs:.2f} s" in text and f"{theirs / ours:.1f} times as long" in text
 
 
 def test_accuracy_against_closed_forms() -> None:

@@ -145,7 +145,7 @@ def test_areas_of_many_thresholds_are_those_of_each(offset):
 def test_everything_costs_little_more_than_maps_and_clipped_areas():
     """CPU time of frames as the command evaluates them over that of both bodies' maps and clipped areas.
 
-    Measured 1.9 with bodies of 5e4 faces; a search of depth without bounds makes it 10.
+    Measured 2.4 with bodies of 5e4 faces; a search of depth without bounds makes it 16.
     """
     insert, femur = (surface(body) for body in total_knee(2.0))
     sensitivity = tuple(4e-3 * np.linspace(0.0, 1.5, 13))
