@@ -12,7 +12,7 @@ from geocontact.geometry.contact_area.subdivision import compact, quartered
 from geocontact.geometry.kernels.floor import promising
 from geocontact.geometry.surface import Surface
 
-TOLERANCE = 1e-8  # m; depths closer together than this are not told apart
+TOLERANCE = 1e-9  # m; depths closer together than this are not told apart
 DIVISIONS = 30  # a guard; edges halve each time
 CANDIDATES = 20_000  # at most this many triangles are divided at a time, the most promising first
 
@@ -20,7 +20,7 @@ CANDIDATES = 20_000  # at most this many triangles are divided at a time, the mo
 def lowest_signed_distance(
     sampled: Sampled, other: Surface, distances: Distances, rise: Rise, known: float = 0.0
 ) -> float:
-    """Smallest signed distance [m] of the counted faces to `other`, within 1e-8 m, or `known` <= 0 if that is lower.
+    """Smallest signed distance [m] of the counted faces to `other`, within 1e-9 m, or `known` <= 0 if that is lower.
 
     Branch and bound over triangles. Bounds from the distances of the corners: no point of a triangle is deeper than its
     corner's depth plus the longest edge there, nor deeper than the largest distance of its corners to one face of
