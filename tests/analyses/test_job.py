@@ -86,7 +86,7 @@ def file(tmp_path: Path) -> Path:
 
 def test_a_call_returns_a_result_and_writes_nothing(file: Path) -> None:
     result = double(file, more=gc.mm(1))
-    assert result.length == pytest.approx(11e-3) and repr(result) == "twice 0.005\u00a0m"
+    assert result.length == pytest.approx(11e-3) and repr(result) == "twice 0.005 m"
     assert list(result.table()["length [mm]"]) == pytest.approx([11.0])
     assert [p.name for p in file.parent.iterdir()] == [file.name]
     with pytest.raises(KeyError, match="there are double, none"):
@@ -116,7 +116,7 @@ def test_a_result_is_written_as_the_command_writes_it(file: Path, tmp_path: Path
 
 def test_the_page_alone(file: Path, tmp_path: Path) -> None:
     page = double(file).page(tmp_path / "page.html").read_text(encoding="utf-8")
-    assert "twice 0.005\u00a0m" in page and "length [mm]" in page and file.name in page
+    assert "Twice 0.005\u00a0m." in page and "length [mm]" in page and file.name in page
 
 
 def test_the_command_says_what_was_found_and_spells_options(
