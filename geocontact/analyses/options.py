@@ -15,8 +15,9 @@ from functools import cache
 from os import PathLike, fspath
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin, get_type_hints
 
+from geocontact.analyses.documented import Documented, documented
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import ByName, ByPlace, Plausible, Range, numbers_in
 
@@ -129,6 +130,8 @@ class Declared:
         What its values can be.
     words
         What the docstring of the options says of it.
+    section
+        Heading of the docstring that it stands under, "" where there is none.
     settable
         Whether it may be given; else it is what the class says.
     """
@@ -143,6 +146,7 @@ class Declared:
     rules: tuple[Requires | Excludes | Needs, ...]
     range: Range | None
     words: str
+    section: str = ""
     settable: bool = True
 
     @property
@@ -185,7 +189,12 @@ class Declared:
 
 @dataclass(frozen=True)
 class Options:
-    """Base of the options of every analysis: values are coerced, and options without effect are refused."""
+    """Base of the options of every analysis: values are coerced, and options without effect are refused.
+
+    `over_time` says whether results have tables over time, which can be written as netCDF.
+    """
+
+    over_time: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         for one in declared(type(self)):
@@ -261,7 +270,7 @@ def _as(kind: Any, value: Any) -> Any:
 
 
 def declared(options: type[Options]) -> tuple[Declared, ...]:
-    """The options of a class in the order of their declaration."""
+    """The options of a class in the order of their declaration, those of its base first, positional ones before all."""
     anything: Any = options
     return _all(anything)
 
@@ -269,13 +278,15 @@ def declared(options: type[Options]) -> tuple[Declared, ...]:
 @cache
 def _all(options: Any) -> tuple[Declared, ...]:
     hints = get_type_hints(options, include_extras=True)
-    words: dict[str, str] = {}
+    told: dict[str, Documented] = {}
     for base in reversed(options.__mro__):
-        words |= documented(base.__doc__ or "")
-    return tuple(_declared(each, hints[each.name], words.get(each.name, "")) for each in fields(options))
+        for name, one in documented(base.__doc__ or "").items():
+            told[name] = Documented(one.section or told.get(name, one).section, one.lines)
+    ordered = sorted(fields(options), key=lambda each: bool(each.kw_only))
+    return tuple(_declared(each, hints[each.name], told.get(each.name, Documented(""))) for each in ordered)
 
 
-def _declared(each: Field[Any], hint: Any, words: str) -> Declared:
+def _declared(each: Field[Any], hint: Any, told: Documented) -> Declared:
     kind, marks, optional = _taken_apart(hint)
     default = each.default if each.default_factory is MISSING else each.default_factory()
     return Declared(
@@ -288,7 +299,8 @@ def _declared(each: Field[Any], hint: Any, words: str) -> Declared:
         next((mark for mark in marks if isinstance(mark, Spelled)), Spelled()),
         tuple(mark for mark in marks if isinstance(mark, (Requires, Excludes, Needs))),
         next((mark for mark in marks if isinstance(mark, (Plausible, ByPlace, ByName))), None),
-        words,
+        told.words,
+        told.section,
         each.init,
     )
 
@@ -306,20 +318,3 @@ def _taken_apart(hint: Any) -> tuple[Any, list[Any], bool]:
             optional = True
         else:
             return hint, marks, optional
-
-
-def documented(docstring: str) -> dict[str, str]:
-    """What the section Parameters of a numpy docstring says of each name; names may share a text."""
-    found: dict[str, list[str]] = {}
-    names: tuple[str, ...] = ()
-    _, _, section = docstring.partition("Parameters\n")
-    lines = section.splitlines()[1:]
-    margin = min((len(line) - len(line.lstrip()) for line in lines if line.strip()), default=0)
-    for line in lines:
-        if line.strip() and len(line) - len(line.lstrip()) == margin:
-            names = tuple(part.strip() for part in line.split(","))
-            found |= {name: [] for name in names}
-        elif line.strip():
-            for name in names:
-                found[name].append(line.strip())
-    return {name: " ".join(text) for name, text in found.items()}

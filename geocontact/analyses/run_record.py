@@ -15,6 +15,7 @@ from pathlib import Path
 
 from geocontact.analyses.listener import Listener
 from geocontact.analyses.stale_results import RUN, digest, written
+from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
 from geocontact.data.errors import InputWarning
 from geocontact.data.version import VERSION
 
@@ -44,12 +45,16 @@ class Record:
         Reservations, each one line.
     results
         Summary by name.
+    tables
+        What the tables refer to, such as point and frame, by the name of their file.
     sentences
         What was found.
     listener
         Hears of the work while it goes on.
     spell
         Turns options in backticks into what the user wrote them as.
+    forms
+        Further forms of the tables.
     """
 
     command: str
@@ -58,10 +63,12 @@ class Record:
     inputs: list[dict[str, object]] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     results: dict[str, object] = field(default_factory=dict)
+    tables: dict[str, Mapping[str, object]] = field(default_factory=dict)
     sentences: list[str] = field(default_factory=list)
     started: float = field(default_factory=time.perf_counter)
     listener: Listener = field(default_factory=Listener)
     spell: Callable[[str], str] = as_python
+    forms: TableForms = AS_ALWAYS
 
     def add_input(self, role: str, path: str | PathLike[str], **facts: object) -> None:
         """Note a file with its SHA-256 and what is known of it."""
@@ -106,6 +113,7 @@ class Record:
             "options_si": {key: _plain(value) for key, value in self.in_si.items()},
             "inputs": self.inputs,
             "results": self.results,
+            "tables": {name: _plain(told) for name, told in self.tables.items()},
             "warnings": self.warnings,
             "versions": self.versions(),
             "seconds": round(time.perf_counter() - self.started, 3),

@@ -11,7 +11,6 @@ from typing import Annotated, Literal
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.gap.benchmark.job import benchmark
 from geocontact.analyses.job import Job
 from geocontact.analyses.options import (
     Declared,
@@ -28,30 +27,8 @@ from geocontact.analyses.options import (
 )
 from geocontact.cli.command import option, read, speller
 from geocontact.data.errors import InputError
+from tests.analyses.jobs import JOBS
 
-JOBS: tuple[Job, ...] = (
-    gc.area,
-    gc.pressure,
-    gc.centre_of_pressure,
-    gc.fit_shape,
-    gc.load_cells,
-    gc.modulus,
-    gc.mat,
-    gc.scale,
-    gc.inverse_kinematics,
-    gc.inverse_dynamics,
-    gc.virtual_markers,
-    gc.misalignment.simulate,
-    gc.misalignment.identify,
-    gc.misalignment.compare,
-    gc.misalignment.design,
-    gc.misalignment.population,
-    gc.diagnose,
-    gc.discriminability,
-    gc.inject,
-    gc.gather,
-    benchmark,
-)
 EVERY = [pytest.param(job, one, id=f"{job.command}-{one.name}") for job in JOBS for one in declared(job.options)]
 
 
@@ -156,6 +133,12 @@ def test_units_are_in_the_names_of_what_is_recorded() -> None:
 def test_every_option_is_documented(job: Job, one: Declared) -> None:
     assert one.words, f"{job.command}: {one.name} has no words"
     assert "--" not in one.words, "Python's spelling, which the command line turns into its own"
+
+
+def test_headings_of_the_docstring_are_sections() -> None:
+    sections = {one.name: one.section for one in declared(gc.area.options)}
+    assert sections["unit"] == "" and sections["osim"] == "Motion" and sections["poisson"].startswith("Pressure")
+    assert {one.section for one in declared(gc.pressure.options) if one.name == "poisson"} == {sections["poisson"]}
 
 
 @pytest.mark.parametrize(("job", "one"), EVERY)

@@ -55,8 +55,10 @@ def test_simulated_trials_say_what_they_are(made: Path) -> None:
         *(f"{kind}_{k}.csv" for kind in ("locked", "free") for k in (1, 2, 3)),
         "surfaces.csv",
     }
+    record = json.loads((made / "run.json").read_text(encoding="utf-8"))
     for file in (*locked(made), *free(made)):
-        assert file.read_text(encoding="utf-8").startswith("# synthetic: ")
+        assert file.read_text(encoding="utf-8").startswith("time [s],beta [deg]")
+        assert record["tables"][file.name]["synthetic"] is True
     truth = json.loads((made / "truth.json").read_text(encoding="utf-8"))
     assert truth["synthetic"] is True and truth["stroke_mm"] == [-10.0, 60.0]
 
@@ -108,7 +110,7 @@ def test_python_compares_as_the_command_does(tmp_path: Path, made: Path, fitted:
 def test_the_help_says_what_each_command_does(tmp_path: Path) -> None:
     shown = done(call("elbow", "--help", folder=tmp_path)).out
     for command in ("simulate", "fit", "compare", "design", "population"):
-        assert f"{command}: " in shown, shown
+        assert re.search(rf"{command} +[A-Z]", shown), shown
 
 
 def test_the_help_of_a_simulation_tells_what_it_takes_unless_given(tmp_path: Path) -> None:
@@ -264,9 +266,34 @@ def test_comparisons_that_cannot_be_are_refused(tmp_path: Path, made: Path) -> N
 
 def test_recordings_of_other_columns_are_mapped(tmp_path: Path, made: Path) -> None:
     """A sign turned in the map turns the force back that was turned in the file."""
-    table = pd.read_csv(locked(made)[0], comment="#")
+    table = pd.read_csv(locked(made)[0])
     table["Fx [N]"] = -table.pop("force [N]")
     table.rename(columns={"beta [deg]": "flexion [deg]"}).to_csv(tmp_path / "locked_1.csv", index=False)
     columns = ("--map", "beta=flexion,force=-Fx", "--simulated", locked(made)[0])
     result = done(elbow("compare", tmp_path / "out", tmp_path / "locked_1.csv", *columns))
     assert result.table("comparison.csv")["mae"].item() == 0.0
+
+
+def test_recordings_become_a_gap_case(tmp_path: Path) -> None:
+    """Locked trials only, angle and force as in the tables beside it; l and z are known, k, x, y are free."""
+    result = done(elbow("simulate", tmp_path, *QUICK[:-1], 4, "--stroke-mm=-10:60", "--case"))
+    case = gc.read_gap_case(result.folder / "case")
+    assert [each.name for each in (*case.calibration, *case.evaluation)] == [f"locked_{k}" for k in range(1, 5)]
+    assert len(case.calibration) == 3 and [each.name for each in case.parameters] == ["k", "x", "y"]
+    assert case.constants == pytest.approx({"l": 0.169, "z": 0.127})
+    table = pd.read_csv(result.folder / "locked_1.csv", comment="#")
+    np.testing.assert_allclose(case.calibration[0].column("beta"), np.radians(table["beta [deg]"]), rtol=1e-8)
+    np.testing.assert_allclose(case.calibration[0].column("force"), table["force [N]"], rtol=1e-8)
+    system = gc.system_of(case)
+    numbers = {each.name: each.start for each in case.parameters} | dict(case.constants)
+    off = system.simulate(case.evaluation[0], numbers)[:, 0] - case.evaluation[0].column("force")
+    assert np.sqrt(np.mean(off**2)) < 2.0, "what is left is what the person adds"
+
+
+@pytest.mark.parametrize(
+    ("options", "line"),
+    [(("--trials", "3", "--case"), "--trials: 3 trials are too few for --case; give 4 or more")],
+)
+def test_a_case_needs_trials_to_hold_out(tmp_path: Path, options: tuple[str, ...], line: str) -> None:
+    result = elbow("simulate", tmp_path, *options)
+    assert result.code == 2 and result.complaints[0].startswith(line)

@@ -49,8 +49,8 @@ def test_writes_what_python_writes(tmp_path: Path) -> None:
     tables = {f"{name}.{ending}" for name in ("forces", "cycles", "ensemble") for ending in ("csv", "parquet")}
     assert set(inventory(result.folder)) == FILES | CYCLES | tables
     with pytest.warns(InputWarning, match="in tension"):
-        python = load_cells(walk, unit="N", cycles="stride", part=0.6, map="PM=PM,PL=-PL", parquet=True)
-    python.write(tmp_path / "python")
+        python = load_cells(walk, unit="N", cycles="stride", part=0.6, map="PM=PM,PL=-PL")
+    python.write(tmp_path / "python", parquet=True)
     for name in tables:
         assert (tmp_path / "python" / name).read_bytes() == result.bytes(name), name
     record = result.record()

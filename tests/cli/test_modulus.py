@@ -58,7 +58,7 @@ def test_writes_what_python_writes(tmp_path: Path) -> None:
     other, force = areas(tmp_path, "other.csv", scale=1.3), forces(tmp_path)
     typed = ("--area", two, "--poisson", "0.25,0.46", "--threshold", "4mm", "--predict-area", other, "--parquet")
     result = done(modulus(tmp_path, *typed, area=one, force=force, picture=True))
-    tables = {f"{name}.{ending}" for name in TABLES for ending in ("csv", "parquet")}
+    tables = {f"{name}.{ending}" for name in TABLES for ending in ("csv", "parquet")} | {"modulus.parquet"}
     assert set(inventory(result.folder)) == FILES | tables
     python = gc.modulus(
         (one, two),
@@ -68,9 +68,8 @@ def test_writes_what_python_writes(tmp_path: Path) -> None:
         poisson=(0.25, 0.46),
         predict_area=other,
         bootstrap=100,
-        parquet=True,
     )
-    python.write(tmp_path / "python")
+    python.write(tmp_path / "python", parquet=True)
     for name in {*tables, "modulus.json"}:
         assert (tmp_path / "python" / name).read_bytes() == result.bytes(name), name
     assert result.out.splitlines()[:-1] == list(python.sentences)

@@ -6,6 +6,7 @@ import ast
 import json
 import os
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -21,6 +22,20 @@ ROOT = Path(__file__).resolve().parents[2]
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 
 
+SHOWS = re.compile(r"(\.figures?\(.*\)(\[.*\])?|\.plot\(.*\);?|\.legend\(\);|aspect=.*\);)\s*\Z")
+"""End of a cell below which a picture is meant."""
+
+NO_PICTURE = re.compile(r"<\w+ size [\d.]+x[\d.]+ with \d+ Axes>")
+
+
+def pictures(cell) -> int:
+    """How many pictures stand below a cell; none stands there as text."""
+    shown = [output.get("data", {}) for output in cell.outputs]
+    for data in shown:
+        assert "image/png" in data or not NO_PICTURE.search(data.get("text/plain", "")), cell.source
+    return sum("image/png" in data or "<img src" in data.get("text/html", "") for data in shown)
+
+
 @pytest.fixture
 def run(tmp_path, monkeypatch):
     """Execute a notebook with a folder of its own as the place where it writes; returns what its cells said."""
@@ -31,7 +46,10 @@ def run(tmp_path, monkeypatch):
         os.symlink(ROOT / "meshes", tmp_path / "meshes")
         book = nbformat.read(notebook, as_version=4)
         NotebookClient(book, timeout=600, resources={"metadata": {"path": str(tmp_path)}}).execute()
-        outputs = [output for cell in book.cells if cell.cell_type == "code" for output in cell.outputs]
+        cells = [cell for cell in book.cells if cell.cell_type == "code"]
+        for cell in cells:
+            assert pictures(cell) >= (SHOWS.search(cell.source) is not None), f"no picture below {cell.source}"
+        outputs = [output for cell in cells for output in cell.outputs]
         return "".join(output.get("text", "") for output in outputs)
 
     return executed
@@ -52,6 +70,23 @@ def test_kept_without_outputs_and_with_any_python(notebook):
         assert cell["metadata"] == {}
     assert book["metadata"]["kernelspec"]["name"] == "python3"
     assert "version" not in book["metadata"].get("language_info", {})
+
+
+WITHOUT_PYPLOT = """
+import sys
+import geocontact as gc
+from IPython.core.formatters import DisplayFormatter
+
+found = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").figure()
+assert "matplotlib.pyplot" not in sys.modules
+data, _ = DisplayFormatter().format(found)
+assert data["image/png"][:4] == b"\\x89PNG", data
+"""
+
+
+def test_a_figure_is_a_picture_where_pyplot_was_never_imported():
+    told = subprocess.run([sys.executable, "-c", WITHOUT_PYPLOT], cwd=ROOT, capture_output=True, text=True)
+    assert told.returncode == 0, told.stderr
 
 
 @pytest.mark.slow

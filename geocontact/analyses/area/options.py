@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     AngleUnit,
@@ -59,6 +59,9 @@ class AreaOptions(Options):
         Mesh in whose frame results are given.
     unit
         Unit of both meshes; never guessed.
+
+    Motion
+    ------
     motion
         Poses (.csv, or rows of 16 or 12 numbers in a .csv or .txt) or coordinates (.mot .sto); several, or a pattern in
         quotes: one sub-folder each.
@@ -67,8 +70,6 @@ class AreaOptions(Options):
         as motions, in their order; interpolated to their times.
     rate
         Frames per second [Hz] of poses without times, which rows of numbers are; 1 numbers the frames.
-    threshold
-        Largest distance that counts, or several: 0.1,0.5,1,4
     osim
         OpenSim model whose joint turns coordinates into poses: FIXED is the parent body, MOVING the child.
     joint
@@ -90,6 +91,9 @@ class AreaOptions(Options):
         Instead of `motion`: turn MOVING about `axis`; name, start, stop and step, typed flexion=0:90:1 in degrees.
     axis
         x,y,z,dx,dy,dz (point in the mesh unit), a file of these, or a fit.json; else the cylinder fitted to MOVING.
+
+    Placement
+    ---------
     place_moving
         Where the mesh sits in its body: a file with a 4x4 matrix, or model.osim:body.
     place_fixed
@@ -97,8 +101,9 @@ class AreaOptions(Options):
     adduction
         Turn MOVING in every frame about this axis of FIXED, through MOVING's origin: axis and angle, typed x=2 or x=-2
         (degrees).
-    assume_closed
-        Treat a surface as closed although its edges do not show it.
+
+    Sides and regions
+    -----------------
     split
         x, y or z (or z=1.5): medial and lateral parts of FIXED apart; needs `side` or `medial`.
     medial
@@ -107,20 +112,36 @@ class AreaOptions(Options):
         Faces of FIXED that count: "ny>0.25" in x y z nx ny nz (mesh unit), or a file of face numbers.
     region_moving
         The same for MOVING.
+
+    How area is counted
+    -------------------
+    threshold
+        Largest distance that counts, or several: 0.1,0.5,1,4
+    assume_closed
+        Treat a surface as closed although its edges do not show it.
     rule
         How area is counted; the crude rules are for comparing with papers.
     bounds
         Refine until (upper - lower) / upper is below: 0.02 or 2%; 10% unless given.
+
+    Beside measured areas
+    ---------------------
     compare
         Table of your own measured areas; the result is not accepted (exit 1) beyond the tolerance.
     tolerance
         Largest relative difference from the areas compared; 2% unless given.
+
+    Results
+    -------
     save_map
         Also write the distance of every vertex in every frame (distances.npz).
     paraview
         Also write both bodies with their distances over time for ParaView (folder paraview).
     stills
-        Also write 3-D pictures of the frame with the largest area (still_superior.png and others).
+        Also write 3-D pictures of the frame with the largest area (still_plus_y.png and others).
+
+    Pressure of an elastic layer
+    ----------------------------
     pressure
         Also press MOVING, rigid unless `modulus_moving`, into FIXED as an elastic layer: pressures and forces.
     modulus
@@ -141,11 +162,14 @@ class AreaOptions(Options):
         Of its layer: a length such as 3mm, or rays.
     piece
         Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
-    parquet
-        Also write the tables as .parquet.
+
+    Work
+    ----
     workers
         Threads; all cores by default. Results do not depend on it.
     """
+
+    over_time: ClassVar[bool] = True
 
     moving: Path
     fixed: Path
@@ -211,7 +235,6 @@ class AreaOptions(Options):
     poisson_moving: Annotated[float | None, OF_SECOND, LAYER_RATIO] = None
     thickness_moving: Annotated[Thickness | None, OF_SECOND] = None
     piece: Annotated[Length | None, OF_LAYER, PIECE] = None
-    parquet: bool = False
     workers: int | None = None
 
     def refuse_impossible(self) -> None:

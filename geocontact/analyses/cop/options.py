@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     AngleUnit,
@@ -47,15 +47,24 @@ class CopOptions(Options):
         Table of the spheres in the foot's frame: px [m], py [m], pz [m], radius [m], zone.
     motion
         Poses of the foot in the ground's frame (.csv), or coordinates (.mot .sto) with `osim` and `joint`, or `map`.
+
+    The ground
+    ----------
     ground
         plane:nx,ny,nz,offset (all x with n.x = offset [m], n made a unit vector), stairs:h0,x1:h1,x2:h2 (height h1 [m]
         from x1 on, y up), or a mesh; plane:0,1,0,0 unless given.
     unit
         Unit of the ground's mesh; never guessed.
+
+    The centre
+    ----------
     point
         What the normal forces weigh: the points on the ground, or the centres of the spheres.
     gate
         Normal force [N] below which there is no centre of pressure.
+
+    The force law
+    -------------
     law
         Numbers of the force law in a .toml: k, b, n, delta_full, mu_s, mu_k, v_th, and k, b in [zone.NAME].
     stiffness
@@ -70,12 +79,18 @@ class CopOptions(Options):
         Static and kinetic coefficient: 0.9,0.7 unless given.
     threshold_speed
         Speed [m/s] at which static friction is reached; 0.25 unless given.
+
+    Beside a force plate
+    --------------------
     compare
         Ground reactions of force plates (.mot .sto .c3d) to put beside ours.
     plate
         Name or number of the plate; needed when there are several.
     plate_pose
         File with the 4x4 pose of the plates' frame in ours (translation in m), as for a laboratory with z up.
+
+    Motion
+    ------
     osim
         OpenSim model whose joint turns coordinates into poses: its parent body is the ground, its child the foot.
     joint
@@ -88,9 +103,9 @@ class CopOptions(Options):
         Order of intrinsic rotations: XYZ is R = Rx Ry Rz.
     angles
         Unit of angles where the file does not say.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     spheres: Path
     _: KW_ONLY
@@ -117,4 +132,3 @@ class CopOptions(Options):
     map: Annotated[Expression | None, Excludes("osim", "with `osim` names the columns twice", "give one")] = None
     order: Annotated[str | None, Excludes("osim")] = None
     angles: AngleUnit | None = None
-    parquet: bool = False

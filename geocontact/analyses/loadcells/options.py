@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import Expression, ForceUnit, Fraction, Options, Requires
 from geocontact.data.errors import InputError
@@ -40,9 +40,9 @@ class LoadcellOptions(Options):
         Take this first part of each cycle for the whole: 60% is the stance of a gait cycle.
     level
         Total force [N] at which load sets in, for stride and stance; a quarter of the largest unless given.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     recordings: tuple[Path, ...]
     _: KW_ONLY
@@ -52,7 +52,6 @@ class LoadcellOptions(Options):
     cycles: Expression | None = None
     part: Annotated[Fraction | None, Cycles, SHARE] = None
     level: Annotated[float | None, Cycles, LEVEL] = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """A level that no cycle needs, sub-folders of one name."""

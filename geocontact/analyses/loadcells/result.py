@@ -63,13 +63,13 @@ class LoadcellResult(Result):
     def write_files(self, folder: Path) -> None:
         """Cycles of all recordings; forces, figure and page of each."""
         for name, table in self._over_cycles().items():
-            write_table(table, folder, self.options.parquet, name)
+            write_table(table, folder, name)
         figure = self._ensemble()
         ensemble = None if figure is None else save_both(figure, folder, "ensemble")
         for each in self.recordings:
             own = folder / each.folder
             own.mkdir(exist_ok=True)
-            write_table(each.table(), own, self.options.parquet, "forces")
+            write_table(each.table(), own, "forces")
             save_both(self._over_time(each), own, "loadcells")
             self._write_report(own / "report.html", each, ensemble)
 
@@ -105,4 +105,4 @@ class LoadcellResult(Result):
         own = each.folder or "."
         inputs = [entry for entry in self.record.inputs if entry.get("folder", own) == own]
         provenance = [inputs_table(inputs), options_table(self.record)]
-        write_loadcell_report(file, each, self.regression, ensemble, shown, provenance, list(self.warnings))
+        write_loadcell_report(file, each, self.regression, ensemble, shown, provenance, self.warnings, self.sentences)

@@ -10,6 +10,7 @@ from jaxtyping import Float
 from geocontact.geometry.drape.cells import Drape
 from geocontact.loads.mat.load import MatLoad
 from geocontact.loads.mat.map import MatMap
+from geocontact.view.curves.sheet import sheet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -22,9 +23,8 @@ def mat_figure(
 ) -> Figure:
     """Force with its components, area and largest pressure over time; beside them the largest pressure of each cell."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(11.0, 6.0), layout="constrained")
+    figure = sheet(11.0, 6.0)
     FigureCanvasAgg(figure)
     panels = figure.subplot_mosaic([["force", "cells"], ["peak", "cells"], ["area", "cells"]], width_ratios=[3, 2])
     for k, axis in enumerate("xyz"):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     AngleUnit,
@@ -41,6 +41,9 @@ class MatOptions(Options):
         Scan of the body that the mat lies on.
     unit
         Length unit of the scan; never guessed.
+
+    Where the mat lies
+    ------------------
     landmarks
         Places of the mat and the points of the scan that they lie on: id, row, column, x [mm], y [mm], z [mm], in the
         scan's frame; row and column count cells from the corner of the first one.
@@ -50,6 +53,9 @@ class MatOptions(Options):
         Place x,y,z of `surface` near the mat's corner at its first cell, in the scan's unit; needed by `scan_with_mat`.
     mat_edge
         Width of the mat's border without cells, for `scan_with_mat`: 5mm; none unless given.
+
+    The mat
+    -------
     layout
         layout.toml: rows, columns, pitch_mm or cell_area_mm2, order of the cells, origin, mirrored, saturation.
     kind
@@ -65,6 +71,9 @@ class MatOptions(Options):
         Faces of an open scan look into the body: turn them over. A closed scan needs none.
     belt
         The mat goes once around the body and its last rows (or columns) meet its first: rows or columns.
+
+    Motion of the segment
+    ---------------------
     motion
         Pose of the segment over time (.csv .mot .sto); forces, moments and centres are in the frame it leads to then.
     osim
@@ -79,10 +88,16 @@ class MatOptions(Options):
         Order of the motion's intrinsic rotations: XYZ is R = Rx Ry Rz.
     angles
         Unit of the motion's angles where the file does not say.
+
+    Frame of the results
+    --------------------
     point
         Point that moments refer to, x,y,z in the scan's unit and the frame of the results; 0,0,0 unless given.
     frame
         Name of the scan's frame in the results.
+
+    The readings
+    ------------
     cutoff
         Zero-lag Butterworth low-pass [Hz]; 0 for none.
     unloaded
@@ -94,6 +109,9 @@ class MatOptions(Options):
         Pressure from which a cell counts as touched: 1kPa unless given.
     gate
         Force [N] below which there is no centre of pressure.
+
+    Beside a body model
+    -------------------
     body_landmarks
         Points seen on the scan and on a body model: id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm].
         All results are in the body's frame then.
@@ -108,6 +126,9 @@ class MatOptions(Options):
         given.
     segment
         Part of the surface with a name, as often as there are parts: "upper=y > 20" (x y z nx ny nz, the scan's unit).
+
+    Uncertainty
+    -----------
     accuracy
         How far each cell is off by itself: 10% unless given.
     gain
@@ -115,15 +136,18 @@ class MatOptions(Options):
     registration
         How far the mat may lie elsewhere, along and about each axis: 1mm,2deg; unless given, what the residuals tell of
         `landmarks`, and of `body_landmarks` or `icp`.
+
+    Beside a model
+    --------------
     compare
         Forces of a model (or of a plate) over time, columns as in wrench.csv: agreement in agreement.csv. Lines
         `# point_mm = ...` and `# frame = ...` above it are heeded.
     phases
         Phases of the recording for `compare`: name, start [s], end [s]; a name may come back in every cycle. Tenths of
         the recording without.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     frames: Path
     _: KW_ONLY
@@ -175,7 +199,6 @@ class MatOptions(Options):
     registration: Displacement | None = None
     compare: Path | None = None
     phases: Annotated[Path | None, Requires("compare", "leave it out")] = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """A mat that lies nowhere, a belt pushed down flat."""

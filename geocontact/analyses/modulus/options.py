@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.checks import bootstrap_rule, refuse
 from geocontact.analyses.options import (
@@ -45,12 +45,18 @@ class ModulusOptions(Options):
         Radius R of the contact in the law.
     threshold
         Threshold of the area: 4 mm where it was evaluated, else the only one.
+
+    Inputs as they are
+    ------------------
     unit
         Unit of the forces, unless each column says it: total [N].
     map
         Columns by what they are, where they have other names: medial=F1,total=-Fz,flexion=knee_flexion.
     lag
         Seconds that the force's clock is behind the area's: force(t + lag) belongs to area(t). 0 unless given.
+
+    What is unknown
+    ---------------
     free
         Unknown besides E*, with bounds or without: threshold=1:6,lag=-0.05:0.05,adduction=-2:2,slope=-0.3:0.3
         (mm, s, degrees, per rad of flexion; in Python a dict of pairs in SI, None without bounds).
@@ -60,12 +66,18 @@ class ModulusOptions(Options):
         Motion (.csv .mot .sto) whose column flexion says where on the profile the contact is, or what R may follow.
     angles
         Unit of the flexion where its file does not say.
+
+    The law
+    -------
     reading
         What the area is taken for: one circle, two, a strip, a rigid cap, a rigid cap within the threshold.
     length
         Length of the strip, for the reading of that name.
     poisson
         Poisson's ratio, or several, that E is told for: 0.25,0.46. E* needs none.
+
+    Checks and prediction
+    ---------------------
     calibrate
         Table force [N], area [mm^2] of measured areas: the threshold that gives them is taken.
     predict_area
@@ -74,9 +86,9 @@ class ModulusOptions(Options):
         Its measured forces.
     bootstrap
         Replicates of the block bootstrap, 0 for none; 200 at most where more than E* is free.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     area: Annotated[tuple[Path, ...], Spelled(keyword=True)]
     force: Annotated[Path, Spelled(keyword=True)]
@@ -97,7 +109,6 @@ class ModulusOptions(Options):
     predict_area: tuple[Path, ...] | None = None
     predict_force: Annotated[Path | None, Requires("predict_area", "give it too")] = None
     bootstrap: int = 1000
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Numbers that cannot be, unknowns that no input tells of, a radius said twice or not at all."""

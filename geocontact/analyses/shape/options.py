@@ -38,6 +38,9 @@ class ShapeOptions(Options):
         What is fitted.
     unit
         Unit of the meshes; never guessed.
+
+    Which faces count, and how they are placed
+    ------------------------------------------
     region
         Faces that count: "outward>0.5 and flexion>30" in x y z nx ny nz (mesh unit), and with `axis` or `centre` radial
         outward, with `axis` and `sagittal` flexion [deg], with `other` distance; or a file of face numbers.
@@ -55,10 +58,16 @@ class ShapeOptions(Options):
         Where the mesh sits in its body: a file with a 4x4 matrix, or model.osim:body.
     place_other
         The same for the other mesh, in the frame of the first.
+
+    How it is fitted
+    ----------------
     points
         What the shape is fitted to: vertices of the faces that count, or their centroids.
     robust
         Whether points far off do not count; else it is plain least squares.
+
+    Sides and profile
+    -----------------
     split
         x, y or z (or z=1.5): medial and lateral points are fitted apart as well, cylinders along the axis of the whole;
         needs `side` or `medial`.
@@ -72,10 +81,11 @@ class ShapeOptions(Options):
         the fitted cylinder's axis.
     window
         Flexion over which the radius of the profile is taken; 30 degrees unless given.
+
+    Results
+    -------
     paraview
         Also write the surface with its residuals for ParaView (fit.vtp).
-    parquet
-        Also write the profile as .parquet.
     """
 
     mesh: Path
@@ -102,7 +112,6 @@ class ShapeOptions(Options):
     profile: AngleRange | None = None
     window: Annotated[Degrees | None, Profile, WINDOW] = None
     paraview: bool = False
-    parquet: Annotated[bool, Requires("profile", "leave it out")] = False
 
     def refuse_impossible(self) -> None:
         """Places that nothing is counted from, a profile without an axis or an end."""

@@ -81,7 +81,7 @@ class ShapeResult(Result):
         text = json.dumps(describe(f, self.options), indent=2, ensure_ascii=False, allow_nan=False)
         (folder / "fit.json").write_text(text + "\n", encoding="utf-8")
         if self.profiles:
-            write_table(self.table("profile"), folder, self.options.parquet, "profile")
+            write_table(self.table("profile"), folder, "profile")
         drawings = {name: save_both(figure, folder, name) for name, figure in self._figures().items()}
         if self.options.paraview:
             s = f.patch.surface
@@ -102,4 +102,4 @@ class ShapeResult(Result):
 
     def _write_report(self, file: Path, drawings: Mapping[str, bytes]) -> None:
         provenance = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_fit_report(file, self.fitting, drawings, self.title, provenance, self.warnings)
+        write_fit_report(file, self.fitting, drawings, self.title, provenance, self.warnings, self.sentences)

@@ -11,9 +11,9 @@ from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
 from geocontact.io.motion.pose_rows import is_pose_rows, motion_from_rows
 from geocontact.io.motion.poses import motion_from_csv, motion_from_joint, motion_from_map
 from geocontact.io.opensim.osim import read_joint
-from geocontact.io.text.tables import read_table
+from geocontact.io.text.tables import CELLS, read_table
 
-SUFFIXES = (".csv", ".mot", ".sto", ".txt")
+SUFFIXES = (*CELLS, ".mot", ".sto", ".txt")
 ROWS = (".csv", ".txt")
 """Files that may hold rows of numbers without a header."""
 
@@ -72,7 +72,7 @@ def read_motion(
         return motion_from_grood_suntay(read_table(path), mapping, grood_suntay_side, body, angles)
     if mapping is not None:
         return motion_from_map(read_table(path), mapping, order, angles)
-    if suffix == ".csv":
+    if suffix in CELLS:
         return motion_from_csv(path, order, angles)
     raise InputError(path, "", "coordinates need a model to become poses", "give `osim` and `joint`, or `map`")
 

@@ -310,9 +310,9 @@ def test_saved_maps_are_read_as_the_reference_shows(tmp_path: Path, monkeypatch:
 
 
 def test_parquet_holds_the_same_table(tmp_path: Path) -> None:
-    result = area(SPHERE, PLATE, poses(tmp_path, (0, 20, 0)), parquet=True)
+    result = area(SPHERE, PLATE, poses(tmp_path, (0, 20, 0)))
     with unpictured():
-        out = result.write(tmp_path / "out")
+        out = result.write(tmp_path / "out", parquet=True)
     pd.testing.assert_frame_equal(pd.read_parquet(out / "area.parquet"), result.table(), check_exact=True)
 
 

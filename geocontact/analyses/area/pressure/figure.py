@@ -11,6 +11,7 @@ from jaxtyping import Float, Int
 
 from geocontact.data.motion import Course
 from geocontact.view.curves.quantity import FORCE, PRESSURE
+from geocontact.view.curves.sheet import sheet
 from geocontact.view.curves.style import DOUBLE, INCH, LINES, PALETTE, in_style, legend
 from geocontact.view.curves.text import plain
 
@@ -21,13 +22,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class PressureMap:
-    """FIXED [m], the pressure of its faces [Pa] at one frame, and the way of the centre of pressure [m]."""
+    """FIXED [m], the pressure of its faces [Pa] at one frame, and the way of the centre of pressure [m].
+
+    `largest` is the upper end of the colours [Pa]: the largest pressure of a face in all frames, as on the page.
+    """
 
     vertices: Float[np.ndarray, "n 3"]
     faces: Int[np.ndarray, "m 3"]
     pressure: Float[np.ndarray, " m"]
     centre: Float[np.ndarray, "t 3"]
     frame: int
+    largest: float
 
 
 @in_style
@@ -38,9 +43,7 @@ def pressure_figure(
     shown: PressureMap,
 ) -> Figure:
     """Force of the whole and of compartments [N], largest pressure [Pa], and the map of one frame."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(DOUBLE / INCH, 0.09 / INCH), layout="constrained")
+    figure = sheet(DOUBLE / INCH, 0.09 / INCH)
     axes = figure.subplot_mosaic([["force", "map"], ["peak", "map"]], width_ratios=[3, 2])
     drawn = [
         (axes["force"].plot(course.values, values, color=PALETTE[k], ls=LINES[k])[0], name)
@@ -78,7 +81,10 @@ def _map(axes: Axes, shown: PressureMap) -> None:
     if loaded[order].any():
         pressed = np.isfinite(values)
         loaded_faces = Triangulation(x, y, shown.faces[order[pressed]])
-        colours = axes.tripcolor(loaded_faces, facecolors=values[pressed], cmap="inferno_r", vmin=0.0, rasterized=True)
+        most = float(PRESSURE.shown(np.array(shown.largest)))
+        colours = axes.tripcolor(
+            loaded_faces, facecolors=values[pressed], cmap="inferno_r", vmin=0.0, vmax=most, rasterized=True
+        )
         axes.figure.colorbar(colours, ax=axes, label=PRESSURE.label, shrink=0.7)
     axes.plot(shown.centre[:, right] * 1e3, shown.centre[:, up] * 1e3, color="black", lw=0.8)
     axes.set_aspect("equal")

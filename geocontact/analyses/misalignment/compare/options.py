@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Annotated
 
 from geocontact.analyses.misalignment.checks import require_stroke
+from geocontact.analyses.misalignment.column_options import ColumnOptions
 from geocontact.analyses.misalignment.law_numbers import STROKE
-from geocontact.analyses.options import AngleUnit, Degrees, Expression, ForceUnit, Options, Requires, Spelled, Typed
+from geocontact.analyses.options import Degrees, Requires, Spelled, Typed
 from geocontact.analyses.page_words import counted
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import BIN, CUTOFF
+from geocontact.data.ranges import BIN
 
 Stroke = Annotated[
     tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
@@ -21,7 +22,7 @@ TWO_DEGREES = math.radians(2.0)
 
 
 @dataclass(frozen=True)
-class CompareOptions(Options):
+class CompareOptions(ColumnOptions):
     """Errors of a model of the elbow beside recordings: mean absolute, root mean square, R², by channel and trial.
 
     Parameters
@@ -34,18 +35,8 @@ class CompareOptions(Options):
         Simulated recording instead of `fit`, one for each recording, in the same order.
     stroke
         Stroke of the compensation joint with `fit`, such as -10:40; locked without.
-    map
-        Columns by what they are, where they have other names: beta=elbow_flexion,force=-Fx.
-    angles
-        Unit of the angle where its file does not say.
-    unit
-        Unit of the force where its file does not say.
     bin
         Width of the bins of the picture.
-    cutoff
-        Cut-off of a zero-lag low-pass over the measured channels [Hz]; none unless given.
-    parquet
-        Also write the tables as .parquet.
     """
 
     recordings: tuple[Path, ...]
@@ -53,12 +44,7 @@ class CompareOptions(Options):
     fit: Path | None = None
     simulated: tuple[Path, ...] | None = None
     stroke: Annotated[Stroke | None, Requires("fit")] = None
-    map: Expression | None = None
-    angles: AngleUnit | None = None
-    unit: ForceUnit | None = None
     bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0), BIN] = TWO_DEGREES
-    cutoff: Annotated[float | None, CUTOFF] = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Not exactly one model for each recording; a stroke that ends before it begins."""

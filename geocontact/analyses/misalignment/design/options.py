@@ -65,8 +65,6 @@ class DesignOptions(Options):
         How the joint's axis wanders with the angle: x=0:-8:2,y=0:5 (mm, mm/rad, mm/rad², …, over the exoskeleton's
         angle), or a .csv with the columns beta or alpha [deg], x [mm], y [mm], or alpha [deg], instant_centre_x [mm],
         instant_centre_y [mm]; alpha is the joint's own angle.
-    parquet
-        Also write the tables as .parquet.
     """
 
     _: KW_ONLY
@@ -81,7 +79,6 @@ class DesignOptions(Options):
     map: Annotated[Millimetres, Spelled("map-mm", "map_mm", default=60.0), REACH] = 60e-3
     step: Annotated[Millimetres, Spelled("step-mm", "step_mm", default=2.0), STEP] = 2e-3
     drift: Drift | None = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Angles that are no range, a stroke that ends before it begins."""

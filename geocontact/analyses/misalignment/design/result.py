@@ -58,7 +58,7 @@ class DesignResult(Result):
         """design.json, tables, figure, page."""
         write_json(folder / "design.json", self.summary)
         for name, rows in self.tables().items():
-            write_table(rows, folder, self.options.parquet, name)
+            write_table(rows, folder, name)
         write_design_report(
             folder / "report.html", self.record, self.design, self.summary, save_both(self.figure(), folder, "design")
         )

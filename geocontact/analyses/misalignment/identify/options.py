@@ -8,10 +8,11 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
+from geocontact.analyses.misalignment.column_options import ColumnOptions
 from geocontact.analyses.misalignment.law_numbers import MEANS, NUMBERS, TOPS, require_names
-from geocontact.analyses.options import AngleUnit, Degrees, Expression, ForceUnit, Options, Requires, Spelled, Typed
+from geocontact.analyses.options import Degrees, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
-from geocontact.data.ranges import BIN, CUTOFF
+from geocontact.data.ranges import BIN
 
 Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True), NUMBERS]
 Pairs = Annotated[Mapping[str, tuple[float, float]], Typed("-", "misalignment.parameters:pairs"), Spelled(dashed=True)]
@@ -21,7 +22,7 @@ TWO_DEGREES, TEN_DEGREES = math.radians(2.0), math.radians(10.0)
 
 
 @dataclass(frozen=True)
-class IdentifyOptions(Options):
+class IdentifyOptions(ColumnOptions):
     """Stiffness, link and offsets of an exoskeleton from force and angle, and what these recordings cannot tell.
 
     Parameters
@@ -29,6 +30,9 @@ class IdentifyOptions(Options):
     recordings
         Tables of angle and force with the compensation joint locked (.csv .mot .sto .c3d): time, beta, force; pressure
         as far as it is there.
+
+    Further recordings
+    ------------------
     unlocked
         Recording with the compensation joint free and its displacement, as often as there are. Where nothing else is
         known of k and the lengths, two or more set their scale.
@@ -37,6 +41,9 @@ class IdentifyOptions(Options):
         d_lin and not by d_tot.
     held_out
         Recording that is not fitted and tells R², as often as there are; each in turn of those fitted by default.
+
+    Numbers of the law
+    ------------------
     known
         Numbers known from elsewhere (N/m, mm, N s/m, 1/mmHg): l=169,z=127.
     prior
@@ -47,22 +54,15 @@ class IdentifyOptions(Options):
         Where the search begins: k=300,x=30,y=40,l=200,z=120.
     free
         Free besides k, x, y, l, z: b (damping), s (stiffness over cuff pressure).
-    map
-        Columns by what they are, where they have other names: beta=elbow_flexion,force=-Fx.
-    angles
-        Unit of the angle where its file does not say.
-    unit
-        Unit of the force where its file does not say.
+
+    How it is fitted
+    ----------------
     bin
         Width of the bins that are fitted.
     box
         Width of the bins of the box plots.
-    cutoff
-        Cut-off of a zero-lag low-pass over force and angle [Hz]; none unless given.
     bootstrap
         Replicates of the wild bootstrap, 0 for none. Each is searched from every minimum that fits nearly as well.
-    parquet
-        Also write the tables as .parquet.
     """
 
     recordings: tuple[Path, ...]
@@ -75,14 +75,9 @@ class IdentifyOptions(Options):
     bounds: Annotated[Pairs | None, TOPS] = None
     start: Numbers | None = None
     free: Names | None = None
-    map: Expression | None = None
-    angles: AngleUnit | None = None
-    unit: ForceUnit | None = None
     bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0), BIN] = TWO_DEGREES
     box: Annotated[Degrees, Spelled("box-deg", "box_deg", default=10.0), BIN] = TEN_DEGREES
-    cutoff: Annotated[float | None, CUTOFF] = None
     bootstrap: int = 500
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Numbers that the law does not have, replicates that cannot be."""

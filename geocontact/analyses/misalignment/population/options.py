@@ -52,8 +52,6 @@ class PopulationOptions(Options):
         Of the draw.
     keep
         Also write samples.csv: the quantities, the force and the state of every one.
-    parquet
-        Also write the tables as .parquet.
     """
 
     description: Path
@@ -65,7 +63,6 @@ class PopulationOptions(Options):
     samples: int = 1_000_000
     seed: int = 1
     keep: bool = False
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Too few or too many people, angles that are no range."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.misalignment.checks import (
     require_at_least_0,
@@ -30,6 +30,8 @@ Stroke = Annotated[
     tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
 ]
 Pressures = Annotated[tuple[float, float], Typed("Pa", "misalignment.parameters:mercury"), CUFF]
+FEWEST = 4
+"""Trials of a gap case: two to fit to, two held out."""
 
 
 @dataclass(frozen=True)
@@ -40,9 +42,15 @@ class SimulateOptions(Options):
     ----------
     recordings
         Angles to simulate along (.csv .mot .sto .c3d); none to make recordings.
+
+    The law
+    -------
     numbers
         Numbers of the law (N/m, mm, N s/m, 1/mmHg), as many as there are to change; the paper's
         k=222.43,x=48,y=59,l=169,z=127,b=0,s=0 unless given.
+
+    The experiment
+    --------------
     trials
         Locked trials, and as many with the compensation joint free where `stroke` is given; 6 unless given.
     seconds
@@ -56,25 +64,33 @@ class SimulateOptions(Options):
     stroke
         Stroke of the compensation joint, such as -10:40: free trials are made besides, with its displacement. None
         unless given.
+    case
+        Also write the locked trials as a gap case (folder case) that `geocontact gap diagnose` reads.
     pressure
         Range of cuff pressures [mmHg], one drawn for each trial, such as 10:60; no pressure unless given.
+    bits
+        Of the converter, 0 for none; 12 unless given.
+
+    What is drawn at random
+    -----------------------
     noise
         Standard deviation of what the person adds to the force [N]; 0.8 unless given.
     memory
         Its correlation time [s]; 0.3 unless given.
     donning
         Standard deviation of both offsets from trial to trial; 0 unless given.
-    bits
-        Of the converter, 0 for none; 12 unless given.
     seed
         Of what is drawn at random; 0 unless given.
+
+    Columns and units
+    -----------------
     map
         Column of the angle in the recordings, where it has another name: beta=elbow_flexion.
     angles
         Unit of the angle where its file does not say.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     recordings: tuple[Path, ...] = ()
     _: KW_ONLY
@@ -85,6 +101,7 @@ class SimulateOptions(Options):
     band: Annotated[Band | None, ALONG] = None
     range: Annotated[Angles | None, ALONG] = None
     stroke: Stroke | None = None
+    case: Annotated[bool, ALONG] = False
     pressure: Annotated[Pressures | None, ALONG] = None
     noise: Annotated[float | None, ALONG, NOISE] = None
     memory: Annotated[float | None, ALONG, MEMORY] = None
@@ -93,7 +110,6 @@ class SimulateOptions(Options):
     seed: Annotated[int | None, ALONG] = None
     map: Annotated[Expression | None, Requires("recordings")] = None
     angles: Annotated[AngleUnit | None, Requires("recordings")] = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Two recordings of one name, and values that cannot be."""
@@ -103,6 +119,9 @@ class SimulateOptions(Options):
             raise InputError("", "", f"two recordings are named {twice!r}", "rename one")
         require_names(self.numbers, "`numbers`")
         require_within(self.trials, "`trials`", (1, 1000), 6)
+        if self.case and self.trials is not None and self.trials < FEWEST:
+            what = f"{self.trials} trials are too few for `case`"
+            raise InputError("", "`trials`", what, f"give {FEWEST} or more: some are held out")
         require_within(self.bits, "`bits`", (0, 32), 12)
         require_at_least_0(self.seed, "`seed`")
         for name in ("band", "pressure"):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import AngleUnit, Excludes, Expression, Options, Texts, TimeSpan
 from geocontact.data.errors import InputError
@@ -38,9 +38,14 @@ class IdOptions(Options):
         Low-pass of the coordinates [Hz], OpenSim's filter; 0 leaves them as they are.
     time
         First and last time [s] that are written: 0.4:1.6. The filter sees the whole recording.
+    events
+        Heel strikes of a side [s], between which moments are averaged over the gait cycle: right=0.63,1.86. May be
+        given again. Without it the loads of the plates tell them, by the side in their bodies' names.
     angles
         Unit of angles where the file does not say it: deg or rad.
     """
+
+    over_time: ClassVar[bool] = True
 
     coordinates: Path
     _: KW_ONLY
@@ -52,6 +57,7 @@ class IdOptions(Options):
     threshold: Annotated[float, FORCE] = 0.0
     cutoff: Annotated[float, CUTOFF] = 6.0
     time: TimeSpan | None = None
+    events: Texts = ()
     angles: AngleUnit | None = None
 
     def refuse_impossible(self) -> None:
