@@ -36,7 +36,10 @@ FAR = edited("-0.0306176748938", "-0.1306176748938", frames=(0,))
 MOTIONS: Cases = {
     "missing file": ({"--motion": "nowhere.csv"}, ("nowhere.csv", "No such file", "check the path")),
     "folder": ({"--motion": made("poses.csv")}, ("poses.csv", "irectory", "check the path")),
-    "unknown format": (motion(HEAD + "0,0,20,0,1,0,0,0\n", "poses.trc"), ("poses.trc", ".csv, .xlsx, .mot, .sto, .txt")),
+    "unknown format": (
+        motion(HEAD + "0,0,20,0,1,0,0,0\n", "poses.trc"),
+        ("poses.trc", ".csv, .xlsx, .mot, .sto, .txt"),
+    ),
     "pattern without a file": ({"--motion": "nowhere*.csv"}, ("nowhere*.csv", "matches no file", "check the pattern")),
     "two motions of one name": (
         {"--motion": lambda f: [poses(f, (0, 20, 0)), poses(made("b")(f), (0, 20, 0))]},

@@ -31,6 +31,10 @@ STAND_INS = {
         "tibial.stl": "tibial_insert_right_coarse.stl",
         "gait.csv": "gait.csv",
     },
+    "docs/reference/input_files.md": {
+        "talus.stl": "femoral_component_right_coarse.stl",
+        "calcaneus.stl": "tibial_insert_right_coarse.stl",
+    },
 }
 """Shipped files that stand for a reader's own."""
 
@@ -47,7 +51,17 @@ import math
 rows = [f"{a},{5 * math.sin(math.radians(a)):.4f},{3 * math.cos(math.radians(a)):.4f}" for a in range(0, 121, 5)]
 open("knee.csv", "w").write("alpha [deg],x [mm],y [mm]\\n" + "\\n".join(rows) + "\\n")
 """
-MADE = {"docs/how-to/cop.md": PLATE, "docs/how-to/elbow_design.md": KNEE}
+BONES = """\
+walk = {"talus": "0.5", "calcaneus": "-30"}
+rows = {bone: [f"1,0,0,{k},0,1,0,{y},0,0,1,0,0,0,0,1" for k in range(3)] for bone, y in walk.items()}
+for bone, lines in rows.items():
+    open(f"{bone}.txt", "w").write("\\n".join(lines) + "\\n")
+"""
+MADE = {
+    "docs/how-to/cop.md": PLATE,
+    "docs/how-to/elbow_design.md": KNEE,
+    "docs/reference/input_files.md": BONES,
+}
 """What makes files that a reader would have recorded."""
 
 WITH_BLOCKS = [page for page in DOCUMENTS if shell_blocks(page)]
