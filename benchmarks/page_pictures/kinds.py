@@ -15,6 +15,8 @@ KINDS = {
     "pressure": "page_pressure",
     "fit": "fit_profile",
     "loadcells": "loadcells_stride",
+    "cop": "cop_compare",
+    "cop_alone": "cop",
     "modulus": "modulus",
     "mat": "mat_plain",
     "ik": "ik",
