@@ -35,8 +35,8 @@ LARGEST_FILE = 5_000_000  # bytes
 KPA, CM2, MM = 1e-3, 1e4, 1e3
 NEAR = 1e-3  # m; a scene asks for a distance, and nothing here has one
 FIGURE = (
-    "Force, pressure and area over time; right, the mat unrolled with the largest pressure of each cell, in the colours "
-    "of the picture above."
+    "Force, pressure and area over time; right, the mat unrolled with the largest pressure of each cell, in the "
+    "colours of the picture above."
 )
 AXES: Mapping[str, Sequence[float]] = {
     "+x": (1.0, 0.0, 0.0),
