@@ -101,9 +101,11 @@ def loadcell_page(
 
     def sections(unit: Unit) -> list[Section]:
         drawn = ensemble(unit)
+        forces_over_time, *others = _curves(recorded, shown, cells, cuts, unit)
         return [
-            *_curves(recorded, shown, cells, cuts, unit),
+            forces_over_time,
             *([] if tray is None else [tray]),
+            *others,
             *([] if drawn is None else [Picture("Over the cycle", ENSEMBLE, drawn, wide=True)]),
         ]
 
@@ -128,7 +130,9 @@ def loadcell_page(
             *own,
             *results,
             _weights(regression),
-            Words("What the numbers do not contain", [CELLS, NOT_A_DEVICE]),
+            Words(
+                "What the numbers do not contain", [CELLS, f"Weights of the cells: {regression.source}.", NOT_A_DEVICE]
+            ),
             *provenance,
         ),
         numbers=shown.numbers,
@@ -186,4 +190,4 @@ def _facts(recorded: Recorded, unit: Unit) -> list[tuple[str, str]]:
 
 def _weights(r: CellRegression) -> Table:
     rows = [(c, f"{m:g}", f"{k:g}") for c, m, k in zip(r.cells, r.medial, r.lateral, strict=True)]
-    return Table(f"Weights of the cells ({r.source})", ("cell", "medial", "lateral"), rows)
+    return Table(f"Weights of the cells, '{r.name}'", ("cell", "medial", "lateral"), rows)

@@ -10,6 +10,7 @@ from geocontact.view.page.content import Mark, Plan, Track
 PLACES = {"PM": (-1.0, -1.0), "AM": (-1.0, 1.0), "AL": (1.0, 1.0), "PL": (1.0, -1.0)}
 """Posterior and anterior, medial and lateral cell, in half their distances."""
 LEAST = 0.05  # of the largest total; a side with less has no centre worth a point
+SLIGHT = 0.01  # of the largest total; less tension of a cell than that is an offset
 WORDS = (
     "The four cells, seen from above. Each point lies between them as their forces share the load; distances are in "
     "half the spacing of the cells, because the size of the tray is not an input."
@@ -49,7 +50,7 @@ def _centre(forces: dict[str, Float[np.ndarray, " t"]], least: float) -> Float[n
     names = list(forces)
     each = np.stack([forces[name] for name in names], axis=1)
     total = each.sum(axis=1)
-    bears = (total > least) & (each >= 0.0).all(axis=1)
+    bears = (total > least) & (each > -SLIGHT / LEAST * least).all(axis=1)
     moments = each @ np.array([PLACES[name] for name in names])
     found = np.full((len(total), 2), np.nan)
     found[bears] = moments[bears] / total[bears, None]

@@ -25,7 +25,7 @@ def page_of(file: Path, **options: Any) -> Page:
 
 def test_the_tray_shows_where_each_side_bears() -> None:
     """Three quarters in front; a side that bears nothing has no centre; nor has one whose cells pull."""
-    cells = {"PM": [100.0, 0.0, -5.0], "AM": [300.0, 0.0, 400.0], "AL": [150.0, 400.0, 5.0], "PL": [50.0, 0.0, 5.0]}
+    cells = {"PM": [100.0, 0.0, -50.0], "AM": [300.0, 0.0, 400.0], "AL": [150.0, 400.0, 5.0], "PL": [50.0, 0.0, 5.0]}
     plan = tray_plan({name: np.array(values) for name, values in cells.items()})
     assert plan is not None
     medial, lateral, whole = (track.points for track in plan.tracks)
