@@ -25,7 +25,7 @@ def headline(r: CopResult) -> list[str]:
     if not c.pressing.any():
         return ["No sphere touches the ground: there is no force and no centre of pressure."]
     k = int(np.argmax(c.pressing))
-    said = f"The ground presses on the foot with up to {rounded(c.pressing[k], 3)} N, at {seconds(time[k])} s"
+    said = f"The ground presses on the foot with up to {rounded(c.pressing[k], 3)} N, at {_at(time[k])}"
     if not found.any():
         return [f"{said}: too little for a centre of pressure, which asks for {r.options.gate:g} N."]
     way, along = travel(r)
@@ -51,6 +51,10 @@ def _beside(r: CopResult) -> list[str]:
     return [f"Beside the force plate {' and '.join(told)} (root mean square)."]
 
 
+def _at(time: float) -> str:
+    return f"{seconds(round(float(time), 3))} s"
+
+
 def _length(parts: list[float | None]) -> float:
     return float(np.sqrt(sum(part**2 for part in parts if part is not None)))
 
@@ -60,10 +64,10 @@ def facts(r: CopResult) -> list[tuple[str, str]]:
     time, c = r.foot.motion.time, r.centre
     found, touching = np.isfinite(c.centre[:, 0]), c.pressing > 0.0
     k = int(np.argmax(c.pressing))
-    lines = [("Largest normal force", f"{c.pressing[k]:.0f} N at {seconds(time[k])} s")]
+    lines = [("Largest normal force", f"{c.pressing[k]:.0f} N at {_at(time[k])}")]
     if touching.any():
         first, last = time[np.flatnonzero(touching)[[0, -1]]]
-        lines.append(("On the ground", f"{seconds(first)} to {seconds(last)} s"))
+        lines.append(("On the ground", f"{_at(first)} to {_at(last)}"))
         zones = {name: float(r.loads.pressing[:, which].sum()) for name, which in r.foot.sole.zones.items()}
         most = max(zones, key=lambda name: zones[name])
         lines.append(("Zone that bears most", f"{most}, {zones[most] / sum(zones.values()):.0%} of all force"))

@@ -39,7 +39,7 @@ class Unit:
 
     def text(self, force: float) -> str:
         """A force as a sentence says it."""
-        return f"{force * self.per_newton:.0f}\u00a0{self.name}"
+        return f"{force * self.per_newton:.0f} {self.name}"
 
 
 NEWTON = Unit("N", 1.0)
@@ -167,7 +167,7 @@ def _headline(recorded: Recorded, cuts: list[Cut], unit: Unit) -> list[str]:
     f = recorded.forces
     k = int(np.argmax(f.total))
     share = f.medial[k] / f.total[k]
-    lines = [f"The tray bears up to {unit.text(f.total[k])}, at {seconds(f.time[k])} s: {share:.0%} of it medially."]
+    lines = [f"The tray bears up to {unit.text(f.total[k])}, at {_when(recorded, k)}: {share:.0%} of it medially."]
     mine = [cut for cut in cuts if cut.recording == recorded.file.stem]
     for style, trials in stacked(mine, "total").items() if mine else ():
         peaks = trials.max(axis=1)
@@ -177,12 +177,16 @@ def _headline(recorded: Recorded, cuts: list[Cut], unit: Unit) -> list[str]:
     return lines[:3]
 
 
+def _when(recorded: Recorded, k: int) -> str:
+    return f"{seconds(round(float(recorded.forces.time[k]), 3))} s"
+
+
 def _facts(recorded: Recorded, unit: Unit) -> list[tuple[str, str]]:
     f = recorded.forces
     lines = []
     for name, values in f.curves.items():
         k = int(np.argmax(values))
-        lines.append((f"Largest {name} force", f"{unit.text(values[k])} at {seconds(f.time[k])} s"))
+        lines.append((f"Largest {name} force", f"{unit.text(values[k])} at {_when(recorded, k)}"))
     k = int(np.argmax(f.total))
     lines.append(("Medial share at the largest total", f"{f.medial[k] / f.total[k]:.0%}"))
     return lines
