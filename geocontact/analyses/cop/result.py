@@ -12,9 +12,9 @@ import pandas as pd
 from geocontact.analyses.cop.figure import LoadCurves, cop_figure
 from geocontact.analyses.cop.force_plate import PlateCurves
 from geocontact.analyses.cop.options import CopOptions
+from geocontact.analyses.cop.page import write_cop_report
 from geocontact.analyses.cop.read import Foot
 from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.plain_page import write_plain_page
 from geocontact.analyses.result import Result
 from geocontact.io.text.results import write_table
 from geocontact.loads.centre_of_pressure import CentreOfPressure
@@ -66,16 +66,17 @@ class CopResult(Result):
         return cop_figure(ours, theirs, c.normal, f"{self.foot.name} on the ground, {self.options.motion.name}")
 
     def write_files(self, folder: Path) -> None:
-        """Tables and figure."""
+        """Tables, figure and page."""
         for name, table in self.tables().items():
             write_table(table, folder, name)
             told = {"frame": FRAME, "words": WORDS, "cop": CENTRES[self.options.point]}
             self.record.tables[f"{name}.csv"] = told
         save_both(self.figure(), folder, "cop")
+        write_cop_report(self, folder / "report.html")
 
     def write_page(self, file: Path) -> None:
-        """Figure and numbers of every frame."""
-        write_plain_page(self, f"Centre of pressure of {self.foot.name}", file)
+        """The path under the foot, the forces along it, and their numbers in every frame."""
+        write_cop_report(self, file)
 
     def _loads_table(self) -> pd.DataFrame:
         """Force, centre and free moment of every frame; centre and free moment are empty below the gate."""

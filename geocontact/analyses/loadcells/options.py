@@ -14,6 +14,8 @@ from geocontact.data.ranges import SHARE
 STRIDE, STANCE = "stride", "stance"
 FOUND = (STRIDE, STANCE)
 """Cycles that are found in the total force; all others are named by their times."""
+MASSES = (20.0, 300.0)  # kg; of people who may have a knee implant, with room
+GRAVITY = 9.80665  # m/s^2, standard
 
 LEVEL = Plausible("the force at which load sets in", N, (1e-3, 1e5), (1.0, 5000.0))
 Cycles = Requires("cycles", "say what a cycle is")
@@ -40,6 +42,8 @@ class LoadcellOptions(Options):
         Take this first part of each cycle for the whole: 60% is the stance of a gait cycle.
     level
         Total force [N] at which load sets in, for stride and stance; a quarter of the largest unless given.
+    body_mass
+        Of the subject [kg]: the page then offers forces in per cent of body weight as well.
     """
 
     over_time: ClassVar[bool] = True
@@ -52,12 +56,21 @@ class LoadcellOptions(Options):
     cycles: Expression | None = None
     part: Annotated[Fraction | None, Cycles, SHARE] = None
     level: Annotated[float | None, Cycles, LEVEL] = None
+    body_mass: float | None = None
 
     def refuse_impossible(self) -> None:
-        """A level that no cycle needs, sub-folders of one name."""
+        """A level that no cycle needs, a mass that no body has, sub-folders of one name."""
         if self.level is not None and str(self.cycles).strip() not in FOUND:
             raise InputError("", "`level`", "has no effect here: the cycles are given", "leave it out")
+        if self.body_mass is not None and not MASSES[0] <= self.body_mass <= MASSES[1]:
+            what = f"{self.body_mass:g} kg is no body mass ({MASSES[0]:g} to {MASSES[1]:g} kg)"
+            raise InputError("", "`body_mass`", what, "give the mass in kg, e.g. 72.6")
         self._refuse_names()
+
+    @property
+    def body_weight(self) -> float | None:
+        """Weight of the subject [N]; None where the mass is not given."""
+        return None if self.body_mass is None else self.body_mass * GRAVITY
 
     def _refuse_names(self) -> None:
         if not self.recordings:

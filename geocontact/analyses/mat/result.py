@@ -41,7 +41,8 @@ class MatResult(MatFindings):
 
     def figure(self) -> Figure:
         """Force, pressure and area over time, and the cells with their largest pressure."""
-        return mat_figure(self.frames.time, self.loads, self.drape, self.pressure, self.cells)
+        largest = float(self.on_faces.max())
+        return mat_figure(self.frames.time, self.loads, self.drape, self.pressure, self.cells, largest)
 
     def write_files(self, folder: Path) -> None:
         """Tables, surface, figure and page."""

@@ -4,7 +4,7 @@ import { colour, dash, sample } from "./strokes.js";
 import { html, svg } from "./svg.js";
 import { brief, extent, ticks } from "./ticks.js";
 
-const [LEFT, RIGHT, TOP, BOTTOM] = [44, 14, 8, 34];
+const [LEFT, RIGHT, BOTTOM] = [44, 14, 34];
 
 /** Puts the plan into `figure`; returns what moves its points. */
 export function plan(figure, part) {
@@ -18,6 +18,7 @@ export function plan(figure, part) {
   figure.append(room);
   const all = (i) => [...lines.flatMap((l) => l[i]), ...tracks.flatMap((t) => (i ? t.y : t.x)), ...marks.map((m) => m.at[i])];
   const reach = [0, 1].map((i) => span(all(i)));
+  const TOP = marks.length ? 20 : 8; // names stand above their marks
   let now = 0;
   let dots = [];
   let plot = null;
