@@ -149,7 +149,8 @@ class Table:
 class Picture:
     """A drawing that does not change over time, with what it shows in words.
 
-    `svg` is shown as an image: nothing in it can run or load anything. `wide` ones take the whole width of the page, and scroll on a phone.
+    `svg` is shown as an image: nothing in it can run or load anything. `wide` ones take the page's whole width, and
+    scroll on a phone.
     """
 
     title: str
