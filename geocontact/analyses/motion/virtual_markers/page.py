@@ -67,7 +67,7 @@ def answer(model: Multibody, markers: MarkerTrajectories) -> list[str]:
     told = f"{counted(len(markers.names), 'marker')} over {time[-1] - time[0]:.3g} s in {counted(len(time), 'frame')}"
     return [
         f"{told}: {markers.names[far]} moves farthest, within a box of {reach[far]:.3g} m from corner to corner.",
-        f"The lowest is {markers.names[low]}, down to a height of {np.nanmin(heights[:, low]):.3g} m; the ground's origin is at 0.",
+        f"The lowest is {markers.names[low]}, down to {np.nanmin(heights[:, low]):.3g} m over the ground's origin.",
     ]
 
 
