@@ -26,6 +26,9 @@ KINDS = {
     "elbow_compare": "elbow_compare",
     "elbow_design": "elbow_design",
     "elbow_population": "elbow_population",
+    "scale": "scale",
+    "markers": "markers",
+    "gather": "gap_gather_knee",
     "gap": "gap_diagnose",
     "confuse": "gap_confuse",
 }

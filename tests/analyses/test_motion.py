@@ -59,7 +59,17 @@ def test_a_scaled_model_is_that_of_the_command(markers: Path, tmp_path: Path) ->
     called = result.write(tmp_path / "called")
     for name in ("scaled.osim", "scale.json"):
         assert typed.bytes(name) == (called / name).read_bytes(), name
-    assert "Model scaled to markers.trc" in result.page(tmp_path / "page.html").read_text(encoding="utf-8")
+    page = (called / "report.html").read_text(encoding="utf-8")
+    assert "Model scaled to markers.trc" in page and "The scaled model stands" in page
+    far = np.linalg.norm(result.seen - result.modelled, axis=1)
+    np.testing.assert_allclose(far, result.pose.distances[0], atol=1e-9)
+
+
+def test_virtual_markers_are_shown_on_the_skeleton(tmp_path: Path) -> None:
+    result = gc.virtual_markers(SWING, model=LEG)
+    np.testing.assert_allclose(result.model.marker_places(result.values), result.markers.positions, atol=1e-12)
+    page = result.page(tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "segments and joints" in page and "moves farthest" in page
 
 
 def test_refusals_name_arguments(markers: Path) -> None:

@@ -130,7 +130,7 @@ def test_newtons_taken_for_pounds_and_pounds_for_newtons(tmp_path: Path) -> None
         (("--map", "XX=PM"), "unknown target 'XX'"),
         (("--map", "PM=F1"), "no column 'F1'; columns are: PM, AM, AL, PL"),
         (("--matrix", "none.toml"), "none.toml"),
-        (("--matrix", "tray.xlsx"), "is not a file of weights"),
+        (("--matrix", "tray.json"), "is not a file of weights"),
     ],
 )
 def test_options_refused(tmp_path: Path, options: tuple[str, ...], words: str) -> None:

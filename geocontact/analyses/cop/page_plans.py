@@ -48,7 +48,14 @@ def foot_plan(r: CopResult, shown: Int[np.ndarray, " k"]) -> Plan:
         tracks.append(Track("force plate", flat(_in_foot(r, there))[shown]))
     outline = corners[[*edge, edge[0]]]
     return Plan(
-        "Path under the foot", "mm", axis_name(across), axis_name(up, sign), [outline, *circles], tracks, marks, FOOT
+        "Path under the foot",
+        "mm",
+        axis_name(across),
+        axis_name(up, sign),
+        [outline, *circles],
+        tracks,
+        marks,
+        words=FOOT,
     )
 
 

@@ -42,7 +42,7 @@ def tray_plan(cells: dict[str, Float[np.ndarray, " t"]]) -> Plan | None:
         [np.column_stack([WIDE * x, DEEP * y]), np.array([[0.0, -DEEP], [0.0, DEEP]])],
         tracks,
         [Mark(name, place) for name, place in PLACES.items()],
-        WORDS,
+        words=WORDS,
     )
 
 
