@@ -218,7 +218,7 @@ def test_numbers_of_two_kinds_have_two_colours_and_a_key(opened: Open) -> None:
     fills = "[...document.querySelectorAll('#section-0 .plot rect.bar')].map(e => getComputedStyle(e).fill)"
     assert len(set(here.tab.evaluate(fills))) == 2
     assert here.tab.locator("#section-0 .key li").all_inner_texts() == ["total", "first-order"]
-    assert here.tab.locator("#section-0 .plot text.label").all_inner_texts() == ["x", ""], "named once"
+    assert here.tab.locator("#section-0 .plot text.label").all_text_contents() == ["x", ""], "named once"
 
 
 def test_one_thing_has_one_colour_in_all_panels(opened: Open) -> None:
@@ -239,7 +239,7 @@ def test_a_length_is_drawn_to_scale_with_its_interval_in_the_key(opened: Open, d
     drawn = str(here.tab.locator("#section-0 .plot path.line").get_attribute("d"))
     x1, y1, x2, y2 = (float(v) for v in re.findall(r"-?[\d.]+", drawn)[:4])
     assert (x2 - x1) / (y1 - y2) == pytest.approx(0.75)
-    assert here.tab.locator("#section-0 .plot text.length").inner_text() == "x"
+    assert here.tab.locator("#section-0 .plot text.length").text_content() == "x"
     assert "28 … 32" in here.tab.locator("#section-0 .key").inner_text()
 
 

@@ -79,7 +79,7 @@ def _panels(trials: list[Trial], time: Float[np.ndarray, " s"]) -> list[Curves]:
 
 def _along(trial: Trial, name: str, time: Float[np.ndarray, " s"]) -> Float[np.ndarray, " s"]:
     """The channel at these times from the trial's beginning; NaN after its end and in its gaps."""
-    return np.interp(time, trial.time - trial.time[0], trial.column(name), right=np.nan)
+    return np.asarray(np.interp(time, trial.time - trial.time[0], trial.column(name), right=np.nan))
 
 
 def _told(case: GapCase) -> Table:

@@ -56,7 +56,7 @@ def write_population_report(path: Path, record: Record, d: Drawn, drawing: bytes
     readout = [Row(name, "%", [f"{v:.4f}" for v in values]) for name, values in zip(names, shares, strict=True)]
     numbers = _numbers(d)
     sections: list[Section] = [
-        Curves("Probability of more", "%", [Curve("share of the samples", *shares)]),
+        Curves("Probability of more", "%", [Curve("share of the samples", shares[0], shares[1], shares[2])]),
         *_shares(d),
         Readout(readout, "At this force"),
         numbers,
@@ -92,7 +92,7 @@ def _shares(d: Drawn) -> list[Section]:
         "first-order": (d.indices.first, d.indices.first_interval),
     }
     rows = [
-        Interval(_factor(d, k), float(share[k]), *map(float, ends[k]), kind=kind)
+        Interval(_factor(d, k), float(share[k]), float(ends[k][0]), float(ends[k][1]), kind)
         for k in _ordered(d.indices)
         for kind, (share, ends) in kinds.items()
     ]
