@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.cop.foot_loads import FootLoads
 from geocontact.analyses.cop.page_answer import NO_MOMENT, facts, headline
 from geocontact.analyses.cop.page_plans import MM, butterfly, foot_plan
 from geocontact.analyses.options_table import options_table
@@ -15,9 +15,6 @@ from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Table, Words
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
-
-if TYPE_CHECKING:
-    from geocontact.analyses.cop.result import CopResult
 
 FRAMES = 1001  # frames that the page shows at most; longer motions are thinned out
 SPHERES, PLATE = "spheres", "force plate"
@@ -28,12 +25,12 @@ LAW = (
 )
 
 
-def write_cop_report(r: CopResult, file: Path) -> int:
+def write_cop_report(r: FootLoads, file: Path) -> int:
     """Write the self-contained page; returns its size in bytes."""
     return write_page(cop_page(r), file)
 
 
-def cop_page(r: CopResult) -> Page:
+def cop_page(r: FootLoads) -> Page:
     """The page before it becomes a file."""
     time, c = r.foot.motion.time, r.centre
     every = -(-len(time) // FRAMES)
@@ -67,7 +64,7 @@ def cop_page(r: CopResult) -> Page:
     )
 
 
-def _rows(r: CopResult, shown: Int[np.ndarray, " k"]) -> list[Row]:
+def _rows(r: FootLoads, shown: Int[np.ndarray, " k"]) -> list[Row]:
     c = r.centre
     touching = np.count_nonzero(r.loads.depth > 0.0, axis=1)
     depth = np.maximum(r.loads.depth.max(axis=1), 0.0)
@@ -81,7 +78,7 @@ def _rows(r: CopResult, shown: Int[np.ndarray, " k"]) -> list[Row]:
     ]
 
 
-def _curves(r: CopResult, shown: Int[np.ndarray, " k"]) -> list[Curves]:
+def _curves(r: FootLoads, shown: Int[np.ndarray, " k"]) -> list[Curves]:
     """Forces, force of each zone, centre and free moment; each beside the plate's where there is one."""
     c, zones = r.centre, r.foot.sole.zones
     of_zones = [Curve(name, r.loads.pressing[shown][:, which].sum(axis=1)) for name, which in zones.items()]
@@ -121,7 +118,7 @@ def _curves(r: CopResult, shown: Int[np.ndarray, " k"]) -> list[Curves]:
     return [*panels, *([Curves("Normal force of each zone", "N", of_zones)] if len(zones) > 1 else []), *after]
 
 
-def _at(r: CopResult, values: Float[np.ndarray, "f n"]) -> Float[np.ndarray, "t n"]:
+def _at(r: FootLoads, values: Float[np.ndarray, "f n"]) -> Float[np.ndarray, "t n"]:
     """What a plate shows at all of our frames; NaN beyond its recording."""
     frames = np.empty(0, int) if r.plate is None else r.plate.frames
     found = np.full((len(r.foot.motion), values.shape[1]), np.nan)
@@ -129,13 +126,13 @@ def _at(r: CopResult, values: Float[np.ndarray, "f n"]) -> Float[np.ndarray, "t 
     return found
 
 
-def _upward(r: CopResult) -> int | None:
+def _upward(r: FootLoads) -> int | None:
     """Axis nearest to the ground's normal; None where there is no centre."""
     known = r.centre.normal[np.isfinite(r.centre.normal[:, 0])]
     return int(np.argmax(np.abs(known.mean(axis=0)))) if len(known) else None
 
 
-def _comparison(r: CopResult) -> list[Table]:
+def _comparison(r: FootLoads) -> list[Table]:
     """Every quantity's difference to the plate: root mean square, mean, largest."""
     if r.comparison is None:
         return []

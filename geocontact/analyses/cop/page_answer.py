@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from geocontact.analyses.cop.foot_loads import FootLoads
 from geocontact.analyses.cop.force_plate import root_mean_squares
 from geocontact.analyses.cop.page_plans import MM, path_length, travel
 from geocontact.analyses.page_words import counted, rounded
 from geocontact.data.seconds import seconds
 
-if TYPE_CHECKING:
-    from geocontact.analyses.cop.result import CopResult
-
 AXES = "xyz"
 NO_MOMENT = 1e-6  # N m; less is what rounding leaves
 
 
-def headline(r: CopResult) -> list[str]:
+def headline(r: FootLoads) -> list[str]:
     """Largest force and way of the centre; in how many frames there is one; the plate's difference."""
     time, c = r.foot.motion.time, r.centre
     found = np.isfinite(c.centre[:, 0])
@@ -38,7 +34,7 @@ def headline(r: CopResult) -> list[str]:
     return lines + _beside(r)
 
 
-def _beside(r: CopResult) -> list[str]:
+def _beside(r: FootLoads) -> list[str]:
     """Difference to the plate as one distance and one force."""
     if r.comparison is None:
         return []
@@ -59,7 +55,7 @@ def _length(parts: list[float | None]) -> float:
     return float(np.sqrt(sum(part**2 for part in parts if part is not None)))
 
 
-def facts(r: CopResult) -> list[tuple[str, str]]:
+def facts(r: FootLoads) -> list[tuple[str, str]]:
     """How much, for how long, under what, how far, and how it turns."""
     time, c = r.foot.motion.time, r.centre
     found, touching = np.isfinite(c.centre[:, 0]), c.pressing > 0.0

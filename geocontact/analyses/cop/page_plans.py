@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial import ConvexHull
 
+from geocontact.analyses.cop.foot_loads import FootLoads
 from geocontact.view.page.content import Mark, Plan, Track
-
-if TYPE_CHECKING:
-    from geocontact.analyses.cop.result import CopResult
 
 MM = 1e3
 ROUND = np.linspace(0.0, 2.0 * np.pi, 49)
@@ -27,7 +23,7 @@ def axis_name(axis: int, sign: float = 1.0) -> str:
     return ("" if sign > 0.0 else "−") + "xyz"[axis]
 
 
-def foot_plan(r: CopResult, shown: Int[np.ndarray, " k"]) -> Plan:
+def foot_plan(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan:
     """Spheres, their outline and the path, seen against the ground's normal: the longer way lies across."""
     sole = r.foot.sole
     across, up, sign = _seen(r)
@@ -59,7 +55,7 @@ def foot_plan(r: CopResult, shown: Int[np.ndarray, " k"]) -> Plan:
     )
 
 
-def butterfly(r: CopResult, shown: Int[np.ndarray, " k"]) -> Plan | None:
+def butterfly(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan | None:
     """Forces on the foot, each from its centre of pressure, seen across the way that the centre takes (Pedotti).
 
     None where there is no centre of pressure.
@@ -93,7 +89,7 @@ def butterfly(r: CopResult, shown: Int[np.ndarray, " k"]) -> Plan | None:
     )
 
 
-def travel(r: CopResult) -> tuple[float, str]:
+def travel(r: FootLoads) -> tuple[float, str]:
     """How far the centre of pressure goes on the ground [m], and along which axis it goes the most."""
     found = np.isfinite(r.centre.centre[:, 0])
     centre = r.centre.centre[found]
@@ -114,12 +110,12 @@ def _along(centre: Float[np.ndarray, "t 3"], upward: int) -> int:
     return int(np.argmax(reach))
 
 
-def _in_foot(r: CopResult, points: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, "t 3"]:
+def _in_foot(r: FootLoads, points: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, "t 3"]:
     matrices = r.foot.motion.poses.inv().as_matrix().reshape(-1, 4, 4)
     return np.asarray(np.einsum("tij,tj->ti", matrices[:, :3, :3], points) + matrices[:, :3, 3])
 
 
-def _seen(r: CopResult) -> tuple[int, int, float]:
+def _seen(r: FootLoads) -> tuple[int, int, float]:
     """Axes of the foot to the right and upwards in the drawing, and the sign of the latter, for a view from above."""
     turned = r.foot.motion.poses.rotation.inv().as_matrix().reshape(-1, 3, 3)
     known = np.isfinite(r.centre.normal[:, 0])

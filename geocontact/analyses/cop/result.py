@@ -10,15 +10,10 @@ import numpy as np
 import pandas as pd
 
 from geocontact.analyses.cop.figure import LoadCurves, cop_figure
-from geocontact.analyses.cop.force_plate import PlateCurves
-from geocontact.analyses.cop.options import CopOptions
+from geocontact.analyses.cop.foot_loads import FootLoads
 from geocontact.analyses.cop.page import write_cop_report
-from geocontact.analyses.cop.read import Foot
 from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.result import Result
 from geocontact.io.text.results import write_table
-from geocontact.loads.centre_of_pressure import CentreOfPressure
-from geocontact.loads.sphere_loads import SphereLoads
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -29,27 +24,8 @@ CENTRES = {"ground": "centre of the ground points", "sphere": "centre of the sph
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class CopResult(Result):
-    """Loads on a foot over its motion, in the frame of the ground.
-
-    Parameters
-    ----------
-    foot
-        Sole, law, motion and ground.
-    loads
-        Force of every sphere in every frame.
-    centre
-        Resultant, centre of pressure and free moment of every frame.
-    plate, comparison
-        What a force plate shows, and the differences to it; None without a plate.
-    """
-
-    options: CopOptions
-    foot: Foot
-    loads: SphereLoads
-    centre: CentreOfPressure
-    plate: PlateCurves | None
-    comparison: pd.DataFrame | None
+class CopResult(FootLoads):
+    """Loads on a foot over its motion, with tables, figure and page."""
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`cop`, `zones`, and `comparison` with a plate."""
