@@ -40,12 +40,8 @@ KNEE = (
 )
 FURTHER = f"""
 page_compare: {KNEE} --threshold 4 --compare inputs/measured_11.csv --tolerance 3%
-<<<<<<< HEAD
 page_pressure: {KNEE} --split z --side right --region "ny>0.25" --pressure --modulus 500MPa --poisson 0.46
-=======
 page_loadcells: loadcells inputs/knee/walk.csv --unit N --cycles stride --part 60% --body-mass 72.6
-page_pressure: {KNEE} --split z --region "ny>0.25" --pressure --modulus 500MPa --poisson 0.46
->>>>>>> e2d1b9e (modulus, loadcells: pages that answer first)
 """
 MEASURED = "time [s], area_fixed [mm^2]\n0,2080\n0.2,2275\n0.5,1880\n0.8,2380\n1,2080\n"
 
