@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.area.apart import refuse_strangers, warn_of_no_contact
+from geocontact.analyses.area.apart import refuse_strangers, warn_of_lift_off, warn_of_no_contact, warn_of_overlap
 from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.page import FRAMES
@@ -56,6 +56,8 @@ def _evaluated(
         evolution = area_evolution(bodies.moving, bodies.fixed, motion, bodies.settings, o.workers, each)
     refuse_strangers(evolution, motion, o)
     warn_of_no_contact(record, evolution, motion, name)
+    warn_of_lift_off(record, evolution, motion, name)
+    warn_of_overlap(record, evolution, motion, name)
     _warn_of_doubts(record, evolution, bodies.settings, o.bounds is not None)
     _summarise(record, evolution, name)
     return evolution, maps

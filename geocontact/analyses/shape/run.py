@@ -24,6 +24,7 @@ from geocontact.geometry.sweep import Axis
 
 FLATTEST = np.radians(60.0)  # arc below which a radius is hardly determined
 WINDOW = np.radians(30.0)
+POOR = 0.1  # of the radius, that the rms of the points may be
 
 
 def run(given: Inputs, o: ShapeOptions, record: Record) -> ShapeResult:
@@ -76,6 +77,11 @@ def _warn_of_doubts(record: Record, name: str, fit: ShapeFit) -> None:
         record.warn(
             f"{name}: the points cover {np.degrees(fit.arc):.0f} degrees about the axis; "
             "below 60 radius and axis are hardly determined"
+        )
+    if fit.radius is not None and fit.rms > POOR * fit.radius:
+        record.warn(
+            f"{name}: rms {fit.rms * 1e3:.2f} mm is {fit.rms / fit.radius:.0%} of the radius: "
+            f"a {fit.shape} does not describe this patch; another shape, or fewer faces with `region`?"
         )
     share = float(fit.quality.inlier.mean())
     if share < 0.7:

@@ -200,3 +200,9 @@ def test_a_region_that_lacks_an_option_names_it_as_python_has_it() -> None:
         fit(CYLINDER, "cylinder", region="flexion>3")
     with pytest.raises(InputError, match="`shape` sphere: lateral: a sphere needs at least 5 points, not 0"):
         fit(SPHERE, "sphere", split="z=100", side="right")
+
+
+def test_a_shape_that_does_not_describe_the_patch_is_told() -> None:
+    sphere = MESHES / "sphere_r20.stl"
+    with pytest.warns(gc.InputWarning, match="27% of the radius: a cylinder does not describe this patch"):
+        gc.fit_shape(sphere, unit="mm", shape="cylinder")
