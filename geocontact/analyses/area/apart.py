@@ -60,7 +60,8 @@ def warn_of_overlap(record: Record, e: AreaEvolution, motion: Motion, name: str)
     if depth > OVERLAP:
         record.warn(
             f"{_of(name)}the bodies overlap, by {depth * 1e3:.2f} mm at most, in {_nearest(e, motion)}; "
-            f"rigid ones do not: check {PLACES}, the order of rotations, that quaternions have the scalar first, and which body moves"
+            f"rigid ones do not: check {PLACES}, the order of rotations, "
+            "that quaternions have the scalar first, and which body moves"
         )
 
 
