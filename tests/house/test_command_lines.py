@@ -21,7 +21,7 @@ NOT_RUN = {
     ("README.md", 0): "make installs the package and runs these tests",
     ("docs/how-to/inverse.md", 1): "a static trial, a generic model and loads of one's own laboratory",
     ("docs/how-to/mat.md", 1): "a second scan with the mat on",
-    ("docs/how-to/opensim_motion.md", 2): "real data that are not in the repository: run in tests/real",
+    ("docs/how-to/opensim_motion.md", 1): "real data that are not in the repository: run in tests/real",
 }
 """Blocks that need what a reader has and the repository has not, and why."""
 

@@ -51,11 +51,12 @@ class GaitCycles:
         return {side: len(starts) - 1 for side, starts in self.starts.items()}
 
     def table(self) -> pd.DataFrame:
-        """Mean and SD of every coordinate at each per cent; the SD is empty where there is one cycle."""
+        """Mean and SD of every coordinate at each per cent, lengths in mm; the SD is empty where there is one cycle."""
         columns: dict[str, object] = {"cycle [%]": STEPS}
         for name, trials in self.curves.items():
-            mean, sd = mean_and_sd(trials)
-            columns |= {f"{name}_mean [{self.units[name]}]": mean, f"{name}_sd [{self.units[name]}]": sd}
+            unit, factor = ("mm", 1e3) if self.units[name] == "m" else (self.units[name], 1.0)
+            mean, sd = (factor * each for each in mean_and_sd(trials))
+            columns |= {f"{name}_mean [{unit}]": mean, f"{name}_sd [{unit}]": sd}
         return pd.DataFrame(columns)
 
 
