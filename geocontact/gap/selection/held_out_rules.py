@@ -156,8 +156,8 @@ class HeldOutRules:
         before = whole.residuals(system, model.values)[count:]
         varies = base.noise.varies
         weights = tuple(
-            TrialWeight.of(there, problem.floor, jacobian[..., : len(varies)] * varies)
-            for there, jacobian in zip(whole.present[count:], base.model.jacobian[count:], strict=True)
+            TrialWeight.of(there, problem.floor, varied * varies)
+            for there, varied in zip(whole.present[count:], problem.varied(base.model.jacobian)[count:], strict=True)
         )
         return cls(problem, base, before, np.sqrt(squares / np.maximum(counts, 1)), weights)
 

@@ -60,10 +60,11 @@ def innovations(problem: Problem, judged: Judged) -> list[list[Float[np.ndarray,
     whitenings = problem.whitenings(judged.noise, judged.model)
     channels = len(problem.floor)
     out = []
-    for whitening, residual in zip(whitenings, without_discrepancy(judged), strict=True):
+    together = zip(whitenings, judged.noise.whiteners, without_discrepancy(judged), strict=True)
+    for whitening, whitener, residual in together:
         white = whitening(residual[..., None])[:, 0]
         flat = np.full(residual.size, np.nan)
-        flat[np.concatenate(whitening.whitener.rows)] = white
+        flat[np.concatenate(whitener.rows)] = white
         out.append([column[np.isfinite(column)] for column in flat.reshape(-1, channels).T])
     return out
 

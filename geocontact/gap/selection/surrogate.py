@@ -220,9 +220,9 @@ def lonely(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[n
     phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
     bumps = [_per_channel(each, problem.floor_of_noise) for each in _line(phase, ALONE)]
     yield "stretches of single trials", _apart(bumps)
-    count, edges = len(problem.usual), np.arange(1, STRETCHES) / STRETCHES
+    count, edges = problem.fitted, np.arange(1, STRETCHES) / STRETCHES
     changing = [
-        np.concatenate([j[..., :count] * problem.usual * (p > edge)[:, None, None] for edge in edges], axis=-1)
+        np.concatenate([j[..., :count] * problem.usual[:count] * (p > edge)[:, None, None] for edge in edges], axis=-1)
         for j, p in zip(judged.model.jacobian, phase, strict=True)
     ]
     yield "parameters that change during a trial", _apart(changing)

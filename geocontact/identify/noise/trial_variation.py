@@ -36,11 +36,13 @@ class Products:
 def variation(
     trials: Sequence[Products],
     prior_sd: Float[np.ndarray, " q"],
-    weight: float = 4.0,
+    weight: float | Float[np.ndarray, " q"] = 4.0,
     spent: float = 0.0,
     rounds: int = 50,
 ) -> Float[np.ndarray, " q"]:
-    """Most likely standard deviation of each varying parameter; the prior is worth `weight` trials of `prior_sd`.
+    """Most likely standard deviation of each varying parameter.
+
+    The prior is worth `weight` trials of `prior_sd`, of all alike or of each its own.
 
     `spent` trials count as used up, 1 where the parameters' means were fitted to the same trials, as far as the trials
     tell of a parameter's deviations at all.
