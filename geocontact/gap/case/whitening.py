@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -35,6 +35,7 @@ BUMP = 1e-4  # of an input's half-range
 LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
 
 
+@runtime_checkable
 class Weighing(Protocol):
     """What weighs the columns of a trial, and half the logarithm of the determinant of the covariance behind it."""
 

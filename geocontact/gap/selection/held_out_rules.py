@@ -8,9 +8,9 @@ themselves weighed down, the squared error falls by
 
 so it falls where the amplitude a of the change, as the held-out trials have it, is above one half; 1 where the
 change is what is missing. Its standard error is from blocks of the trials, whatever the noise within and between
-neighbouring blocks is (Newey & West 1987, Econometrica 55:703): few blocks that hold the change tell little, however
-many samples they have. The change must exceed what the calibration of a channel varies by, and no verdict hangs on a
-few samples or on one trial.
+neighbouring blocks is (Newey & West 1987, Econometrica 55:703), no less than that of independent samples: few blocks
+that hold the change tell little, however many samples they have. The change must exceed what the calibration of a
+channel varies by, and no verdict hangs on a few samples or on one trial.
 """
 
 from __future__ import annotations
@@ -89,10 +89,12 @@ def amplitude(
         return None
     value = work / power
     off = [w - value * p for w, p in zip(works, powers, strict=True)]
-    spread = sum(float(each @ each) + float(each[1:] @ each[:-1]) for each in off)
+    pairs = zip(before, change, strict=True)
+    alone = sum(float(((moved * (own - value * moved)).sum(axis=1) ** 2).sum()) for own, moved in pairs)
+    spread = max(sum(float(each @ each) + float(each[1:] @ each[:-1]) for each in off), alone)
     count = power**2 / float(np.sum(np.square(powers)))
     freedom = max(count - 1.0, 0.5)
-    error = float(np.sqrt(max(spread, 0.0) * (count / freedom))) / power
+    error = float(np.sqrt(spread * (count / freedom))) / power
     reach = float(t.ppf(SURE, freedom)) * error
     return Amplitude(value, value - reach, value + reach, (power - 2.0 * work) / max(squares, 1e-300))
 
