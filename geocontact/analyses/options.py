@@ -228,7 +228,7 @@ def _as(kind: Any, value: Any) -> Any:
 
 
 def declared(options: type[Options]) -> tuple[Declared, ...]:
-    """The options of a class in the order of their declaration."""
+    """The options of a class in the order of their declaration, those of its base first, positional ones before all."""
     anything: Any = options
     return _all(anything)
 
@@ -239,7 +239,8 @@ def _all(options: Any) -> tuple[Declared, ...]:
     words: dict[str, str] = {}
     for base in reversed(options.__mro__):
         words |= documented(base.__doc__ or "")
-    return tuple(_declared(each, hints[each.name], words.get(each.name, "")) for each in fields(options))
+    ordered = sorted(fields(options), key=lambda each: bool(each.kw_only))
+    return tuple(_declared(each, hints[each.name], words.get(each.name, "")) for each in ordered)
 
 
 def _declared(each: Field[Any], hint: Any, words: str) -> Declared:

@@ -8,6 +8,7 @@ import numpy as np
 
 from geocontact.analyses.figure_files import drawing
 from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import MOST, headline
 from geocontact.analyses.result import Result
 from geocontact.view.page.content import Page, Picture, Section, Words
 from geocontact.view.page.tables import frame_table, inputs_table
@@ -17,16 +18,24 @@ ROWS = 200  # of a table that the page shows
 
 
 def write_plain_page(result: Result, title: str, file: Path) -> None:
-    """Sentences, figure, tables, inputs with hashes, options and reservations."""
-    sections: list[Section] = [Words("What was found", list(result.sentences))] if result.sentences else []
+    """The answer in sentences, reservations, figure, tables, inputs with hashes, options."""
+    sections: list[Section] = []
     figure = result.figure()
     if figure is not None:
         sections.append(Picture("Figure", "", drawing(figure), wide=True))
+    if len(result.sentences) > MOST:
+        sections.append(Words("What was found", list(result.sentences)))
     for name, table in result.tables().items():
         shown = f"{name}, {ROWS} of {len(table)} rows" if len(table) > ROWS else name
         sections.append(frame_table(shown, table.iloc[:ROWS]))
     sections += [inputs_table(result.record.inputs), options_table(result.record)]
-    if result.warnings:
-        sections.append(Words("Reservations of this run", list(result.warnings)))
-    page = Page(title, f"geocontact {result.record.command}", np.zeros(1), "", sections=tuple(sections))
+    page = Page(
+        title,
+        f"geocontact {result.record.command}",
+        np.zeros(1),
+        "",
+        headline=headline(result.sentences),
+        reservations=result.warnings,
+        sections=tuple(sections),
+    )
     write_page(page, file)

@@ -44,6 +44,8 @@ class Record:
         Reservations, each one line.
     results
         Summary by name.
+    tables
+        What the tables refer to, such as point and frame, by the name of their file.
     sentences
         What was found.
     listener
@@ -58,6 +60,7 @@ class Record:
     inputs: list[dict[str, object]] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     results: dict[str, object] = field(default_factory=dict)
+    tables: dict[str, Mapping[str, object]] = field(default_factory=dict)
     sentences: list[str] = field(default_factory=list)
     started: float = field(default_factory=time.perf_counter)
     listener: Listener = field(default_factory=Listener)
@@ -106,6 +109,7 @@ class Record:
             "options_si": {key: _plain(value) for key, value in self.in_si.items()},
             "inputs": self.inputs,
             "results": self.results,
+            "tables": {name: _plain(told) for name, told in self.tables.items()},
             "warnings": self.warnings,
             "versions": self.versions(),
             "seconds": round(time.perf_counter() - self.started, 3),

@@ -9,12 +9,15 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.data.errors import InputError
 from geocontact.identify.noise.autoregressive import AutoregressiveNoise, noise_of
-from geocontact.identify.signals.angle_bins import AngleBins, Cells, angle_bins, edges_over
+from geocontact.identify.signals.angle_bins import LEAST_SECONDS, AngleBins, Cells, angle_bins, edges_over
 
 CHUNK = 0.05  # s, over which a residual is averaged before its correlation time is estimated
 MEMORIES = 10.0  # correlation times in a stretch: a tenth of the variance is lost across their ends
-SHORTEST, FEWEST = 1.0, 6  # s of a stretch, and stretches in a trial
+SHORTEST, FEWEST = 1.0, 6  # s of a stretch, and stretches in the longest of few trials
+LONGER = "give a longer recording, or wider bins (`bin`)"
+MANY = 12  # trials; these are stretches enough
 BETA, FORCE, RATE, PRESSURE, DISPLACEMENT = range(5)
 """Channels of the visits."""
 
@@ -84,11 +87,20 @@ def binned(recordings: Sequence[ElbowRecording], width: float, centre: float | N
     pressure = own if centre is None else centre
     channels = [_channels(r, pressure) for r in recordings]
     noise = _noise(times, channels, edges)
-    shortest = min(float(t[-1] - t[0]) for t in times)
-    stretch = min(max(SHORTEST, MEMORIES * float(noise.tau[0])), shortest / FEWEST)
+    stretch = _stretch([float(t[-1] - t[0]) for t in times], float(noise.tau[0]))
     found = angle_bins(times, channels, edges, stretch)
     step = float(np.median([r.step for r in recordings]))
     return Binned(tuple(r.name for r in recordings), found, found.cells(), noise, stretch, step, pressure)
+
+
+def _stretch(durations: Sequence[float], tau: float) -> float:
+    """Length of a stretch [s] for a correlation time; a trial that is shorter is one stretch.
+
+    Few trials are cut finer than that, so that there are stretches to compare: the longest decides, as one short trial
+    does not make those of the others independent.
+    """
+    wanted = max(SHORTEST, MEMORIES * tau)
+    return wanted if len(durations) >= MANY else min(wanted, max(durations) / FEWEST)
 
 
 def _channels(r: ElbowRecording, pressure: float) -> Float[np.ndarray, "t 5"]:
@@ -104,7 +116,11 @@ def _noise(
     edges: Float[np.ndarray, " edges"],
 ) -> AutoregressiveNoise:
     """Of the force about the curve through all trials' bin means, which no model has a part in."""
-    curve = angle_bins(times, channels, edges, np.inf).cells()
+    found = angle_bins(times, channels, edges, np.inf)
+    if not len(found.count):
+        held = f"no bin of {np.degrees(edges[1] - edges[0]):g} degrees is held for {LEAST_SECONDS:g} s in any recording"
+        raise InputError("", "", f"{held}: {max(float(t[-1] - t[0]) for t in times):.3g} s are too short", LONGER)
+    curve = found.cells()
     bins = len(edges) - 1
     count = np.bincount(curve.place, curve.count, bins)
     reached = count > 0.0

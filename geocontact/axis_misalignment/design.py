@@ -22,10 +22,10 @@ RINGS = 20
 """Distances from the centre at which a disc of offsets is looked at, the rim among them."""
 
 WALK = 200
-"""Steps in which a ray is walked until the limit is passed."""
+"""Steps in which a ray is walked until the limit is exceeded."""
 
 HALVINGS = 40
-"""Of the last step, until where the limit is passed is known."""
+"""Of the last step, until where the limit is exceeded is known."""
 
 FINE = np.radians(0.1)
 """rad; step of the mean square of the force."""
@@ -91,7 +91,7 @@ def offset_map(task: DesignTask, x: Float[np.ndarray, " a"], y: Float[np.ndarray
 
 @dataclass(frozen=True, eq=False)
 class Boundary:
-    """How far offsets may go from a centre [m] in each direction [rad]; `most` where the limit is not passed."""
+    """How far offsets may go from a centre [m] in each direction [rad]; `most` where the limit is not exceeded."""
 
     angles: Float[np.ndarray, " r"]
     distances: Float[np.ndarray, " r"]
@@ -104,25 +104,25 @@ class Boundary:
 
 
 def boundary(task: DesignTask, centre: tuple[float, float], most: float) -> Boundary:
-    """Where |F| first passes the limit around `centre`, looked for up to `most` [m].
+    """Where |F| first exceeds the limit around `centre`, looked for up to `most` [m].
 
-    Every direction is walked outwards until the limit is passed for the first time, in steps of `most`/200; distances
+    Every direction is walked outwards until the limit is exceeded for the first time, in steps of `most`/200; distances
     are 0 where the centre itself is beyond it. The directions lie closer around the one that is least.
     """
     angles = 2.0 * np.pi * np.arange(RAYS) / RAYS
     if not task.admissible(np.array([centre]))[0]:
         return Boundary(angles, np.zeros(RAYS), most)
-    found = _passed(task, centre, angles, most)
+    found = _exceeded(task, centre, angles, most)
     near = angles[int(np.argmin(found))] + (np.arange(RAYS) / RAYS - 0.5) * (4.0 * np.pi / RAYS)
     angles = np.mod(np.concatenate([angles, near]), 2.0 * np.pi)
     order = np.argsort(angles)
-    return Boundary(angles[order], np.concatenate([found, _passed(task, centre, near, most)])[order], most)
+    return Boundary(angles[order], np.concatenate([found, _exceeded(task, centre, near, most)])[order], most)
 
 
-def _passed(
+def _exceeded(
     task: DesignTask, centre: tuple[float, float], angles: Float[np.ndarray, " r"], most: float
 ) -> Float[np.ndarray, " r"]:
-    """Distance from the centre at which the limit is first passed in each direction."""
+    """Distance from the centre at which the limit is first exceeded in each direction."""
     way = np.column_stack([np.cos(angles), np.sin(angles)])
     walked = most * np.arange(1, WALK + 1) / WALK
     offsets = np.array(centre) + walked[:, None, None] * way

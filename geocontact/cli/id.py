@@ -7,8 +7,8 @@ from geocontact.cli.command import command
 
 HELP = """Joint moments and forces of a recorded motion: Newton and Euler, with the measured ground reactions.
 
-Writes id.sto (for OpenSim), id.json with what is left over at the joint to the ground, report.html and run.json into
-OUT.
+Writes id.sto (for OpenSim), id.json with what is left over at the joint to the ground, cycles.csv where heel strikes
+are known, report.html (a moving skeleton) and run.json into OUT.
 """
 
 inverse_dynamics = command("geocontact.analyses.motion.inverse_dynamics.job:inverse_dynamics", IdOptions, HELP)

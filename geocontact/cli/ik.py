@@ -8,7 +8,7 @@ from geocontact.cli.command import command
 HELP = """Joint angles from recorded markers: weighted least squares in every frame, limits of the model kept.
 
 Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model), knees.csv with
-`knee`, ik.json, report.html and run.json into OUT.
+`knee`, cycles.csv where heel strikes are known, ik.json, report.html (a moving skeleton) and run.json into OUT.
 """
 
 ik = command("geocontact.analyses.motion.inverse_kinematics.job:inverse_kinematics", IkOptions, HELP)

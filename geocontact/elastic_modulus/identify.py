@@ -23,6 +23,7 @@ WEAKEST, STRONGEST = 1e3, 1e13  # bounds of E* [Pa]: softer than any gel, stiffe
 STARTS = 8
 REPLICATES = 1000
 REFITS = 200  # replicates at most where more than E* is free and each is a search
+FLAT = 1e-9  # of the force; a parameter that changes less within its bounds is not told
 SMALL = 1e-6  # of a threshold, a lag or an offset, for differences [m, s, rad, 1/rad]
 POISSON = 0.25  # where the sensitivity to it is taken; which value does not matter
 YOUNG, RATIO, RADIUS = "E", "nu", "R"
@@ -106,16 +107,30 @@ def identify(
         Of the bootstrap; 0 for none.
     starts
         Of the search, besides the parameters' own.
+
+    The force must be above 0 N somewhere. ValueError where a free parameter changes nothing at the best fit: neither
+    it nor an interval of it is told then.
     """
     parameters = (modulus_parameter(), *others)
     fit = fitted(model, measured, parameters, starts)
     jacobian = fit.jacobian[0][:, 0, :]
+    _require_effect(model, fit, others, jacobian)
     memory = autocorrelation_of(model.frames, fit.residuals[0][:, 0], jacobian)
     profiles = {
         name: profile(model.predict, measured, model.frames, parameters, fit, memory, name, level) for name in fit.names
     }
     drawn = _bootstrap(model, fit, memory, parameters, replicates, level) if replicates else None
     return Identification(model, measured, fit, memory, profiles, drawn, _told_apart(model, fit, jacobian))
+
+
+def _require_effect(
+    model: AreaForce, fit: Fit, others: Sequence[Parameter], jacobian: Float[np.ndarray, "n p"]
+) -> None:
+    size = float(np.linalg.norm(model.force(fit.values)))
+    for one in others:
+        slope = float(np.linalg.norm(jacobian[:, fit.names.index(one.name)]))
+        if slope * (one.upper - one.lower) <= FLAT * size:
+            raise ValueError(f"{one.name} cannot be told: the areas do not change with it at the best fit")
 
 
 def _bootstrap(

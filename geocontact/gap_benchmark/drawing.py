@@ -7,23 +7,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geocontact.gap_benchmark.synthetic import KINDS, SyntheticCase, synthetic_case
+from geocontact.gap_benchmark.synthetic import KINDS, LABORATORIES, SyntheticCase, synthetic_case
 
-__all__ = ["KINDS", "SHARES", "SYSTEMS", "Lot", "SyntheticCase", "drawn", "lots", "shares"]
+__all__ = ["ABROAD", "HOME", "KINDS", "SHARES", "SYSTEMS", "Lot", "SyntheticCase", "drawn", "lots", "shares"]
 
 SYSTEMS = ("elbow", "foot", "shoulder", "knee", "sit_to_stand")
 SHARES = {"none": 100, "single": 70, "pair": 10, "outside": 10, "absorbed": 3, "fault": 4, "shift": 3}
 """Cases of each kind among 200: half without any effect, most others with one, so that about 60 can be seen."""
 
+HOME, *ABROAD = LABORATORIES
+"""The laboratory that the benchmark has always had, and the others."""
+
 
 @dataclass(frozen=True)
 class Lot:
-    """A case to be drawn: of which system and kind, and its own seed, made of the benchmark's and its place."""
+    """A case to be drawn: of which system and kind, its own seed, made of the benchmark's and its place; and where."""
 
     system: str
     kind: str
     seed: int
     place: int
+    laboratory: str = HOME
 
 
 def shares(cases: int, kinds: Sequence[str] = KINDS) -> dict[str, int]:
@@ -36,14 +40,20 @@ def shares(cases: int, kinds: Sequence[str] = KINDS) -> dict[str, int]:
     return found
 
 
-def lots(systems: Sequence[str], cases: int, kinds: Sequence[str], seed: int) -> Iterator[Lot]:
-    """Every case of a benchmark; which ones a kind gets does not depend on what else is asked for."""
+def lots(
+    systems: Sequence[str], cases: int, kinds: Sequence[str], seed: int, laboratories: Sequence[str] = (HOME,)
+) -> Iterator[Lot]:
+    """Every case of a benchmark, laboratories taking turns; a kind gets the same ones whatever else is asked for."""
     for system in systems:
         for kind, count in shares(cases, kinds).items():
-            yield from (Lot(system, kind, seed, place) for place in range(count))
+            for turn in range(count):
+                place, which = divmod(turn, len(laboratories))
+                yield Lot(system, kind, seed, place, laboratories[which])
 
 
 def drawn(lot: Lot) -> SyntheticCase:
     """The labelled case; the same lot gives the same case."""
-    key = (SYSTEMS.index(lot.system), KINDS.index(lot.kind), lot.place)
-    return synthetic_case(lot.system, lot.kind, np.random.SeedSequence(lot.seed, spawn_key=key))
+    where = () if lot.laboratory == HOME else (list(LABORATORIES).index(lot.laboratory),)
+    key = (SYSTEMS.index(lot.system), KINDS.index(lot.kind), lot.place, *where)
+    sequence = np.random.SeedSequence(lot.seed, spawn_key=key)
+    return synthetic_case(lot.system, lot.kind, sequence, laboratory=lot.laboratory)

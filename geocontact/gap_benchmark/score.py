@@ -2,7 +2,8 @@
 
 Labels and diagnoses are plain dictionaries by case. An effect is *visible* from 10 nats on; a pair when both are.
 
-*False alarm*: no effect, and any verdict but "no_gap".
+*False alarm*: no effect, and any verdict but "no_gap"; *certain* from a probability of 0.9 on, of what is named or of
+any answer but "none". *Harm*: a named effect makes held-out predictions worse, see `harm`; over answers that name one.
 *First*: the first of `ambiguity`, else of `effects`; *set*: both together, when they are three at most.
 *Confidently wrong*: verdict "explained", a named effect that is not there, `probabilities` of the named sum to one half
 or more, and the hedge is missing: `ambiguity` (three at most) does not hold the whole truth. One of two true effects
@@ -24,6 +25,7 @@ from typing import Any
 import numpy as np
 
 from geocontact.gap_benchmark.answers import Plain, constant_answer, oracle_answer, true_distribution
+from geocontact.gap_benchmark.harm import SURE, certainty, harmful, worse_channels, worse_in_sum
 from geocontact.gap_benchmark.rates import Rate
 
 VISIBLE = 10.0
@@ -53,6 +55,10 @@ class Score:
     """Figures of a set of cases; see the module for what each counts."""
 
     false_alarms: Rate
+    sure_alarms: Rate
+    harm: Rate
+    harm_in_sum: Rate
+    harm_in_channel: Rate
     first_right: Rate
     in_small_set: Rate
     missed: Rate
@@ -152,6 +158,7 @@ def score(labels: Mapping[str, Plain], diagnoses: Mapping[str, Plain]) -> Score:
     one = of(*GAPS, shown=True)
     two = of("pair", shown=True)
     strange = [(a, b) for a, b in of("outside", shown=True) if not a.get("imitated")]
+    named = [(a, b) for a, b in pairs if b["effects"]]
     errors = [found for a, b in pairs for found in reduction_errors(a, b)]
     held = [
         inside
@@ -166,6 +173,10 @@ def score(labels: Mapping[str, Plain], diagnoses: Mapping[str, Plain]) -> Score:
     sizes = [error for error, _ in errors]
     return Score(
         false_alarms=Rate.of(b["verdict"] != "no_gap" for _, b in of("none")),
+        sure_alarms=Rate.of(b["verdict"] != "no_gap" and certainty(b) >= SURE for _, b in of("none")),
+        harm=Rate.of(harmful(a, b) for a, b in named),
+        harm_in_sum=Rate.of(worse_in_sum(a, b) for a, b in named),
+        harm_in_channel=Rate.of(bool(worse_channels(a, b)) for a, b in named),
         first_right=Rate.of(answers(b)[:1] == list(a["effects"]) for a, b in one),
         in_small_set=Rate.of(set(a["effects"]) <= small_set(b) for a, b in one),
         missed=Rate.of(b["verdict"] == "no_gap" for _, b in one),

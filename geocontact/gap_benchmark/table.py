@@ -33,6 +33,10 @@ class ScoreRow:
 
 ROWS = (
     ScoreRow("false_alarms", "false alarms", "≤ 5 %", lambda v: v <= 0.05),
+    ScoreRow("sure_alarms", "false alarms with p ≥ 0.9", "none", lambda v: v == 0.0),
+    ScoreRow("harm", "named, and held out worse", "none", lambda v: v == 0.0),
+    ScoreRow("harm_in_sum", "– in the sum over channels"),
+    ScoreRow("harm_in_channel", "– significantly in a channel"),
     ScoreRow("first_right", "first-ranked right where visible", "≥ 92 %", lambda v: v >= 0.92),
     ScoreRow("in_small_set", "truth in a set of ≤ 3 where visible", "≥ 97 %", lambda v: v >= 0.97),
     ScoreRow("missed", "visible, called no gap"),

@@ -24,6 +24,9 @@ GOOD = "0,0,0,0.02,heel"
         ),
         (HEAD, ["0,0,0,-0.02,heel"], "line 2: radius is -0.02; it must be positive"),
         (HEAD, [GOOD, "0,0,0,0,heel"], "line 3: radius is 0; it must be positive"),
+        (HEAD, ["0,0,0,8,heel"], "line 2: radius is 8 m, under a foot it is 0.5 mm to 0.5 m; write radius [mm]"),
+        (HEAD, [GOOD, "0,0,0,20,heel"], "line 3: radius is 20 m"),
+        (HEAD.replace("radius [m]", "radius [mm]"), ["0,0,0,0.02,heel"], "line 2: radius is 0.02 mm"),
         (HEAD, [GOOD, "0,nan,0,0.02,heel"], "line 3: py is nan; it must be finite"),
         (HEAD, ["0,inf,0,0.02,heel"], "line 2: py is inf; it must be finite"),
         (HEAD, [GOOD, "0,,0,0.02,heel"], "line 3: '' in column 'py' is not a number"),
@@ -153,7 +156,7 @@ def test_force_plates(tmp_path: Path) -> None:
 def test_a_foot_in_the_air_is_a_warning_and_an_empty_column(tmp_path: Path) -> None:
     result = done(cop(tmp_path, *LAW, motion=poses(tmp_path, (0, 25, 0), (0, 30, 0))))
     assert result.warnings == ["no sphere touches the ground; the nearest comes within 5.00 mm"]
-    assert result.bytes("cop.csv").decode().splitlines()[2] == "0,0,0,0,,,,,0,0,0"
+    assert result.bytes("cop.csv").decode().splitlines()[1] == "0,0,0,0,,,,,0,0,0"
 
 
 def test_reservations_are_said_and_kept(tmp_path: Path) -> None:
@@ -203,3 +206,17 @@ def test_joint_of_a_model_as_motion(tmp_path: Path) -> None:
     """The sample knee's joint puts its child far above y = 0: refused in one line, by way of the reader of models."""
     result = cop(tmp_path, "--osim", MESHES / "knee.osim", "--joint", "none", motion=MESHES / "gait.mot")
     assert (result.code, len(result.complaints)) == (2, 1) and "none" in result.err
+
+
+def test_forces_on_the_plate_are_refused(tmp_path: Path) -> None:
+    """The sign is told by the load: a plate only pushes."""
+    file = plate_file(tmp_path)
+    head, *rows = file.read_text(encoding="utf-8").split("endheader\n")
+    names, *lines = rows[0].splitlines()
+    turned = ["\t".join(cell if k in (0, 4, 5, 6) else str(-float(cell)) for k, cell in enumerate(line.split("\t")))
+              for line in lines]  # fmt: skip
+    written(file, "\n".join([f"{head}endheader", names, *turned]) + "\n")
+    result = cop(tmp_path, *LAW, "--compare", file)
+    assert (result.code, len(result.complaints), result.folder.exists()) == (2, 1, False)
+    assert "ground_force: its force along y, which is up, is -89.44 N under load" in result.err
+    assert "give the force on the foot: turn the sign of forces and torques" in result.err

@@ -55,8 +55,10 @@ def test_simulated_trials_say_what_they_are(made: Path) -> None:
         *(f"{kind}_{k}.csv" for kind in ("locked", "free") for k in (1, 2, 3)),
         "surfaces.csv",
     }
+    record = json.loads((made / "run.json").read_text(encoding="utf-8"))
     for file in (*locked(made), *free(made)):
-        assert file.read_text(encoding="utf-8").startswith("# synthetic: ")
+        assert file.read_text(encoding="utf-8").startswith("time [s],beta [deg]")
+        assert record["tables"][file.name]["synthetic"] is True
     truth = json.loads((made / "truth.json").read_text(encoding="utf-8"))
     assert truth["synthetic"] is True and truth["stroke_mm"] == [-10.0, 60.0]
 
@@ -261,7 +263,7 @@ def test_comparisons_that_cannot_be_are_refused(tmp_path: Path, made: Path) -> N
 
 def test_recordings_of_other_columns_are_mapped(tmp_path: Path, made: Path) -> None:
     """A sign turned in the map turns the force back that was turned in the file."""
-    table = pd.read_csv(locked(made)[0], comment="#")
+    table = pd.read_csv(locked(made)[0])
     table["Fx [N]"] = -table.pop("force [N]")
     table.rename(columns={"beta [deg]": "flexion [deg]"}).to_csv(tmp_path / "locked_1.csv", index=False)
     columns = ("--map", "beta=flexion,force=-Fx", "--simulated", locked(made)[0])

@@ -56,9 +56,10 @@ def refused(result: Call, said: str) -> None:
 def test_contract(tmp_path: Path) -> None:
     result = done(mat(tmp_path, uniform(), *STILL))
     assert {file.name for file in result.folder.iterdir()} == FILES
-    head = result.bytes("wrench.csv").decode().splitlines()[:2]
-    assert head == ["# point_mm = 0, 0, 0", "# frame = of skin.obj; forces are those of the mat on the body"]
-    ours = pd.read_csv(result.folder / "wrench.csv", comment="#")
+    told = result.record()["tables"]
+    assert set(told) == {"wrench.csv", "uncertainty.csv"}
+    assert (told["wrench.csv"]["point_mm"], told["wrench.csv"]["frame"]) == ([0.0, 0.0, 0.0], "of skin.obj")
+    ours = pd.read_csv(result.folder / "wrench.csv")
     assert list(ours.columns) == COLUMNS
     np.testing.assert_allclose(ours["fz [N]"], -12.0, rtol=1e-9)
     assert result.bytes("report.html").startswith(b"<!doctype html>") and b"<svg" in result.bytes("mat.svg")
@@ -106,9 +107,10 @@ def test_python_writes_what_the_command_writes(tmp_path: Path) -> None:
     names = {name for name in ours if name.endswith((".csv", ".vtp"))}
     assert names == {*TABLES, "segments.csv", "registration.csv", "agreement.csv", "mat_on_surface.vtp"}
     assert {name: ours[name] for name in names} == {name: theirs[name] for name in names}
-    assert theirs["wrench.csv"].startswith(b"# point_mm = -4, 45, 0\n# frame = thigh;")
-    assert theirs["segments.csv"].startswith(b"# point_mm") and not theirs["cells.csv"].startswith(b"#")
     told = by_command.record()
+    assert told["tables"]["wrench.csv"]["point_mm"] == [-4.0, 45.0, 0.0]
+    assert {each["frame"] for each in told["tables"].values()} == {"thigh"}
+    assert set(told["tables"]) == {"wrench.csv", "uncertainty.csv", "segments.csv"}
     assert told["results"]["uncertainty"]["place"] == "--registration"
     assert {**told["results"], "uncertainty": None} == {**result.record.results, "uncertainty": None}
     assert [line.replace("`unloaded`", "--unloaded") for line in result.warnings] == told["warnings"]

@@ -71,10 +71,12 @@ def test_stills_show_the_frame_of_most_contact_from_the_medial_side_too(
     assert scene.time == table["time [s]"][largest]
     assert largest == 1
     assert {file.name: view.seen_from for file, view in views.items()} == {
-        "still_plus_x.png": (1.0, 0.0, 0.0),
         "still_medial.png": (0.0, 0.0, -1.0),
-        "still_superior.png": (0.0, 1.0, 0.0),
-        "still_plantar.png": (0.0, -1.0, 0.0),
+        "still_lateral.png": (0.0, 0.0, 1.0),
+        "still_plus_x.png": (1.0, 0.0, 0.0),
+        "still_minus_x.png": (-1.0, 0.0, 0.0),
+        "still_plus_y.png": (0.0, 1.0, 0.0),
+        "still_minus_y.png": (0.0, -1.0, 0.0),
     }
 
 
@@ -123,6 +125,6 @@ def test_long_motions_write_a_page_of_few_frames(tmp_path: Path) -> None:
     with mock.patch("geocontact.analyses.area.run.FRAMES", 3), mock.patch("geocontact.analyses.area.page.FRAMES", 3):
         result = done(area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=motion, picture=True))
     said = text(result)
-    assert "(frame 4 of 9)" in said and "of 9 frames" in said
+    assert "4 mm of sphere_r20, at 3 s" in said and "of 9 frames" in said
     assert f"{result.table()['area_fixed [mm^2]'].iloc[3]:.2f}" in said
     assert np.argmax(result.table()["area_fixed [mm^2]"]) == 3

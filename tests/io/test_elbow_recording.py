@@ -80,7 +80,7 @@ def test_analog_channels_of_a_c3d(tmp_path: Path) -> None:
 
 BAD = {
     "degrees declared as radians": ("time [s],beta [rad],force [N]", DEGREES, FORCE, "too much for the radians"),
-    "few degrees declared as radians": ("time [s],beta [rad],force [N]", DEGREES / 10, FORCE, "beyond any elbow"),
+    "few degrees declared as radians": ("time [s],beta [rad],force [N]", DEGREES / 15, FORCE, "beyond any elbow"),
     "radians declared as degrees": ("time [s],beta [deg],force [N]", np.radians(DEGREES), FORCE, "are these radians"),
     "no unit of the angle": ("time [s],beta,force [N]", DEGREES, FORCE, "degrees or radians"),
     "turned sign": ("time [s],beta [deg],force [N]", -DEGREES, FORCE, "`map` beta=-beta"),

@@ -45,6 +45,11 @@ def test_a_header_that_contradicts_is_refused(tmp_path: Path) -> None:
         read_storage_trial(ik(tmp_path, degrees=False), columns_of(HERE, {"angle [deg]": "knee_angle_r"}))
 
 
+def test_degrees_under_a_flag_of_radians_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"column 'knee_angle_r' reaches 60, too much for the radians .*angle \[deg\]"):
+        read_storage_trial(ik(tmp_path, degrees=False), columns_of(HERE, {"angle [rad]": "knee_angle_r"}))
+
+
 def test_a_file_without_any_of_the_columns_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="holds none of knee_angle_l; columns are: knee_angle_r, pelvis_ty"):
         read_storage_trial(ik(tmp_path), columns_of(HERE, {"angle [deg]": "knee_angle_l"}))

@@ -244,6 +244,16 @@ def test_radians_declared_as_degrees_are_only_warned_of(tmp_path: Path) -> None:
     angles_of(read, ["knee", "knee_tx"])  # a small angle beside a large one is normal
 
 
+def test_a_whole_motion_within_two_degrees_is_warned_of(tmp_path: Path) -> None:
+    """Three columns of 0.1 to 1.3, as walking has them in radians; two such columns may be degrees."""
+    head = "c\nversion=1\nnRows=2\nnColumns=4\ninDegrees=yes\nendheader\ntime\thip\tknee\tankle\n"
+    read = table(tmp_path, head + "0\t0.3\t0.1\t-0.2\n0.1\t-0.4\t1.3\t0.2\n")
+    with pytest.warns(InputWarning, match=r"no angle exceeds 1\.3 deg; if they are radians pass `angles` rad"):
+        angles_of(read, ["hip", "knee", "ankle"])
+    angles_of(read, ["hip", "knee"])
+    angles_of(read, ["hip", "knee", "ankle"], "deg")  # on the user's word
+
+
 def test_user_overrules_the_header_with_a_warning(tmp_path: Path) -> None:
     read = table(tmp_path, GOOD)
     assert said_when_read(read, ["knee_tx"], "rad") == ["gait.mot: says deg, read as rad as asked for"]
@@ -259,12 +269,12 @@ def test_user_overrules_one_of_the_headers_of_a_csv(tmp_path: Path) -> None:
 
 
 def test_degrees_read_as_radians_on_the_users_word_are_noticed_by_size(tmp_path: Path) -> None:
-    """Beyond two turns (4 pi) in any column; a file that says nothing is the usual case."""
+    """Beyond a turn (2 pi) in any column; a file that says nothing is the usual case."""
     silent = GOOD.replace("inDegrees=yes\n", "")
     line = "column 'knee' reaches 30, much for radians; if these are degrees pass `angles` deg"
     assert said_when_read(table(tmp_path, silent), ["knee_tx", "knee"], "rad") == [f"gait.mot line 9: {line}"]
     assert said_when_read(table(tmp_path, silent), ["knee"], "deg") == []
-    for most, count in (("12.56", 0), ("-12.56", 0), ("12.57", 1), ("-12.57", 1)):
+    for most, count in (("6.28", 0), ("-6.28", 0), ("6.29", 1), ("-6.29", 1)):
         text = silent.replace("20", "2").replace("30", "3").replace("10", most)
         assert len(said_when_read(table(tmp_path, text), ["knee"], "rad")) == count, most
 

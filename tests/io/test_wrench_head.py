@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -50,3 +51,17 @@ def test_a_point_that_is_none_is_refused_with_its_line(tmp_path: Path, text: str
 def test_a_byte_order_mark_is_no_part_of_the_line(tmp_path: Path) -> None:
     point, _ = head(tmp_path, "\ufeff# point_mm = 7, 8, 9\n" + TABLE)
     np.testing.assert_allclose(point or [], [0.007, 0.008, 0.009])
+
+
+def test_run_json_beside_the_table_says_it_where_no_line_does(tmp_path: Path) -> None:
+    told = {"tables": {"model.csv": {"point_mm": [-4.0, 45.0, 0.0], "frame": "thigh"}}}
+    (tmp_path / "run.json").write_text(json.dumps(told), encoding="utf-8")
+    point, frame = head(tmp_path, TABLE)
+    assert point == pytest.approx([-0.004, 0.045, 0.0]) and frame == "thigh"
+    assert head(tmp_path, "# frame = pelvis\n" + TABLE) == (None, "pelvis")
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"tables": {}}', '{"tables": {"model.csv": 3}}'])
+def test_a_run_json_of_something_else_says_nothing(tmp_path: Path, text: str) -> None:
+    (tmp_path / "run.json").write_text(text, encoding="utf-8")
+    assert head(tmp_path, TABLE) == (None, None)

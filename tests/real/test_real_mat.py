@@ -65,7 +65,7 @@ def test_a_mat_on_a_thigh_of_a_whole_body(data_dir: Path, tmp_path: Path, file: 
     assert (told["cells"], told["uncovered_cells"], told["folded_cells"]) == (128, [], [])
     # its marks hold the mat while it is evened out; that alone moves it by 1 to 10 mm on faces of 20 mm
     assert max(told["landmark_residual_mm"].values()) < 0.2
-    ours = pd.read_csv(result.folder / "wrench.csv", comment="#")
+    ours = pd.read_csv(result.folder / "wrench.csv")
     np.testing.assert_allclose(ours["normal [N]"], 1e3 * pressure.sum(axis=(1, 2)) * 2e-4, rtol=1e-9, atol=1e-12)
     loaded = ours[ours["normal [N]"] > 5.0]
     assert len(loaded) > 100 and np.isfinite(loaded.to_numpy(float)).all()

@@ -9,6 +9,7 @@ from jaxtyping import Float, Int
 
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Course
+from geocontact.view.surfaces.palette import distance_colours
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,6 +26,7 @@ def area_figure(
     frame: int,
     title: str,
     course: Course,
+    span: tuple[float, float],
 ) -> Figure:
     """Areas and separation over the motion, and FIXED in one frame.
 
@@ -36,6 +38,8 @@ def area_figure(
         FIXED [m] and the signed distance of its vertices to MOVING at `frame` [m]; infinite where far.
     course
         Along what the frames follow each other.
+    span
+        Ends of the colours [m], those of the page.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -45,7 +49,7 @@ def area_figure(
     panels = figure.subplot_mosaic([["area", "map"], ["gap", "map"]], height_ratios=[2, 1], width_ratios=[3, 2])
     _areas(panels["area"], evolution, course.values)
     _separation(panels["gap"], evolution, course)
-    _patch(panels["map"], evolution, vertices, faces, distance)
+    _patch(panels["map"], evolution, vertices, faces, distance, span)
     panels["map"].set_title(f"FIXED at {_plain(course.at(frame))}, {panels['map'].get_title()}", fontsize=9)
     figure.suptitle(_plain(title), fontsize=11)
     return figure
@@ -90,12 +94,13 @@ def _patch(
     vertices: Float[np.ndarray, "n 3"],
     faces: Int[np.ndarray, "m 3"],
     distance: Float[np.ndarray, " n"],
+    span: tuple[float, float],
 ) -> None:
     """FIXED seen along the direction in which its patch looks, coloured by distance, with the threshold's contour."""
     from matplotlib.tri import Triangulation
 
     largest = max(e.thresholds)
-    span = max(2.0 * largest, 1e-3) * 1e3
+    lower, upper = (limit * 1e3 for limit in span)
     corners = vertices[faces] * 1e3
     shown = np.where(np.isfinite(distance), distance, largest * 4.0 + 1.0)
     near = (shown[faces] <= largest).any(axis=1)
@@ -117,12 +122,12 @@ def _patch(
     if not far.all():
         colours = axes.tripcolor(
             Triangulation(x, y, seen[~far]),
-            np.clip(shown * 1e3, -span, span),
+            np.clip(shown * 1e3, lower, upper),
             shading="gouraud",
             rasterized=True,
-            cmap="viridis_r",
-            vmin=-span / 4.0,
-            vmax=span,
+            cmap=distance_colours(lower, upper),
+            vmin=lower,
+            vmax=upper,
         )
         signed = "signed distance [mm]" if e.signed in ("both", "fixed") else "distance [mm]"
         axes.figure.colorbar(colours, ax=axes, label=signed, shrink=0.7)

@@ -111,7 +111,7 @@ class AreaOptions(Options):
     paraview
         Also write both bodies with their distances over time for ParaView (folder paraview).
     stills
-        Also write 3-D pictures of the frame with the largest area (still_superior.png and others).
+        Also write 3-D pictures of the frame with the largest area (still_plus_y.png and others).
     pressure
         Also press MOVING, rigid unless `modulus_moving`, into FIXED as an elastic layer: pressures and forces.
     modulus

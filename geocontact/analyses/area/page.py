@@ -9,16 +9,27 @@ import numpy as np
 from jaxtyping import Int
 
 from geocontact.analyses.area.meshes_table import meshes_table
-from geocontact.analyses.area.page_sections import Told, curves, in_mm, rows, scene, strip
-from geocontact.analyses.area.pressure.page import Pressures, headline, pressure_sections, pressure_words
+from geocontact.analyses.area.page_answer import facts, headline
+from geocontact.analyses.area.page_sections import (
+    Told,
+    area_curves,
+    comparison_tables,
+    distance_curve,
+    in_mm,
+    rows,
+    scene,
+    strip,
+)
+from geocontact.analyses.area.pressure.page import Pressures, pressure_sections, pressure_words
+from geocontact.analyses.area.reference_areas import Compared
 from geocontact.analyses.area.words import reviewers_words
 from geocontact.analyses.page_words import counted
-from geocontact.data.evolution import MM, MM2, AreaEvolution
-from geocontact.data.motion import Course, Motion
+from geocontact.data.evolution import AreaEvolution
+from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
-from geocontact.view.page.content import Page, Readout, Section, Table
+from geocontact.view.page.content import Choice, Choices, Page, Readout, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 FRAMES = 201  # frames that the page animates at most; longer motions are thinned out, and the page says so
@@ -38,6 +49,7 @@ def write_report(
     provenance: Sequence[Table] = (),
     warnings: Sequence[str] = (),
     pressures: Pressures | None = None,
+    compared: Compared | None = None,
 ) -> int:
     """Write the self-contained page of one contact-area analysis; returns its size in bytes.
 
@@ -59,13 +71,15 @@ def write_report(
         Reservations that came up on the way.
     pressures
         Pressures on FIXED; the page then opens with their map, in the frame with the largest force.
+    compared
+        Measured areas beside these.
     """
     if not maps.frames:
         raise ValueError("the distance maps hold no frame; gather them with area_evolution(..., each=maps.add)")
     most = FRAMES
     while True:
         shown = shown_frames(maps, most, () if pressures is None else (pressures.heaviest,))
-        told = Told(moving, fixed, motion, settings, evolution, maps, shown, pressures)
+        told = Told(moving, fixed, motion, settings, evolution, maps, shown, pressures, compared)
         size = write_page(contact_page(told, title, provenance, warnings), Path(path))
         most = min(most, len(told.kept)) // 2
         if size <= LARGEST_FILE or most < FEWEST:
@@ -89,66 +103,69 @@ def contact_page(
     provenance: Sequence[Table],
     warnings: Sequence[str],
 ) -> Page:
-    """The page before it becomes a file."""
+    """The page before it becomes a file: about the largest threshold, the others to be chosen."""
     e, frames, main, pressures = told.evolution, told.frames, told.main, told.pressures
     course = told.motion.course
-    sections: list[Section] = [
-        scene(told),
-        Readout(rows(told), title=f"This frame, threshold {in_mm(e, main)}"),
-        *curves(e, frames, main),
-    ]
-    if pressures is not None:
-        sections[2:2] = pressure_sections(pressures, frames)
-    if e.sensitivity_thresholds:
-        sections.append(strip(told))
-    sections += [meshes_table(told.moving, told.fixed), *provenance]
-    pressed = pressures is not None
-    words = reviewers_words(told.moving, told.fixed, told.settings, e, main, len(frames), warnings, pressed)
-    sections += words if pressures is None else [*words[:2], pressure_words(pressures), *words[2:]]
+    before = [scene(told)]
+    shared = [strip(told)] if e.sensitivity_thresholds else []
+    after = [meshes_table(told.moving, told.fixed), *comparison_tables(told), *provenance]
+    pressed = [] if pressures is None else pressure_sections(pressures, frames)
+    distance = distance_curve(e, frames)
+    foundation = [] if pressures is None else [pressure_words(pressures)]
+
+    def sections(k: int) -> list[Section]:
+        words = reviewers_words(told.moving, told.fixed, told.settings, e, k, len(frames), pressures is not None)
+        numbers = Readout(rows(told, k), title=f"This frame, threshold {in_mm(e, k)}")
+        return [
+            *before,
+            numbers,
+            *pressed,
+            area_curves(told, k),
+            distance,
+            *shared,
+            *after,
+            *words[:2],
+            *foundation,
+            *words[2:],
+        ]
+
+    own, others = sections(main), [k for k in np.argsort(e.thresholds)[::-1].tolist() if k != main]
     return Page(
         title=title or f"{told.moving.name} on {told.fixed.name}",
         subtitle=_subtitle(told),
         time=course.values[frames],
         time_label=course.label,
-        headline=[*(headline(pressures, course) if pressures is not None else ()), *_headline(e, main, course)],
+        headline=headline(told, main),
+        facts=facts(told, main),
+        reservations=tuple(warnings),
         start_frame=int(
             np.argmax(e.fixed.area[frames, main] if pressures is None else pressures.force["total"][frames])
         ),
-        sections=tuple(sections),
+        sections=own,
         numbers=frames + 1,
         total=len(told.motion),
+        choices=Choices("threshold", in_mm(e, main), [_choice(told, k, own, sections(k)) for k in others]),
     )
 
 
+def _choice(told: Told, k: int, own: Sequence[Section], other: Sequence[Section]) -> Choice:
+    """The page about another threshold."""
+    instead = {n: new for n, (old, new) in enumerate(zip(own, other, strict=True)) if not _same(old, new)}
+    name, level = in_mm(told.evolution, k), told.evolution.thresholds[k]
+    return Choice(name, headline(told, k), facts(told, k), instead, level)
+
+
+def _same(one: Section, other: Section) -> bool:
+    """Whether two sections say the same."""
+    if isinstance(one, Words) and isinstance(other, Words):
+        return (one.title, list(one.paragraphs)) == (other.title, list(other.paragraphs))
+    return one is other
+
+
 def _subtitle(told: Told) -> str:
-    said = f"Contact area over {counted(len(told.motion), 'frame')}: "
-    said += f"what lies within {in_mm(told.evolution, told.main)} of the other body"
+    said = f"Contact area over {counted(len(told.motion), 'frame')}, parts that overlap included"
     if told.crude:
         said += f", counted in whole triangles ({told.settings.rule})"
     if told.settings.fixed_faces is not None:
         said += "; only a region of the fixed body counts"
     return said
-
-
-def _headline(e: AreaEvolution, main: int, course: Course) -> list[tuple[str, str]]:
-    """How much, when, where."""
-    area = e.fixed.area[:, main] * MM2
-    largest, nearest = int(np.argmax(area)), int(np.argmin(e.min_distance))
-
-    def when(frame: int) -> str:
-        return f"at {course.at(frame)} (frame {frame + 1} of {len(e.time)})"
-
-    lines = [
-        ("Largest contact area on the fixed body", f"{area[largest]:.0f} mm² {when(largest)}"),
-        ("Range over the motion", f"{area.min():.0f} … {area.max():.0f} mm² (mean {area.mean():.0f} mm²)"),
-    ]
-    if area[largest] > 0.0:
-        x, y, z = e.fixed.centroid[largest, main] * MM
-        where = f"centroid x {x:.1f}, y {y:.1f}, z {z:.1f} mm"
-        if e.medial_side:
-            medial = e.medial[largest, main] / e.fixed.area[largest, main]
-            where += f"; {medial:.0%} medial, {1.0 - medial:.0%} lateral"
-        lines.append(("Where, in that frame", where))
-    word = "Deepest overlap" if e.min_distance[nearest] < 0.0 else "Smallest distance"
-    lines.append((word, f"{abs(e.min_distance[nearest]) * MM:.2f} mm {when(nearest)}"))
-    return lines

@@ -7,17 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from geocontact.analyses.area.pressure.page import Pressures, face_map
+from geocontact.analyses.area.colours import colour_span
+from geocontact.analyses.area.pressure.page import Pressures, face_map, pressure_rows
+from geocontact.analyses.area.reference_areas import Compared
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.contact_area.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
-from geocontact.view.page.content import Body, Curve, Curves, Row, Scene, Strip
+from geocontact.view.page.content import Body, Curve, Curves, Points, Row, Scene, Strip, Table
 from geocontact.view.surfaces.directions import camera_directions
 
-TICK = 0.5e-3  # m; the colours end at a round number
 READ = (
     ("certainly at least", "area_fixed_lower [mm^2]", 2),
     ("certainly at most", "area_fixed_upper [mm^2]", 2),
@@ -31,6 +32,15 @@ READ = (
     ("centroid z", "centroid_z [mm]", 2),
 )
 """Label, column and digits of what the page reads out in each frame, after the area of FIXED."""
+BESIDE_PRESSURES = ("min_distance [mm]", "max_penetration_fixed [mm]")
+"""Those of them that stay where pressures are read out."""
+MEASURED = {
+    "area_fixed [mm^2]": "fixed body",
+    "area_fixed_medial [mm^2]": "medial",
+    "area_fixed_lateral [mm^2]": "lateral",
+    "area_moving [mm^2]": "moving body",
+}
+"""Columns that may be compared with measured ones, as the curves call them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +55,7 @@ class Told:
     maps: DistanceMaps
     kept: Int[np.ndarray, " k"]
     pressures: Pressures | None = None
+    compared: Compared | None = None
 
     @property
     def frames(self) -> Int[np.ndarray, " k"]:
@@ -70,10 +81,7 @@ def in_mm(evolution: AreaEvolution, k: int) -> str:
 def scene(told: Told) -> Scene:
     """Both bodies with their distances, and the pressures where there are some."""
     e, kept = told.evolution, told.kept
-    farthest = max((*e.thresholds, *e.sensitivity_thresholds, TICK))
-    deepest = min(-0.25 * max(e.thresholds), float(e.min_distance.min()), -TICK)
     signed = {"fixed": e.signed in ("both", "fixed"), "moving": e.signed in ("both", "moving")}
-    unsigned = 0.0 if min(e.thresholds) > 0.0 else -TICK
     return Scene(
         bodies=(
             Body(
@@ -93,7 +101,7 @@ def scene(told: Told) -> Scene:
             ),
         ),
         thresholds=e.thresholds,
-        span=(unsigned if e.signed == "none" else float(-np.ceil(-deepest / TICK) * TICK), farthest),
+        span=colour_span(e),
         value_name="distance to the other body" if e.signed == "none" else "signed distance to the other body",
         directions=camera_directions(np.asarray(e.split_normal) * e.medial_side),
         maps=() if told.pressures is None else (face_map(told.pressures, told.frames, 0),),
@@ -111,13 +119,14 @@ def _counted(
     return np.where(counts, distance, np.inf)
 
 
-def rows(told: Told) -> list[Row]:
-    """The table's row of each frame, rounded to what a reader can use."""
+def rows(told: Told, k: int) -> list[Row]:
+    """The table's row of each frame at threshold `k`, rounded to what a reader can use; with pressures, those first."""
     e = told.evolution
-    columns = e.table().iloc[told.frames * len(e.thresholds) + told.main]
-    found = []
+    more = READ if told.pressures is None else [one for one in READ if one[1] in BESIDE_PRESSURES]
+    columns = e.table().iloc[told.frames * len(e.thresholds) + k]
+    found = [] if told.pressures is None else pressure_rows(told.pressures, told.frames)
     area = ("area of the fixed body" + (f", {told.settings.rule}" if told.crude else ""), "area_fixed [mm^2]", 2)
-    for label, column, digits in (area, *READ):
+    for label, column, digits in (area, *more):
         if column in columns:
             unit = column[column.index("[") + 1 : -1].replace("^2", "²")
             texts = ["–" if np.isnan(value) else f"{value:.{digits}f}" for value in columns[column]]
@@ -125,8 +134,9 @@ def rows(told: Told) -> list[Row]:
     return found
 
 
-def curves(e: AreaEvolution, frames: Int[np.ndarray, " k"], main: int) -> list[Curves]:
-    """Areas with their bounds, and the smallest distance."""
+def area_curves(told: Told, main: int) -> Curves:
+    """Areas with their bounds, those of threshold `main` first, and measured ones as points."""
+    e, frames = told.evolution, told.frames
 
     def within(k: int) -> Curve:
         side = e.fixed
@@ -139,9 +149,43 @@ def curves(e: AreaEvolution, frames: Int[np.ndarray, " k"], main: int) -> list[C
             Curve(f"medial, {in_mm(e, main)}", e.medial[frames, main] * MM2),
             Curve(f"lateral, {in_mm(e, main)}", e.lateral[frames, main] * MM2),
         ]
+    measured = _measured(told, main)
+    if any(each.name.startswith("measured, moving") for each in measured):
+        areas.append(Curve(f"moving body, {in_mm(e, main)}", e.moving.area[frames, main] * MM2))
     areas += [within(k) for k in range(len(e.thresholds)) if k != main]
+    return Curves("Contact area", "mm²", areas, measured)
+
+
+def _measured(told: Told, k: int) -> list[Points]:
+    """What was compared at threshold `k`, along the course of the motion."""
+    if told.compared is None:
+        return []
+    rows = told.compared.rows
+    rows = rows[np.isclose(rows["threshold [mm]"], told.evolution.thresholds[k] * MM)]
+    course = told.motion.course.values
+    return [
+        Points(
+            f"measured, {MEASURED.get(str(quantity), str(quantity))}",
+            np.interp(one["time [s]"].to_numpy(float), told.motion.time, course),
+            one["reference [mm^2]"].to_numpy(float),
+        )
+        for quantity, one in rows.groupby("quantity", sort=False)
+    ]
+
+
+def comparison_tables(told: Told) -> list[Table]:
+    """Every measured area beside ours."""
+    if told.compared is None:
+        return []
+    rows = told.compared.rows
+    texts = rows.map(lambda value: f"{value:.6g}" if isinstance(value, float) else str(value))
+    return [Table("Beside the measured areas", tuple(map(str, rows.columns)), texts.to_numpy().tolist())]
+
+
+def distance_curve(e: AreaEvolution, frames: Int[np.ndarray, " k"]) -> Curves:
+    """The smallest distance."""
     distance = [Curve("smallest distance", e.min_distance[frames] * MM)]
-    return [Curves("Contact area", "mm²", areas), Curves("Smallest distance (negative: overlap)", "mm", distance)]
+    return Curves("Smallest distance (negative: overlap)", "mm", distance)
 
 
 def strip(told: Told) -> Strip:

@@ -26,6 +26,24 @@ class Reference:
         return largest_difference(rows) <= self.tolerance
 
 
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """A row per measured area, from `compared`, and the largest relative difference that is acceptable."""
+
+    rows: pd.DataFrame
+    tolerance: float
+
+    @property
+    def largest(self) -> float:
+        """Largest relative difference."""
+        return largest_difference(self.rows)
+
+    @property
+    def accepted(self) -> bool:
+        """Whether no row is beyond the tolerance."""
+        return self.largest <= self.tolerance
+
+
 def read_reference(path: Path) -> pd.DataFrame:
     """Reference table: `time [s]`, optionally `threshold [mm]`, and one or more area columns as in area.csv [mm^2]."""
     try:

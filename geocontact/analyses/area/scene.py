@@ -36,7 +36,7 @@ def write_paraview(folder: Path, bodies: Bodies, one: MotionResult) -> None:
 
 
 def write_stills(folder: Path, bodies: Bodies, one: MotionResult, title: str) -> list[str]:
-    """Draw the frame with the largest area from each anatomical direction; returns what has to be said about it."""
+    """Draw the frame with the largest area from each side; returns what has to be said about it."""
     k, evolution, motion = one.maps.largest, one.evolution, one.motion
     scene = ContactScene(
         fixed_vertices=bodies.fixed.vertices,
@@ -55,5 +55,5 @@ def write_stills(folder: Path, bodies: Bodies, one: MotionResult, title: str) ->
 
 
 def _word(direction: str) -> str:
-    """First word of a direction, fit for a file name: "superior (+y)", "−x" to "superior", "minus_x"."""
+    """First word of a direction, fit for a file name: "medial (+z)", "−x" to "medial", "minus_x"."""
     return direction.split(maxsplit=1)[0].replace("+", "plus_").replace("−", "minus_")

@@ -5,8 +5,6 @@ The order follows ASME V&V 40 (question of interest, context of use, credibility
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from geocontact.analyses.page_words import NOT_A_DEVICE
@@ -24,19 +22,15 @@ def reviewers_words(
     e: AreaEvolution,
     main: int,
     shown: int,
-    warnings: Sequence[str],
     pressed: bool = False,
 ) -> list[Words]:
-    """Question, context of use, numerical error, what was not checked, and reservations."""
-    words = [
+    """Question, context of use, numerical error, and what was not checked."""
+    return [
         Words("Question", [_question(moving, fixed, settings, e, main)]),
         Words("Context of use", [_context(e, pressed), NOT_A_DEVICE]),
         Words("Numerical error", _error(settings, e, main)),
         Words("What the numbers do not contain", _missing(len(e.time), shown)),
     ]
-    if warnings:
-        words.append(Words("Reservations of this run", list(warnings)))
-    return words
 
 
 def _question(moving: Surface, fixed: Surface, settings: Settings, e: AreaEvolution, main: int) -> str:

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
+from geocontact.analyses.area.colours import colour_span
 from geocontact.analyses.area.distance_file import FILE, write_maps
 from geocontact.analyses.area.figure import area_figure
 from geocontact.analyses.area.motion_result import MotionResult
@@ -18,14 +18,14 @@ from geocontact.analyses.area.pressure.along import PressureEvolution
 from geocontact.analyses.area.pressure.figure import PressureMap, pressure_figure
 from geocontact.analyses.area.pressure.page import Pressures, shown_pressures
 from geocontact.analyses.area.read import Bodies
+from geocontact.analyses.area.reference_areas import Compared
 from geocontact.analyses.area.scene import write_paraview, write_stills
 from geocontact.analyses.area.tables import tables_of
-from geocontact.analyses.figure_files import drawing, save_both
+from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.run_record import Record
 from geocontact.geometry.surface import Surface
 from geocontact.io.text.results import write_table
-from geocontact.view.page.content import Table
 from geocontact.view.page.tables import inputs_table
 
 if TYPE_CHECKING:
@@ -41,15 +41,12 @@ def write_motion(record: Record, o: AreaOptions, bodies: Bodies, one: MotionResu
     """Everything of one motion into its folder, which is made where it is missing."""
     folder.mkdir(exist_ok=True)
     for name, table in tables_of(one, o).items():
-        if name == "comparison":
-            table.to_csv(folder / "comparison.csv", index=False)
-        else:
-            write_table(table, folder, o.parquet, name)
+        write_table(table, folder, o.parquet and name != "comparison", name)
     save_both(figure_of(bodies, one), folder, "area")
     shown = None
     if one.pressure is not None:
-        picture = save_both(pressure_figure_of(bodies, one, one.pressure), folder, "pressure")
-        shown = shown_pressures(one.pressure, picture)
+        save_both(pressure_figure_of(bodies, one, one.pressure), folder, "pressure")
+        shown = shown_pressures(one.pressure, bodies.fixed)
     _write_maps(o, bodies, one, folder)
     notes = write_stills(folder, bodies, one, heading(bodies, one)) if o.stills else []
     for note in notes:
@@ -61,7 +58,7 @@ def write_page_of(record: Record, bodies: Bodies, one: MotionResult, file: Path)
     """The page of one motion alone."""
     shown = None
     if one.pressure is not None:
-        shown = shown_pressures(one.pressure, drawing(pressure_figure_of(bodies, one, one.pressure)))
+        shown = shown_pressures(one.pressure, bodies.fixed)
     _write_report(record, bodies, one, file, shown, ())
 
 
@@ -81,6 +78,7 @@ def figure_of(bodies: Bodies, one: MotionResult) -> Figure:
         maps.largest,
         heading(bodies, one),
         one.motion.course,
+        colour_span(one.evolution),
     )
 
 
@@ -88,7 +86,9 @@ def pressure_figure_of(bodies: Bodies, one: MotionResult, e: PressureEvolution) 
     """Force and largest pressure over the motion, and FIXED in the frame with the largest force."""
     force = {side: np.array([load.pressing for load in loads]) for side, loads in e.sides.items()}
     peak, centre = (np.array([getattr(load, name) for load in e.loads]) for name in ("peak", "centre"))
-    at = PressureMap(bodies.fixed.vertices, bodies.fixed.faces, e.maps[e.heaviest], centre, e.heaviest)
+    at = PressureMap(
+        bodies.fixed.vertices, bodies.fixed.faces, e.maps[e.heaviest], centre, e.heaviest, float(e.pressure.max())
+    )
     return pressure_figure(one.motion.course, force, peak, at)
 
 
@@ -119,8 +119,10 @@ def _write_report(
     folder = one.name or "."
     inputs = [each for each in record.inputs if each.get("folder", folder) == folder]
     tables = [inputs_table(inputs), options_table(record)]
-    if one.comparison is not None:
-        tables.insert(0, _comparison_table(one.comparison))
+    reference = bodies.reference
+    compared = None
+    if one.comparison is not None and reference is not None:
+        compared = Compared(one.comparison, reference.tolerance)
     write_report(
         file,
         bodies.moving,
@@ -133,9 +135,5 @@ def _write_report(
         tables,
         (*one.reservations, *notes),
         shown,
+        compared,
     )
-
-
-def _comparison_table(rows: pd.DataFrame) -> Table:
-    texts = rows.map(lambda value: f"{value:.6g}" if isinstance(value, float) else str(value))
-    return Table("Beside the measured areas", tuple(map(str, rows.columns)), texts.to_numpy().tolist())

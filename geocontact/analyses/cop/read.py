@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from geocontact.analyses.body_motion import read_body_motion
 from geocontact.analyses.cop.force_plate import chosen_plate
 from geocontact.analyses.cop.ground import ground_of
 from geocontact.analyses.cop.law import sole_law
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.run_record import Record
-from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.io.mocap.force_plates import ForcePlate
-from geocontact.io.motion.motion import read_motion
 from geocontact.io.recordings.spheres import read_spheres
 from geocontact.loads.ground import Ground
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
@@ -37,27 +36,5 @@ def read(o: CopOptions, record: Record) -> Foot:
     record.add_input("spheres", o.spheres, spheres=len(table.radius))
     sole = SphereSet(table.centre, table.radius, table.zone)
     law = sole_law(record, table, o)
-    motion = _motion(record, o)
+    motion = read_body_motion(record, o.motion, o)
     return Foot(o.spheres.name, sole, law, motion, ground, chosen_plate(record, o))
-
-
-def _motion(record: Record, o: CopOptions) -> Motion:
-    motion = read_motion(
-        o.motion,
-        osim=o.osim,
-        joint=o.joint,
-        moving=o.moving_body or "child",
-        mapping=o.map,
-        order=o.order,
-        angles=o.angles,
-    )
-    for option, value in (("order", o.order), ("angles", o.angles)):
-        if value is not None and option not in motion.heeded:
-            what = f"has no effect here: {o.motion} is read without it"
-            raise InputError("", f"`{option}`", what, "leave it out")
-    if motion.time_unit != "s":
-        raise InputError(o.motion, "", "time is in per cent of a cycle", "damping and friction need seconds")
-    record.add_input("motion", o.motion, frames=len(motion), source=motion.source)
-    if o.osim is not None:
-        record.add_input("model", o.osim, joint=o.joint)
-    return motion

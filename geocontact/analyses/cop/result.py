@@ -1,4 +1,4 @@
-"""What a centre of pressure is found to be: tables with the frame in their first line, figure, page."""
+"""What a centre of pressure is found to be: tables, figure, page."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ from geocontact.loads.sphere_loads import SphereLoads
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-FRAME = "# frame = ground, in which the motion gives the foot's pose; forces are those on the foot; cop = {}"
+FRAME = "ground"
+WORDS = "the frame in which the motion gives the foot's pose; forces are those on the foot"
 CENTRES = {"ground": "centre of the ground points", "sphere": "centre of the sphere centres"}
 
 
@@ -66,11 +67,10 @@ class CopResult(Result):
 
     def write_files(self, folder: Path) -> None:
         """Tables and figure."""
-        line = FRAME.format(CENTRES[self.options.point])
         for name, table in self.tables().items():
             write_table(table, folder, self.options.parquet, name)
-            file = folder / f"{name}.csv"
-            file.write_text(f"{line}\n{file.read_text(encoding='utf-8')}", encoding="utf-8", newline="\n")
+            told = {"frame": FRAME, "words": WORDS, "cop": CENTRES[self.options.point]}
+            self.record.tables[f"{name}.csv"] = told
         save_both(self.figure(), folder, "cop")
 
     def write_page(self, file: Path) -> None:

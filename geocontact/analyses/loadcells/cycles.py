@@ -11,8 +11,10 @@ from jaxtyping import Float
 
 from geocontact.analyses.loadcells.options import STANCE, STRIDE, LoadcellOptions
 from geocontact.analyses.loadcells.read import GivenCycle
+from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.cycles import Span, loaded_spans, normalised, strides
+from geocontact.identify.signals.gaps import gaps
 from geocontact.loads.loadcells import CompartmentForces
 
 SHARE = 0.25  # of the largest total force, at which load sets in unless told otherwise
@@ -31,16 +33,30 @@ class Cut:
 
 
 def cuts_asked_for(
-    forces: Mapping[Path, CompartmentForces], given: list[GivenCycle] | None, o: LoadcellOptions
+    record: Record, forces: Mapping[Path, CompartmentForces], given: list[GivenCycle] | None, o: LoadcellOptions
 ) -> list[Cut]:
-    """Every cycle of every recording, those given or those found; an empty list where none are asked for."""
+    """Every cycle of every recording, those given or those found; an empty list where none are asked for.
+
+    Cycles across a gap of a recording are left out and told.
+    """
     if o.cycles is None:
         return []
     cycles = _found(forces, o) if given is None else given
     if not cycles:
         what = f"finds no complete {o.cycles} in {', '.join(path.name for path in forces)}"
         raise InputError("", "`cycles`", what, "see `level`, or name the times: 1.7:2.8,2.8:3.9")
-    return [_cut(forces[path], style, path, span, o.part or 1.0) for style, path, span in cycles]
+    cuts = [_cut(forces[path], style, path, span, o.part or 1.0) for style, path, span in cycles]
+    missing = {path.stem: gaps(f.time) for path, f in forces.items()}
+    whole = [cut for cut in cuts if not _across(cut.span, missing[cut.recording])]
+    if not whole:
+        raise InputError("", "`cycles`", "lie across gaps of the recordings, all of them", "name others: 1.7:2.8")
+    if len(whole) < len(cuts):
+        record.warn(f"{len(cuts) - len(whole)} of {len(cuts)} cycles lie across gaps of a recording and are left out")
+    return whole
+
+
+def _across(span: Span, missing: list[Span]) -> bool:
+    return any(each.start < span.end and span.start < each.end for each in missing)
 
 
 def stacked(cuts: list[Cut], side: str) -> dict[str, Float[np.ndarray, "_ 101"]]:

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.identify.signals.cycles import STEPS, Span
+from geocontact.identify.signals.gaps import broken
 from geocontact.view.curves.over_cycle import mean_over_cycle
 from geocontact.view.curves.quantity import CYCLE, FORCE, TIME
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, legend, panels
@@ -41,7 +42,7 @@ def loadcell_figure(
 
 def _lines(axes: Axes, time: Float[np.ndarray, " t"], curves: Mapping[str, Float[np.ndarray, " t"]]) -> None:
     drawn = [
-        (axes.plot(time, values, color=PALETTE[k % len(PALETTE)], ls=LINES[k % len(LINES)])[0], plain(name))
+        (axes.plot(*broken(time, values), color=PALETTE[k % len(PALETTE)], ls=LINES[k % len(LINES)])[0], plain(name))
         for k, (name, values) in enumerate(curves.items())
     ]
     axes.set_xlim(time[0], time[-1])

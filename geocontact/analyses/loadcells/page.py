@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.analyses.loadcells.recorded import Recorded
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.cell_regression import CellRegression
 from geocontact.loads.loadcells import CompartmentForces
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
@@ -31,6 +31,7 @@ def write_loadcell_report(
     results: Sequence[Table] = (),
     provenance: Sequence[Table] = (),
     warnings: Sequence[str] = (),
+    sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page of one recording; returns its size in bytes.
 
@@ -44,6 +45,8 @@ def write_loadcell_report(
         Inputs with hashes, options, versions.
     warnings
         Reservations that came up on the way.
+    sentences
+        What was found.
     """
     forces, cells = recorded.forces, recorded.by_cell(regression)
     every = -(-len(forces.time) // FRAMES)
@@ -59,14 +62,14 @@ def write_loadcell_report(
     sections.append(Words("What the numbers do not contain", [CELLS, NOT_A_DEVICE]))
     if every > 1:
         warnings = [*warnings, f"the page shows every {every}th sample; forces.csv has them all"]
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
     page = Page(
         title=f"Load cells of {recorded.file.name}",
         subtitle=f"Tibial contact force from {len(cells)} load cells, weights '{regression.name}'",
         time=forces.time[shown],
         time_label="time [s]",
-        headline=_headline(forces),
+        headline=headline(sentences, most=2),
+        facts=_facts(forces),
+        reservations=tuple(warnings),
         start_frame=int(np.argmax(forces.total[shown])),
         sections=tuple(sections),
         numbers=shown + 1,
@@ -75,7 +78,7 @@ def write_loadcell_report(
     return write_page(page, path)
 
 
-def _headline(forces: CompartmentForces) -> list[tuple[str, str]]:
+def _facts(forces: CompartmentForces) -> list[tuple[str, str]]:
     lines = []
     for name, values in forces.curves.items():
         k = int(np.argmax(values))

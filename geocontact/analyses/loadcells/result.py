@@ -105,4 +105,4 @@ class LoadcellResult(Result):
         own = each.folder or "."
         inputs = [entry for entry in self.record.inputs if entry.get("folder", own) == own]
         provenance = [inputs_table(inputs), options_table(self.record)]
-        write_loadcell_report(file, each, self.regression, ensemble, shown, provenance, list(self.warnings))
+        write_loadcell_report(file, each, self.regression, ensemble, shown, provenance, self.warnings, self.sentences)

@@ -12,11 +12,14 @@ from geocontact.analyses.loadcells.result import LoadcellResult
 from geocontact.analyses.loadcells.tables import style_table
 from geocontact.analyses.run_record import Record
 from geocontact.data.cell_regression import CellRegression
+from geocontact.data.seconds import seconds
+from geocontact.identify.signals.gaps import gaps
 from geocontact.loads.loadcells import compartment_forces
 from geocontact.view.curves.given import SERIES
 
 LITTLE = 500.0  # N; a knee under body weight bears more at some time
 SLIGHT = 0.01  # of the largest total; less tension than that is an offset not worth a word
+SHOWN = 3  # gaps that are named
 WHOLE = 1e-6  # how far the two weights of a cell may be from 1 together
 
 
@@ -29,7 +32,7 @@ def run(given: Inputs, o: LoadcellOptions, record: Record) -> LoadcellResult:
     }
     for each in recorded.values():
         _summarise(record, each, given.regression)
-    cuts = cuts_asked_for({path: each.forces for path, each in recorded.items()}, given.cycles, o)
+    cuts = cuts_asked_for(record, {path: each.forces for path, each in recorded.items()}, given.cycles, o)
     _tell(record, cuts)
     return LoadcellResult(
         record=record, options=o, regression=given.regression, recordings=tuple(recorded.values()), cuts=cuts
@@ -62,6 +65,10 @@ def _summarise(record: Record, r: Recorded, regression: CellRegression) -> None:
     if peaks["total"] < LITTLE:
         what = f"the total stays below {peaks['total']:.0f} N, little for a knee that walks"
         record.warn(f"{r.file}: {what}; if the file is in lbf pass `unit` lbf")
+    if missing := gaps(f.time):
+        times = ", ".join(f"{seconds(each.start)} to {seconds(each.end)} s" for each in missing[:SHOWN])
+        more = f" and {len(missing) - SHOWN} more" if len(missing) > SHOWN else ""
+        record.warn(f"{r.file}: no samples from {times}{more}: nothing is known of the forces there")
     at = float(f.time[int(np.argmax(f.total))])
     record.results[r.folder or "recording"] = {
         "frames": len(f.time),
@@ -70,7 +77,7 @@ def _summarise(record: Record, r: Recorded, regression: CellRegression) -> None:
     }
     label = f"{r.folder}: " if r.folder else ""
     told = ", ".join(f"{side} {value:.1f} N" for side, value in peaks.items())
-    record.say(f"{label}largest forces: {told} (total at {at:g} s)")
+    record.say(f"{label}largest forces: {told} (total at {seconds(round(at, 3))} s)")
 
 
 def _tell(record: Record, cuts: list[Cut]) -> None:

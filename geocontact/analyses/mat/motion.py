@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.analyses.body_motion import read_body_motion
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.recording import Recording
 from geocontact.analyses.run_record import Record
@@ -17,7 +18,6 @@ from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.register.moving import poses_at
-from geocontact.io.motion.motion import read_motion
 from geocontact.loads.mat.load import MatLoad
 from geocontact.loads.mat.moving import covariance_in, load_in
 
@@ -51,26 +51,9 @@ def read_segment_motion(record: Record, o: MatOptions) -> Motion | None:
     """Poses of the segment over time; None where it is not said to move."""
     if o.motion is None:
         return None
-    motion = read_motion(
-        o.motion,
-        osim=o.osim,
-        joint=o.joint,
-        moving=o.moving_body or "child",
-        mapping=o.map,
-        order=o.order,
-        angles=o.angles,
-    )
-    if motion.time_unit != "s":
-        raise InputError("", "`motion`", f"{o.motion} runs in {motion.time_unit}", "write its time in s")
+    motion = read_body_motion(record, o.motion, o)
     if len(motion) < 2:
         raise InputError("", "`motion`", f"{o.motion} holds one pose", "two are needed")
-    for name, value in (("order", o.order), ("angles", o.angles)):
-        if value is not None and name not in motion.heeded:
-            what = f"has no effect here: {o.motion} is read without it"
-            raise InputError("", f"`{name}`", what, "leave it out")
-    record.add_input("motion", o.motion, frames=len(motion), source=motion.source)
-    if o.osim is not None:
-        record.add_input("model", o.osim, joint=o.joint)
     return motion
 
 

@@ -11,7 +11,7 @@ from jaxtyping import Float, Int
 from geocontact.analyses.mat.closest_point import ClosestPoint
 from geocontact.analyses.mat.findings import MatFindings
 from geocontact.analyses.options_table import options_table
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.geometry.drape.cells import Drape
 from geocontact.view.page.content import (
     Body,
@@ -71,14 +71,14 @@ def mat_page(r: MatFindings, shown: Int[np.ndarray, " k"], drawing: bytes) -> Pa
     warnings = list(r.warnings)
     if len(shown) < len(r.frames.time):
         warnings.append(f"the page shows {len(shown)} of {len(r.frames.time)} frames; wrench.csv has them all")
-    if warnings:
-        sections.append(Words("Reservations of this run", warnings))
     return Page(
         title=f"{r.frames.name} on {r.surface.name}",
         subtitle=f"Pressure mat of {r.frames.rows} × {r.frames.columns} cells on a body scan",
         time=r.frames.time[shown],
         time_label="time [s]",
-        headline=_headline(r),
+        headline=headline(r.record.sentences, most=2),
+        facts=_facts(r),
+        reservations=tuple(warnings),
         start_frame=int(np.flatnonzero(shown == r.heaviest)[0]),
         sections=tuple(sections),
         numbers=shown + 1,
@@ -144,7 +144,7 @@ def _curves(r: MatFindings, shown: Int[np.ndarray, " k"]) -> list[Curves]:
     ]
 
 
-def _headline(r: MatFindings) -> list[tuple[str, str]]:
+def _facts(r: MatFindings) -> list[tuple[str, str]]:
     k, w = r.heaviest, r.loads
     peak = int(np.argmax(w.peak))
     along = "" if np.isnan(w.perpendicular[k]) else f" ({w.perpendicular[k]:.0f} N perpendicular)"

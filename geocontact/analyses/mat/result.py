@@ -1,4 +1,4 @@
-"""A mat on a body: tables with point and frame in their first lines, a surface for ParaView, figure, page."""
+"""A mat on a body: tables, a surface for ParaView, figure, page."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from geocontact.analyses.mat.tables import mat_tables
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
 from geocontact.io.text.results import write_table
+from geocontact.io.text.written_units import CASES, RESULTS
 from geocontact.view.surfaces.mat_vtp import write_mat_vtp
 
 if TYPE_CHECKING:
@@ -24,7 +25,10 @@ if TYPE_CHECKING:
 
 MM = 1e3
 REFERRED = ("wrench", "uncertainty", "segments")
-"""Tables that refer to a point and a frame, which their first lines name."""
+"""Tables that refer to a point and a frame, which run.json names."""
+OF_A_CASE = ("cells", "frames_cells")
+"""Tables as gap cases hold them, in SI."""
+WORDS = "forces are those of the mat on the body"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -42,9 +46,10 @@ class MatResult(MatFindings):
     def write_files(self, folder: Path) -> None:
         """Tables, surface, figure and page."""
         for name, table in self.tables().items():
-            write_table(table, folder, self.options.parquet, name)
+            units = CASES if name in OF_A_CASE else RESULTS
+            write_table(table, folder, self.options.parquet, name, units)
             if name in REFERRED:
-                self._name_point_and_frame(folder / f"{name}.csv")
+                self.record.tables[f"{name}.csv"] = self._point_and_frame()
         try:
             write_mat_vtp(
                 folder / "mat_on_surface.vtp",
@@ -61,11 +66,10 @@ class MatResult(MatFindings):
         """The animated page."""
         write_mat_report(file, self, drawing(self.figure()))
 
-    def _name_point_and_frame(self, file: Path) -> None:
+    def _point_and_frame(self) -> dict[str, object]:
         wrench = self.loads.wrench
-        point = ", ".join(f"{value * MM:.12g}" for value in wrench.origin[0])
-        head = f"# point_mm = {point}\n# frame = {wrench.frame}; forces are those of the mat on the body\n"
-        file.write_text(head + file.read_text(encoding="utf-8"), encoding="utf-8", newline="\n")
+        point = [float(f"{value * MM:.12g}") for value in wrench.origin[0]]
+        return {"point_mm": point, "frame": wrench.frame, "words": WORDS}
 
     def _on_faces(self) -> dict[str, np.ndarray]:
         """Pressure of each face of the surface [Pa]: largest, mean, and under the largest force."""

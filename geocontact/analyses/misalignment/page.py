@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.run_record import Record
 from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.write import write_page
 
@@ -27,11 +28,21 @@ def write_elbow_page(
     subtitle: str,
     time: Float[np.ndarray, " t"],
     label: str,
-    headline: Sequence[tuple[str, str]],
-    sections: list[Section],
-    warnings: Sequence[str],
+    facts: Sequence[tuple[str, str]],
+    sections: Sequence[Section],
+    record: Record,
+    plays: bool = True,
 ) -> int:
-    """Write the page with its reservations; returns its size in bytes."""
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
-    return write_page(Page(title, subtitle, time, label, headline, 0, tuple(sections)), path)
+    """Write the page with the answer and the reservations of `record`; returns its size in bytes."""
+    page = Page(
+        title,
+        subtitle,
+        time,
+        label,
+        headline=headline(record.sentences, most=2),
+        facts=facts,
+        reservations=tuple(record.warnings),
+        sections=tuple(sections),
+        plays=plays,
+    )
+    return write_page(page, path)

@@ -11,6 +11,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
 from geocontact.elastic_modulus.area_force import LAG, AreaForce
 from geocontact.elastic_modulus.both_sides import end_to_end
+from geocontact.identify.signals.gaps import gaps, in_gaps
 from geocontact.io.recordings.area_table import FEWEST, AreaTable
 
 USUAL = 4.0e-3  # m, the threshold of the knee-implant paper
@@ -44,6 +45,7 @@ def model_of(
     taken = i.lag if free is None else free.start
     inside = (time + taken >= clock[0]) & (time + taken <= clock[-1])
     inside &= (time + taken - high >= time[0] - 1e-12) & (time + taken - low <= time[-1] + 1e-12)
+    inside &= ~in_gaps(time + taken, gaps(clock))
     if inside.sum() < FEWEST:
         what = f"{int(inside.sum())} frames of the area ({time[0]:g} to {time[-1]:g} s) lie in the force's time"
         remedy = f"{FEWEST} at least; are the clocks the same? see `lag`"

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.analyses.modulus.figure import ForcePair
-from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.view.page.content import Curve, Curves, Intervals, Page, Picture, Readout, Row, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 FIGURE = (
@@ -29,8 +29,10 @@ def write_modulus_report(
     pairs: Mapping[str, ForcePair],
     drawing: bytes,
     tables: Sequence[Table],
+    intervals: Intervals,
     lost: Sequence[str],
     warnings: Sequence[str],
+    sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page; returns its size in bytes.
 
@@ -42,8 +44,12 @@ def write_modulus_report(
         The figure (SVG).
     tables
         Results first; the first one's numbers make the headline.
+    intervals
+        E* of each side.
     lost
         What the data cannot tell, a sentence each.
+    warnings, sentences
+        Reservations, and what was found.
     """
     first = next(iter(pairs.values()))
     texts = [
@@ -56,20 +62,21 @@ def write_modulus_report(
         curves = [Curve("measured", pair.measured), Curve("by the law", pair.predicted)]
         sections.append(Curves(f"Contact force, {side}", "N", curves))
     sections += [
+        intervals,
         tables[0],
         Words("What the data cannot tell", list(lost)),
         Picture("Force by the law and profile of E*", FIGURE, drawing, wide=True),
         *tables[1:],
         Words("What the numbers do not contain", [LAW, NOT_A_DEVICE]),
     ]
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
     page = Page(
         title=title,
         subtitle="Elastic modulus of a contact by the area-integrated Hertz law",
         time=first.time,
         time_label="time [s]",
-        headline=[(f"{row[0]}: {row[1]}", f"{row[2]} ({row[3]})" if row[3] else row[2]) for row in tables[0].rows],
+        headline=headline(sentences, most=2),
+        reservations=tuple(warnings),
+        facts=[(f"{row[0]}: {row[1]}", f"{row[2]} ({row[3]})" if row[3] else row[2]) for row in tables[0].rows[:5]],
         start_frame=int(np.argmax(first.measured)),
         sections=tuple(sections),
     )

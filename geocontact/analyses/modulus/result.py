@@ -16,6 +16,7 @@ from geocontact.analyses.modulus.identified import Identified
 from geocontact.analyses.modulus.numbers import describe
 from geocontact.analyses.modulus.options import ModulusOptions
 from geocontact.analyses.modulus.page import write_modulus_report
+from geocontact.analyses.modulus.page_intervals import modulus_intervals
 from geocontact.analyses.modulus.page_tables import moduli, told_apart
 from geocontact.analyses.modulus.tables import curve_table, modulus_table, prediction_table, sensitivity_table
 from geocontact.analyses.options_table import options_table
@@ -91,4 +92,14 @@ class ModulusResult(Result):
         provenance = [inputs_table(self.record.inputs), options_table(self.record)]
         tables = [moduli(self.found), told_apart(self.found), sensitivity, *provenance]
         title = f"E* from {self.options.area[0].name} and {self.options.force.name}"
-        write_modulus_report(file, title, self.found.curves(), figure, tables, self.not_identifiable, self.warnings)
+        write_modulus_report(
+            file,
+            title,
+            self.found.curves(),
+            figure,
+            tables,
+            modulus_intervals(self.found),
+            self.not_identifiable,
+            self.warnings,
+            self.sentences,
+        )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from geocontact.analyses.modulus.identified import Identified
 from geocontact.analyses.modulus.model import model_of, threshold_given
 from geocontact.analyses.modulus.numbers import describe
@@ -16,11 +18,14 @@ from geocontact.analyses.modulus.unknowns import unknowns
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
+from geocontact.data.seconds import seconds
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification, agreement, identify
 from geocontact.elastic_modulus.threshold_calibration import Calibration, calibrated
+from geocontact.identify.signals.gaps import gaps
 
 FEW_BLOCKS = 5
+FLAT = 1e-6  # of a force by the law; one that varies less does not vary
 STRAYED = 0.3  # rms of the calibration's relative differences beyond which the table is not met
 
 
@@ -29,7 +34,8 @@ def run(inputs: Inputs, o: ModulusOptions, record: Record) -> ModulusResult:
     calibration = _calibrated(record, inputs, o.calibrate)
     threshold = threshold_given(o, inputs.table) if calibration is None else calibration.threshold
     others = unknowns(o, inputs, threshold)
-    sides = {side: _identified(record, inputs, side, threshold, others, o) for side in inputs.sides}
+    _doubt(record, inputs)
+    sides = _sides(record, inputs, threshold, others, o)
     found = Identified(sides, sensitivity(sides), calibration, predictions(inputs, sides), o.poisson)
     record.results["modulus"] = describe(found)
     _tell(record, found)
@@ -43,9 +49,42 @@ def _identified(
     if not model.per_modulus({}).any():
         what = f"{side}: reading '{o.reading}' sees no contact at {threshold * 1e3:g} mm in any frame"
         raise InputError(inputs.table.file, "", what, "give a larger `threshold` or another `reading`")
-    found = identify(model, measured, others, o.bootstrap)
+    if not (measured > 0.0).any():
+        what = f"{side}: the force is never above 0 N in the frames that are used"
+        raise InputError(inputs.forces.file, "", what, "is the right column named? see `map`; compression is positive")
+    try:
+        found = identify(model, measured, others, o.bootstrap)
+    except ValueError as error:
+        raise InputError(inputs.table.file, "", f"{side}: {error}", "leave it out of `free`") from error
     _reserve(record, side, found)
     return found
+
+
+def _sides(
+    record: Record, inputs: Inputs, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
+) -> dict[str, Identification]:
+    """Every side that tells something; the others are told. InputError where none does."""
+    found, untold = {}, []
+    for side in inputs.sides:
+        try:
+            found[side] = _identified(record, inputs, side, threshold, others, o)
+        except InputError as error:
+            untold.append(error)
+    if not found:
+        raise untold[0]
+    for each in untold:
+        record.warn(f"{each.what}: this side is left out")
+    return found
+
+
+def _doubt(record: Record, inputs: Inputs) -> None:
+    """What is odd about the inputs before anything is fitted."""
+    for each in gaps(inputs.forces.time):
+        span = f"{seconds(each.start)} to {seconds(each.end)} s"
+        record.warn(f"{inputs.forces.file}: no samples from {span}: frames of the area in there are not used")
+    areas = next(iter(inputs.table.areas.values()))
+    if areas.shape[1] > 1 and (areas == areas[:, :1]).all():
+        record.warn(f"{inputs.table.file}: areas are the same at every threshold: nothing depends on it here")
 
 
 def _calibrated(record: Record, inputs: Inputs, path: Path | None) -> Calibration | None:
@@ -68,6 +107,8 @@ def _calibrated(record: Record, inputs: Inputs, path: Path | None) -> Calibratio
 def _reserve(record: Record, side: str, each: Identification) -> None:
     """What has to be said about one side."""
     _, r2 = agreement(each.measured, each.predicted)
+    if np.ptp(each.predicted) <= FLAT * each.predicted.max():
+        record.warn(f"{side}: the area is the same in every frame: nothing tells whether the law holds")
     if r2 < 0.0:
         record.warn(f"{side}: R² is {r2:.2f}, a constant force would do better than the law")
     for name in each.on_bound:

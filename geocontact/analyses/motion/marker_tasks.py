@@ -6,12 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
+from geocontact.analyses.motion.marker_names import map_hint, names_told
 from geocontact.analyses.quantities import number
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
+from geocontact.dynamics.inverse_kinematics import FEWEST
 from geocontact.io.opensim.marker_weights import read_marker_weights
 from geocontact.io.text.tables import listed
 
@@ -45,8 +47,17 @@ def marker_tasks(
     if fixed:
         raise InputError("", "`hold`", f"'{fixed[0]}' is locked by the model", "unlock it there, or leave it out")
     wanted = {name: (HELD, np.radians(v) if known[name].kind == "rotational" else v) for name, v in held.items()}
+    _refuse_strangers(model, seen, markers)
     _warn(record, model, seen, markers, [name for name, (w, _) in tasks.coordinates.items() if w > 0.0])
     return MarkerTasks(markers, {**tasks.coordinates, **wanted})
+
+
+def _refuse_strangers(model: Multibody, seen: MarkerTrajectories, markers: dict[str, float]) -> None:
+    """InputError with the names of both sides where hardly a marker is common to them."""
+    common = sum(markers.get(m.name, 0.0) > 0.0 for m in model.markers if m.name in seen.names)
+    if common < FEWEST:
+        what = f"{common} markers of the model were recorded and have a weight; {FEWEST} are needed"
+        raise InputError(seen.source, "", what, names_told(seen, model))
 
 
 def _warn(
@@ -67,7 +78,8 @@ def _warn(
     )
     for what, names in rows:
         if names:
-            record.warn(f"{seen.source}: {what}: {listed(tuple(names))}")
+            hint = map_hint(seen, names) if "recorded" in what else ""
+            record.warn("; ".join(each for each in (f"{seen.source}: {what}: {listed(tuple(names))}", hint) if each))
 
 
 def _named(texts: tuple[str, ...], option: str, names: set[str], example: str) -> dict[str, float]:

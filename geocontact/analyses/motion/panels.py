@@ -1,24 +1,48 @@
-"""Panels of a page with the coordinates of a model, joint by joint: all in one would be a thicket."""
+"""Panels of a page with the coordinates of a model: right and left together, the others joint by joint."""
 
 from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Bool, Float
 
+from geocontact.analyses.motion.sides import RIGHT, stem_and_side
 from geocontact.data.multibody.model import Multibody
-from geocontact.view.page.content import Curve, Curves, Section
+from geocontact.view.page.content import Curve, Curves, Scale, Section
 
 
-def panels_by_joint(
-    model: Multibody, unit: str, values: Float[np.ndarray, "t n"], which: Bool[np.ndarray, " n"]
+def panels_of(
+    model: Multibody,
+    unit: str,
+    values: Float[np.ndarray, "t n"],
+    which: Bool[np.ndarray, " n"],
+    beside: Scale | None = None,
 ) -> list[Section]:
-    """One panel for each joint that has some of these coordinates, in the model's order."""
-    found: list[Section] = []
-    start = 0
-    for joint in model.joints:
-        stop = start + len(joint.coordinates)
-        curves = [Curve(c.name, values[:, start + k]) for k, c in enumerate(joint.coordinates) if which[start + k]]
-        if curves:
-            found.append(Curves(joint.name, unit, curves))
-        start = stop
-    return found
+    """Some coordinates of a model: a panel for each that both legs have, and one for the rest of each joint.
+
+    `beside` is a second unit of the same values.
+    """
+    panels: dict[str, list[int]] = {}
+    for place in (int(k) for k in np.flatnonzero(which)):
+        panels.setdefault(_title(model, which, place), []).append(place)
+    names = [c.name for c in model.coordinates]
+    return [
+        Curves(title, unit, [Curve(names[k], values[:, k]) for k in sorted(places, key=lambda k: _order(names[k]))],
+               beside=beside)
+        for title, places in panels.items()
+    ]  # fmt: skip
+
+
+def _order(name: str) -> bool:
+    """Right before left, so that each side has one colour throughout."""
+    return stem_and_side(name)[1] not in ("", RIGHT)
+
+
+def _title(model: Multibody, which: Bool[np.ndarray, " n"], place: int) -> str:
+    """What two sides have in common, else the joint."""
+    names = [c.name for c in model.coordinates]
+    stem, side = stem_and_side(names[place])
+    twins = [k for k in np.flatnonzero(which) if k != place and stem_and_side(names[k])[0] == stem]
+    if side and any(stem_and_side(names[k])[1] not in ("", side) for k in twins):
+        return stem
+    joints = [joint.name for joint in model.joints for _ in joint.coordinates]
+    return joints[place]

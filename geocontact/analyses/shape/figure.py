@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.shape.colours import colour_end
 from geocontact.geometry.fit.directions import across
 from geocontact.geometry.fit.found import ShapeFit
 from geocontact.view.curves.style import BLACK, DOUBLE, GREY, empty, in_style
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 MM = 1e3
 MOST = 20_000  # points drawn; more are thinned out, always in the same way
 RESIDUALS = "RdBu_r"  # diverging, white on the shape
-SHARE = 98.0  # per cent of the residuals that the colours cover
+SHARE = 98.0  # per cent of the residuals that the distribution shows
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +50,7 @@ def fit_figure(fit: ShapeFit, points: Float[np.ndarray, "n 3"], title: str) -> F
     some = np.sort(np.random.default_rng(0).permutation(len(points))[:MOST])
     residual = fit.quality.residual * MM
     limit = max(float(np.percentile(np.abs(residual), SHARE)), 1e-9)
+    end = colour_end(fit) * MM
     seen = _seen(fit, points[some])
     figure = empty(DOUBLE, 0.075)
     section, unrolled, spread = figure.subplots(1, 3, width_ratios=(1.0, 1.25, 0.8))
@@ -57,7 +59,7 @@ def fit_figure(fit: ShapeFit, points: Float[np.ndarray, "n 3"], title: str) -> F
         (unrolled, seen.unrolled, seen.unrolled_labels),
     ):
         dots = axes.scatter(
-            *xy.T, c=residual[some], s=2.0, lw=0.0, cmap=RESIDUALS, vmin=-limit, vmax=limit, rasterized=True
+            *xy.T, c=residual[some], s=2.0, lw=0.0, cmap=RESIDUALS, vmin=-end, vmax=end, rasterized=True
         )
         axes.set_xlabel(labels[0])
         axes.set_ylabel(labels[1])

@@ -8,15 +8,15 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.shape.colours import colour_end, outlying
 from geocontact.analyses.shape.fitting import Fitting
 from geocontact.geometry.fit.directions import across
-from geocontact.geometry.fit.found import OUTLYING, ShapeFit
+from geocontact.geometry.fit.found import ShapeFit
 from geocontact.view.page.content import Body, Page, Picture, Scene, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 MM = 1e3
-FINEST = 1e-6  # m; what the colours resolve at least
 ROUND = 72  # sides of the drawn cylinder, rings of the drawn sphere
 SHAPE = "fitted {}"
 BESIDE = (
@@ -50,6 +50,7 @@ def write_fit_report(
     title: str,
     provenance: Sequence[Table] = (),
     warnings: Sequence[str] = (),
+    sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page of one fit; returns its size in bytes.
 
@@ -61,8 +62,10 @@ def write_fit_report(
         Further tables: inputs with hashes, options, versions.
     warnings
         Reservations that came up on the way.
+    sentences
+        What was found.
     """
-    return write_page(fit_page(fitted, drawings, title, provenance, warnings), path)
+    return write_page(fit_page(fitted, drawings, title, provenance, warnings, sentences), path)
 
 
 def fit_page(
@@ -71,13 +74,12 @@ def fit_page(
     title: str,
     provenance: Sequence[Table] = (),
     warnings: Sequence[str] = (),
+    sentences: Sequence[str] = (),
 ) -> Page:
     """The page before it becomes a file."""
     sections: list[Section] = [_scene(fitted)]
     sections += [Picture(*DRAWINGS[name], drawings[name], wide=name == "fit") for name in DRAWINGS if name in drawings]
     sections += [_fits(fitted), *provenance, Words("How far to trust it", _words(fitted))]
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
     patch = fitted.patch
     chosen = f"Fitted to {int(patch.faces.sum())} of {len(patch.faces)} faces of {patch.surface.name}"
     return Page(
@@ -85,12 +87,14 @@ def fit_page(
         subtitle=f"{chosen}; the others are left grey",
         time=np.zeros(1),
         time_label="time [s]",
-        headline=_headline(fitted.whole),
+        headline=headline(sentences),
+        facts=_facts(fitted.whole),
+        reservations=tuple(warnings),
         sections=tuple(sections),
     )
 
 
-def _headline(fit: ShapeFit) -> list[tuple[str, str]]:
+def _facts(fit: ShapeFit) -> list[tuple[str, str]]:
     lines = []
     if fit.radius is not None:
         interval = fit.radius_interval
@@ -106,7 +110,6 @@ def _headline(fit: ShapeFit) -> list[tuple[str, str]]:
 
 def _scene(fitted: Fitting) -> Scene:
     shape = fitted.whole.shape
-    limit = max(OUTLYING * fitted.whole.quality.noise, FINEST)
     residual = fitted.residual
     distance = np.where(np.isnan(residual), np.inf, np.abs(residual))
     bodies = [
@@ -121,8 +124,8 @@ def _scene(fitted: Fitting) -> Scene:
     bodies.append(Body(SHAPE.format(shape), vertices, faces, opacity=0.2))
     return Scene(
         bodies=bodies,
-        thresholds=(limit,),
-        span=(0.0, 1.5 * limit),
+        thresholds=(outlying(fitted.whole),),
+        span=(0.0, colour_end(fitted.whole)),
         value_name=f"distance to the fitted {shape}, to either side; the line is three times the noise",
         directions=WAYS,
     )

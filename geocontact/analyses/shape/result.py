@@ -102,4 +102,4 @@ class ShapeResult(Result):
 
     def _write_report(self, file: Path, drawings: Mapping[str, bytes]) -> None:
         provenance = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_fit_report(file, self.fitting, drawings, self.title, provenance, self.warnings)
+        write_fit_report(file, self.fitting, drawings, self.title, provenance, self.warnings, self.sentences)

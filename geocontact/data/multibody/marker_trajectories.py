@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,6 +43,14 @@ class MarkerTrajectories:
         """The same in axes that this rotation turns those of the file into."""
         places = turn.apply(self.positions.reshape(-1, 3)).reshape(self.positions.shape)
         return MarkerTrajectories(self.time, places, self.names, self.source)
+
+    def renamed(self, names: Mapping[str, str]) -> MarkerTrajectories:
+        """The same with new names by old ones; ValueError where two markers would be called alike."""
+        found = tuple(names.get(name, name) for name in self.names)
+        twice = [name for name in found if found.count(name) > 1]
+        if twice:
+            raise ValueError(f"two markers would be called {twice[0]}")
+        return MarkerTrajectories(self.time, self.positions, found, self.source)
 
     def of(self, names: tuple[str, ...]) -> Float[np.ndarray, "t n 3"]:
         """Positions of these markers in this order; NaN for a name that was not recorded."""

@@ -82,6 +82,11 @@ class Multibody:
         """Generalised coordinates of all joints, in the joints' order."""
         return tuple(c for joint in self.joints for c in joint.coordinates)
 
+    @property
+    def mass(self) -> float:
+        """Of all bodies [kg]."""
+        return sum(body.mass for body in self.bodies)
+
     def poses(self, values: Float[np.ndarray, "t n"]) -> dict[str, RigidTransform]:
         """Poses of the bodies in the ground, one for each row of coordinates [rad, m]; the ground's own among them."""
         frames = len(values)
@@ -97,6 +102,14 @@ class Multibody:
         poses = self.poses(values)
         places = [poses[m.body].apply(m.location) for m in self.markers]
         return np.stack(places, axis=1) if places else np.zeros((len(values), 0, 3))
+
+    def mass_centre(self, values: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t 3"]:
+        """Of all bodies, in the ground's frame [m], one row for each row of coordinates [rad, m]."""
+        poses = self.poses(values)
+        places = [
+            body.mass / self.mass * poses[body.name].apply(body.centre) for body in self.bodies if body.mass > 0.0
+        ]
+        return np.asarray(np.sum(places, axis=0)) if places else np.zeros((len(values), 3))
 
 
 def outwards(joints: tuple[JointModel, ...]) -> tuple[tuple[JointModel, ...], tuple[JointModel, ...]]:

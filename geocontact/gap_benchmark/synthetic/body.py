@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float
@@ -43,6 +43,10 @@ class SyntheticSystem:
         Interfaces at each of which an effect may sit alone; () where there is but one, or where all are alike.
     spare
         Inputs that the base model does not use.
+    quotients
+        Outputs that a laboratory gets by a division, and by which output it divides.
+    lengths
+        Constants that are a length of how something sits.
     patchy
         Outputs of which a sample may be missing now and then.
     passed_on
@@ -61,6 +65,8 @@ class SyntheticSystem:
     normal: tuple[int, ...] = (0,)
     places: tuple[Site, ...] = ()
     spare: tuple[str, ...] = ()
+    quotients: Mapping[int, int] = field(default_factory=dict)
+    lengths: tuple[str, ...] = ()
     patchy: tuple[int, ...] = ()
     passed_on: Callable[[InputCourse, Numbers, int, Values], Values] | None = None
     fine: int = 10

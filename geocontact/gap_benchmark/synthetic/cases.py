@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float
 
 from geocontact.data.gap.case import GapCase
 from geocontact.data.motion import Signals
@@ -20,6 +20,7 @@ from geocontact.gap_benchmark.synthetic.data_errors import words as fault_words
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs
 from geocontact.gap_benchmark.synthetic.ideal import ideal
 from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, SyntheticCase
+from geocontact.gap_benchmark.synthetic.laboratories.catalogue import LABORATORIES
 from geocontact.gap_benchmark.synthetic.magnitudes import magnitudes_of
 from geocontact.gap_benchmark.synthetic.outside.catalogue import unknown_effects
 from geocontact.gap_benchmark.synthetic.plan import Draw, NotFoundError, Plan, SyntheticMagnitudes
@@ -92,7 +93,12 @@ class DrawnCase:
 
 
 def synthetic_case(
-    system: str, kind: str, seed: int | np.random.SeedSequence, effect: str | None = None, nats: float | None = None
+    system: str,
+    kind: str,
+    seed: int | np.random.SeedSequence,
+    effect: str | None = None,
+    nats: float | None = None,
+    laboratory: str = "home",
 ) -> SyntheticCase:
     """A labelled case; synthetic.
 
@@ -106,18 +112,24 @@ def synthetic_case(
         The same seed gives the same case.
     effect, nats
         For one that must be of this name, about this visible; drawn where they are None.
+    laboratory
+        Who records it, one of `laboratories.catalogue.LABORATORIES`.
     """
     if system not in SCENES:
         raise ValueError(f"no synthetic cases for system {system!r}; there are {', '.join(SCENES)}")
     if kind not in KINDS:
         raise ValueError(f"unknown kind {kind!r}; kinds are {', '.join(KINDS)}")
+    if laboratory not in LABORATORIES:
+        raise ValueError(f"unknown laboratory {laboratory!r}; laboratories are {', '.join(LABORATORIES)}")
     sequence = np.random.SeedSequence(seed) if isinstance(seed, int) else seed
     last: Exception | None = None
     for attempt in range(ATTEMPTS):
         key = (*sequence.spawn_key, attempt)
         rng = np.random.default_rng(np.random.SeedSequence(sequence.entropy, spawn_key=key))
         try:
-            return attempt_at(rng, system, next(k for k in KINDS if k == kind), effect, nats, name_of(system, sequence))
+            scene = LABORATORIES[laboratory](rng, SCENES[system](rng, shifted=kind == "shift"))
+            known = next(k for k in KINDS if k == kind)
+            return attempt_at(rng, scene, known, effect, nats, name_of(system, sequence))
         except (NotFoundError, NotConvergedError) as why:
             last = why
     raise NotFoundError(f"{system} {kind} {effect or ''}: nothing suitable in {ATTEMPTS} draws; last: {last}")
@@ -128,16 +140,17 @@ def name_of(system: str, sequence: np.random.SeedSequence) -> str:
     return f"{system}_{int(sequence.generate_state(1)[0]):08x}"
 
 
-def attempt_at(rng: Rng, system: str, kind: Kind, effect: str | None, nats: float | None, name: str) -> SyntheticCase:
+def attempt_at(
+    rng: Rng, scene: SyntheticScene, kind: Kind, effect: str | None, nats: float | None, name: str
+) -> SyntheticCase:
     """One draw; raises where it does not give what the kind asks for."""
-    scene = SCENES[system](rng, shifted=kind == "shift")
     learn, hold = [(3, 2), (3, 2), (3, 2), (4, 2), (3, 3)][rng.integers(5)]
     stage = prepared(scene, [scene.path(rng, i) for i in range(learn)], kind)
     found = FINDERS[kind](rng, stage, effect, nats)
     if not all(math.isfinite(seen.nats) for seen in (found.sights or {}).values()):
         raise NotFoundError(f"{found.words}: how visible it is cannot be told")
     fine = fine_enough(scene, stage.trials[0].path, found.hooks)
-    gaps = lost_rows if rng.random() < 0.2 else None
+    gaps = scene.laboratory.clock.kept if rng.random() < scene.laboratory.clock.losing else None
     data_errors = [found.data_error if i in found.faulty else NO_DATA_ERROR for i in range(learn + hold)]
     paths = [one.path for one in stage.trials] + [scene.later(rng, i) for i in range(hold)]
     recordings = [record(scene, p, rng, found.hooks, f, fine, gaps) for p, f in zip(paths, data_errors, strict=True)]
@@ -319,16 +332,6 @@ FINDERS: Mapping[Kind, Callable[[Rng, Stage, str | None, float | None], DrawnCas
     "fault": mistake,
     "shift": single,
 }
-
-
-def lost_rows(rng: Rng, count: int) -> Int[np.ndarray, " s"]:
-    """Rows that are left when some were lost, single ones and a few stretches; the first and last stay."""
-    keep = rng.random(count) > 0.01
-    for _ in range(int(rng.integers(0, 3))):
-        begin = int(rng.integers(1, count - 6))
-        keep[begin : begin + int(rng.integers(2, 6))] = False
-    keep[0] = keep[-1] = True
-    return np.flatnonzero(keep)
 
 
 def case_of(

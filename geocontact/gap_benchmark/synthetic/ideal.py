@@ -63,6 +63,8 @@ def _ideal(scene: SyntheticScene, one: WhitenedTrial, hooks: Hooks, fine: int, n
     values = np.column_stack([*course.position, *outputs])
     varied = np.nan_to_num(jacobian(one.model, scene.theta)).reshape(-1, len(scene.theta))
     varied = solve_triangular(one.factor, varied, lower=True) @ np.linalg.cholesky(scene.spread)
+    moved = solve_triangular(one.factor, one.placed.reshape(len(varied), -1), lower=True)
+    varied = np.column_stack([varied, moved])
     directions, singular, _ = np.linalg.svd(varied, full_matrices=False)
     return IdealTrial(
         CaseTrial(name, Signals(grid, values, (*scene.inputs, *scene.outputs), scene.units), course.setting),

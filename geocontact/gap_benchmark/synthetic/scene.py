@@ -12,8 +12,9 @@ from jaxtyping import Float
 from geocontact.data.parameter import Parameter
 from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
+from geocontact.gap_benchmark.synthetic.equipment.laboratory import HOME, Laboratory
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Values
-from geocontact.gap_benchmark.synthetic.noise import Coloured
+from geocontact.gap_benchmark.synthetic.noise import Coloured, LowPass, Noise
 
 Rng = np.random.Generator
 
@@ -30,14 +31,16 @@ class SyntheticScene:
         Covariance of their trial-to-trial variation.
     noise, input_noise
         Of each output; standard deviation of each measured input.
-    step, corner
-        Of the recording [s]; of the low-pass filter that the inputs came through [Hz].
+    step, filters
+        Of the recording [s]; what the noise of each input came through.
     path, later
         Draws a movement for the calibration trial of a number; for the evaluation trial of one.
     body
         The system itself.
     begin
         Box from which a refit begins three times more, where it has a wrong basin.
+    laboratory
+        Who records it.
     """
 
     system: str
@@ -49,14 +52,15 @@ class SyntheticScene:
     tables: Mapping[str, pd.DataFrame]
     theta: Float[np.ndarray, " p"]
     spread: Float[np.ndarray, "p p"]
-    noise: tuple[Coloured, ...]
+    noise: tuple[Noise, ...]
     input_noise: Float[np.ndarray, " i"]
     step: float
-    corner: float
+    filters: tuple[LowPass, ...]
     path: Callable[[Rng, int], Path]
     later: Callable[[Rng, int], Path]
     body: SyntheticSystem
     begin: tuple[tuple[float, ...], tuple[float, ...]] | None = None
+    laboratory: Laboratory = HOME
 
     def numbers(self, theta: Float[np.ndarray, " p"]) -> dict[str, float]:
         """Constants and parameters by name."""

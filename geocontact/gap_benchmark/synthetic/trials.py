@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path, through
+from geocontact.gap_benchmark.synthetic.equipment.placement import IN_PLACE, Placement
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs, written_down
 from geocontact.gap_benchmark.synthetic.noise import smooth_noise
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
@@ -59,11 +60,12 @@ NO_DATA_ERROR = DataError("", "")
 class SyntheticTrial:
     """One trial as recorded and what it really was.
 
-    `rows` are the samples that were kept; `clean` is the truth at the nominal parameters without noise.
+    `rows` are the samples that were kept, `late` says by which share of a step each sample at full rate was late.
     """
 
     path: Path
     rows: Int[np.ndarray, " s"]
+    late: Float[np.ndarray, " n"]
     time: Float[np.ndarray, " s"]
     inputs: Float[np.ndarray, "i s"]
     outputs: Float[np.ndarray, "c s"]
@@ -74,19 +76,36 @@ class SyntheticTrial:
 
 
 def truth(
-    scene: SyntheticScene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int
+    scene: SyntheticScene,
+    path: Path,
+    count: int,
+    theta: Float[np.ndarray, " p"],
+    hooks: Hooks,
+    fine: int,
+    late: float | Float[np.ndarray, " n"] = 0.0,
 ) -> Outputs:
     """What would be written down at `count` samples without noise; no centre of pressure off the ground."""
-    outputs = scene.body.recorded(sensed(scene, path, count, theta, hooks, fine))
-    return scene.body.recorded(written_down(hooks, path(np.arange(count) * scene.step), outputs))
+    outputs = scene.body.recorded(sensed(scene, path, count, theta, hooks, fine, late))
+    return scene.body.recorded(written_down(hooks, path((np.arange(count) + late) * scene.step), outputs))
 
 
 def sensed(
-    scene: SyntheticScene, path: Path, count: int, theta: Float[np.ndarray, " p"], hooks: Hooks, fine: int
+    scene: SyntheticScene,
+    path: Path,
+    count: int,
+    theta: Float[np.ndarray, " p"],
+    hooks: Hooks,
+    fine: int,
+    late: float | Float[np.ndarray, " n"] = 0.0,
+    placed: Placement = IN_PLACE,
 ) -> Outputs:
-    """What the sensors give at `count` samples without noise, from steps `fine` times as short."""
+    """What the sensors give at `count` samples without noise, from steps `fine` times as short.
+
+    Samples are `late` by shares of the time between two, whole numbers of steps.
+    """
     grid = np.arange((count - 1) * fine + 1) * (scene.step / fine)
-    return scene.respond(path(grid), theta, hooks)[:, ::fine]
+    outputs = scene.body.respond(placed.moved(path(grid)), placed.shifted(scene.numbers(theta)), hooks)
+    return placed.measured(outputs[:, np.round((np.arange(count) + late) * fine).astype(int)])
 
 
 def samples(scene: SyntheticScene, path: Path) -> int:
@@ -118,20 +137,27 @@ def record(
     fine: int | None = None,
     gaps: Callable[[Rng, int], Int[np.ndarray, " s"]] | None = None,
 ) -> SyntheticTrial:
-    """One trial: its own base parameters, noise on outputs and inputs, rows that got lost."""
-    count = samples(scene, path)
+    """One trial: its own base parameters and placement, noise on outputs and inputs, rows that got lost."""
+    count, fine = samples(scene, path), fine or scene.body.fine
+    recorder, clock = scene.laboratory.recorder, scene.laboratory.clock
     theta = vary(scene, rng)
-    course = path(np.arange(count) * scene.step)
-    outputs = scene.body.recorded(sensed(scene, path, count, theta, hooks, fine or scene.body.fine))
-    outputs = outputs + np.array([one.draw(rng, count, scene.step) for one in scene.noise])
-    outputs = scene.body.recorded(written_down(hooks, course, outputs))
-    noise = [smooth_noise(rng, sd, count, scene.step, scene.corner) for sd in scene.input_noise]
-    inputs = course.position + np.array(noise)
+    placed = scene.laboratory.placement.drawn(rng)
+    late = clock.late(rng, count, fine) / fine
+    time = (np.arange(count) + late) * scene.step
+    course = path(time)
+    outputs = scene.body.recorded(sensed(scene, path, count, theta, hooks, fine, late, placed))
+    outputs = recorder.noisy(outputs, np.array([one.draw(rng, count, scene.step) for one in scene.noise]))
+    outputs = recorder.rounded(written_down(hooks, course, outputs), recorder.output_steps)
+    outputs = scene.body.recorded(outputs)
+    passed = zip(scene.input_noise, scene.filters, strict=True)
+    noise = [smooth_noise(rng, sd, count, scene.step, one) for sd, one in passed]
+    inputs = recorder.rounded(course.position + np.array(noise), recorder.input_steps)
     rows = np.arange(count) if gaps is None else gaps(rng, count)
     return SyntheticTrial(
         path,
         rows,
-        rows * scene.step,
+        late,
+        time[rows],
         data_error.inputs(scene, inputs)[:, rows],
         data_error.outputs(scene, outputs)[:, rows],
         course.duration,
@@ -159,5 +185,5 @@ def predicted(scene: SyntheticScene, recording: SyntheticTrial, hooks: Hooks, fi
     corrected = recording.data_error.corrected(scene, recording.inputs)
     path = through(recording.time, corrected, recording.duration, recording.phase, recording.setting)
     count = int(recording.rows[-1]) + 1
-    outputs = truth(scene, path, count, scene.theta, hooks, fine)[:, recording.rows]
+    outputs = truth(scene, path, count, scene.theta, hooks, fine, recording.late[:count])[:, recording.rows]
     return recording.data_error.outputs(scene, outputs)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +13,7 @@ from geocontact.gap_benchmark.synthetic.base_fit import Model, jacobian, refit
 from geocontact.gap_benchmark.synthetic.body import Numbers
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
 from geocontact.gap_benchmark.synthetic.hooks import Outputs, Values
-from geocontact.gap_benchmark.synthetic.noise import smooth_covariance
+from geocontact.gap_benchmark.synthetic.noise import LowPass, smooth_covariance
 from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import samples
 
@@ -21,11 +21,16 @@ FAINT = 1e-7
 """White part of the variance of input noise, for the sake of arithmetic."""
 HIDDEN = 1e6
 """Standard deviations added where nothing is measured."""
+ROUNDED = 12.0
+"""Variance of rounding is the square of the step over this."""
 
 
 @dataclass(frozen=True)
 class WhitenedTrial:
-    """A calibration trial as it is whitened: base model, its outputs, Cholesky factor of noise and input noise."""
+    """A calibration trial as it is whitened: base model, its outputs, Cholesky factor of noise and input noise.
+
+    `placed` is what each thing that sits elsewhere in every trial adds to the outputs, by one standard deviation.
+    """
 
     path: Path
     count: int
@@ -33,6 +38,7 @@ class WhitenedTrial:
     outputs: Outputs
     factor: Float[np.ndarray, "n n"]
     diagonal: Float[np.ndarray, "c s"]
+    placed: Float[np.ndarray, "c s q"]
 
 
 @dataclass(frozen=True)
@@ -56,15 +62,13 @@ def whitener(scene: SyntheticScene, path: Path) -> WhitenedTrial:
     outputs = scene.body.recorded(model(scene.theta))
     size = count * len(scene.outputs)
     total = np.zeros((size, size))
-    for c, noise in enumerate(scene.noise):
-        part = slice(c * count, (c + 1) * count)
-        total[part, part] = noise.covariance(count, scene.step)
-    for i, sd in enumerate(scene.input_noise):
+    add_sensor_noise(total, scene, outputs)
+    for i, sd, filtered in input_noises(scene):
         if scene.body.passed_on is not None:
-            passed = passed_on(scene, course, i, scene.body.passed_on)
+            passed = passed_on(scene, course, i, sd, filtered, scene.body.passed_on)
             total += passed @ passed.T
             continue
-        place, cross, rate = smooth_covariance(float(sd), count, scene.step, scene.corner)
+        place, cross, rate = smooth_covariance(sd, count, scene.step, filtered)
         a, b = slopes(scene, path, count, i)
         if not a.any() and not b.any():
             continue
@@ -82,17 +86,59 @@ def whitener(scene: SyntheticScene, path: Path) -> WhitenedTrial:
     diagonal = np.diag(total).reshape(outputs.shape).copy()
     sd_all = np.repeat([one.sd for one in scene.noise], count)
     total[np.diag_indices(size)] += np.where(gone.ravel(), (HIDDEN * sd_all) ** 2, (1e-3 * sd_all) ** 2)
-    return WhitenedTrial(path, count, model, outputs, np.linalg.cholesky(total), diagonal)
+    return WhitenedTrial(path, count, model, outputs, np.linalg.cholesky(total), diagonal, placed(scene, course))
+
+
+def add_sensor_noise(total: Float[np.ndarray, "n n"], scene: SyntheticScene, outputs: Outputs) -> None:
+    """Covariance of what sensors and recorder add to the base model's outputs."""
+    channels, count = outputs.shape
+    mixing = scene.laboratory.recorder.mixing(outputs)
+    for e, noise in enumerate(scene.noise):
+        own = noise.covariance(count, scene.step)
+        felt = [c for c in range(channels) if mixing[c, e].any()]
+        for c in felt:
+            for d in felt:
+                block = mixing[c, e][:, None] * own * mixing[d, e]
+                total[c * count : (c + 1) * count, d * count : (d + 1) * count] += block
+    for c, step in scene.laboratory.recorder.output_steps.items():
+        part = np.arange(c * count, (c + 1) * count)
+        total[part, part] += step * step / ROUNDED
+
+
+def input_noises(scene: SyntheticScene) -> Iterator[tuple[int, float, LowPass]]:
+    """Row, standard deviation and filter of every noise of an input: the sensor's, and that of rounding."""
+    for i, (sd, filtered) in enumerate(zip(scene.input_noise, scene.filters, strict=True)):
+        yield i, float(sd), filtered
+    for i, step in scene.laboratory.recorder.input_steps.items():
+        yield i, float(step / np.sqrt(ROUNDED)), LowPass(0.5 / scene.step)
+
+
+def placed(scene: SyntheticScene, course: InputCourse) -> Float[np.ndarray, "c s q"]:
+    """What the base model's outputs change by where something sits elsewhere, central differences over either side."""
+    sides = [
+        [
+            one.measured(scene.body.base_model(one.moved(course), one.shifted(scene.constants))(scene.theta))
+            for one in (each, each.opposite())
+        ]
+        for each in scene.laboratory.placement.each()
+    ]
+    columns = [np.nan_to_num(0.5 * (more - less)) for more, less in sides]
+    return np.stack(columns, axis=-1) if columns else np.zeros((len(scene.outputs), len(course.time), 0))
 
 
 def passed_on(
-    scene: SyntheticScene, course: InputCourse, i: int, respond: Callable[[InputCourse, Numbers, int, Values], Values]
+    scene: SyntheticScene,
+    course: InputCourse,
+    i: int,
+    sd: float,
+    filtered: LowPass,
+    respond: Callable[[InputCourse, Numbers, int, Values], Values],
 ) -> Float[np.ndarray, "n q"]:
     """What the base model makes of the noise of input i where it remembers: each column times a number from N(0, 1)."""
     count = len(course.time)
-    place, _, _ = smooth_covariance(1.0, count, scene.step, scene.corner)
+    place, _, _ = smooth_covariance(1.0, count, scene.step, filtered)
     root = np.linalg.cholesky(place + FAINT * np.eye(count))
-    passed = respond(course, scene.numbers(scene.theta), i, float(scene.input_noise[i]) * root)
+    passed = respond(course, scene.numbers(scene.theta), i, sd * root)
     return np.asarray(passed.reshape(-1, count))
 
 
@@ -118,7 +164,7 @@ def floor(scene: SyntheticScene, trials: Sequence[WhitenedTrial]) -> Float[np.nd
     squares = []
     for one in trials:
         by = jacobian(one.model, scene.theta)
-        variance = one.diagonal + np.einsum("csp,pq,csq->cs", by, scene.spread, by)
+        variance = one.diagonal + np.einsum("csp,pq,csq->cs", by, scene.spread, by) + (one.placed**2).sum(axis=2)
         squares.append(np.where(np.isfinite(one.outputs), variance, np.nan))
     return np.asarray(np.sqrt(np.nanmean(np.concatenate(squares, axis=1), axis=1)))
 
@@ -144,14 +190,15 @@ def sight(
     for one, y in zip(trials, measured, strict=True):
         gap, first = (np.nan_to_num(y - part) for part in (one.model(theta), one.outputs))
         by = np.where(np.isfinite(y)[:, :, None], jacobian(one.model, theta), 0.0).reshape(-1, p)
-        stacked = solve_triangular(one.factor, np.column_stack([gap.ravel(), first.ravel(), by]), lower=True)
-        r, s, j = stacked[:, 0], stacked[:, 1], stacked[:, 2:] * scale
+        moved = np.where(np.isfinite(y)[:, :, None], one.placed, 0.0).reshape(len(by), -1)
+        stacked = solve_triangular(one.factor, np.column_stack([gap.ravel(), first.ravel(), by, moved]), lower=True)
+        r, s, j = stacked[:, 0], stacked[:, 1], stacked[:, 2 : 2 + p] * scale
         raw += float(s @ s)
         within += float(r @ r)
         normal_plain += j.T @ j
         right_plain += j.T @ r
-        jitter = stacked[:, 2:] @ root
-        inner = cho_factor(np.eye(p) + jitter.T @ jitter)
+        jitter = np.column_stack([stacked[:, 2 : 2 + p] @ root, stacked[:, 2 + p :]])
+        inner = cho_factor(np.eye(jitter.shape[1]) + jitter.T @ jitter)
 
         def free(v: Values, jitter: Values = jitter, inner: tuple[Values, bool] = inner) -> Values:
             return np.asarray(v - jitter @ cho_solve(inner, jitter.T @ v))

@@ -17,6 +17,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.io.cases.case_cells import AREA, PLACE, cells_file, channel_name
 from geocontact.io.cases.case_folder import SETTINGS, TRIALS
+from geocontact.io.text.late_times import with_microseconds
 from geocontact.io.text.units import si_unit
 
 DIGITS = 9
@@ -54,7 +55,7 @@ def write_trials(case: GapCase, home: Path, units: Mapping[str, str] | None = No
     """Write trials/<id>.csv only, over those that are there."""
     (home / TRIALS).mkdir(parents=True, exist_ok=True)
     for trial in (*case.calibration, *case.evaluation):
-        table = trial_table(trial, units)
+        table = with_microseconds(trial_table(trial, units), digits)
         file = home / TRIALS / f"{trial.name}.csv"
         table.to_csv(file, index=False, float_format=f"%.{digits}g", lineterminator="\n")
 
@@ -72,7 +73,7 @@ def _write_cells(home: Path, site: str, cells: CellChannels, digits: int) -> Non
         table = pd.DataFrame(own.pressure, columns=names)
         table.insert(0, "time [s]", own.time)
         file = cells_file(home, trial, site)
-        table.to_csv(file, index=False, float_format=f"%.{digits}g", lineterminator="\n")
+        with_microseconds(table, digits).to_csv(file, index=False, float_format=f"%.{digits}g", lineterminator="\n")
 
 
 def _layout_file(site: str) -> str:

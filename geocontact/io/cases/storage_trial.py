@@ -18,7 +18,7 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Signals
 from geocontact.io.cases.trial_table import TrialTable
-from geocontact.io.text.columns import resolve
+from geocontact.io.text.columns import LARGEST_RADIANS, resolve
 from geocontact.io.text.csv_text import Column
 from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import si_unit, split_header
@@ -88,4 +88,8 @@ def _values(table: TextTable, channel: Column, label: str) -> Float[np.ndarray, 
     if channel.si == "rad" and said not in (None, channel.unit):
         what = f"angles are in {said} by the header, [columns] has {channel.name} in {channel.unit}"
         raise InputError(table.file, f"line {table.angles.line}", what, f'write "{channel.name} [{said}]"')
-    return table.needed(label) * channel.factor
+    values = table.needed(label)
+    if channel.unit == "rad" and (largest := float(np.abs(values).max(initial=0.0))) > LARGEST_RADIANS:
+        what = f"column {label!r} reaches {largest:.4g}, too much for the radians that [columns] has {channel.name} in"
+        raise InputError(table.file, "", what, f'write "{channel.name} [deg]" if they are degrees')
+    return values * channel.factor

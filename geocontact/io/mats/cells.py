@@ -15,6 +15,7 @@ from jaxtyping import Bool, Float, Int
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.layout import MatLayout
+from geocontact.io.mats.plausible import tell_implausible
 from geocontact.io.mats.units import pressure_unit
 
 T = TypeVar("T", float, int)
@@ -92,6 +93,7 @@ def frames_of(found: MatRecording, layout: MatLayout) -> PressureFrames:
     valid = _valid(found, layout, pressure)
     pressure[:, ~valid] = np.nan
     _tell_negative(pressure, unit, found)
+    tell_implausible(found.file, found.name, float(np.nanmax(pressure)), unit)
     areas = np.full((rows, columns), math.prod(pitch) if area is None else area[0])
     if area is not None and len(area) > 1:
         areas[row, column] = area if found.ids is None else [area[each] for each in found.ids]

@@ -15,6 +15,7 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.io.mocap.c3d_plates import Arrays, read_apart
+from geocontact.io.mocap.subject import without_subject
 from geocontact.io.text.units import LENGTH
 
 
@@ -47,9 +48,7 @@ def read_c3d_markers(path: str | PathLike[str]) -> MarkerTrajectories:
 
 def _named(file: str, labels: list[str], positions: Float[np.ndarray, "t m 3"]) -> tuple[tuple[str, ...], list[int]]:
     """Names without the subject where they stay different, and which points have them."""
-    whole = dict.fromkeys(labels)
-    short = {label.rpartition(":")[2] for label in whole}
-    names = [label.rpartition(":")[2] for label in labels] if len(short) == len(whole) else labels
+    names = without_subject(labels)
     counts = np.isfinite(positions).all(axis=2).sum(axis=0)
     kept: dict[str, int] = {}
     for k, name in enumerate(names):

@@ -34,7 +34,7 @@ def read_c3d_plates(path: str | PathLike[str]) -> Arrays:
     """Arrays of all plates of a file.
 
     `frames`, `rate` [Hz] and `start` [s]; for plate k = 0, 1 …: `force_k`, `moment_k`, `corners_k` in the file's units,
-    and those in `units_k` (force, position, moment).
+    and those in `units_k` (force, position, moment). `labels` of the analog channels.
     """
     return read_apart(path, __name__)
 
@@ -85,6 +85,7 @@ def plates_of(path: str) -> Arrays:
         "frames": np.array(content["data"]["points"].shape[2]),
         "rate": np.array(float(analogs["frame_rate"])),
         "start": np.array(float(points["first_frame"]) / max(float(points["frame_rate"]), 1e-9)),
+        "labels": np.array([str(label).strip() for label in content["parameters"]["ANALOG"]["LABELS"]["value"]]),
     }
     for k, plate in enumerate(content["data"].get("platform", [])):
         units = [str(plate[key]) for key in ("unit_force", "unit_position", "unit_moment")]

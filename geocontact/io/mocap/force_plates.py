@@ -79,8 +79,21 @@ def read_force_plates(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
 def plate_named(plates: tuple[ForcePlate, ...], name: str | None, path: Path, option: str) -> ForcePlate:
     """The plate of this name or number, counted from 1; the only one where none is named.
 
-    `option` is how the user names one, for messages.
+    `option` is how the user names one, for messages. A plate that pulls at the foot is refused: its file holds the
+    forces on the plate.
     """
+    plate = _named(plates, name, path, option)
+    pushing = plate.wrench.force @ plate.normal
+    loaded = pushing[np.abs(pushing) >= LOADED]
+    usual = float(np.median(loaded)) if len(loaded) else 0.0
+    if usual < 0.0:
+        up = "xyz"[int(np.argmax(np.abs(plate.normal)))]
+        what = f"its force along {up}, which is up, is {usual:.4g} N under load: that is the force on the plate"
+        raise InputError(path, plate.name, what, "give the force on the foot: turn the sign of forces and torques")
+    return plate
+
+
+def _named(plates: tuple[ForcePlate, ...], name: str | None, path: Path, option: str) -> ForcePlate:
     names = [plate.name for plate in plates]
     if name is None:
         if len(plates) == 1:
@@ -139,7 +152,9 @@ def _from_c3d(path: str | PathLike[str]) -> tuple[ForcePlate, ...]:
     arrays = read_c3d_plates(path)
     rate, count = float(arrays["rate"]), sum(name.startswith("force_") for name in arrays)
     if not count:
-        raise InputError(file, "", "holds no force plate", "give a file recorded with force plates")
+        labels = listed(tuple(str(label) for label in arrays["labels"]), 80)
+        remedy = f"give a file recorded with force plates; analog channels are: {labels}"
+        raise InputError(file, "", "holds no force plate", remedy)
     if not rate > 0.0 or not np.isfinite(rate):
         raise InputError(file, "", f"analogue rate is {rate:g} Hz", "is the file complete?")
     return tuple(_c3d_plate(file, arrays, k) for k in range(count))

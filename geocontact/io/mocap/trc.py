@@ -2,6 +2,7 @@
 
 Line 3 tells rate, counts and unit, line 4 the markers' names, line 5 the columns; then frame, time and x y z of each
 marker between tabs. An empty cell is a marker that was not seen; so is one at exactly 0 0 0, which some exports write.
+What stands before a colon in a name is the subject and is left out.
 Times are often rounded to milliseconds, which would ruin accelerations; where frames and rate bear the times out to the
 rounding, they count.
 """
@@ -16,6 +17,7 @@ from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.io.mocap.subject import without_subject
 from geocontact.io.text.file_preflight import read_bytes
 from geocontact.io.text.table_rows import read_rows
 from geocontact.io.text.units import LENGTH
@@ -32,7 +34,7 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     if len(lines) <= _HEAD or not lines[0].startswith("PathFileType"):
         raise InputError(file, "line 1", "does not begin with 'PathFileType'", "is it a complete .trc file?")
     declared = dict(zip(lines[1].split(), lines[2].split(), strict=False))
-    names = tuple(word.strip() for word in lines[3].split("\t")[2:] if word.strip())
+    names = tuple(without_subject([word.strip() for word in lines[3].split("\t")[2:] if word.strip()]))
     _check(file, "line 3", declared, "NumMarkers", len(names), "markers are named in line 4")
     twice = [name for name in names if names.count(name) > 1]
     if twice:

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.seconds import seconds
 
 ASKED = (
     "DataRate",
@@ -35,5 +36,5 @@ def write_trc(path: Path, markers: MarkerTrajectories) -> None:
     ]
     for k, (time, places) in enumerate(zip(markers.time, 1e3 * markers.positions, strict=True)):
         cells = ("" if np.isnan(value) else f"{value:.6f}" for value in places.ravel())
-        lines.append("\t".join((str(k + 1), f"{time:.9g}", *cells)))
+        lines.append("\t".join((str(k + 1), seconds(float(time), 9), *cells)))
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")

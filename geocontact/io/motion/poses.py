@@ -65,7 +65,7 @@ def motion_from_joint(table: TextTable, joint: JointModel, moving: str = "child"
     if moving not in ("child", "parent"):
         raise InputError("", "`moving_body`", f"'{moving}' is not a body of the joint", "give child or parent")
     columns = columns_of(table, (joint,))
-    pose = joint.pose(coordinates_of(table, joint.coordinates, columns, angles), len(table.time))
+    pose = joint.pose(coordinates_of(table, (joint,), columns, angles), len(table.time))
     if not np.all(np.isfinite(pose.as_matrix())):
         raise InputError(table.file, "", f"pose of joint {joint.name} is not finite", "coordinates or model are absurd")
     warn_of_defaults(table, joint.coordinates, columns, f"joint {joint.name}")

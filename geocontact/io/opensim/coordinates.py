@@ -12,6 +12,7 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.joint import Coordinate, JointModel
 from geocontact.data.multibody.model import Multibody
+from geocontact.io.opensim.coordinate_ranges import refuse_degrees_as_radians
 from geocontact.io.text.columns import angles_of, lengths, resolve
 from geocontact.io.text.tables import TextTable, listed
 
@@ -19,7 +20,7 @@ from geocontact.io.text.tables import TextTable, listed
 def motion_of(table: TextTable, model: Multibody, angles: str | None = None) -> Float[np.ndarray, "t n"]:
     """All coordinates of a model in its order [rad, m]; those without a column at their default, with a warning."""
     columns = columns_of(table, model.joints)
-    found = coordinates_of(table, model.coordinates, columns, angles)
+    found = coordinates_of(table, model.joints, columns, angles)
     warn_of_defaults(table, model.coordinates, columns, model.name or "the model")
     frames = len(table.time)
     return np.column_stack([found.get(c.name, np.full(frames, c.default)) for c in model.coordinates])
@@ -46,18 +47,19 @@ def warn_of_defaults(table: TextTable, coordinates: Sequence[Coordinate], column
 
 
 def coordinates_of(
-    table: TextTable, coordinates: Sequence[Coordinate], columns: Mapping[str, str], angles: str | None
+    table: TextTable, joints: Sequence[JointModel], columns: Mapping[str, str], angles: str | None
 ) -> dict[str, Float[np.ndarray, " t"]]:
-    """Values of the coordinates that have a column [rad, m].
+    """Values of the joints' coordinates that have a column [rad, m]; InputError for degrees called radians.
 
     A coupled one stands in the file as in the model, in rad or m, also where OpenSim writes the others in degrees.
     """
-    found = [c for c in coordinates if c.name in columns]
+    found = [c for joint in joints for c in joint.coordinates if c.name in columns]
     q: dict[str, Float[np.ndarray, " t"]] = {}
     for kind, read in (("rotational", partial(angles_of, angles=angles)), ("translational", lengths)):
         names = [c.name for c in found if c.kind == kind]
         if names:
             q.update(zip(names, read(table, [columns[name] for name in names]).T, strict=True))
+    refuse_degrees_as_radians(table, joints, columns, q, angles)
     for name in (c.name for c in found if c.kind == "coupled"):
         q[name] = table.needed(columns[name])
         if "deg" in (angles, table.angles.unit):

@@ -8,6 +8,10 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.data.seconds import seconds
+
+DIGITS = 10
+
 
 def write_storage(
     path: Path,
@@ -28,5 +32,7 @@ def write_storage(
         "endheader",
         "\t".join(("time", *names)),
     )
-    rows = ("\t".join(f"{x:.10g}" for x in row) for row in np.column_stack([time, values]).tolist())
+    times = (seconds(each, DIGITS) for each in time.tolist())
+    cells = ("\t".join(f"{x:.{DIGITS}g}" for x in row) for row in values.tolist())
+    rows = (f"{each}\t{row}" for each, row in zip(times, cells, strict=True))
     path.write_text("\n".join((*head, *rows)) + "\n", encoding="utf-8")

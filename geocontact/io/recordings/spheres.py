@@ -19,6 +19,9 @@ from geocontact.io.text.units import LENGTH, split_header
 LARGEST_TABLE = 16_000_000
 """Bytes; some hundred thousand spheres."""
 
+PLAUSIBLE = 0.5e-3, 0.5
+"""Radii [m] that spheres under a foot have: from a stud of a shoe to the rocker of a prosthesis."""
+
 _COLUMNS = ("px", "py", "pz", "radius", "zone", "k", "b")
 _STIFFNESS = re.compile(r"N/m(?:\^(?P<exponent>n|\d+(\.\d+)?))?")
 _ZONE = re.compile(r"[\w][\w .+-]{0,39}")
@@ -78,6 +81,7 @@ def read_spheres(path: str | PathLike[str]) -> SphereTable:
     _say_what_is_made_up(cells)
     radius = cells.lengths("radius")
     cells.refuse("radius", radius, radius <= 0.0, "must be positive")
+    _require_plausible(cells, radius)
     depth = cells.lengths("pz") if "pz" in cells.names else np.zeros(len(cells.rows))
     centre = np.column_stack([cells.lengths("px"), cells.lengths("py"), depth])
     zone = cells.zones() if "zone" in cells.names else ("foot",) * len(cells.rows)
@@ -206,6 +210,20 @@ def _say_what_is_made_up(cells: _Cells) -> None:
         said.append(f"column {', '.join(repr(name[:40]) for name in unknown[:30])} is not used")
     for what in said:
         warnings.warn(InputWarning(f"{cells.file}: {what}"), stacklevel=3)
+
+
+def _require_plausible(cells: _Cells, radius: Float[np.ndarray, " n"]) -> None:
+    """Refuse radii that no foot's spheres have, with the unit that is likelier."""
+    smallest, largest = PLAUSIBLE
+    odd = (radius < smallest) | (radius > largest)
+    if not odd.any():
+        return
+    line, text = cells.column("radius")[int(np.argmax(odd))]
+    unit, metres = cells.unit("radius"), float(radius[odd][0])
+    likelier = [each for each in ("mm", "cm", "m") if smallest <= metres / LENGTH[unit] * LENGTH[each] <= largest]
+    what = f"radius is {text[:40]} {unit}, under a foot it is {smallest * 1e3:g} mm to {largest:g} m"
+    remedy = f"write radius [{likelier[0]}] if it is in {likelier[0]}" if likelier else "correct it"
+    raise InputError(cells.file, f"line {line}", what, remedy)
 
 
 def _exponent(cells: _Cells) -> float | None:

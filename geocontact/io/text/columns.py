@@ -14,10 +14,14 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.text.tables import TextTable, listed
 from geocontact.io.text.units import ANGLE, LENGTH
 
-LARGEST_RADIANS = 4.0 * pi
-"""A joint angle beyond two turns is taken for degrees."""
+LARGEST_RADIANS = 2.0 * pi
+"""An angle beyond a full turn is taken for degrees."""
 
-_FEW_DEGREES = 0.2
+FEW_DEGREES = 0.2, 2.0
+"""Degrees that no angle exceeds where they may be radians: of one or two columns, and of three or more under one flag
+of a .mot or .sto. A whole motion within two degrees is rarer than one column; walking in radians stays below 1.3."""
+MANY = 3
+"""Columns that make a whole motion."""
 
 
 def lengths(table: TextTable, names: Sequence[str]) -> Float[np.ndarray, "t k"]:
@@ -32,10 +36,10 @@ def angles_of(table: TextTable, names: Sequence[str], angles: str | None = None)
     ----------
     angles
         "deg" or "rad" where the user says so; it overrules what the file says, with a warning when they disagree or
-        when "rad" makes more than two turns of it.
+        when "rad" makes more than a turn of it.
 
-    A file that says nothing or contradicts itself is refused, and so is one that says rad and holds more than two
-    turns. One that says deg and never exceeds 0.2 is used with a warning.
+    A file that says nothing or contradicts itself is refused, and so is one that says rad and holds more than a turn.
+    One that says deg and never exceeds 0.2, or 2 in three columns of a .mot or .sto, is used with a warning.
     """
     if angles not in (None, "deg", "rad"):
         raise InputError("", "`angles`", f"'{angles}' is not a unit of angles here", "give deg or rad")
@@ -133,11 +137,11 @@ def _ask(table: TextTable, name: str) -> NoReturn:
 
 
 def _check_size(table: TextTable, names: Sequence[str], values: Float[np.ndarray, "t k"], units: list[str]) -> None:
-    if found := _beyond_two_turns(table, names, values, units):
+    if found := _beyond_a_turn(table, names, values, units):
         what = f"{found[1]}, too much for the radians that the header declares"
         raise InputError(table.file, found[0], what, "pass `angles` deg or rad")
     size = np.max(np.abs(values))
-    if set(units) == {"deg"} and 0.0 < size < _FEW_DEGREES:
+    if set(units) == {"deg"} and 0.0 < size < FEW_DEGREES[table.opensim and len(names) >= MANY]:
         what = f"no angle exceeds {size:.3g} deg; if they are radians pass `angles` rad"
         warnings.warn(InputWarning(f"{table.file}: {what}"), stacklevel=4)
 
@@ -151,16 +155,16 @@ def _warn_of_doubts(
         doubts.append(f"{table.file}: says {other.pop()}, read as {angles} as asked for")
     elif table.angles.conflict:
         doubts.append(f"{table.file} line {table.angles.line}: {table.angles.conflict}; read as {angles} as asked for")
-    if found := _beyond_two_turns(table, names, values, [angles] * len(names)):
+    if found := _beyond_a_turn(table, names, values, [angles] * len(names)):
         doubts.append(f"{table.file} {found[0]}: {found[1]}, much for radians; if these are degrees pass `angles` deg")
     for doubt in doubts:
         warnings.warn(InputWarning(doubt), stacklevel=4)
 
 
-def _beyond_two_turns(
+def _beyond_a_turn(
     table: TextTable, names: Sequence[str], values: Float[np.ndarray, "t k"], units: list[str]
 ) -> tuple[str, str] | None:
-    """Place and words for the first column in rad that exceeds two turns; None when there is none."""
+    """Place and words for the first column in rad that exceeds a turn; None when there is none."""
     for name, unit, column in zip(names, units, np.abs(values).T, strict=True):
         row = int(np.argmax(column))
         if unit == "rad" and column[row] > LARGEST_RADIANS:

@@ -1,14 +1,30 @@
-"""Results to files: tables as CSV and Parquet, distance maps as a compressed array file."""
+"""Results to files: tables as CSV and Parquet."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import pandas as pd
 
+from geocontact.io.text.late_times import with_microseconds
+from geocontact.io.text.written_units import RESULTS, misfits
 
-def write_table(table: pd.DataFrame, folder: Path, parquet: bool, name: str = "area") -> None:
-    """Write `name`.csv (12 digits, empty cells for missing values), and `name`.parquet beside it when asked."""
-    table.to_csv(folder / f"{name}.csv", index=False, float_format="%.12g", lineterminator="\n")
+DIGITS = 12
+
+
+def write_table(
+    table: pd.DataFrame, folder: Path, parquet: bool, name: str = "area", units: Mapping[str, str] = RESULTS
+) -> None:
+    """Write `name`.csv (12 digits, empty cells for missing values), and `name`.parquet beside it when asked.
+
+    Columns in seconds have microseconds however late their clock is. Nothing but the header stands above the rows:
+    what a table refers to is told in run.json. ValueError where a column is in another unit than `units` has for its
+    kind: every table of every command goes through here.
+    """
+    if odd := misfits(table.columns, units):
+        raise ValueError(f"{name}: {', '.join(odd)}: not the unit that tables have for this kind of quantity")
+    shown = with_microseconds(table, DIGITS)
+    shown.to_csv(folder / f"{name}.csv", index=False, float_format=f"%.{DIGITS}g", lineterminator="\n")
     if parquet:
         table.to_parquet(folder / f"{name}.parquet", index=False)

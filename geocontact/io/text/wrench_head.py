@@ -1,7 +1,11 @@
-"""The lines above a table of forces that say what its moments refer to: `# point_mm = x, y, z`, `# frame = name`."""
+"""What the moments of a table of forces refer to, as run.json beside it says, or lines above its header.
+
+Lines are `# point_mm = x, y, z` and `# frame = name`: they are written by hand, and by geocontact before version 0.2.
+"""
 
 from __future__ import annotations
 
+import json
 import re
 from dataclasses import dataclass
 from itertools import takewhile
@@ -14,6 +18,7 @@ from geocontact.data.errors import InputError
 from geocontact.io.text.storage_header import LONGEST_LINE
 
 MOST_LINES = 100
+RUN = "run.json"
 
 _LINE = re.compile(r"#\s*(?P<key>point_mm|frame)\s*=\s*(?P<value>.*?)\s*", re.DOTALL)
 
@@ -35,24 +40,36 @@ class WrenchHead:
 
 
 def read_wrench_head(path: Path) -> WrenchHead:
-    """Of a table that can be read, whatever its format."""
+    """Of a table that can be read, whatever its format; lines above its header count before run.json."""
     with path.open(encoding="utf-8-sig", errors="replace") as stream:
         lines = [stream.readline(LONGEST_LINE) for _ in range(MOST_LINES)]
     point, frame = None, None
     for number, line in enumerate(takewhile(lambda each: each.startswith("#"), lines), 1):
         found = _LINE.fullmatch(line)
         if found and found["key"] == "point_mm":
-            point = _point(found["value"], path, number)
+            point = _point(found["value"], path, f"line {number}")
         elif found:
             frame = found["value"].partition(";")[0].strip() or None
-    return WrenchHead(point, frame)
+    return _of_run(path) if point is None and frame is None else WrenchHead(point, frame)
 
 
-def _point(text: str, path: Path, line: int) -> Float[np.ndarray, " 3"]:
+def _of_run(path: Path) -> WrenchHead:
+    """As the run that wrote the table says; nothing where there is none, or where it says nothing of this table."""
+    run = path.with_name(RUN)
+    try:
+        told = json.loads(run.read_text(encoding="utf-8"))["tables"][path.name]
+        point, frame = told.get("point_mm"), told.get("frame")
+    except (OSError, ValueError, LookupError, TypeError, AttributeError):
+        return WrenchHead()
+    named = frame if isinstance(frame, str) and frame else None
+    return WrenchHead(None if point is None else _point(",".join(map(str, point)), run, "tables"), named)
+
+
+def _point(text: str, path: Path, place: str) -> Float[np.ndarray, " 3"]:
     try:
         point = np.array([float(part) for part in text.split(",")])
     except ValueError:
         point = np.zeros(0)
     if point.shape != (3,) or not np.isfinite(point).all():
-        raise InputError(path, f"line {line}", f"point_mm is {text[:40]!r}", "write for example # point_mm = 0, 0, 0")
+        raise InputError(path, place, f"point_mm is {text[:40]!r}", "write for example # point_mm = 0, 0, 0")
     return point * 1e-3

@@ -1,29 +1,46 @@
-"""What a page says: a scene over time, curves, strips, numbers, tables and words. No HTML here."""
+"""What a page says: answer, reservations, a scene, curves, plans, numbers, tables and words. No HTML here."""
 
 from __future__ import annotations
 
+import re
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.view.page.intervals import Interval, Intervals
+from geocontact.view.page.linkage import Linkage
+from geocontact.view.page.plan import Mark, Plan, Track
 from geocontact.view.page.scene import Body, FaceMap, Scene
+
+DRAWN_IN = 12  # colours of a line drawing at most; more are those of a scale
 
 __all__ = [
     "Body",
+    "Choice",
+    "Choices",
     "Curve",
     "Curves",
     "FaceMap",
+    "Interval",
+    "Intervals",
+    "Limit",
+    "Linkage",
+    "Mark",
     "Page",
     "Picture",
+    "Plan",
+    "Points",
     "Readout",
     "Row",
+    "Scale",
     "Scene",
     "Section",
     "Strip",
     "Table",
+    "Track",
     "Words",
 ]
 
@@ -39,12 +56,40 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
+class Points:
+    """Values known at times of their own, such as measured ones: marks beside the curves."""
+
+    name: str
+    time: Float[np.ndarray, " k"]
+    values: Float[np.ndarray, " k"]
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A level line across a panel, in its unit."""
+
+    name: str
+    value: float
+
+
+@dataclass(frozen=True)
+class Scale:
+    """A second axis of a panel: its unit, and what 1 in the panel's unit is in it."""
+
+    unit: str
+    factor: float
+
+
+@dataclass(frozen=True, eq=False)
 class Curves:
-    """A panel of curves with one axis."""
+    """A panel of curves with one axis, marks and level lines; `beside` is a second scale of the same values."""
 
     title: str
     unit: str
     curves: Sequence[Curve]
+    points: Sequence[Points] = ()
+    limits: Sequence[Limit] = ()
+    beside: Scale | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,11 +132,12 @@ class Readout:
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """A table of texts, such as the inputs with their hashes."""
+    """A table of texts; `folded` ones, such as the inputs with their hashes, are opened by the reader."""
 
     title: str
     header: Sequence[str]
     rows: Sequence[Sequence[str]]
+    folded: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,6 +157,12 @@ class Picture:
         """The drawing as text."""
         return b64encode(self.svg).decode("ascii")
 
+    @property
+    def light(self) -> bool:
+        """It holds a colour scale: it stays light in dark surroundings, so that colours mean what its words say."""
+        fills = set(re.findall(rb"fill: (#[0-9a-f]{6})", self.svg))
+        return b"<image" in self.svg or len(fills) > DRAWN_IN
+
 
 @dataclass(frozen=True, eq=False)
 class Words:
@@ -120,37 +172,85 @@ class Words:
     paragraphs: Sequence[str]
 
 
-Section = Scene | Curves | Strip | Readout | Picture | Table | Words
+Section = Scene | Curves | Strip | Plan | Intervals | Readout | Picture | Table | Words
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """What a page says when its reader chooses so, such as another threshold.
+
+    Parameters
+    ----------
+    name
+        What is chosen: "1 mm".
+    headline, facts
+        As those of the page.
+    instead
+        Sections by the place among the page's sections that they take.
+    threshold
+        Contour drawn bold [m]; one of the scene's.
+    """
+
+    name: str
+    headline: Sequence[str]
+    facts: Sequence[tuple[str, str]]
+    instead: Mapping[int, Section]
+    threshold: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Choices:
+    """What can be chosen (`label`: "threshold"), what the page itself shows (`own`: "4 mm"), and the others."""
+
+    label: str
+    own: str
+    others: Sequence[Choice]
 
 
 @dataclass(frozen=True, eq=False)
 class Page:
     """Everything on one page.
 
+    The first screen holds the headline, the reservations, the facts, and the picture that shows the answer: the scene,
+    or else the first curves, plan, intervals or drawing of the sections.
+
     Parameters
     ----------
     time, time_label
-        Time of each frame and what it is: "time [s]", "cycle [%]". A page of one frame has no slider.
+        Along what the frames follow each other: "time [s]", "cycle [%]", "angle [deg]".
     headline
-        Label and value of what must be answered without a click: where, how much, in which frame.
+        The answer in sentences; the first one is set large.
+    facts
+        Label and value of the few numbers that belong to the answer, one row of them.
+    reservations
+        What changes how the answer is to be read, each one line.
     start_frame
         Frame shown first: its index in `time`, from 0.
+    sections
+        In reading order, at most one of them a `Scene`.
     numbers, total
         Number of each frame in the whole motion, counted from 1, and how many frames that has: what the page calls
         them where it holds a part of them. None: 1, 2, … and as many as there are times.
-    sections
-        In reading order, at most one of them a `Scene`.
+    plays
+        Something runs along the frames: a player is offered. False for bins, levels and cases, where curves are read
+        by pointing at them.
+    choices
+        Other readings of the same result.
     """
 
     title: str
     subtitle: str
     time: Float[np.ndarray, " t"]
     time_label: str
-    headline: Sequence[tuple[str, str]] = ()
+    headline: Sequence[str] = ()
+    facts: Sequence[tuple[str, str]] = ()
+    reservations: Sequence[str] = ()
     start_frame: int = 0
     sections: Sequence[Section] = field(default_factory=tuple)
     numbers: Int[np.ndarray, " shown"] | None = None
     total: int | None = None
+    plays: bool = True
+    choices: Choices | None = None
 
     def __post_init__(self) -> None:
         frames = len(self.time)
@@ -161,9 +261,30 @@ class Page:
         self._check_numbers()
         if sum(isinstance(section, Scene) for section in self.sections) > 1:
             raise ValueError("a page holds one Scene; put the bodies into it or write two pages")
-        for name, length in _lengths(self.sections):
+        others = () if self.choices is None else self.choices.others
+        instead = [section for choice in others for section in choice.instead.values()]
+        for name, length in _lengths([*self.sections, *instead]):
             if length != frames:
                 raise ValueError(f"{name}: {length} frames, expected the {frames} of the page's time")
+
+    @property
+    def lead(self) -> int | None:
+        """Place of the section that shows the answer on the first screen; None where there is no picture."""
+        for kinds in (Scene, (Curves, Plan, Intervals, Picture)):
+            for k, section in enumerate(self.sections):
+                if isinstance(section, kinds):
+                    return k
+        return None
+
+    def placed(self) -> list[tuple[str, int, int | None, Section]]:
+        """Every section with its name on the page, its place, and the choice it belongs to (None: any)."""
+        others = () if self.choices is None else self.choices.others
+        found: list[tuple[str, int, int | None, Section]] = []
+        for k, section in enumerate(self.sections):
+            instead = [(c + 1, other.instead[k]) for c, other in enumerate(others) if k in other.instead]
+            found.append((f"section-{k}", k, 0 if instead else None, section))
+            found += [(f"section-{k}-choice-{c}", k, c, other) for c, other in instead]
+        return found
 
     def _check_numbers(self) -> None:
         frames = len(self.time)
@@ -184,15 +305,18 @@ def _lengths(sections: Sequence[Section]) -> list[tuple[str, int]]:
     found: list[tuple[str, int]] = []
     for section in sections:
         match section:
-            case Scene(bodies=bodies, maps=maps):
+            case Scene(bodies=bodies, maps=maps, linkages=linkages):
                 found += [(f"map {each.name}", len(each.values)) for each in maps]
                 found += [(f"poses of {b.name}", len(b.poses)) for b in bodies if b.poses is not None]
                 found += [(f"distance of {b.name}", len(b.distance)) for b in bodies if b.distance is not None]
+                found += [(f"points of {one.name}", len(one.points)) for one in linkages if len(one.points) > 1]
             case Curves(curves=curves):
                 found += [(f"curve {c.name}", len(c.values)) for c in curves]
                 found += [(f"band of {c.name}", len(x)) for c in curves for x in (c.lower, c.upper) if x is not None]
             case Strip(title=title, values=values):
                 found.append((f"strip {title}", len(values)))
+            case Plan(tracks=tracks):
+                found += [(f"track {track.name}", len(track.points)) for track in tracks]
             case Readout(rows=rows):
                 found += [(f"readout {row.label}", len(row.texts)) for row in rows]
     return found

@@ -8,12 +8,18 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.view.page.content import Body, Curves, FaceMap, Page, Readout, Scene, Strip
+from geocontact.data.seconds import seconds
+from geocontact.view.page.content import Body, Curves, FaceMap, Intervals, Page, Plan, Readout, Scene, Strip
 from geocontact.view.page.levels import AmountLevels, Levels, across
+from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.opening import opacities, opening_view
 from geocontact.view.page.pack import Block, Grid, face_words, packed
 
 MM = 1e3
+UNITS = "N m|N|kN|mm²|cm²|mm|cm|m|MPa|kPa|Pa|s|ms|%|deg|°"
+"""A line does not end between a number and one of these."""
+LATE = 1e5
+"""s; from here on the digits that a page shows do not tell frames apart."""
 
 
 @dataclass(frozen=True)
@@ -29,28 +35,36 @@ class Payload:
 def payload(page: Page) -> Payload:
     """Everything the script draws; texts that the HTML holds already are left out."""
     blocks: list[Block] = []
+    time, label = _clock(page)
     data: dict[str, object] = {
-        "time": _numbers(page.time),
-        "timeLabel": page.time_label,
+        "time": _numbers(time),
+        "timeLabel": label,
         "title": page.title,
         "start": page.start_frame,
         "numbers": None if page.numbers is None else [int(number) for number in page.numbers],
         "total": len(page.time) if page.total is None else int(page.total),
+        "plays": page.plays,
+        "thresholds": _chosen(page),
     }
     parts: list[dict[str, object]] = []
     position_error = distance_error = 0.0
-    for k, section in enumerate(page.sections):
-        place = {"id": f"section-{k}"}
+    for name, _, _, section in page.placed():
+        place = {"id": name}
         match section:
             case Scene():
                 levels = _levels(section)
                 data["scene"] = _scene(section, page.start_frame, levels, blocks)
-                position_error = max(Grid.around(body.vertices).error for body in section.bodies)
+                grids = [*(Grid.around(b.vertices) for b in section.bodies), *(each.grid for each in section.linkages)]
+                position_error = max(grid.error for grid in grids)
                 distance_error = levels.error
             case Curves():
                 parts.append(place | {"kind": "curves"} | _curves(section))
             case Strip():
                 parts.append(place | {"kind": "strip"} | _strip(section))
+            case Plan():
+                parts.append(place | {"kind": "plan"} | _plan(section))
+            case Intervals():
+                parts.append(place | {"kind": "intervals"} | _intervals(section))
             case Readout():
                 texts = [[shown(text) for text in row.texts] for row in section.rows]
                 parts.append(place | {"kind": "readout", "texts": texts})
@@ -61,6 +75,12 @@ def payload(page: Page) -> Payload:
 def shown(text: str) -> str:
     """A number with a minus sign (U+2212) in place of a leading hyphen, and none before a rounded zero."""
     return re.sub(r"^-(?=[\d.])", "−", re.sub(r"^-(?=0*\.?0*(?![\d.eE]))(?=[\d.])", "", text))
+
+
+def minus(text: str) -> str:
+    """Words with a minus sign before numbers that stand by themselves, and units kept beside them: "z −19.5 mm"."""
+    signed = re.sub(r"(?<!\S)-(?=\d)", "−", text)
+    return re.sub(rf"(?<=\d) (?=(?:{UNITS})(?![\w/]))", "\u00a0", signed)
 
 
 def _levels(scene: Scene) -> Levels:
@@ -86,6 +106,7 @@ def _scene(scene: Scene, frame: int, levels: Levels, blocks: list[Block]) -> dic
         "up": [float(x) for x in scene.up],
         "view": opening_view(scene, frame).tolist(),
         "maps": [_map(each, k, blocks) for k, each in enumerate(scene.maps)],
+        "linkages": [_linkage(each, k, middle, blocks) for k, each in enumerate(scene.linkages)],
     }
 
 
@@ -96,12 +117,28 @@ def _map(each: FaceMap, k: int, blocks: list[Block]) -> dict[str, object]:
     return described | {"values": blocks[-1].described()}
 
 
+def _linkage(each: Linkage, k: int, middle: Float[np.ndarray, " 3"], blocks: list[Block]) -> dict[str, object]:
+    blocks.append(packed(f"linkage-{k}", each.words()))
+    return {
+        "name": each.name,
+        "tone": each.tone,
+        "radius": each.radius * MM,
+        "width": each.width * MM,
+        "lines": each.lines.tolist(),
+        "corner": ((each.grid.corner - middle) * MM).tolist(),
+        "size": (each.grid.size * MM).tolist(),
+        "points": blocks[-1].described(),
+    }
+
+
 def _middle(scene: Scene, frame: int) -> Float[np.ndarray, " 3"]:
-    """Middle of the bodies at the opening frame [m]: single precision in the browser loses nothing about it."""
+    """Middle of the bodies at the opening frame and of where linkages go [m]: single precision is enough about it."""
     corners = []
     for body in scene.bodies:
         placed = body.vertices if body.poses is None else body.poses[frame].apply(body.vertices)
         corners += [placed.min(axis=0), placed.max(axis=0)]
+    for each in scene.linkages:
+        corners += [each.places.min(axis=0), each.places.max(axis=0)]
     return np.asarray(0.5 * (np.min(corners, axis=0) + np.max(corners, axis=0)))
 
 
@@ -156,7 +193,38 @@ def _curves(panel: Curves) -> dict[str, object]:
         }
         for curve in panel.curves
     ]
-    return {"title": panel.title, "unit": panel.unit, "curves": curves}
+    points = [{"name": p.name, "time": _numbers(p.time), "values": _numbers(p.values)} for p in panel.points]
+    limits = [{"name": limit.name, "value": limit.value} for limit in panel.limits]
+    beside = None if panel.beside is None else {"unit": panel.beside.unit, "factor": panel.beside.factor}
+    described = {"title": panel.title, "unit": panel.unit, "curves": curves, "points": points, "limits": limits}
+    return described | {"beside": beside}
+
+
+def _plan(plan: Plan) -> dict[str, object]:
+    return {
+        "title": plan.title,
+        "unit": plan.unit,
+        "across": plan.across,
+        "up": plan.up,
+        "lines": [[_numbers(line[:, 0]), _numbers(line[:, 1])] for line in plan.lines],
+        "tracks": [{"name": t.name, "x": _numbers(t.points[:, 0]), "y": _numbers(t.points[:, 1])} for t in plan.tracks],
+        "marks": [{"name": mark.name, "at": [float(x) for x in mark.point]} for mark in plan.marks],
+    }
+
+
+def _intervals(shown: Intervals) -> dict[str, object]:
+    rows = []
+    for one in shown.intervals:
+        value, lower, upper = _numbers(np.array([one.value, one.lower, one.upper]))
+        rows.append({"name": one.name, "value": value, "lower": lower, "upper": upper})
+    return {"title": shown.title, "unit": shown.unit, "bars": shown.bars, "intervals": rows}
+
+
+def _chosen(page: Page) -> list[float | None]:
+    """Bold contour of each choice [mm], the page's own first."""
+    own = next((section.threshold * MM for section in page.sections if isinstance(section, Scene)), None)
+    others = () if page.choices is None else page.choices.others
+    return [own, *(None if each.threshold is None else each.threshold * MM for each in others)]
 
 
 def _strip(strip: Strip) -> dict[str, object]:
@@ -167,6 +235,14 @@ def _strip(strip: Strip) -> dict[str, object]:
         "thresholds": _numbers(strip.thresholds),
         "values": [_numbers(row) for row in strip.values],
     }
+
+
+def _clock(page: Page) -> tuple[Float[np.ndarray, " t"], str]:
+    """Times and their label; times of a clock that counts from 1970 are shown from the first one on."""
+    if not page.time_label.startswith("time") or not len(page.time) or abs(page.time[0]) < LATE:
+        return page.time, page.time_label
+    name, bracket, unit = page.time_label.partition(" [")
+    return page.time - page.time[0], f"{name} after {seconds(float(page.time[0]))}{bracket}{unit}"
 
 
 def _numbers(values: Float[np.ndarray, " t"]) -> list[float | None]:

@@ -1,13 +1,15 @@
-"""Bodies over time, coloured by distance or by an amount on each face."""
+"""Bodies over time, coloured by distance or by an amount on each face, and points and lines beside them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform
+
+from geocontact.view.page.linkage import Linkage
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,20 +96,27 @@ class Scene:
         Direction from which the page opens; None: the one from which the contact patch is seen.
     maps
         Amounts on faces; the page opens with the first one, where there is one.
+    linkages
+        Points and lines. Without bodies there is no distance: thresholds, span and value_name mean nothing.
     """
 
-    bodies: Sequence[Body]
-    thresholds: Sequence[float]
-    span: tuple[float, float]
-    value_name: str
-    directions: Mapping[str, Sequence[float]]
+    bodies: Sequence[Body] = ()
+    thresholds: Sequence[float] = ()
+    span: tuple[float, float] = (0.0, 1.0)
+    value_name: str = ""
+    directions: Mapping[str, Sequence[float]] = field(default_factory=dict)
     up: Sequence[float] = (0.0, 1.0, 0.0)
     view: Sequence[float] | None = None
     maps: Sequence[FaceMap] = ()
+    linkages: Sequence[Linkage] = ()
 
     def __post_init__(self) -> None:
-        if not self.bodies:
-            raise ValueError("a scene needs a body")
+        if not self.bodies and not self.linkages:
+            raise ValueError("a scene needs a body or a linkage")
+        if self.bodies:
+            self._check_bodies()
+
+    def _check_bodies(self) -> None:
         if not self.thresholds:
             raise ValueError("a threshold is missing")
         lower, upper = self.span
@@ -125,5 +134,5 @@ class Scene:
 
     @property
     def threshold(self) -> float:
-        """The main threshold [m]."""
-        return float(max(self.thresholds))
+        """The main threshold [m]; 0 without bodies."""
+        return float(max(self.thresholds, default=0.0))

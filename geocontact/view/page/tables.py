@@ -14,7 +14,7 @@ from geocontact.view.page.content import Table
 def inputs_table(inputs: Sequence[Mapping[str, object]]) -> Table:
     """Files that went in, as `run.json` lists them."""
     rows = [(str(i["role"]), Path(str(i["file"])).name, str(i.get("unit", "")), str(i["sha256"])) for i in inputs]
-    return Table("Input files", ("role", "file", "unit", "SHA-256"), rows)
+    return Table("Input files", ("role", "file", "unit", "SHA-256"), rows, folded=True)
 
 
 def frame_table(title: str, rows: pd.DataFrame, digits: int = 4) -> Table:

@@ -5,12 +5,26 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from geocontact.view.page.content import Curves, Page, Picture, Readout, Scene, Strip, Table, Words
-from geocontact.view.page.payload import payload, shown
+from geocontact.view.page.content import (
+    Choice,
+    Curves,
+    Intervals,
+    Page,
+    Picture,
+    Plan,
+    Readout,
+    Scene,
+    Section,
+    Strip,
+    Table,
+    Words,
+)
+from geocontact.view.page.payload import minus, payload, shown
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -20,6 +34,8 @@ KINDS = {
     Scene: "scene",
     Curves: "curves",
     Strip: "strip",
+    Plan: "plan",
+    Intervals: "intervals",
     Readout: "readout",
     Picture: "picture",
     Table: "table",
@@ -40,24 +56,57 @@ def write_page(page: Page, path: Path) -> int:
     return len(data)
 
 
+PANELS = ("curves", "strip", "plan", "intervals", "readout")
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A section on the page, the choice it belongs to ("": any), and whether it shows the answer."""
+
+    name: str
+    kind: str
+    section: Section
+    choice: str
+    lead: bool
+
+    @property
+    def empty(self) -> bool:
+        """Nothing would be seen: numbers of a frame that no frame has."""
+        return isinstance(self.section, Readout) and not self.section.rows
+
+
 def page_html(page: Page) -> str:
     """The page as text."""
     script, style = bundled("page.js"), bundled("style.css")
     packed = payload(page)
-    sections = [(KINDS[type(section)], f"section-{k}", section) for k, section in enumerate(page.sections)]
+    placed = [
+        Placed(name, KINDS[type(section)], section, "" if choice is None else str(choice), k == page.lead)
+        for name, k, choice, section in page.placed()
+    ]
+    shown_here = [each for each in placed if not each.empty]
     return _template().render(
         page=page,
-        moves=len(page.time) > 1,
-        scene=next((section for kind, _, section in sections if kind == "scene"), None),
+        moves=page.plays and len(page.time) > 1,
+        steps=len(page.time) > 1,
+        readings=_readings(page),
+        scene=next((each.section for each in placed if each.kind == "scene"), None),
         opacities=_opacities(packed.data),
-        panels=[s for s in sections if s[0] in ("curves", "strip", "readout")],
-        reading=[s for s in sections if s[0] in ("picture", "table", "words")],
+        lead=[each for each in shown_here if each.lead and each.kind != "scene"],
+        panels=[each for each in shown_here if each.kind in PANELS and not each.lead],
+        reading=[each for each in shown_here if each.kind in ("picture", "table", "words") and not each.lead],
         packed=packed,
         data=_json(packed.data),
         policy=policy(script, style),
         script=script,
         style=style,
     )
+
+
+def _readings(page: Page) -> list[Choice]:
+    """What the head of the page says in each choice, its own first."""
+    if page.choices is None:
+        return [Choice("", page.headline, page.facts, {})]
+    return [Choice(page.choices.own, page.headline, page.facts, {}), *page.choices.others]
 
 
 def policy(script: str, style: str) -> str:
@@ -86,6 +135,7 @@ def _template() -> Template:
         lstrip_blocks=True,
     )
     environment.filters["shown"] = shown
+    environment.filters["minus"] = minus
     return environment.get_template("page.html")
 
 

@@ -9,30 +9,26 @@ from jaxtyping import Float
 
 
 def camera_directions(medial: Float[np.ndarray, " 3"]) -> Mapping[str, tuple[float, float, float]]:
-    """View-from vectors in FIXED's frame, named after anatomy where the frame is known, with the axis in each name.
+    """View-from vectors in FIXED's frame, named by its axes; anatomy is named where the caller knows it.
 
-    y is taken for superior as long as nothing speaks against it. x and z are named by their axes alone: the public data
-    sets of implants that are described with x anterior have x posterior (the anterior flange lies at -x and flexion is
-    a negative turn about z), and with it z to the left. Medial is what the caller says. A medial direction across
-    another axis than z says that the frame is another one; only it and the axes are named then.
+    Meshes do not say which way their axes point in the body: public data of implants that are described with x anterior
+    have x posterior, and y is superior in a knee and not in a scan of a foot. What is known is what was asked for: the
+    medial direction, and lateral opposite to it.
 
     Parameters
     ----------
     medial
         Unit vector towards medial in FIXED's frame; zero when it is not known.
     """
-    x, y, z = (float(value) for value in medial)
-    if x or y:
-        named = {f"medial ({_axis(x, y, z)})": (x, y, z)}
-        ways = [(s * float(k == 0), s * float(k == 1), s * float(k == 2)) for k in range(3) for s in (1, -1)]
-        return named | {_axis(*way): way for way in ways if way != (x, y, z)}
-    side = f"medial ({_axis(0.0, 0.0, z)})" if z else "−z"
-    return {
-        "+x": (1.0, 0.0, 0.0),
-        side: (0.0, 0.0, z or -1.0),
-        "superior (+y)": (0.0, 1.0, 0.0),
-        "plantar (−y)": (0.0, -1.0, 0.0),
-    }
+    ways = [(s * float(k == 0), s * float(k == 1), s * float(k == 2)) for k in range(3) for s in (1, -1)]
+    names = {way: _axis(*way) for way in ways}
+    towards = tuple(float(value) for value in medial)
+    if any(towards):
+        x, y, z = towards
+        opposite = (0.0 - x, 0.0 - y, 0.0 - z)
+        sides = {(x, y, z): f"medial ({_axis(x, y, z)})", opposite: f"lateral ({_axis(*opposite)})"}
+        names = {**sides, **{way: name for way, name in names.items() if way not in sides}}
+    return {name: way for way, name in names.items()}
 
 
 def _axis(x: float, y: float, z: float) -> str:

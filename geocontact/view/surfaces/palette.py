@@ -1,15 +1,38 @@
-"""Colours of the 3-D pictures: those of the figure, with limits that depend on the thresholds alone."""
+"""Colours of distances: of stills and window, with limits that depend on the thresholds alone, and of the figure."""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.view.curves.style import COLOURS
 
+if TYPE_CHECKING:
+    from matplotlib.colors import Colormap
+
 DISTANCE_MAP = "viridis_r"  # perceptually uniform; bright is close
 FAR = "#D9D9D9"  # beyond what was asked for
 MOVING = "#7F97B2"
+
+
+OVERLAP = ("#6a040f", "#b3261e", "#e8590c", "#ff9a3c")
+"""Deep to shallow, as on the page."""
+
+
+def distance_colours(lower: float, upper: float) -> Colormap:
+    """Colours of distances between two limits as the page has them: `DISTANCE_MAP` from 0 on, `OVERLAP` below."""
+    from matplotlib import colormaps
+    from matplotlib.colors import LinearSegmentedColormap, ListedColormap
+
+    levels = np.linspace(lower, upper, 512)
+    near = np.clip((levels - max(lower, 0.0)) / (upper - max(lower, 0.0)), 0.0, 1.0)
+    colours = colormaps[DISTANCE_MAP](near)
+    if lower < 0.0:
+        below = levels < 0.0
+        colours[below] = LinearSegmentedColormap.from_list("overlap", OVERLAP)(1.0 - levels[below] / lower)
+    return ListedColormap(colours)
 
 
 def distance_limits(thresholds: tuple[float, ...]) -> tuple[float, float]:

@@ -4,88 +4,40 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.area import page as contact_page
 from geocontact.analyses.area.page import write_report
-from geocontact.analyses.area.page_sections import Told
 from geocontact.analyses.page_words import NOT_A_DEVICE
-from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement
-from geocontact.geometry.contact_area.evolution import Settings, area_evolution
+from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
-from geocontact.geometry.plane import Plane
-from geocontact.geometry.surface import Surface
 from geocontact.view.page.content import Curves, Readout, Scene, Strip, Table, Words
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.surfaces.directions import camera_directions
-from meshes.simple_shapes import block, sphere
-
-MM = 1e-3
-R, T = 20.0, 4.0
-WIDE = tuple(0.5 * k * MM for k in range(13))
-
-
-def swept(degrees):
-    """The ball turned about its vertical axis at one height."""
-    motion = moved([20.5] * len(degrees))
-    return replace(motion, coordinate=("flexion", np.radians(degrees)))
-
-
-def moved(heights):
-    """The ball over the plate, its centre at these heights [mm]."""
-    shift = np.zeros((len(heights), 3))
-    shift[:, 1] = np.asarray(heights) * MM
-    return Motion(0.1 * np.arange(len(heights)), RigidTransform.from_translation(shift))
-
-
-def analysed(heights=(22.0, 21.0, 20.5, 30.0), every=1, settings=None, motion=None):
-    """Bodies, motion, evolution and maps."""
-    ball, ground = (
-        Surface(v * MM, f, name) for (v, f), name in ((sphere(R, 8), "ball"), (block(40.0, 40.0, 10.0, 16), "plate"))
-    )
-    motion = moved(heights) if motion is None else motion
-    settings = settings or Settings((1 * MM, T * MM), refinement=AS_GIVEN, split=Plane.across("z"), sensitivity=WIDE)
-    maps = DistanceMaps(ball, ground, every)
-    evolution = area_evolution(ball, ground, motion, settings, each=maps.add)
-    return ball, ground, motion, settings, evolution, maps
-
-
-def told(*args, **kwargs):
-    """What the page tells, all frames kept."""
-    *known, maps = analysed(*args, **kwargs)
-    return Told(*known, maps, np.arange(len(maps.frames)))
-
-
-def page(*args, **kwargs):
-    """The page before it becomes HTML, and the areas."""
-    here = told(*args, **kwargs)
-    return contact_page.contact_page(here, "", (), ("a reservation",)), here.evolution
-
-
-def section(found, kind, n=0):
-    return [s for s in found.sections if isinstance(s, kind)][n]
+from meshes.simple_shapes import sphere
+from tests.analyses.area.ball_on_plate import MM, WIDE, R, T, analysed, moved, page, section, swept, told
 
 
 def test_where_how_much_and_when_are_said_at_the_top():
     found, evolution = page()
-    said = dict(found.headline)
+    said = dict(found.facts)
     largest = evolution.fixed.area[2, 1] * 1e6
     assert found.start_frame == 2
-    assert said["Largest contact area on the fixed body"] == f"{largest:.0f} mm² at 0.2 s (frame 3 of 4)"
+    assert said["Largest contact area on the fixed body"] == f"{largest:.0f} mm² at 0.2 s"
     assert said["Range over the motion"].startswith(f"0 … {largest:.0f} mm²")
-    assert said["Smallest distance"] == f"{evolution.min_distance[2] * 1e3:.2f} mm at 0.2 s (frame 3 of 4)"
+    assert said["Smallest distance"] == f"{evolution.min_distance[2] * 1e3:.2f} mm at 0.2 s"
     assert "50% medial, 50% lateral" in said["Where, in that frame"]
 
 
 def test_overlap_is_called_overlap():
     found, _ = page((20.5, 19.5))
-    assert dict(found.headline)["Deepest overlap"].startswith("0.50 mm at 0.1 s (frame 2 of 2)")
+    assert dict(found.facts)["Deepest overlap"] == "0.50 mm at 0.1 s"
 
 
 def test_no_contact_at_all_has_no_place():
     found, _ = page((30.0, 31.0))
-    assert not any(label.startswith("Where") for label, _ in found.headline)
+    assert not any(label.startswith("Where") for label, _ in found.facts)
+    assert found.headline[0].startswith("plate never comes within 4 mm of ball: at its nearest it is 10 mm away")
     assert section(found, Readout).rows[-1].texts == ["–", "–"]
 
 
@@ -146,7 +98,7 @@ def test_words_hold_what_a_reviewer_looks_for():
     assert "plate (fixed) lies within 4 mm of ball" in words["Question"]
     width = ((evolution.fixed.upper - evolution.fixed.lower)[:, 1] * 1e6).max()
     assert f"{width:.1f} mm² apart at most" in words["Numerical error"]
-    assert words["Reservations of this run"] == "a reservation"
+    assert found.reservations == ("a reservation",)
 
 
 def test_mesh_statistics():
@@ -211,21 +163,23 @@ def test_maps_keep_every_so_many_frames_and_those_that_answer():
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
-def test_anterior_is_not_claimed_as_meshes_described_so_have_it_at_either_end(sign):
+def test_only_the_side_that_was_told_has_an_anatomical_name(sign):
+    """On an insert y looks up and on a foot's scan it may not: nothing is superior, let alone plantar, by itself."""
     named = camera_directions(np.array([0.0, 0.0, sign]))
-    assert named[f"medial ({'+' if sign > 0 else '−'}z)"] == (0, 0, sign)
-    assert named["+x"] == (1, 0, 0) and named["plantar (−y)"] == (0, -1, 0)
-    assert [name.split()[0] for name in named] == ["+x", "medial", "superior", "plantar"]
+    medial, lateral = ("+z", "−z") if sign > 0 else ("−z", "+z")
+    assert list(named) == [f"medial ({medial})", f"lateral ({lateral})", "+x", "−x", "+y", "−y"]
+    assert named[f"medial ({medial})"] == (0, 0, sign) and named["−y"] == (0, -1, 0)
 
 
-def test_another_frame_names_its_axes_only():
-    named = camera_directions(np.array([-1.0, 0.0, 0.0]))
-    assert list(named) == ["medial (−x)", "+x", "+y", "−y", "+z", "−z"]
-    assert all(np.linalg.norm(way) == 1.0 for way in named.values())
+@pytest.mark.parametrize("medial", [(-1.0, 0.0, 0.0), (0.6, 0.8, 0.0)])
+def test_a_side_across_any_axis_is_named(medial):
+    named = camera_directions(np.array(medial))
+    assert named[next(iter(named))] == medial and next(iter(named)).startswith("medial (")
+    assert all(np.linalg.norm(way) == pytest.approx(1.0) for way in named.values())
 
 
-def test_unknown_side_is_an_axis_and_not_medial():
-    assert "−z" in camera_directions(np.zeros(3))
+def test_without_a_side_the_axes_are_named():
+    assert list(camera_directions(np.zeros(3))) == ["+x", "−x", "+y", "−y", "+z", "−z"]
 
 
 def test_inputs_are_listed_with_their_hashes():
@@ -242,13 +196,13 @@ def test_colours_end_at_a_round_number_below_the_deepest_overlap():
 def test_a_sweep_runs_along_its_angle():
     found, _ = page(motion=swept([0.0, 45.0, 90.0]))
     assert found.time_label == "flexion [deg]" and list(found.time) == pytest.approx([0.0, 45.0, 90.0])
-    assert dict(found.headline)["Largest contact area on the fixed body"].endswith("at flexion 0 deg (frame 1 of 3)")
+    assert dict(found.facts)["Largest contact area on the fixed body"].endswith("at flexion 0 deg")
 
 
 def test_a_normalised_cycle_is_said():
     found, _ = page(motion=replace(moved((22.0, 20.5)), time_unit="%"))
     assert found.time_label == "cycle [%]"
-    assert "at cycle 0.1 % (frame 2 of 2)" in dict(found.headline)["Largest contact area on the fixed body"]
+    assert "at cycle 0.1 %" in dict(found.facts)["Largest contact area on the fixed body"]
 
 
 def test_strip_holds_the_refined_area_where_it_has_one():

@@ -10,8 +10,10 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.area.pressure.page import facts, pressure_sections, sentence, shown_pressures
 from geocontact.analyses.area.result import AreaResult
 from geocontact.contact.elasticity import layer_modulus
+from geocontact.view.page.content import Plan
 from meshes.simple_shapes import block, sphere
 from meshes.stl import stl_bytes
 from tests.analyses.area.calls import area
@@ -183,3 +185,19 @@ def test_pressure_needs_its_material(tmp_path: Path, missing: str) -> None:
     with pytest.raises(TypeError, match=missing):
         pressures(*bodies(tmp_path), poses(tmp_path, (0, 20, 0)), **known)
     assert "pressure" not in gc.pressure.__signature__.parameters
+
+
+def test_the_page_shows_the_path_of_the_centre_of_pressure(tmp_path: Path) -> None:
+    """One row of numbers, and the path on the outline of the floor as seen along the load."""
+    result = pressed(tmp_path, at=(3.0, -2.0), split="z", n=16)
+    shown = shown_pressures(result.motions[0].pressure, result.bodies.fixed)
+    course = result.motions[0].motion.course
+    plan = next(each for each in pressure_sections(shown, np.arange(3)) if isinstance(each, Plan))
+    assert (plan.across, plan.up, plan.unit) == ("z", "x", "mm")
+    total = next(track for track in plan.tracks if track.name == "total")
+    np.testing.assert_allclose(total.points[:2], [[-2.0, 3.0]] * 2, atol=0.1)
+    assert np.isnan(total.points[2]).all(), "in the air nothing presses"
+    corners = np.concatenate(plan.lines)
+    assert np.ptp(corners, axis=0) == pytest.approx([80.0, 80.0])
+    assert sentence(shown, course, "ball", "floor").startswith("ball presses on floor with up to ")
+    assert len(facts(shown, course)) == 3

@@ -12,12 +12,15 @@ import pytest
 import geocontact as gc
 import geocontact.gap
 from geocontact.analyses.gap.benchmark import run as gap_benchmark_run
+from geocontact.analyses.gap.benchmark.alarms import alarms
 from geocontact.analyses.gap.benchmark.case import ANSWERERS, Task, Worked, alike, failed, renamed, worked
 from geocontact.analyses.gap.benchmark.content import constants_of_all
 from geocontact.analyses.gap.benchmark.job import benchmark
+from geocontact.analyses.gap.benchmark.lines import page_lines
+from geocontact.analyses.gap.benchmark.outcome import Outcome
 from geocontact.analyses.gap.benchmark.run import mixed
 from geocontact.analyses.json_file import plain
-from geocontact.gap_benchmark.drawing import KINDS, SHARES, Lot, drawn, lots, shares
+from geocontact.gap_benchmark.drawing import ABROAD, KINDS, SHARES, Lot, drawn, lots, shares
 from tests.house.test_gap_theory import ROWS
 
 SEED = 20
@@ -105,6 +108,23 @@ def test_an_interruption_before_the_first_case_ends_it(monkeypatch: pytest.Monke
         benchmark(cases=2, kinds="none")
 
 
+@pytest.mark.parametrize(("laboratory", "expected"), [("abroad", [*ABROAD, ABROAD[0]]), ("inputs", ["inputs"] * 4)])
+def test_the_laboratory_that_is_asked_for_records(
+    monkeypatch: pytest.MonkeyPatch, laboratory: str, expected: list[str]
+) -> None:
+    asked: list[Lot] = []
+
+    def noted(work: object, tasks: list[Task], jobs: int | None) -> Iterator[tuple[Task, Worked]]:
+        asked.extend(task.lot for task in tasks)
+        raise KeyboardInterrupt
+        yield
+
+    monkeypatch.setattr(gap_benchmark_run, "each", noted)
+    with pytest.raises(KeyboardInterrupt):
+        benchmark(system="elbow", cases=4, kinds="none", laboratory=laboratory)
+    assert sorted(lot.laboratory for lot in asked) == sorted(expected)
+
+
 def test_a_case_whose_process_is_lost_counts_as_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
     def killed(work: object, tasks: list[Task], jobs: int | None) -> Iterator[tuple[Task, BaseException]]:
         yield from ((task, RuntimeError("killed")) for task in tasks)
@@ -128,6 +148,26 @@ def counted(worked_on: list[Lot]) -> Callable[..., Iterator[tuple[Task, Worked]]
             yield task, Worked(task.lot, f"case{task.lot.place}", label, answers, 1.0, 1.0, None, ("it is made up",))
 
     return each
+
+
+def test_claims_of_cases_that_lack_nothing_have_a_row_by_system_and_laboratory() -> None:
+    label = plain(drawn(Lot("knee", "none", SEED, 0)).label.as_dict())
+    sure = failed(label) | {"verdict": "unknown", "probabilities": {"unknown": 0.97, "none": 0.03}}
+    quiet = failed(label) | {"verdict": "no_gap", "probabilities": {"none": 1.0}}
+
+    def one(system: str, laboratory: str, said: dict) -> Worked:
+        lot = Lot(system, "none", SEED, 0, laboratory)
+        return Worked(lot, f"{system} {laboratory}", label, dict.fromkeys(ANSWERERS, said), 1.0, 1.0)
+
+    cases = (one("knee", "recorder", sure), one("knee", "inputs", quiet), one("elbow", "inputs", quiet))
+    outcome = Outcome(SEED, ("knee", "elbow"), cases)
+    found = {
+        (row.system, row.laboratory): (row.claimed.hits, row.sure.hits, row.claimed.count) for row in alarms(outcome)
+    }
+    assert found[("knee", "recorder")] == (1, 1, 1) and found[("knee", "inputs")] == (0, 0, 1)
+    assert found[("elbow", "recorder")] == (0, 0, 0) and found[("all", "inputs")] == (0, 0, 2)
+    assert found[("all", "all")] == (1, 1, 3)
+    assert sum(line.startswith("| knee | recorder | 1/1") for line in page_lines(outcome, "today")) == 1
 
 
 @pytest.mark.slow

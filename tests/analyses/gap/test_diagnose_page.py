@@ -48,7 +48,7 @@ def table(page: Page, title: str) -> dict[str, tuple[str, ...]]:
 @pytest.mark.slow
 def test_the_answer_stands_at_the_top(told: Told, page: Page) -> None:
     d = told[1].diagnosis
-    said = dict(page.headline)
+    said = dict(page.facts)
     assert page.title == "elbow_7" and "synthetic data" in page.subtitle
     assert page.subtitle.endswith("base model elbow: 2 trials fitted to, 2 held out")
     assert said["What is missing"] == "damping"
@@ -136,7 +136,7 @@ def test_hostile_names_stay_text(told: Told) -> None:
 
 def test_words_name_reservations_and_what_is_invisible(told: Told, page: Page) -> None:
     words = {s.title: " ".join(s.paragraphs) for s in page.sections if isinstance(s, Words)}
-    assert words["Reservations of this run"] == "a reservation"
+    assert page.reservations == ("a reservation",)
     assert "not a clinical device" in words["What the numbers do not contain"]
     for name in told[1].diagnosis.absorbed:
         assert name in words["What cannot be told apart"]

@@ -121,7 +121,7 @@ def test_the_case_holds_forces_cells_and_their_places(case: Path) -> None:
     assert list(trial.columns) == [
         "time [s]", "thigh_normal [m]", "thigh_tangential [m]", "thigh_rotation [rad]", "thigh_force [N]"
     ]  # fmt: skip
-    wrench = pd.read_csv(case.parent / "t01_thigh" / "wrench.csv", comment="#")
+    wrench = pd.read_csv(case.parent / "t01_thigh" / "wrench.csv")
     np.testing.assert_allclose(trial["thigh_force [N]"], wrench["normal [N]"], rtol=1e-6, atol=1e-6)
     layout = pd.read_csv(case / "thigh_layout.csv").set_index("id")
     cells = pd.read_csv(case / "trials" / "t01_thigh_cells.csv")

@@ -185,3 +185,32 @@ def test_no_recording_is_refused() -> None:
 def test_total_without_a_unit_names_the_option_as_python_has_it(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="`unit`: is missing: the file names no unit"):
         load_cells(recorded(tmp_path, head=HEAD))
+
+
+def with_gap(folder: Path, start: float, end: float) -> Path:
+    """The recording without the samples in between."""
+    head, *rows = recorded(folder).read_text(encoding="utf-8").splitlines()
+    kept = [row for row in rows if not start < float(row.split(",")[0]) < end]
+    (folder / "gap.csv").write_text("\n".join([head, *kept]) + "\n", encoding="utf-8")
+    return folder / "gap.csv"
+
+
+def test_samples_missing_inside_a_load_are_not_interpolated_over(tmp_path: Path) -> None:
+    """0.3 s around the peak of the second load: its cycle is left out, and the others are what they were."""
+    whole = load_cells(recorded(tmp_path), unit="N", cycles="stance").table("cycles")
+    with pytest.warns(InputWarning) as said:
+        result = load_cells(with_gap(tmp_path, 1.495, 1.805), unit="N", cycles="stance")
+    lines = [str(each.message) for each in said]
+    assert any("gap.csv: no samples from 1.49 to 1.81 s: nothing is known" in line for line in lines)
+    assert "1 of 4 cycles lie across gaps of a recording and are left out" in lines
+    left = result.table("cycles").drop(columns=["style", "recording"])
+    want = whole.drop(index=1).drop(columns=["style", "recording"]).reset_index(drop=True)
+    pd.testing.assert_frame_equal(left, want)
+    line = result._over_time(result.recordings[0]).axes[0].lines[0]
+    assert np.isnan(line.get_ydata()).sum() == 1, "the figure draws no line across"
+
+
+def test_a_few_samples_missing_are_bridged(tmp_path: Path) -> None:
+    assert load_cells(with_gap(tmp_path, 1.495, 1.525), unit="N", cycles="stance").warnings == ()
+    with pytest.raises(InputError, match="lie across gaps of the recordings, all of them"):
+        load_cells(with_gap(tmp_path, 1.495, 1.805), unit="N", cycles="1.2:2.2")

@@ -79,8 +79,8 @@ def test_a_belt_under_uniform_pressure_pushes_along_the_body_only(tmp_path: Path
     assert force[1] == pytest.approx(10e3 * 1e-6 * (high - low), rel=0.05)
     assert np.hypot(force[0], force[2]) < 1e-3 * pressing
     assert np.linalg.norm(ours[MOMENT].to_numpy(float)) < 3e-4 * pressing
-    headline = dict(mat_page(result, np.arange(3), b"<svg/>").headline)
-    assert headline["Largest force"] == f"{pressing:.0f} N at 0.00 s", "a belt has no side that it looks to"
+    facts = dict(mat_page(result, np.arange(3), b"<svg/>").facts)
+    assert facts["Largest force"] == f"{pressing:.0f} N at 0.00 s", "a belt has no side that it looks to"
 
 
 def test_the_seam_is_no_gap(tmp_path: Path) -> None:

@@ -260,3 +260,23 @@ def test_coarse_and_faulty_recordings_stay_near_the_truth(kind: str, layout: str
     result = shipped(frames=f"frames_{kind}", layout=given / f"{layout}.toml", **options)
     assert np.abs(result.table()["normal [N]"] - truth()["normal [N]"]).max() < off
     assert any("cells clip at 26 kPa" in line for line in result.warnings) == (kind == "faulty")
+
+
+@pytest.mark.parametrize(
+    ("unit", "kpa", "said"),
+    [
+        ("MPa", 21.0, "is 21 MPa, more than 2 MPa, which no skin under load reads; is the file in kPa?"),
+        ("Pa", 21.0, "is 21 Pa, less than 100 Pa, which no skin under load reads; is the file in kPa?"),
+        ("kPa", 21e3, "is 2.1e+04 kPa, more than 2 MPa, which no skin under load reads; is the file in Pa?"),
+    ],
+)
+def test_pressures_that_no_skin_bears_name_the_unit_that_may_be_meant(
+    tmp_path: Path, unit: str, kpa: float, said: str
+) -> None:
+    result = flat(tmp_path, uniform(kpa=kpa), layout=LAYOUT.replace('"kPa"', f'"{unit}"'))
+    assert [line for line in result.warnings if "no skin" in line and said in line], result.warnings
+
+
+def test_pressures_of_a_body_are_not_doubted(tmp_path: Path) -> None:
+    for kpa in (1.0, 1500.0):
+        assert not any("no skin" in line for line in flat(tmp_path, uniform(kpa=kpa)).warnings)

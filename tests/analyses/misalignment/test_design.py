@@ -67,8 +67,8 @@ def test_robust_radius_and_boundary() -> None:
     result = design(**CENTRED)
     radius = result.summary["admissible_radius"]
     edge = result.table("boundary")
-    assert radius["radius_mm"] == pytest.approx(edge["distance [mm]"].min()) and radius["passed_within_map"]
-    x, y = radius["passed_first_at_mm"]
+    assert radius["radius_mm"] == pytest.approx(edge["distance [mm]"].min()) and radius["exceeded_within_map"]
+    x, y = radius["exceeded_first_at_mm"]
     assert np.hypot(x, y) == pytest.approx(radius["radius_mm"])
     force = elbow_force(np.linspace(0.0, 120.0, 2001), x / 1e3, y / 1e3)
     assert np.abs(force).max() == pytest.approx(5.0, abs=1e-4)
@@ -76,9 +76,19 @@ def test_robust_radius_and_boundary() -> None:
     assert result.summary["sensitivity"][0]["peak_slope"] is None
 
 
+@pytest.mark.parametrize(("limit", "verdict", "verb"), [(5.0, "exceeded", "exceeds"), (9.0, "kept", "keeps")])
+def test_the_verdict_on_the_limit_cannot_be_misread(tmp_path: Path, limit: float, verdict: str, verb: str) -> None:
+    """The source's offsets need 8.64 N: over 5 N "passed" reads as if the limit were kept."""
+    result = design(stroke=gc.mm(0, 60), limit=limit, map=gc.mm(20))
+    assert result.summary["offset"]["limit"] == verdict
+    assert f"|F| up to 8.64 N {verb} the limit of {limit:g} N" in repr(result)
+    page = result.page(tmp_path / "page.html").read_text(encoding="utf-8")
+    assert f"limit of {limit:g} N" in page and f">{verdict}<" in page and "passed" not in page
+
+
 def test_a_map_that_does_not_reach_the_limit_says_so() -> None:
     result = design(**CENTRED, map=gc.mm(5), step=gc.mm(1))
-    assert not result.summary["admissible_radius"]["passed_within_map"]
+    assert not result.summary["admissible_radius"]["exceeded_within_map"]
     assert any("up to its edge only" in line for line in result.warnings)
     assert set(result.table("boundary")["passed"]) == {"no"}
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from geocontact.analyses.shape.figure import fit_figure
 from geocontact.analyses.shape.fitting import Fitting
 from geocontact.analyses.shape.page import drawn, fit_page
 from geocontact.analyses.shape.patch import Patch
@@ -33,4 +34,9 @@ def test_shape_is_drawn_where_it_is_and_colours_are_distances(shape: str) -> Non
     np.testing.assert_allclose(shown[counted], np.abs(fit.distance(body.vertices)[counted]))
     assert np.isinf(shown[~counted]).all()
     assert set(scene.directions) == {"+x", "−x", "+y", "−y", "+z", "−z"}
-    assert ("Radius" in dict(page.headline)) == (shape != "plane")
+    assert ("Radius" in dict(page.facts)) == (shape != "plane")
+    figure = fit_figure(fit, body.vertices[counted], "title")
+    dots = [each for axes in figure.axes for each in axes.collections if each.get_cmap().name == "RdBu_r"]
+    limits = 1e3 * scene.span[1]
+    assert all(each.get_clim() == pytest.approx((-limits, limits)) for each in dots), "figure and page alike"
+    assert dots

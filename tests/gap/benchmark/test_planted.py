@@ -18,7 +18,7 @@ from geocontact.gap_benchmark.synthetic.course import through
 from geocontact.gap_benchmark.synthetic.effects.mechanical.contact_loss import seated
 from geocontact.gap_benchmark.synthetic.effects.mechanical.slip import crept
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks
-from geocontact.gap_benchmark.synthetic.noise import Coloured, smooth_covariance, smooth_noise
+from geocontact.gap_benchmark.synthetic.noise import Coloured, LowPass, smooth_covariance, smooth_noise
 from geocontact.gap_benchmark.synthetic.outside.catalogue import unknown_effects
 from geocontact.gap_benchmark.synthetic.reach import shortest
 from geocontact.gap_benchmark.synthetic.scenes import SCENES
@@ -178,11 +178,11 @@ def test_noise_has_the_covariance_that_it_states():
     np.testing.assert_allclose(np.cov(drawn.T), noise.covariance(30, 0.04), atol=0.4)
 
 
-@pytest.mark.parametrize("corner", [4.0, 6.0, 10.0])
-def test_noise_of_inputs_has_the_covariance_that_it_states(corner):
+@pytest.mark.parametrize("passed", [LowPass(4.0), LowPass(6.0), LowPass(10.0), LowPass(6.0, 4), LowPass(5.0, 3)])
+def test_noise_of_inputs_has_the_covariance_that_it_states(passed):
     rng = np.random.default_rng(0)
-    drawn = np.array([smooth_noise(rng, 1.0, 40, 0.005, corner) for _ in range(3000)])
-    place, cross, rate = smooth_covariance(1.0, 40, 0.005, corner)
+    drawn = np.array([smooth_noise(rng, 1.0, 40, 0.005, passed) for _ in range(12000)])
+    place, cross, rate = smooth_covariance(1.0, 40, 0.005, passed)
     np.testing.assert_allclose(np.cov(drawn.T), place, atol=0.12)
     slope = (drawn[:, 2:] - drawn[:, :-2]) / 0.01  # 2 % too small at 10 Hz
     assert np.var(slope) == pytest.approx(rate[0, 0], rel=0.05)
@@ -191,8 +191,8 @@ def test_noise_of_inputs_has_the_covariance_that_it_states(corner):
 
 def test_rates_of_noise_that_nobody_filtered_are_those_of_a_spline():
     rng = np.random.default_rng(0)
-    drawn = np.array([smooth_noise(rng, 2.0, 40, 0.005, 100.0) for _ in range(3000)])
-    place, cross, rate = smooth_covariance(2.0, 40, 0.005, 100.0)
+    drawn = np.array([smooth_noise(rng, 2.0, 40, 0.005, LowPass(100.0)) for _ in range(3000)])
+    place, cross, rate = smooth_covariance(2.0, 40, 0.005, LowPass(100.0))
     slope = CubicSpline(0.005 * np.arange(40), drawn, axis=1)(0.1, 1)
     np.testing.assert_allclose(place, 4.0 * np.eye(40), atol=0.02)
     assert np.var(drawn) == pytest.approx(4.0, rel=0.02)

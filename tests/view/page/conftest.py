@@ -68,7 +68,8 @@ def set_range(opened: Opened, selector: str, value: float) -> None:
 
 def rows(opened: Opened) -> dict[str, str]:
     """Numbers under the cursor by their labels."""
-    script = "[...document.querySelectorAll('.readout tr')].map(r => [...r.children].map(c => c.textContent.trim()))"
+    seen = "[...document.querySelectorAll('.readout:not([hidden]) tr')]"
+    script = f"{seen}.map(r => [...r.children].map(c => c.textContent.trim()))"
     return {cells[0]: cells[1] for cells in opened.tab.evaluate(script) if len(cells) > 1}
 
 

@@ -7,7 +7,20 @@ import hashlib
 import numpy as np
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.view.page.content import Body, Curve, Curves, Page, Readout, Row, Scene, Strip, Table, Words
+from geocontact.view.page.content import (
+    Body,
+    Curve,
+    Curves,
+    Page,
+    Plan,
+    Readout,
+    Row,
+    Scene,
+    Strip,
+    Table,
+    Track,
+    Words,
+)
 
 DIRECTIONS = {
     "anterior (+x)": (1.0, 0.0, 0.0),
@@ -63,13 +76,15 @@ def small_page(frames: int = 9, name: str = "ball") -> Page:
     thresholds = np.array([0.5, 1.0, 2.0, 3.0, 4.0])
     area = np.pi * np.clip((radius + thresholds * 1e-3) ** 2 - height[:, None] ** 2, 0.0, None) * 1e6
     gappy = area[:, 2].copy()
+    way = Track("middle", 1e3 * centres[:, [2, 0]])
     gappy[frames // 3 : frames // 3 + 1] = np.nan
     return Page(
         title=f"Area of plate near {name}",
         subtitle="closed forms; made for tests",
         time=time,
         time_label="time [s]",
-        headline=[("largest area", f"{area[:, -1].max():.1f} mm²"), ("frame", str(int(area[:, -1].argmax()) + 1))],
+        headline=[f"Up to {area[:, -1].max():.0f} mm² of the plate lie within 4 mm of {name}."],
+        facts=[("largest area", f"{area[:, -1].max():.1f} mm²"), ("frame", str(int(area[:, -1].argmax()) + 1))],
         start_frame=int(area[:, -1].argmax()),
         sections=[
             Scene(
@@ -99,6 +114,7 @@ def small_page(frames: int = 9, name: str = "ball") -> Page:
             Strip("Area against threshold", thresholds, area, "mm²", 4.0),
             Table("Inputs", ["file", "sha256"], [["ball.stl", hashlib.sha256(b"ball").hexdigest()]]),
             CONTEXT,
+            Plan("Path of the middle", "mm", "z", "x", [1e3 * plate_vertices[[0, 23, -1, -24, 0]][:, [2, 0]]], [way]),
         ],
     )
 

@@ -4,7 +4,24 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from geocontact.view.page.content import Curves, Page, Readout, Row, Scene, Strip, Table, Words
+import numpy as np
+
+from geocontact.view.page.content import (
+    Choice,
+    Choices,
+    Curves,
+    Limit,
+    Mark,
+    Page,
+    Plan,
+    Points,
+    Readout,
+    Row,
+    Scene,
+    Strip,
+    Table,
+    Words,
+)
 
 HOSTILE = [
     "<script>window.hacked=1</script>",
@@ -55,9 +72,14 @@ def hostile_page(page: Page, names: list[str]) -> Page:
                 return replace(section, bodies=bodies, value_name=it[k + 7], directions=directions)
             case Curves():
                 curves = [replace(curve, name=it[k + i]) for i, curve in enumerate(section.curves)]
-                return replace(section, title=it[k + 1], unit=it[k + 2], curves=curves)
+                points, limits = [Points(it[k + 3], np.zeros(1), np.ones(1))], [Limit(it[k + 4], 1.0)]
+                return Curves(it[k + 1], it[k + 2], curves, points, limits)
             case Strip():
                 return replace(section, title=it[k], unit=it[k + 1])
+            case Plan():
+                tracks = [replace(track, name=it[k + i]) for i, track in enumerate(section.tracks)]
+                marks = [Mark(it[k + 3], (0.0, 0.0))]
+                return Plan(it[k], it[k + 1], it[k + 2], it[k + 3], section.lines, tracks, marks, it[k + 4])
             case Readout():
                 rows = [
                     Row(it[k], it[k + 1], [it[(k + f) % 200] for f in range(len(row.texts))]) for row in section.rows
@@ -70,5 +92,15 @@ def hostile_page(page: Page, names: list[str]) -> Page:
         raise AssertionError(section)
 
     sections = [renamed(section, 5 * k) for k, section in enumerate(page.sections)]
-    headline = list(zip(names, reversed(names), strict=True))
-    return replace(page, title=names[0], subtitle=names[1], time_label=names[2], headline=headline, sections=sections)  # type: ignore[arg-type]
+    facts = list(zip(names, reversed(names), strict=True))
+    return replace(
+        page,
+        title=names[0],
+        subtitle=names[1],
+        time_label=names[2],
+        headline=names,
+        facts=facts,
+        reservations=names,
+        sections=sections,  # type: ignore[arg-type]
+        choices=Choices(names[0], names[1], [Choice(names[2], names, facts, {1: sections[1]})]),  # type: ignore[dict-item]
+    )

@@ -82,17 +82,6 @@ def test_without_webgl_the_rest_works_and_says_so(opened: Open) -> None:
     assert not [c for c in here.complaints if "error:" in c and "WebGL" not in c]
 
 
-def test_a_lost_picture_is_said(opened: Open) -> None:
-    here = opened(small_page())
-    here.tab.evaluate(
-        "document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()"
-    )
-    here.until("!document.getElementById('notice').hidden")
-    assert "lost" in here.text("#notice")
-    here.tab.locator("#slider").press("End")
-    assert here.frame() == 8
-
-
 def test_without_scripts_words_tables_and_numbers_are_read(opened: Open) -> None:
     here = opened(small_page(), java_script_enabled=False)
     words = here.tab.inner_text("body")
@@ -110,11 +99,13 @@ def test_without_scripts_words_tables_and_numbers_are_read(opened: Open) -> None
 def test_curves_alone_with_any_number_of_frames(opened: Open, frames: int) -> None:
     here = opened(curves_page(frames))
     assert here.complaints == []
-    here.tab.locator("#slider").press("End")
+    assert here.tab.locator("#slider").count() == (frames > 1)
+    if frames > 1:
+        here.tab.locator("#slider").press("End")
+        assert f"frame {frames}/{frames}" in here.text("#now")
+        here.tab.keyboard.press("Space")
+        assert here.tab.locator("#play").get_attribute("aria-label") == "Pause"
     assert here.text("td.value") == f"{frames - 1:.3f}"
-    assert f"frame {frames}/{frames}" in here.text("#now")
-    here.tab.keyboard.press("Space")
-    assert (here.tab.locator("#play").get_attribute("aria-label") == "Pause") == (frames > 1)
 
 
 def test_one_frame_has_a_picture(opened: Open) -> None:

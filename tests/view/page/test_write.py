@@ -17,9 +17,9 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.view.page.content import Body, Curve, Curves, Page, Readout, Row, Scene, Words
 from geocontact.view.page.opening import opening_view
-from geocontact.view.page.payload import payload, shown
+from geocontact.view.page.payload import minus, payload, shown
 from geocontact.view.page.write import page_html, write_page
-from tests.view.page.examples import DIRECTIONS, ball, plate, small_page
+from tests.view.page.examples import DIRECTIONS, ball, curves_page, plate, small_page
 from tests.view.page.hostile import HOSTILE, hostile_page
 
 
@@ -247,17 +247,39 @@ def test_words_are_there_without_scripts() -> None:
     assert {"Not a device", "For research.", "largest area"} <= set(Elements(page_html(page)).texts)
 
 
-def test_a_page_without_time_shows_no_slider() -> None:
-    """What the script shows when it starts, the timeline, stands in an element that stays hidden."""
+def test_a_page_without_time_has_no_player() -> None:
     words = Words("said", ["nothing moves"])
-    for page, stage, slider in (
+    for page, stage, player in (
         (small_page(), True, True),
         (small_page(frames=1), True, False),
+        (replace(small_page(), plays=False), True, False),
         (Page("a", "", np.zeros(1), "time [s]", sections=[words]), False, False),
     ):
         body = page_html(page).partition("<main>")[2]
         opened = re.search(r'<div class="stage[^>]*>', body)
         assert opened is not None and ("hidden" in opened[0]) == (not stage)
-        before = body.partition('<div class="timeline"')[0].rstrip()
-        assert before.endswith("<div hidden>") == (not slider)
-        assert ("play, pause" in body) == slider
+        assert ('<div class="timeline"' in body) == ("play, pause" in body) == player
+
+
+@pytest.mark.parametrize(
+    ("text", "here"),
+    [
+        ("z -19.5 mm", "z −19.5\u00a0mm"),
+        ("5 mmm 4 N, 3 of", "5 mmm 4\u00a0N, 3 of"),
+        ("-3", "−3"),
+        ("walk-3.csv", "walk-3.csv"),
+        ("2-4", "2-4"),
+        ("a - b", "a - b"),
+    ],
+)
+def test_numbers_that_stand_by_themselves_have_a_minus(text: str, here: str) -> None:
+    assert minus(text) == here
+
+
+def test_times_of_a_late_clock_are_counted_from_the_first_frame() -> None:
+    """Seven digits of a clock that counts from 1970 are the same for all frames."""
+    page = replace(curves_page(200), time=1.76e9 + 0.25 + 1e-3 * np.arange(200), time_label="time [s]")
+    data = payload(page).data
+    assert data["timeLabel"] == "time after 1760000000.25 [s]"
+    np.testing.assert_allclose(np.array(data["time"]), 1e-3 * np.arange(200), atol=1e-6)
+    assert payload(replace(page, time_label="force [N]")).data["timeLabel"] == "force [N]"

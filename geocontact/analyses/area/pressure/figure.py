@@ -21,13 +21,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class PressureMap:
-    """FIXED [m], the pressure of its faces [Pa] at one frame, and the way of the centre of pressure [m]."""
+    """FIXED [m], the pressure of its faces [Pa] at one frame, and the way of the centre of pressure [m].
+
+    `largest` is the upper end of the colours [Pa]: the largest pressure of a face in all frames, as on the page.
+    """
 
     vertices: Float[np.ndarray, "n 3"]
     faces: Int[np.ndarray, "m 3"]
     pressure: Float[np.ndarray, " m"]
     centre: Float[np.ndarray, "t 3"]
     frame: int
+    largest: float
 
 
 @in_style
@@ -78,7 +82,10 @@ def _map(axes: Axes, shown: PressureMap) -> None:
     if loaded[order].any():
         pressed = np.isfinite(values)
         loaded_faces = Triangulation(x, y, shown.faces[order[pressed]])
-        colours = axes.tripcolor(loaded_faces, facecolors=values[pressed], cmap="inferno_r", vmin=0.0, rasterized=True)
+        most = float(PRESSURE.shown(np.array(shown.largest)))
+        colours = axes.tripcolor(
+            loaded_faces, facecolors=values[pressed], cmap="inferno_r", vmin=0.0, vmax=most, rasterized=True
+        )
         axes.figure.colorbar(colours, ax=axes, label=PRESSURE.label, shrink=0.7)
     axes.plot(shown.centre[:, right] * 1e3, shown.centre[:, up] * 1e3, color="black", lw=0.8)
     axes.set_aspect("equal")

@@ -9,14 +9,13 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.analyses.area.pressure.along import PressureEvolution
+from geocontact.analyses.page_words import rounded
 from geocontact.data.motion import Course
-from geocontact.view.page.content import Curve, Curves, FaceMap, Picture, Readout, Row, Section, Words
+from geocontact.geometry.silhouette import silhouette
+from geocontact.geometry.surface import Surface
+from geocontact.view.page.content import Curve, Curves, FaceMap, Plan, Row, Section, Track, Words
 
 MM, MM2, MPA = 1e3, 1e6, 1e-6
-WORDS = (
-    "Force and largest pressure over the motion; right, the mean pressure of each face of the fixed body in the frame "
-    "with the largest force, and the way of the centre of pressure. Each place of the layer gives way by itself."
-)
 DEEPER = 0.1e-3  # m; what the words put into pressure
 
 
@@ -37,8 +36,10 @@ class Pressures:
         confined modulus of MOVING's layer [Pa], infinite where MOVING is rigid.
     finer
         Largest force again, with pieces of half the size [N].
-    picture
-        The static figure.
+    seen_along
+        Axis 0, 1, 2 across the plan of the centre of pressure: the one that the load acts along.
+    outline
+        FIXED as seen along that axis, pairs of points [m].
     """
 
     force: Mapping[str, Float[np.ndarray, " t"]]
@@ -51,7 +52,8 @@ class Pressures:
     thickness: tuple[float, float]
     other_modulus: float
     finer: float
-    picture: Picture
+    seen_along: int
+    outline: Float[np.ndarray, "e 2 3"]
 
     @property
     def heaviest(self) -> int:
@@ -59,8 +61,12 @@ class Pressures:
         return int(np.argmax(self.force["total"]))
 
 
-def shown_pressures(e: PressureEvolution, drawing: bytes) -> Pressures:
-    """What the page shows of pressures, with their figure."""
+def shown_pressures(e: PressureEvolution, fixed: Surface) -> Pressures:
+    """What the page shows of pressures."""
+    along = load_axis(fixed, e.maps[e.heaviest])
+    welded = fixed.vertices.round(9)
+    unique, place = np.unique(welded, axis=0, return_inverse=True)
+    edges = silhouette(unique, place.ravel()[fixed.faces], np.eye(3)[along])
     return Pressures(
         force={side: np.array([load.pressing for load in loads]) for side, loads in e.sides.items()},
         centre={side: np.array([load.centre for load in loads]) for side, loads in e.sides.items()},
@@ -72,7 +78,8 @@ def shown_pressures(e: PressureEvolution, drawing: bytes) -> Pressures:
         thickness=e.thickness,
         other_modulus=e.skin.modulus,
         finer=e.finer,
-        picture=Picture("Pressure", WORDS, drawing, wide=True),
+        seen_along=along,
+        outline=unique[edges],
     )
 
 
@@ -82,10 +89,28 @@ def face_map(p: Pressures, frames: Int[np.ndarray, " k"], body: int) -> FaceMap:
     return FaceMap("mean pressure of each face", "MPa", body, values)
 
 
-def headline(p: Pressures, course: Course) -> list[tuple[str, str]]:
+def load_axis(fixed: Surface, pressure: Float[np.ndarray, " f"]) -> int:
+    """Axis 0, 1, 2 of FIXED's frame along which the pressed faces look most; 1 where none is pressed."""
+    pressed = pressure > 0.0
+    if not pressed.any():
+        return 1
+    return int(np.argmax(np.abs((fixed.face_normal * fixed.face_area[:, None])[pressed].sum(axis=0))))
+
+
+def sentence(p: Pressures, course: Course, moving: str, fixed: str) -> str:
+    """How hard, and when."""
+    k, peak = p.heaviest, float(p.peak.max()) * MPA
+    force = float(p.force["total"][k])
+    if not force > 0.0:
+        return f"{moving} never presses on {fixed}: the bodies do not overlap in any frame."
+    most = f"up to {rounded(force)} N (at {course.at(k)}) and up to {rounded(peak, 3)} MPa"
+    return f"{moving} presses on {fixed} with {most}."
+
+
+def facts(p: Pressures, course: Course) -> list[tuple[str, str]]:
     """How much and when."""
     at = {"force": p.heaviest, "peak": int(np.argmax(p.peak))}
-    when = {name: f"at {course.at(k)} (frame {k + 1} of {len(p.peak)})" for name, k in at.items()}
+    when = {name: f"at {course.at(k)}" for name, k in at.items()}
     lines = [
         ("Largest contact force", f"{p.force['total'][at['force']]:.0f} N {when['force']}"),
         ("Largest contact pressure", f"{p.peak[at['peak']] * MPA:.1f} MPa {when['peak']}"),
@@ -96,34 +121,46 @@ def headline(p: Pressures, course: Course) -> list[tuple[str, str]]:
         where = [f"x {x:.1f}, y {y:.1f}, z {z:.1f} mm"]
         shares = [f"{values[at['force']] / whole:.0%} {side}" for side, values in p.force.items() if side != "total"]
         where += [", ".join(shares)] if shares else []
-        lines.append(("Centre of pressure under the largest force", "; ".join(where)))
+        lines.append(("Centre of pressure, largest force", "; ".join(where)))
     return lines
 
 
-def pressure_sections(p: Pressures, frames: Int[np.ndarray, " k"]) -> list[Section]:
-    """Numbers of the frame shown, curves over time, and the static figure."""
+def pressure_rows(p: Pressures, frames: Int[np.ndarray, " k"]) -> list[Row]:
+    """Numbers of the frame shown."""
     centre = p.centre["total"][frames] * MM
-    parts = {side: values[frames] for side, values in p.force.items()}
-    rows = [Row(f"force, {side}", "N", _texts(values, 1)) for side, values in parts.items()]
-    rows += [
+    return [
+        *(Row(f"force, {side}", "N", _texts(values, 1)) for side, values in _forces(p, frames).items()),
         Row("largest pressure", "MPa", _texts(p.peak[frames] * MPA, 2)),
         Row("area under pressure", "mm²", _texts(p.area[frames] * MM2, 2)),
         *(Row(f"centre of pressure {axis}", "mm", _texts(centre[:, k], 2)) for k, axis in enumerate("xyz")),
     ]
-    sides = {side: values[frames] * MM for side, values in p.centre.items()}
-    ways = [
-        Curve(f"{side} {axis}", values[:, k])
-        for side, values in sides.items()
-        for k, axis in enumerate("xyz")
-        if side == "total" or len(sides) == 1 or axis != "y"
-    ]
+
+
+def pressure_sections(p: Pressures, frames: Int[np.ndarray, " k"]) -> list[Section]:
+    """Curves over time, and the path of the centre of pressure."""
+    parts = _forces(p, frames)
     return [
-        Readout(rows, title="Pressure in this frame"),
         Curves("Contact force, elastic foundation", "N", [Curve(side, values) for side, values in parts.items()]),
         Curves("Largest contact pressure", "MPa", [Curve("largest pressure", p.peak[frames] * MPA)]),
-        Curves("Centre of pressure", "mm", ways),
-        p.picture,
+        _path(p, frames),
     ]
+
+
+def _path(p: Pressures, frames: Int[np.ndarray, " k"]) -> Plan:
+    right, up = ((2, 1), (2, 0), (0, 1))[p.seen_along]
+    plane = [right, up]
+    return Plan(
+        "Path of the centre of pressure on the fixed body",
+        "mm",
+        "xyz"[right],
+        "xyz"[up],
+        lines=tuple(p.outline[:, :, plane] * MM),
+        tracks=[Track(side, values[frames][:, plane] * MM) for side, values in p.centre.items()],
+    )
+
+
+def _forces(p: Pressures, frames: Int[np.ndarray, " k"]) -> dict[str, Float[np.ndarray, " k"]]:
+    return {side: values[frames] for side, values in p.force.items()}
 
 
 def pressure_words(p: Pressures) -> Words:

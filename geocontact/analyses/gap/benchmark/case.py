@@ -107,7 +107,8 @@ def lost(task: Task, why: BaseException) -> Worked:
 
 
 def _where(task: Task) -> str:
-    return f"{task.lot.system} {task.lot.kind} {task.lot.place} of seed {task.lot.seed}"
+    lot = task.lot
+    return f"{lot.system} {lot.kind} {lot.place} of seed {lot.seed}, laboratory {lot.laboratory}"
 
 
 def _answered(task: Task, planted: SyntheticCase, home: Path) -> Worked:

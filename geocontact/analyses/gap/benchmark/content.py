@@ -11,13 +11,14 @@ from types import ModuleType
 from typing import Any
 
 import geocontact.gap
+from geocontact.analyses.gap.benchmark.alarms import alarms
 from geocontact.analyses.gap.benchmark.outcome import Outcome
 from geocontact.analyses.gap.benchmark.tables import mean
 from geocontact.analyses.run_record import Record
 from geocontact.gap import attribute
 from geocontact.gap.selection import verdict
 from geocontact.gap_benchmark import confounding as imitation
-from geocontact.gap_benchmark import residual_regression, score
+from geocontact.gap_benchmark import harm, residual_regression, score
 from geocontact.gap_benchmark.rates import Rate
 from geocontact.gap_benchmark.score import figures
 from geocontact.gap_benchmark.table import OPPONENTS, ROWS, error_interval, lead, scores
@@ -32,7 +33,7 @@ def content(record: Record, outcome: Outcome, when: str) -> dict[str, Any]:
         "cases": {name: one.kinds for name, one in outcome.scopes.items()},
         "bars": {row.figure: row.bar for row in ROWS if row.bar},
         "thresholds": {
-            "scoring": _constants(score) | {"imitation_left": imitation.LEFT},
+            "scoring": _constants(score) | _constants(harm) | {"imitation_left": imitation.LEFT},
             "diagnosis": _constants(verdict) | _constants(attribute),
             "regression": _constants(residual_regression),
             "gap_modules": constants_of_all(geocontact.gap),
@@ -56,6 +57,16 @@ def content(record: Record, outcome: Outcome, when: str) -> dict[str, Any]:
         "same_in_another_dress": {name: _rate(one.same) for name, one in outcome.scopes.items()},
         "verdicts_by_kind": {name: _verdicts(one) for name, one in outcome.scopes.items()},
         "imitated": {name: _rate(one.imitated) for name, one in outcome.scopes.items()},
+        "alarms_by_laboratory": [
+            {
+                "system": one.system,
+                "laboratory": one.laboratory,
+                "false_alarms": _rate(one.claimed),
+                "sure": _rate(one.sure),
+                "harmful": _rate(one.harmful),
+            }
+            for one in alarms(outcome)
+        ],
         "trouble": [line for one in outcome.cases for line in one.trouble],
     }
 

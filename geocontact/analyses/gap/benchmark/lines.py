@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from geocontact.analyses.gap.benchmark.alarms import alarm_lines
 from geocontact.analyses.gap.benchmark.outcome import SLOW, Outcome
 from geocontact.gap_benchmark.table import markdown
 
@@ -21,6 +22,11 @@ def page_lines(outcome: Outcome, when: str) -> Iterator[str]:
         yield f"## {name}: " + ", ".join(f"{count} {kind}" for kind, count in one.kinds.items())
         yield ""
         yield from markdown(one.labels, one.given, list(_extra(one)))
+    if any(label["kind"] == "none" for label in outcome.labels.values()):
+        yield ""
+        yield "## Cases that lack nothing, by laboratory"
+        yield ""
+        yield from alarm_lines(outcome)
     broken = [line for one in outcome.cases for line in one.trouble]
     if broken:
         yield ""

@@ -22,6 +22,9 @@ class BenchmarkOptions(Options):
         How many of each system.
     seed
         Of all cases; a fresh one at each run unless given. It is printed and written.
+    laboratory
+        Who records the cases: "home", or another with a recorder, a placement or inputs of its own; "abroad" lets these
+        three take turns.
     kinds
         none,single,pair,outside,absorbed,fault,shift; all of them unless given.
     jobs
@@ -39,6 +42,7 @@ class BenchmarkOptions(Options):
     system: Literal["elbow", "foot", "shoulder", "knee", "sit_to_stand", "all"] = "all"
     cases: int = 200
     seed: int | None = None
+    laboratory: Literal["home", "recorder", "placement", "inputs", "abroad"] = "home"
     kinds: str | None = None
     jobs: int | None = None
     again: int = 5

@@ -9,7 +9,7 @@ from geocontact.analyses.gap.benchmark.journal import Journal
 from geocontact.analyses.gap.benchmark.options import BenchmarkOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.gap_benchmark.drawing import KINDS, SYSTEMS, Lot, lots
+from geocontact.gap_benchmark.drawing import ABROAD, KINDS, SYSTEMS, Lot, lots
 
 SEEDS = 2**32
 
@@ -31,8 +31,9 @@ def read(o: BenchmarkOptions, record: Record) -> Work:
     record.options, record.in_si = {**record.options, "seed": seed}, {**record.in_si, "seed": seed}
     record.results["seed"] = seed
     systems = SYSTEMS if o.system == "all" else (o.system,)
+    laboratories = tuple(ABROAD) if o.laboratory == "abroad" else (o.laboratory,)
     journal = None if o.journal is None else Journal(o.journal)
-    return Work(seed, systems, tuple(lots(systems, o.cases, kinds, seed)), journal)
+    return Work(seed, systems, tuple(lots(systems, o.cases, kinds, seed, laboratories)), journal)
 
 
 def _kinds(text: str | None) -> tuple[str, ...]:

@@ -60,11 +60,11 @@ def _worked(record: Record, work: Work, folder: Path, o: BenchmarkOptions) -> li
 
 def mixed(chosen: Sequence[Lot]) -> list[Lot]:
     """Lots in an order in which every beginning has systems and kinds in about the proportions of the whole."""
-    count = Counter((lot.system, lot.kind) for lot in chosen)
-    seen: Counter[tuple[str, str]] = Counter()
+    count = Counter((lot.system, lot.kind, lot.laboratory) for lot in chosen)
+    seen: Counter[tuple[str, str, str]] = Counter()
     along = {}
     for lot in chosen:
-        key = lot.system, lot.kind
+        key = lot.system, lot.kind, lot.laboratory
         along[lot] = (seen[key] + 0.5) / count[key]
         seen[key] += 1
     return sorted(chosen, key=lambda lot: along[lot])

@@ -9,6 +9,7 @@ import pandas as pd
 
 from geocontact.analyses.gap.benchmark.case import Worked
 from geocontact.analyses.gap.benchmark.outcome import Outcome
+from geocontact.gap_benchmark.harm import harmful, worse_channels
 from geocontact.gap_benchmark.score import GAPS, answers, brier, confidently_wrong, reduction_errors
 
 
@@ -22,6 +23,7 @@ def _row(one: Worked) -> Iterator[tuple[str, object]]:
     opponent = one.answers["regression_aware"]
     first = label["kind"] in GAPS
     yield from (("case", one.name), ("system", one.lot.system), ("kind", label["kind"]))
+    yield "laboratory", one.lot.laboratory
     yield "truth", " + ".join(label["effects"])
     yield "words", label["words"]
     yield "nats", min(label["nats"].values(), default=None)
@@ -36,6 +38,7 @@ def _row(one: Worked) -> Iterator[tuple[str, object]]:
     yield "first_right", answers(said)[:1] == label["effects"] if first else None
     yield "confidently_wrong", confidently_wrong(label, said)
     yield "brier [-]", brier(label, said)
+    yield from (("harmful", harmful(label, said)), ("worse_channels", " ".join(worse_channels(label, said))))
     errors = [error for error, _ in reduction_errors(label, said)]
     inside = [held for _, held in reduction_errors(label, said) if held is not None]
     yield "reduction [-]", " ".join(f"{c}={v:.4f}" for c, v in label["reduction"].items() if v is not None)

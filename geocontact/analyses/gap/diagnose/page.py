@@ -20,7 +20,7 @@ from geocontact.analyses.gap.diagnose.page_tables import (
 )
 from geocontact.analyses.gap.diagnose.words import place, verdict_sentences
 from geocontact.analyses.gap.words import names, percent
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.gap.held_out import HeldOut
@@ -87,7 +87,7 @@ def gap_page(
     d = findings.diagnosis
     phase = np.linspace(0.0, 1.0, FRAMES)
     panels, missing = _panels(findings, phase)
-    sections: list[Section] = [_readout(findings, phase), *panels]
+    sections: list[Section] = [*panels, _readout(findings, phase)]
     sentences = verdict_sentences(d, findings.cells)
     sections += [Words("Verdict", [f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences])]
     sections += [*_pictures(figures)]
@@ -95,17 +95,18 @@ def gap_page(
     sections += [trials_table(findings)] if findings.trials else []
     sections += [parameters_table(d), cells_table(findings)]
     sections += [_confounded(d), *provenance, _limits(case, d, missing)]
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
     window = d.where[0].phase if d.where else (0.5, 0.5)
     return Page(
         title=d.case,
         subtitle=_subtitle(case, d),
         time=100.0 * phase,
         time_label="phase of the trial [%]",
-        headline=_headline(findings),
+        headline=headline(sentences, most=1),
+        facts=_facts(findings),
+        reservations=tuple(warnings),
         start_frame=round(0.5 * sum(window) * (FRAMES - 1)),
         sections=tuple(sections),
+        plays=False,
     )
 
 
@@ -124,7 +125,7 @@ def _subtitle(case: GapCase, d: Diagnosis) -> str:
     )
 
 
-def _headline(findings: Findings) -> list[tuple[str, str]]:
+def _facts(findings: Findings) -> list[tuple[str, str]]:
     """What is missing, where, how far, how sure."""
     d = findings.diagnosis
     answer = {"explained": names(d.effects), "no_gap": "nothing beyond noise"}.get(d.verdict, WORDS[d.verdict])

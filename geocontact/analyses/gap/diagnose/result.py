@@ -21,6 +21,7 @@ from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.gap.diagnose import Findings
 from geocontact.io.text.results import write_table
+from geocontact.io.text.written_units import CASES
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
 
@@ -65,7 +66,7 @@ class DiagnoseResult(Result):
         """Answer and tables, and unless they are not wanted figures and page."""
         write_json(folder / "diagnosis.json", self.diagnosis.as_dict())
         for name, table in self.tables().items():
-            write_table(table, folder, parquet=False, name=name)
+            write_table(table, folder, parquet=False, name=name, units=CASES)
         if self.options.bare:
             return
         figures = self.figures()

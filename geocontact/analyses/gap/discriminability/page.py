@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from geocontact.analyses.gap.discriminability.words import confusion_sentences
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.view.curves.text import number
 from geocontact.view.page.content import Page, Picture, Section, Table, Words
@@ -48,18 +48,18 @@ def confusion_page(
         Reservations that came up on the way.
     """
     sentences = confusion_sentences(found)
-    sections: list[Section] = [Words("What these trials can tell", [f"{s[0].upper()}{s[1:]}." for s in sentences])]
-    sections += [Picture(*CAPTIONS[name], svg, wide=True) for name, svg in drawings.items()]
+    sections: list[Section] = [Picture(*CAPTIONS[name], svg, wide=True) for name, svg in drawings.items()]
+    sections.append(Words("What these trials can tell", [f"{s[0].upper()}{s[1:]}." for s in sentences]))
     sections += [_sizes(found), *provenance, Words("What the numbers do not contain", [LIMITS, NOT_A_DEVICE])]
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
     seen = sum(one.smallest is not None for one in found.detectabilities)
     return Page(
         title=title,
         subtitle=f"What the trials of a gap case can tell, base model {found.ground.system.name}",
         time=np.zeros(1),
         time_label="time [s]",
-        headline=(
+        headline=headline(sentences, most=1),
+        reservations=tuple(warnings),
+        facts=(
             ("effects that would be seen", f"{seen} of {len(found.detectabilities)}"),
             ("groups not to be told apart", str(len(found.classes))),
         ),

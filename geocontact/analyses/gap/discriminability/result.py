@@ -21,6 +21,7 @@ from geocontact.analyses.result import Result
 from geocontact.data.gap.case import GapCase
 from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.io.text.results import write_table
+from geocontact.io.text.written_units import CASES
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
 
@@ -60,7 +61,7 @@ class DiscriminabilityResult(Result):
         """Answer and tables, and unless they are not wanted figures and page."""
         write_json(folder / "confuse.json", answer(self.case, self.found, self.options.nats))
         for name, table in self.tables().items():
-            write_table(table, folder, parquet=False, name=name)
+            write_table(table, folder, parquet=False, name=name, units=CASES)
         if not self.options.bare:
             drawings = {name: save_both(figure, folder, name) for name, figure in self.figures().items()}
             self._write_page(folder / "report.html", drawings)

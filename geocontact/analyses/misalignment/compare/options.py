@@ -7,8 +7,9 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.misalignment.checks import require_cutoff, require_stroke, require_width
-from geocontact.analyses.options import AngleUnit, Degrees, Expression, ForceUnit, Options, Requires, Spelled, Typed
+from geocontact.analyses.misalignment.checks import require_stroke, require_width
+from geocontact.analyses.misalignment.column_options import ColumnOptions
+from geocontact.analyses.options import Degrees, Requires, Spelled, Typed
 from geocontact.analyses.page_words import counted
 from geocontact.data.errors import InputError
 
@@ -17,7 +18,7 @@ BIN = math.radians(2.0)
 
 
 @dataclass(frozen=True)
-class CompareOptions(Options):
+class CompareOptions(ColumnOptions):
     """Errors of a model of the elbow beside recordings: mean absolute, root mean square, R², by channel and trial.
 
     Parameters
@@ -30,16 +31,8 @@ class CompareOptions(Options):
         Simulated recording instead of `fit`, one for each recording, in the same order.
     stroke
         Stroke of the compensation joint with `fit`, such as -10:40; locked without.
-    map
-        Columns by what they are, where they have other names: beta=elbow_flexion,force=-Fx.
-    angles
-        Unit of the angle where its file does not say.
-    unit
-        Unit of the force where its file does not say.
     bin
         Width of the bins of the picture.
-    cutoff
-        Cut-off of a zero-lag low-pass over the measured channels [Hz]; none unless given.
     parquet
         Also write the tables as .parquet.
     """
@@ -49,15 +42,12 @@ class CompareOptions(Options):
     fit: Path | None = None
     simulated: tuple[Path, ...] | None = None
     stroke: Annotated[Stroke | None, Requires("fit")] = None
-    map: Expression | None = None
-    angles: AngleUnit | None = None
-    unit: ForceUnit | None = None
     bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0)] = BIN
-    cutoff: float | None = None
     parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Not exactly one model for each recording; a stroke, a width, a cut-off that cannot be."""
+        super().refuse_impossible()
         if (self.fit is None) == (self.simulated is None):
             raise InputError("", "`fit`", "or `simulated`: exactly one is compared with", "give one")
         if self.simulated is not None and len(self.simulated) != len(self.recordings):
@@ -65,4 +55,3 @@ class CompareOptions(Options):
             raise InputError("", "`simulated`", what, "give one for each, in the same order")
         require_stroke(self.stroke)
         require_width(self.bin, "`bin`")
-        require_cutoff(self.cutoff)

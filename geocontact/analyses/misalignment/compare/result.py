@@ -65,7 +65,7 @@ class CompareResult(Result):
     def _write_page(self, file: Path, drawings: dict[str, bytes]) -> None:
         shown = frame_table("Errors by trial and channel", self.table())
         tables = [shown, inputs_table(self.record.inputs), options_table(self.record)]
-        write_comparison_report(file, self.pairs, drawings, tables, self.warnings)
+        write_comparison_report(file, self.pairs, drawings, tables, self.record)
 
 
 def _row(p: Pair) -> dict[str, object]:

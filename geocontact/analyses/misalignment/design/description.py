@@ -50,17 +50,21 @@ def _offset(d: Designed) -> dict[str, Any]:
         "peak_at_deg": math.degrees(d.where[worst]),
         "least_deflection_mm": float(d.ends[0]) * MM,
         "largest_deflection_mm": float(d.ends[1]) * MM,
-        "admissible": bool(np.abs(forces[worst]) <= d.task.limit),
+        "admissible": d.keeps_limit,
+        "limit": "kept" if d.keeps_limit else "exceeded",
     }
 
 
 def _radius(d: Designed) -> dict[str, Any]:
     way = d.boundary.angles[int(np.argmin(d.boundary.distances))]
     steps = math.cos(way), math.sin(way)
+    within = bool(d.boundary.least < d.boundary.most)
     first = [(start + d.boundary.least * step) * MM for start, step in zip(d.offset, steps, strict=True)]
     return {
         "radius_mm": d.boundary.least * MM,
-        "passed_within_map": bool(d.boundary.least < d.boundary.most),
+        "exceeded_within_map": within,
+        "exceeded_first_at_mm": first,
+        "passed_within_map": within,  # two names of version 0.1, which stay for one more
         "passed_first_at_mm": first,
     }
 

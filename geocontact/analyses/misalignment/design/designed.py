@@ -42,7 +42,7 @@ class Designed:
     map, axes
         Over the offsets x and y of a grid.
     boundary
-        Where the limit is first passed in each direction.
+        Where the limit is first exceeded in each direction.
     stroke
         That the uncertainty asks for.
     beta, force, band
@@ -62,6 +62,16 @@ class Designed:
     beta: Float[np.ndarray, " m"]
     force: Float[np.ndarray, " m"]
     band: tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"]]
+
+    @property
+    def peak(self) -> float:
+        """Largest |F| over the angles at the offsets [N]."""
+        return float(self.task.compensation.peak(self.ends[None, :])[0])
+
+    @property
+    def keeps_limit(self) -> bool:
+        """Whether |F| stays at or under the limit at the offsets."""
+        return self.peak <= self.task.limit
 
 
 def designed(drift: AxisDrift, o: DesignOptions) -> Designed:

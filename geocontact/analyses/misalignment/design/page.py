@@ -11,7 +11,7 @@ from geocontact.analyses.misalignment.design.designed import Designed
 from geocontact.analyses.misalignment.design.tables import sensitivity_table
 from geocontact.analyses.misalignment.planar_words import MODEL, page_table
 from geocontact.analyses.options_table import options_table
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
 from geocontact.view.page.tables import inputs_table
@@ -47,29 +47,31 @@ def write_design_report(path: Path, record: Record, d: Designed, summary: dict[s
         options_table(record),
         Words("What the numbers do not contain", [MODEL, NOT_A_DEVICE]),
     ]
-    if record.warnings:
-        sections.append(Words("Reservations of this run", list(record.warnings)))
     page = Page(
         title=f"Offsets and stroke that keep the force under {d.task.limit:g} N",
         subtitle="Exoskeleton beside a joint: offsets of the axes, stroke, and force on the limb",
         time=np.degrees(d.beta),
         time_label="angle [°]",
-        headline=[(row[0], row[1]) for row in numbers.rows],
+        headline=headline(record.sentences, most=2),
+        facts=[(row[0], row[1]) for row in numbers.rows[:5]],
+        reservations=tuple(record.warnings),
         start_frame=int(np.argmax(np.abs(d.force))),
         sections=tuple(sections),
+        plays=False,
     )
     return write_page(page, path)
 
 
 def _numbers(told: dict[str, Any]) -> Table:
     one, radius, stroke, points = told["offset"], told["admissible_radius"], told["needed_stroke"], told["map"]
-    beyond = "" if radius["passed_within_map"] else " or more"
+    beyond = "" if radius["exceeded_within_map"] else " or more"
     least, largest = stroke["free_of_force_mm"]
+    robust = "robust radius" if one["admissible"] else "robust radius; the limit is exceeded at the offsets themselves"
     without = f"{points['pole']} with a pole, {points['fold']} with a fold"
     rows = [
         ("largest |F| at these offsets", f"{one['peak_N']:.2f} N", f"at {one['peak_at_deg']:.1f}°"),
-        ("limit", f"{told['limit_N']:g} N", "kept" if one["admissible"] else "passed"),
-        ("offsets may go in any direction", f"{radius['radius_mm']:.2f} mm{beyond}", "robust radius"),
+        (f"limit of {told['limit_N']:g} N", one["limit"], "at these offsets"),
+        ("offsets may go in any direction", f"{radius['radius_mm']:.2f} mm{beyond}", robust),
         ("free of force between", f"{least:.2f} … {largest:.2f} mm", f"offsets within {stroke['uncertainty_mm']:g} mm"),
         ("lower stroke end at most", f"{stroke['lower_end_at_most_mm']:.2f} mm", "for the limit"),
         ("upper stroke end at least", f"{stroke['upper_end_at_least_mm']:.2f} mm", "for the limit"),

@@ -32,16 +32,19 @@ def _reserve(record: Record, d: Designed) -> None:
             x, y = d.map.offsets[int(np.argmax(d.map.fate == fate))] * MM
             record.warn(f"{count} of {len(d.map.fate)} offsets of the map (x = {x:g} mm, y = {y:g} mm …): {words}")
     if d.boundary.least >= d.boundary.most:
-        record.warn("the limit is passed nowhere within the map: how far offsets may go is told up to its edge only")
+        record.warn("the limit is exceeded nowhere within the map: how far offsets may go is told up to its edge only")
     if np.isnan(d.sensitivities[0].peak_slope):
         record.warn("no sensitivities where there is no force: give another `offset` than what is aimed at")
 
 
 def _say(record: Record, d: Designed) -> None:
     c = d.task.compensation
-    peak = float(c.peak(d.ends[None, :])[0])
     state = "locked" if c.lower == c.upper == 0.0 else f"stroke {c.lower * MM:g} … {c.upper * MM:g} mm"
     x, y = d.offset[0] * MM, d.offset[1] * MM
-    record.say(f"{state}, x = {x:g} mm, y = {y:g} mm: |F| up to {peak:.2f} N, limit {d.task.limit:g} N")
-    record.say(f"offsets may go {d.boundary.least * MM:.2f} mm from there in any direction")
+    verdict = "keeps" if d.keeps_limit else "exceeds"
+    record.say(
+        f"{state}, x = {x:g} mm, y = {y:g} mm: |F| up to {d.peak:.2f} N {verdict} the limit of {d.task.limit:g} N"
+    )
+    if d.keeps_limit:
+        record.say(f"offsets may go {d.boundary.least * MM:.2f} mm from there in any direction")
     record.say(f"offsets within {d.uncertainty * MM:g} mm: {stroke_words(c, d.stroke)}")

@@ -34,7 +34,7 @@ def map_table(d: Designed) -> pd.DataFrame:
 
 
 def boundary_table(d: Designed) -> pd.DataFrame:
-    """Where the limit is first passed in each direction from the offsets."""
+    """Where the limit is first exceeded in each direction from the offsets."""
     b = d.boundary
     columns = {
         "direction [deg]": np.degrees(b.angles),

@@ -8,9 +8,10 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.misalignment.checks import require_cutoff, require_width
+from geocontact.analyses.misalignment.checks import require_width
+from geocontact.analyses.misalignment.column_options import ColumnOptions
 from geocontact.analyses.misalignment.law_numbers import require_names
-from geocontact.analyses.options import AngleUnit, Degrees, Expression, ForceUnit, Options, Requires, Spelled, Typed
+from geocontact.analyses.options import Degrees, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
 
 Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True)]
@@ -21,7 +22,7 @@ BIN, BOX = math.radians(2.0), math.radians(10.0)
 
 
 @dataclass(frozen=True)
-class IdentifyOptions(Options):
+class IdentifyOptions(ColumnOptions):
     """Stiffness, link and offsets of an exoskeleton from force and angle, and what these recordings cannot tell.
 
     Parameters
@@ -47,18 +48,10 @@ class IdentifyOptions(Options):
         Where the search begins: k=300,x=30,y=40,l=200,z=120.
     free
         Free besides k, x, y, l, z: b (damping), s (stiffness over cuff pressure).
-    map
-        Columns by what they are, where they have other names: beta=elbow_flexion,force=-Fx.
-    angles
-        Unit of the angle where its file does not say.
-    unit
-        Unit of the force where its file does not say.
     bin
         Width of the bins that are fitted.
     box
         Width of the bins of the box plots.
-    cutoff
-        Cut-off of a zero-lag low-pass over force and angle [Hz]; none unless given.
     bootstrap
         Replicates of the wild bootstrap, 0 for none. Each is searched from every minimum that fits nearly as well.
     parquet
@@ -75,22 +68,18 @@ class IdentifyOptions(Options):
     bounds: Pairs | None = None
     start: Numbers | None = None
     free: Names | None = None
-    map: Expression | None = None
-    angles: AngleUnit | None = None
-    unit: ForceUnit | None = None
     bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0)] = BIN
     box: Annotated[Degrees, Spelled("box-deg", "box_deg", default=10.0)] = BOX
-    cutoff: float | None = None
     bootstrap: int = 500
     parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Numbers that the law does not have; widths, cut-off and replicates that cannot be."""
+        super().refuse_impossible()
         for name in ("known", "prior", "bounds", "start"):
             require_names(getattr(self, name), f"`{name}`")
         require_width(self.bin, "`bin`")
         require_width(self.box, "`box`")
-        require_cutoff(self.cutoff)
         if self.bootstrap != 0 and not REPLICATES[0] <= self.bootstrap <= REPLICATES[1]:
             what = f"{self.bootstrap} is not {REPLICATES[0]} to {REPLICATES[1]}"
             raise InputError("", "`bootstrap`", what, "give 500, or 0 for none")

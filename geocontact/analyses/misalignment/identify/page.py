@@ -14,7 +14,7 @@ from geocontact.analyses.misalignment.page import NOT_IN_THE_NUMBERS, write_elbo
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
-from geocontact.view.page.content import Curve, Curves, Picture, Readout, Row, Section, Words
+from geocontact.view.page.content import Curve, Curves, Picture, Section, Words
 from geocontact.view.page.tables import frame_table, inputs_table
 
 TOLD = (
@@ -61,7 +61,6 @@ def write_fit_report(
     bins = tables["bins"].dropna(subset="mean [N]")
     force = {"measured": bins["mean [N]"].to_numpy(), "by the model": bins["fitted [N]"].to_numpy()}
     sections: list[Section] = [
-        Readout([Row(name, "N", [f"{v:.2f}" for v in values]) for name, values in force.items()], "This bin"),
         Curves("Constraint force", "N", [Curve(name, values) for name, values in force.items()]),
         Words("What the data tell", [record.spell(line) for line in explained(found, free)]),
         *(Picture(*PICTURES[name], svg, wide=True) for name, svg in drawings.items()),
@@ -74,6 +73,6 @@ def write_fit_report(
     ]
     title = f"Offsets and stiffness at an elbow from {counted(len(found.recordings), 'recording')}"
     subtitle = "Constraint force of a misaligned elbow exoskeleton by the explicit model"
-    headline = [*((each.words, each.shown) for each in found.intervals), ("R² of bin means", f"{found.r2:.3f}")]
+    facts = [*((each.words, each.shown) for each in found.intervals), ("R² of bin means", f"{found.r2:.3f}")]
     angle = bins["beta [deg]"].to_numpy()
-    return write_elbow_page(path, title, subtitle, angle, "angle [deg]", headline, sections, record.warnings)
+    return write_elbow_page(path, title, subtitle, angle, "angle [deg]", facts, sections, record, plays=False)

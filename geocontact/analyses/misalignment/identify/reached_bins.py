@@ -11,6 +11,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.bins import FORCE, Binned
 from geocontact.data.errors import InputError
 
+ROUNDING = 1e-9  # of the force's range; less is no noise
 LEAST_BINS = 8  # that a fit is made to
 MIRRORED = -0.5  # correlation of a trial with the others from which on its sign is turned
 
@@ -23,6 +24,7 @@ def require_bins(record: Record, paths: Sequence[Path], data: Binned) -> None:
         span = np.degrees(data.visits.edges[[0, -1]])
         what = f"{reached.sum()} bins are reached between {span[0]:.0f} and {span[1]:.0f} degrees"
         raise InputError(paths[0], "", what, f"{LEAST_BINS} are needed: give narrower bins (`bin`) or wider motion")
+    _require_noise(paths[0], data)
     inside = np.flatnonzero(reached)[[0, -1]]
     missing = np.flatnonzero(~reached[: inside[1]])
     missing = missing[missing > inside[0]]
@@ -32,6 +34,14 @@ def require_bins(record: Record, paths: Sequence[Path], data: Binned) -> None:
         told = ", ".join(f"{edges[run[0]]:.0f}…{edges[run[-1] + 1]:.0f}°" for run in runs)
         record.warn(f"no sample in {len(missing)} bins inside the range reached: {told}")
     _refuse_mirrored(paths, data)
+
+
+def _require_noise(path: Path, data: Binned) -> None:
+    """Refuse recordings whose samples all lie on the curve through their bins, as one sample in each bin does."""
+    noise, force = float(data.noise.sd[0]), data.cells.means[:, FORCE]
+    if not noise > ROUNDING * float(np.ptp(force)):
+        what = f"{data.cells.count.sum():.0f} samples in {len(np.unique(data.cells.place))} bins show no noise"
+        raise InputError(path, "", what, "give longer recordings or wider bins (`bin`): intervals come from it")
 
 
 def _refuse_mirrored(paths: Sequence[Path], data: Binned) -> None:

@@ -42,6 +42,7 @@ def read(o: IdentifyOptions, record: Record) -> Recorded:
     apart = _recordings(record, "held out", o.held_out or (), o)
     _require_locked(o.held_out or (), apart)
     free = _recordings(record, "unlocked", o.unlocked or (), o, (FORCE, DISPLACEMENT))
+    _require_free(o.unlocked or (), free)
     return Recorded(parameters, locked, apart, free)
 
 
@@ -58,6 +59,16 @@ def _require_locked(paths: Sequence[Path], found: Sequence[ElbowRecording]) -> N
         if moved > SLID:
             what = f"the compensation joint slides by {moved * 1e3:.1f} mm in it"
             raise InputError(path, "", what, "give it with `unlocked`, or map another column: `map` displacement=…")
+
+
+def _require_free(paths: Sequence[Path], found: Sequence[ElbowRecording]) -> None:
+    """Refuse recordings whose compensation joint does not slide: locked ones, or metres called millimetres."""
+    for path, r in zip(paths, found, strict=True):
+        moved = 0.0 if r.displacement is None else float(np.ptp(r.displacement))
+        if moved < SLID:
+            what = f"the compensation joint slides by {moved * 1e3:.3g} mm in it, less than a locked one may"
+            remedy = "is its column in m, and not in mm? write displacement [m]; or was it locked?"
+            raise InputError(path, "", what, remedy)
 
 
 def _require_pressures(path: Path, locked: Sequence[ElbowRecording]) -> None:

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from geocontact.analyses.misalignment.identify.fitted import Fitted
+from geocontact.analyses.misalignment.identify.free_joint import Free
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.law import LENGTHS
 
 FEW_STRETCHES = 12
 RARE, MORE = 0.01, 1.5  # p and size from which residuals are more than noise
 BETTER = 0.02  # of R² that the mirrored force must gain to be worth a word
+APART = 3.0  # times that two stiffnesses may differ before a unit is doubted
 SCALE_FREE = (
     f"k and the lengths {', '.join(LENGTHS)} are known up to one factor only: F(k/s, s × lengths) = F for every s; "
     "know l, z or k (`known`), give a prior (`prior`), or record the free joint's displacement (`unlocked`)"
 )
 
 
-def reserve(record: Record, found: Fitted) -> None:
+def reserve(record: Record, found: Fitted, free: Free | None) -> None:
     """Tell the record what is open, rough or odd."""
     _say_what_is_open(record, found)
+    if free is not None:
+        _doubt_displacement(record, found, free)
     e, excess = found.estimate, found.residuals.excess
     if found.stretches < FEW_STRETCHES:
         record.warn(f"{found.stretches} stretches of {found.data.stretch:.2g} s are few: intervals are rough")
@@ -36,6 +40,21 @@ def reserve(record: Record, found: Fitted) -> None:
     if found.mirrored_r2 > found.r2 + BETTER:
         told = f"the force turned over fits better (R² {found.mirrored_r2:.3f} instead of {found.r2:.3f})"
         record.warn(f"{told}: is its sign turned? see `map` force=-…")
+
+
+def _doubt_displacement(record: Record, found: Fitted, free: Free) -> None:
+    """A stroke that is not that of the fitted geometry, where something else than the displacement sets its scale."""
+    problem = found.estimate.problem
+    if free.stiffness is None or problem.scale_free or problem.scale is not None or not free.stiffness.value > 0.0:
+        return
+    times = free.stiffness.value / found.estimate.named["k"]
+    if 1.0 / APART < times < APART:
+        return
+    stroke = f"the free joint slides by {1.0 / times:.3g} times what the fitted lengths ask for"
+    record.warn(
+        f"{stroke}, so that k by its displacement is {free.stiffness.value:.4g} N/m and not "
+        f"{found.estimate.named['k']:.4g}: is the displacement in another unit than its header says?"
+    )
 
 
 def _say_what_is_open(record: Record, found: Fitted) -> None:

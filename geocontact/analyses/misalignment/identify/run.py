@@ -28,7 +28,7 @@ def run(recorded: Recorded, o: IdentifyOptions, record: Record) -> IdentifyResul
     if problem.scale_free and free is not None:
         problem = _scaled_by(record, problem, free)
     found = fitted(recorded.locked, data, estimated(problem), recorded.held_out, o)
-    reserve(record, found)
+    reserve(record, found, free)
     say(record, found, free)
     summary = described(found, free)
     record.results["elbow"] = summary

@@ -1,4 +1,4 @@
-"""Distribution of the largest force over a population, and how likely a force is passed."""
+"""Distribution of the largest force over a population, and how likely a force is exceeded."""
 
 from __future__ import annotations
 

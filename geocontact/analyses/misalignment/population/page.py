@@ -10,9 +10,21 @@ from geocontact.analyses.misalignment.planar_words import MODEL, STATES, WITHOUT
 from geocontact.analyses.misalignment.population.drawn import Drawn
 from geocontact.analyses.misalignment.population.tables import influence_table, quantile_table
 from geocontact.analyses.options_table import options_table
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
+from geocontact.view.page.content import (
+    Curve,
+    Curves,
+    Interval,
+    Intervals,
+    Page,
+    Picture,
+    Readout,
+    Row,
+    Section,
+    Table,
+    Words,
+)
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
 
@@ -44,6 +56,7 @@ def write_population_report(path: Path, record: Record, d: Drawn, drawing: bytes
     sections: list[Section] = [
         Readout(readout, "At this force"),
         Curves("Probability of more", "%", [Curve("share of the samples", *shares)]),
+        *_shares(d),
         numbers,
         Picture("Distribution of the largest force", FIGURE, drawing, wide=True),
         page_table("Quantiles of the largest |F|", quantile_table(d)),
@@ -53,18 +66,30 @@ def write_population_report(path: Path, record: Record, d: Drawn, drawing: bytes
         Words("How to read where the spread comes from", [INFLUENCE]),
         Words("What the numbers do not contain", [DRAWN, MODEL, NOT_A_DEVICE]),
     ]
-    if record.warnings:
-        sections.append(Words("Reservations of this run", list(record.warnings)))
     page = Page(
         title=f"Largest force of {len(d.peak)} synthetic people",
         subtitle="Exoskeleton beside a joint: forces over a population",
         time=d.levels,
         time_label="force [N]",
-        headline=[(row[0], row[1]) for row in numbers.rows],
+        headline=headline(record.sentences, most=2),
+        facts=[(row[0], row[1]) for row in numbers.rows[:5]],
+        reservations=tuple(record.warnings),
         start_frame=int(np.argmin(np.abs(d.levels - d.limit))),
         sections=tuple(sections),
+        plays=False,
     )
     return write_page(page, path)
+
+
+def _shares(d: Drawn) -> list[Section]:
+    """Bars of the total shares of the factors; none where they could not be known."""
+    if d.indices is None:
+        return []
+    rows = [
+        Interval(" and ".join(factor.names), float(d.indices.total[k]), *map(float, d.indices.total_interval[k]))
+        for k, factor in enumerate(d.sampling.factors)
+    ]
+    return [Intervals("Total share of the variance, by factor", "", rows, bars=True)]
 
 
 def _numbers(d: Drawn) -> Table:

@@ -9,6 +9,7 @@ import numpy as np
 
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, write_elbow_page
+from geocontact.analyses.run_record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.view.page.content import Curve, Curves, Picture, Readout, Row, Section, Table, Words
 
@@ -25,7 +26,7 @@ def write_simulation_report(
     numbers: Mapping[str, float],
     drawing: bytes,
     tables: Sequence[Table],
-    warnings: Sequence[str],
+    record: Record,
 ) -> int:
     """Write the page of a simulation, its first trial over time; returns its size in bytes."""
     first = made[0]
@@ -45,10 +46,10 @@ def write_simulation_report(
         *tables,
         NOT_IN_THE_NUMBERS,
     ]
-    headline = [(r.name, f"{r.force.min():.1f} … {r.force.max():.1f} N") for r in made]
+    facts = [(r.name, f"{r.force.min():.1f} … {r.force.max():.1f} N") for r in made]
     title, subtitle = "Synthetic recordings of an elbow exoskeleton", "Explicit model of constraint forces"
     time = first.time[shown]
-    return write_elbow_page(path, title, subtitle, time, "time [s]", headline, sections, warnings)
+    return write_elbow_page(path, title, subtitle, time, "time [s]", facts, sections, record)
 
 
 def _free_trial(made: Sequence[ElbowRecording]) -> list[Section]:

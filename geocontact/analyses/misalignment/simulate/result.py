@@ -26,7 +26,7 @@ from geocontact.view.page.tables import inputs_table
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-HEAD = "# synthetic: geocontact elbow simulate"
+SYNTHETIC = {"synthetic": True, "words": "made by geocontact elbow simulate; nobody was measured"}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -68,8 +68,7 @@ class SimulateResult(Result):
         for name, table in self.tables().items():
             write_table(table, folder, self.options.parquet, name)
         for each in self.trials:
-            file = folder / f"{each.name}.csv"
-            file.write_text(f"{HEAD}\n{file.read_text(encoding='utf-8')}", encoding="utf-8", newline="\n")
+            self.record.tables[f"{each.name}.csv"] = SYNTHETIC
         write_json(folder / "truth.json", self.truth)
         self._write_page(folder / "report.html", save_both(self.figure(), folder, "surfaces"))
 
@@ -79,7 +78,7 @@ class SimulateResult(Result):
 
     def _write_page(self, file: Path, picture: bytes) -> None:
         tables = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_simulation_report(file, self.trials, self.numbers, picture, tables, self.warnings)
+        write_simulation_report(file, self.trials, self.numbers, picture, tables, self.record)
 
 
 def _table(r: ElbowRecording) -> pd.DataFrame:

@@ -23,13 +23,16 @@ class Forces:
     values
         In its order [N m, N].
     peak
-        Largest measured force on one body [N]; 0 without any.
+        Largest measured net force, the sum of all plates [N]; 0 without any.
+    height
+        Of the mass centre above the ground's origin, mean over time [m].
     """
 
     time: Float[np.ndarray, " t"]
     model: Multibody
     values: Float[np.ndarray, "t n"]
     peak: float
+    height: float
 
     @property
     def at_ground(self) -> Bool[np.ndarray, " n"]:
@@ -38,11 +41,28 @@ class Forces:
         return np.array([joint.parent == GROUND and len(joint.coordinates) == 6 for joint in joints], dtype=bool)
 
     @property
+    def weight(self) -> float:
+        """Of all bodies [N]."""
+        return self.model.mass * float(np.linalg.norm(self.model.gravity))
+
+    @property
+    def residual_forces(self) -> Float[np.ndarray, " t"]:
+        """Size of the force left over there [N]; 0 where no body is free."""
+        return self._left("translational")
+
+    @property
+    def residual_moments(self) -> Float[np.ndarray, " t"]:
+        """Root of the sum of squares of the moments along the coordinates there [N m]; 0 where no body is free."""
+        return self._left("rotational")
+
+    @property
     def residual(self) -> float:
         """Size of the force left over there, root mean square [N]; NaN where no body is free."""
-        straight = np.array([c.kind == "translational" for c in self.model.coordinates], dtype=bool)
-        left = self.values[:, self.at_ground & straight]
-        return float(np.sqrt(np.mean(np.sum(left**2, axis=1)))) if left.size else float("nan")
+        return float(np.sqrt(np.mean(self.residual_forces**2))) if self.at_ground.any() else float("nan")
+
+    def _left(self, kind: str) -> Float[np.ndarray, " t"]:
+        which = np.array([c.kind == kind for c in self.model.coordinates], dtype=bool)
+        return np.asarray(np.linalg.norm(self.values[:, self.at_ground & which], axis=1))
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -38,6 +38,9 @@ class IdOptions(Options):
         Low-pass of the coordinates [Hz], OpenSim's filter; 0 leaves them as they are.
     time
         First and last time [s] that are written: 0.4:1.6. The filter sees the whole recording.
+    events
+        Heel strikes of a side [s], between which moments are averaged over the gait cycle: right=0.63,1.86. May be
+        given again. Without it the loads of the plates tell them, by the side in their bodies' names.
     angles
         Unit of angles where the file does not say it: deg or rad.
     """
@@ -52,6 +55,7 @@ class IdOptions(Options):
     threshold: float = 0.0
     cutoff: float = 6.0
     time: TimeSpan | None = None
+    events: Texts = ()
     angles: AngleUnit | None = None
 
     def refuse_impossible(self) -> None:

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.motion.heel_strikes import Strikes, strikes_on_plates, strikes_typed
 from geocontact.analyses.motion.inverse_dynamics.external_loads import loads_on_bodies
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
+from geocontact.analyses.motion.skeleton import upwards
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody
@@ -33,6 +35,8 @@ class Loaded:
         Those of them that are wanted.
     loads
         By body, about the ground's origin, at the wanted times.
+    strikes
+        When feet come to the ground.
     """
 
     model: Multibody
@@ -40,6 +44,13 @@ class Loaded:
     values: Float[np.ndarray, "n c"]
     time: Float[np.ndarray, " t"]
     loads: dict[str, Wrench]
+    strikes: Strikes
+
+    @property
+    def shown(self) -> Float[np.ndarray, "t c"]:
+        """Filtered coordinates at the wanted times [rad, m]."""
+        first = int(np.searchsorted(self.recorded, self.time[0]))
+        return self.values[first : first + len(self.time)]
 
 
 def read(o: IdOptions, record: Record) -> Loaded:
@@ -51,7 +62,9 @@ def read(o: IdOptions, record: Record) -> Loaded:
     values = _filtered(table, motion_of(table, model, o.angles), o.cutoff)
     shown = _shown(table, o.time)
     time = table.time[shown]
-    return Loaded(model, table.time, values, time, loads_on_bodies(record, o, model, time, values[shown]))
+    loads = loads_on_bodies(record, o, model, time, values[shown])
+    strikes = strikes_typed(o.events) or strikes_on_plates(time, loads, upwards(model))
+    return Loaded(model, table.time, values, time, loads, strikes)
 
 
 def _filtered(table: TextTable, values: Float[np.ndarray, "t n"], cutoff: float) -> Float[np.ndarray, "t n"]:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.analyses.json_file import plain
+from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.inverse_dynamics.read import Loaded
+from geocontact.analyses.motion.inverse_dynamics.residuals import warn_of_residuals, words
 from geocontact.analyses.motion.inverse_dynamics.result import IdResult
 from geocontact.analyses.run_record import Record
-from geocontact.data.multibody.model import GROUND
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.forces_along import forces_along
 from geocontact.dynamics.tree import tree_of
@@ -19,15 +20,47 @@ from geocontact.dynamics.tree import tree_of
 def run(given: Loaded, o: IdOptions, record: Record) -> IdResult:
     """Forces along all coordinates, and what motion, masses and plates leave over at the ground."""
     found = forces_along(tree_of(given.model), given.recorded, given.values, given.time, given.loads)
-    forces = Forces(given.time, given.model, found, _peak(given.loads))
+    forces = Forces(given.time, given.model, found, _peak(given.loads), _height(given))
     summary = _summary(forces)
+    cycles = _cycles(forces, given)
+    if cycles:
+        summary["gait_cycles"] = cycles.counts
     record.results.update(plain(summary))
     _tell(record, forces)
-    return IdResult(record=record, options=o, forces=forces, summary=summary)
+    return IdResult(
+        record=record,
+        options=o,
+        forces=forces,
+        coordinates=given.shown,
+        loads=given.loads,
+        cycles=cycles,
+        summary=summary,
+    )
+
+
+def _cycles(forces: Forces, given: Loaded) -> GaitCycles:
+    """Of all but what is left over, by the mass of the model."""
+    model = forces.model
+    if not model.mass > 0.0:
+        return GaitCycles({}, {}, {})
+    chosen = np.flatnonzero(~forces.at_ground)
+    coordinates = [model.coordinates[k] for k in chosen]
+    units = ["N m/kg" if c.kind == "rotational" else "N/kg" for c in coordinates]
+    values = np.asarray(forces.values)[:, chosen] / model.mass
+    return gait_cycles(forces.time, [c.name for c in coordinates], units, values, given.strikes)
 
 
 def _peak(loads: dict[str, Wrench]) -> float:
-    return max((float(np.linalg.norm(wrench.force, axis=1).max()) for wrench in loads.values()), default=0.0)
+    """Of the net force: all loads together."""
+    net = sum((wrench.force for wrench in loads.values()), start=np.zeros((1, 3)))
+    return float(np.linalg.norm(net, axis=1).max())
+
+
+def _height(given: Loaded) -> float:
+    """Of the mass centre above the ground's origin, mean over the whole recording [m]; 0 without gravity."""
+    size = float(np.linalg.norm(given.model.gravity))
+    up = -given.model.gravity / size if size > 0.0 else np.zeros(3)
+    return float(np.mean(given.model.mass_centre(given.values) @ up))
 
 
 def _summary(forces: Forces) -> dict[str, object]:
@@ -42,20 +75,19 @@ def _summary(forces: Forces) -> dict[str, object]:
         "peak_external_force_N": forces.peak,
         "residual_force_rms_N": forces.residual,
         "residual_share_of_peak": forces.residual / forces.peak if forces.peak > 0.0 else float("nan"),
+        "residual_force_max_N": float(forces.residual_forces.max()),
+        "residual_moment_max_N_m": float(forces.residual_moments.max()),
+        "mass_centre_height_m": forces.height,
         "residuals": [name for name, there in zip(forces.names, forces.at_ground, strict=True) if there],
         "coordinates": left,
     }
 
 
 def _tell(record: Record, forces: Forces) -> None:
-    base = forces.at_ground
-    if not base.any():
-        record.warn(f"no joint frees a body from the {GROUND} with six coordinates: nothing tells what is left over")
-    largest = int(np.argmax(np.abs(np.where(base, 0.0, forces.values)).max(axis=0)))
-    said = f"{len(forces.time)} frames; most at {forces.names[largest]}, {np.abs(forces.values[:, largest]).max():.4g}"
-    if forces.peak > 0.0 and np.isfinite(forces.residual):
-        said += (
-            f"; left over at the joint to the {GROUND}: {forces.residual:.3g} N, root mean square, "
-            f"{forces.residual / forces.peak:.1%} of the largest measured force"
-        )
-    record.say(said)
+    warn_of_residuals(record, forces)
+    sizes = np.abs(np.where(forces.at_ground, 0.0, forces.values))
+    frame, largest = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
+    name = forces.names[int(largest)]
+    unit = "N m" if name.endswith("_moment") else "N"
+    said = f"{len(forces.time)} frames; most at {name}, {sizes[frame, largest]:.4g} {unit}"
+    record.say("; ".join(each for each in (said, words(forces)) if each))

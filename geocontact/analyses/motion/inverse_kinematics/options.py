@@ -25,6 +25,8 @@ class IkOptions(Options):
         markers of the model count alike.
     marker_set
         Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
+    markers_map
+        Names of recorded markers as the model calls them: RHEE=R.Heel,LHEE=L.Heel, or a file with a pair in each line.
     weight
         Weight of a marker over that of `tasks`: R.Heel=10; 0 leaves it out. May be given again.
     hold
@@ -35,6 +37,9 @@ class IkOptions(Options):
     knee
         Knee whose angles after Grood and Suntay are written: right=femur_r,tibia_r, the bodies as the model calls them,
         x forward, y up and z to the right in both. May be given again.
+    events
+        Heel strikes of a side [s], between which the coordinates are averaged over the gait cycle: right=0.63,1.86. May
+        be given again. Those of a .c3d file count without it.
     axes
         Which of the markers' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
     time
@@ -46,10 +51,12 @@ class IkOptions(Options):
     model: Path
     tasks: Path | None = None
     marker_set: Path | None = None
+    markers_map: str | None = None
     weight: Texts = ()
     hold: Texts = ()
     fill: float = 0.1
     knee: Texts = ()
+    events: Texts = ()
     axes: Expression | None = None
     time: TimeSpan | None = None
 

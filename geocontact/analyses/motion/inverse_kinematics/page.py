@@ -6,13 +6,17 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
-from geocontact.analyses.motion.panels import panels_by_joint
-from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.analyses.motion.cycles_picture import cycles_pictured
+from geocontact.analyses.motion.gait_cycles import GaitCycles
+from geocontact.analyses.motion.panels import panels_of
+from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
-from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Table, Words
+from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Scene, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 FRAMES = 1001  # that the page shows at most
@@ -28,8 +32,11 @@ def write_kinematics_report(
     title: str,
     model: Multibody,
     found: Poses,
+    seen: MarkerTrajectories,
+    cycles: GaitCycles,
     tables: Sequence[Table] = (),
     warnings: Sequence[str] = (),
+    sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page; returns its size in bytes."""
     every = -(-len(found.time) // FRAMES)
@@ -38,22 +45,24 @@ def write_kinematics_report(
     off = 1e3 * found.distances
     values = np.asarray(found.values)[shown]
     sections: list[Section] = [
+        _picture(model, found, seen, shown),
         Readout([Row("markers, root mean square", "mm", [_size(row) for row in off[shown]])]),
-        *panels_by_joint(model, "deg", np.degrees(values), angular),
-        *panels_by_joint(model, "m", values, ~angular),
+        *panels_of(model, "deg", np.degrees(values), angular),
+        *panels_of(model, "m", values, ~angular),
         Curves("Distance of markers", "mm", [Curve(n, d) for n, d in zip(found.markers, off[shown].T, strict=True)]),
+        *cycles_pictured(cycles),
         _markers(found),
         *tables,
         Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),
     ]
-    if warnings:
-        sections.append(Words("Reservations of this run", list(warnings)))
     page = Page(
         title=title,
         subtitle=f"{len(found.names)} coordinates of {model.name or 'the model'} from {len(found.markers)} markers",
         time=found.time[shown],
         time_label="time [s]",
-        headline=[
+        headline=headline(sentences, most=2),
+        reservations=tuple(warnings),
+        facts=[
             ("Distance of markers, root mean square", f"{np.sqrt(np.nanmean(off**2)):.1f} mm"),
             ("Largest distance", f"{np.nanmax(off):.1f} mm"),
         ],
@@ -62,6 +71,18 @@ def write_kinematics_report(
         total=len(found.time),
     )
     return write_page(page, path)
+
+
+def _picture(model: Multibody, found: Poses, seen: MarkerTrajectories, shown: Int[np.ndarray, " k"]) -> Scene:
+    """The skeleton, and the markers that count: as they were seen, and as the model has them."""
+    values = np.asarray(found.values)[shown]
+    whole = np.isfinite(values).all(axis=1)
+    own = [m.name for m in model.markers]
+    which = [own.index(name) for name in found.markers]
+    modelled = np.full((len(shown), len(which), 3), np.nan)
+    modelled[whole] = model.marker_places(values[whole])[:, which]
+    bones = [skeleton(model, values)] if whole.any() else []
+    return scene_of(model, [*bones, *markers_beside(seen.of(found.markers)[shown], modelled)])
 
 
 def _markers(found: Poses) -> Table:

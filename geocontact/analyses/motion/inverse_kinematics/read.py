@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from geocontact.analyses.motion.heel_strikes import Strikes, strikes_marked, strikes_typed
 from geocontact.analyses.motion.inverse_kinematics.knees import Knee, knees_of
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
+from geocontact.analyses.motion.marker_names import renamed
 from geocontact.analyses.motion.marker_tasks import marker_tasks
 from geocontact.analyses.motion.markers import markers_given, with_marker_set
 from geocontact.analyses.run_record import Record
@@ -17,12 +19,13 @@ from geocontact.io.opensim.osim_multibody import read_multibody
 
 @dataclass(frozen=True)
 class Seen:
-    """A model, its markers as they were seen, what each of them counts, and knees whose clinical angles are wanted."""
+    """A model, its markers as seen, what each counts, knees whose clinical angles are wanted, heel strikes."""
 
     model: Multibody
     markers: MarkerTrajectories
     tasks: MarkerTasks
     knees: list[Knee]
+    strikes: Strikes
 
 
 def read(o: IkOptions, record: Record) -> Seen:
@@ -31,6 +34,7 @@ def read(o: IkOptions, record: Record) -> Seen:
     record.add_input("`model`", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
     model = with_marker_set(record, model, o.model, o.marker_set)
     knees = knees_of(o.knee, model)
-    seen = markers_given(o.markers, o.axes, o.time)
+    seen = renamed(record, markers_given(o.markers, o.axes, o.time), model, o.markers_map)
     record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
-    return Seen(model, seen, marker_tasks(record, model, seen, o.tasks, o.weight, o.hold), knees)
+    strikes = strikes_typed(o.events) or strikes_marked(o.markers)
+    return Seen(model, seen, marker_tasks(record, model, seen, o.tasks, o.weight, o.hold), knees, strikes)

@@ -10,6 +10,7 @@ import pandas as pd
 
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.motion.figure import curves_figure
+from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.page import write_kinematics_report
@@ -36,6 +37,8 @@ class IkResult(Result):
         Model, markers and weights.
     poses
         Coordinates [rad, m] and distances of the markers [m] of every frame.
+    cycles
+        Coordinates [deg, m] over the gait cycle, where there are heel strikes.
     summary
         Numbers of the whole recording, with units in their names.
     """
@@ -43,6 +46,7 @@ class IkResult(Result):
     options: IkOptions
     seen: Seen
     poses: Poses
+    cycles: GaitCycles
     summary: dict[str, Any]
 
     @property
@@ -56,13 +60,15 @@ class IkResult(Result):
         return dict(self.summary["markers"])
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`coordinates` [deg, m], `markers` with the distance of each, and `knees` where they are asked for."""
+        """`coordinates` [deg, m], `markers` with the distance of each; `knees` and `cycles` where there are some."""
         p = self.poses
         units = ["deg" if c.kind == "rotational" else "m" for c in self.seen.model.coordinates]
         values = printed(self.seen.model.coordinates, p.values).T
         angles = {f"{name} [{unit}]": v for name, unit, v in zip(p.names, units, values, strict=True)}
         found = {"coordinates": pd.DataFrame({"time [s]": p.time, **angles}), "markers": self._distances()}
-        return {**found, "knees": knee_table(self.seen.model, p, self.seen.knees)} if self.seen.knees else found
+        if self.seen.knees:
+            found["knees"] = knee_table(self.seen.model, p, self.seen.knees)
+        return {**found, "cycles": self.cycles.table()} if self.cycles else found
 
     def figure(self) -> Figure:
         """Angles of all joints over time, and how far the markers are from the model."""
@@ -86,7 +92,10 @@ class IkResult(Result):
         """Coordinates over time, and how far each marker is from the model."""
         title = f"Inverse kinematics of {self.options.markers.name}"
         tables = [inputs_table(self.record.inputs), options_table(self.record)]
-        write_kinematics_report(file, title, self.seen.model, self.poses, tables, list(self.warnings))
+        seen = self.seen
+        write_kinematics_report(
+            file, title, seen.model, self.poses, seen.markers, self.cycles, tables, self.warnings, self.sentences
+        )
 
     def _distances(self) -> pd.DataFrame:
         off = {f"{name} [mm]": 1e3 * d for name, d in zip(self.poses.markers, self.poses.distances.T, strict=True)}

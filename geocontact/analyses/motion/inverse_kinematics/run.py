@@ -7,16 +7,17 @@ import time
 import numpy as np
 
 from geocontact.analyses.json_file import plain
+from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.read import Seen
 from geocontact.analyses.motion.inverse_kinematics.result import IkResult
+from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
+from geocontact.analyses.motion.printed import printed
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
 from geocontact.dynamics.tree import tree_of
 from geocontact.io.text.tables import listed
-
-FAR = 50.0  # mm between markers and model that no subject has who stood model for it
 
 
 def run(seen: Seen, o: IkOptions, record: Record) -> IkResult:
@@ -27,18 +28,24 @@ def run(seen: Seen, o: IkOptions, record: Record) -> IkResult:
         try:
             found = inverse_kinematics(tree, seen.markers, seen.tasks, lambda _: step(), fill=o.fill)
         except ValueError as error:
-            raise InputError(o.markers, "", str(error), "compare the names in the file with the model's") from error
+            raise InputError(o.markers, "", str(error), "is it the right file?") from error
     summary = _summary(found, time.perf_counter() - began)
-    result = IkResult(record=record, options=o, seen=seen, poses=found, summary=summary)
+    cycles = _cycles(seen, found)
+    if cycles:
+        summary["gait_cycles"] = cycles.counts
+    result = IkResult(record=record, options=o, seen=seen, poses=found, cycles=cycles, summary=summary)
     record.results.update(plain(summary))
-    rms, squares = result.rms_mm, result.markers_mm
-    _warn(record, found, rms)
-    worst = max(squares, key=lambda name: squares[name]["rms_mm"])
-    record.say(
-        f"{len(found.time)} frames, {len(found.markers)} markers: {rms:.1f} mm from the model, root mean square, "
-        f"most at {worst}"
-    )
+    errors = MarkerErrors.of(found)
+    errors.warn(record, MOVING)
+    _warn(record, found)
+    record.say(f"{len(found.time)} frames, {len(found.markers)} markers: {errors.words(MOVING)}")
     return result
+
+
+def _cycles(seen: Seen, found: Poses) -> GaitCycles:
+    coordinates = seen.model.coordinates
+    units = ["deg" if c.kind == "rotational" else "m" for c in coordinates]
+    return gait_cycles(found.time, found.names, units, printed(coordinates, found.values), seen.strikes)
 
 
 def _summary(found: Poses, seconds: float) -> dict[str, object]:
@@ -63,12 +70,10 @@ def _summary(found: Poses, seconds: float) -> dict[str, object]:
     }
 
 
-def _warn(record: Record, found: Poses, rms: float) -> None:
+def _warn(record: Record, found: Poses) -> None:
     if not found.settled.all():
         count = int((~found.settled).sum())
         record.warn(f"{count} frames did not settle: markers and model may not belong together")
-    if rms > FAR:
-        record.warn(f"markers are {rms:.0f} mm from the model: another subject's size, axes (`axes`) or unit?")
     never = np.asarray(~found.determined.any(axis=0))
     if never.any():
         names = tuple(name for name, each in zip(found.names, never, strict=True) if each)

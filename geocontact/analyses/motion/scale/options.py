@@ -25,6 +25,8 @@ class ScaleOptions(Options):
         May be given again; bodies that are not named keep their size. The factor is the same along all axes.
     marker_set
         Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
+    markers_map
+        Names of recorded markers as the model calls them: RHEE=R.Heel,LHEE=L.Heel, or a file with a pair in each line.
     mass
         Of the subject [kg], shared among the bodies as in the model.
     keep_markers
@@ -43,6 +45,7 @@ class ScaleOptions(Options):
     model: Path
     scale: Texts = ()
     marker_set: Path | None = None
+    markers_map: str | None = None
     mass: float | None = None
     keep_markers: bool = False
     tasks: Path | None = None

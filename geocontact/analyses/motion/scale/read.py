@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.motion.marker_names import names_told, renamed
 from geocontact.analyses.motion.marker_tasks import marker_tasks
 from geocontact.analyses.motion.markers import markers_given, with_marker_set
 from geocontact.analyses.motion.scale.options import ScaleOptions
@@ -41,7 +42,7 @@ def read(o: ScaleOptions, record: Record) -> Standing:
     model = read_multibody(o.model)
     record.add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
     model = with_marker_set(record, model, o.model, o.marker_set)
-    whole = markers_given(o.static, o.axes, o.time)
+    whole = renamed(record, markers_given(o.static, o.axes, o.time), model, o.markers_map)
     seen = _standing(record, whole)
     record.add_input("static", o.static, frames=len(whole), markers=len(seen.names))
     factors = _factors(model, whole, o.scale)
@@ -74,7 +75,7 @@ def _factors(model: Multibody, seen: MarkerTrajectories, texts: tuple[str, ...])
         try:
             factor = measured_factor(model, rest, seen, [(a.strip(), b.strip()) for a, _, b in ends])
         except ValueError as error:
-            raise InputError(seen.source, "`scale`", str(error), "compare the names") from error
+            raise InputError(seen.source, "`scale`", str(error), names_told(seen, model)) from error
         if not ABSURD[0] <= factor <= ABSURD[1]:
             what = f"'{text}' makes {bodies} {factor:.3g} times as large"
             raise InputError(seen.source, "`scale`", what, "are markers exchanged, or is the unit another?")

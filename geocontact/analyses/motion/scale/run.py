@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from geocontact.analyses.json_file import plain
+from geocontact.analyses.motion.marker_errors import STANDING, MarkerErrors
 from geocontact.analyses.motion.printed import printed
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.analyses.motion.scale.read import Standing
@@ -29,7 +30,7 @@ def run(given: Standing, o: ScaleOptions, record: Record) -> ScaleResult:
     try:
         pose = inverse_kinematics(tree_of(made), given.markers, given.tasks)
     except ValueError as error:
-        raise InputError(o.static, "", str(error), "compare the names in the file with the model's") from error
+        raise InputError(o.static, "", str(error), "is it the right file?") from error
     if not pose.settled.all():
         record.warn("the static pose did not settle: markers and model may not belong together")
     moved = made if o.keep_markers else _placed(made, given.markers, pose)
@@ -67,8 +68,7 @@ def _summary(given: Standing, pose: Poses, made: Multibody) -> dict[str, object]
 
 
 def _tell(record: Record, given: Standing, pose: Poses) -> None:
-    off = 1e3 * pose.distances[0]
+    errors = MarkerErrors.of(pose)
+    errors.warn(record, STANDING)
     sizes = ", ".join(f"{name} {by:.3f}" for name, by in given.factors.items()) or "no body"
-    worst = pose.markers[int(np.nanargmax(off))]
-    rms = float(np.sqrt(np.nanmean(off**2)))
-    record.say(f"scaled: {sizes}; markers {rms:.1f} mm from the scaled model, root mean square, most at {worst}")
+    record.say(f"scaled: {sizes}; markers {errors.words(STANDING)}")

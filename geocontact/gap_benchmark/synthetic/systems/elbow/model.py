@@ -63,4 +63,4 @@ def course_deflection(course: InputCourse, numbers: Mapping[str, float]) -> tupl
     return u, np.gradient(u, course.time, edge_order=2)
 
 
-ELBOW = SyntheticSystem(respond, base_model, course_deflection)
+ELBOW = SyntheticSystem(respond, base_model, course_deflection, lengths=("l_ex", "z_ex"))

@@ -175,6 +175,7 @@ def foot(sole: Sole) -> SyntheticSystem:
         lambda course, _: course_deflection(course, sole),
         loads=(0, 1),
         normal=(1,),
+        quotients={2: 1},
         patchy=(2,),
         recorded=without_centre,
     )

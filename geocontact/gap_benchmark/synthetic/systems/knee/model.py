@@ -70,4 +70,6 @@ def course_deflection(course: InputCourse, numbers: Mapping[str, float]) -> tupl
     return u, np.gradient(u, course.time, axis=1, edge_order=2)
 
 
-KNEE = SyntheticSystem(respond, base_model, course_deflection, loads=(0, 1), normal=(0, 1), spare=INPUTS[:2])
+KNEE = SyntheticSystem(
+    respond, base_model, course_deflection, loads=(0, 1), normal=(0, 1), spare=INPUTS[:2], lengths=("R",)
+)

@@ -18,7 +18,7 @@ from scipy.interpolate import CubicSpline
 from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import InputCourse, through
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Swing, Values, read
-from geocontact.gap_benchmark.synthetic.systems.interface import in_series, pull
+from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError, in_series, pull
 from geocontact.gap_benchmark.synthetic.systems.swing import GRAVITY, Arm, Torque, at_rest, follow, swing
 
 INPUTS, OUTPUTS = ("arm", "event"), ("exo", "force")
@@ -26,6 +26,8 @@ UNITS = ("rad", "-", "rad", "N")
 FORCE = 1
 COARSEST = 2.5e-3
 """Longest step of the base model [s]."""
+PARTS, SAME_TICK = 20, 1e-6
+"""Into how many parts the shortest time between two samples may have to be cut; how exactly these must fit."""
 SMALL = 1e-5
 """Change by which slopes are taken [rad or rad/s]."""
 Numbers = Mapping[str, float]
@@ -127,9 +129,19 @@ def respond(course: InputCourse, numbers: Numbers, hooks: Hooks, table: Table) -
     return read(hooks, course, outputs)
 
 
+def tick(time: Float[np.ndarray, " t"]) -> float:
+    """Longest step that leads to every sample [s]: the shortest between two, or a whole part of it."""
+    apart = np.diff(time)
+    for parts in range(1, PARTS + 1):
+        along = apart * parts / apart.min()
+        if float(np.abs(along - np.round(along)).max()) < SAME_TICK:
+            return float(apart.min() / parts)
+    raise NotConvergedError("samples are apart by no whole number of steps")
+
+
 def finer(course: InputCourse) -> tuple[InputCourse, Int[np.ndarray, " s"]]:
     """Steps of at most `COARSEST`, evenly apart also where rows were lost; and which of them are the course's."""
-    step = float(np.diff(course.time).min())
+    step = tick(course.time)
     h = step / np.ceil(step / COARSEST - 1e-6)
     rows = np.round((course.time - course.time[0]) / h).astype(int)
     path = through(course.time, course.position, course.duration, course.phase, course.setting)
@@ -199,6 +211,7 @@ def shoulder(support: pd.DataFrame) -> SyntheticSystem:
         loads=(FORCE,),
         normal=(FORCE,),
         spare=INPUTS[1:],
+        lengths=("L_h", "o_x", "o_y", "l_c"),
         passed_on=partial(passed_on, table=table),
         fine=4,
     )

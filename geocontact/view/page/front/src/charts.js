@@ -1,51 +1,65 @@
 // Curves over time with a cursor, and the strip that shows how much the threshold matters.
 import { axes, band, path } from "./axes.js";
+import { colour, dash, sample } from "./strokes.js";
 import { html, svg } from "./svg.js";
 import { brief, course, extent } from "./ticks.js";
 
-// colours of Okabe and Ito (darker or lighter for contrast); the first eight curves differ without them, forty with
-const COLOURS = 5;
-const DASHES = ["", "7 3", "2 3", "9 3 2 3", "16 4", "1 7", "9 3 2 3 2 3", "16 4 5 4"];
-const colour = (k) => `c${k % COLOURS}`;
-const dash = (k) => DASHES[k % DASHES.length];
-
-/** Line sample for a legend: the same class as the line. */
-const sample = (k) =>
-  svg("svg", { class: "sample", viewBox: "0 0 40 8", "aria-hidden": "true" }, svg("path", { class: `line ${colour(k)}`, d: "M1 4H39", "stroke-dasharray": dash(k) }));
+/** Measured values are open marks in ink: circle, square, triangle. */
+const MARKS = ["M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0", "M-3.5-3.5h7v7h-7z", "M0-4.5L4.2 3.2h-8.4z"];
+const mark = (k, x, y) => svg("path", { class: "mark", d: MARKS[k % MARKS.length], transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
+const markSample = (k) => svg("svg", { class: "sample small", viewBox: "-8 -6 16 12", "aria-hidden": "true" }, mark(k, 0, 0));
 
 /** Panel of curves; `go(frame)` is called when the reader points at one. Returns what moves the cursor. */
-export function curves(figure, part, time, timeLabel, go) {
-  const all = part.curves.flatMap((c) => [...c.values, ...(c.lower ?? []), ...(c.upper ?? [])]);
+export function curves(figure, part, time, timeLabel, { go, plays }) {
+  const own = part.curves.flatMap((c) => [...c.values, ...(c.lower ?? []), ...(c.upper ?? [])]);
+  const all = [...own, ...part.points.flatMap((p) => p.values), ...part.limits.map((l) => l.value)];
   const values = part.curves.map(() => html("span", "value"));
   figure.append(
-    html("ul", "key", ...part.curves.map((c, k) => html("li", "", sample(k), html("bdi", "", c.name), values[k]))),
+    html(
+      "ul",
+      "key",
+      ...part.curves.map((c, k) => html("li", "", sample(k), html("bdi", "", c.name), values[k])),
+      ...part.points.map((p, k) => html("li", "", markSample(k), html("bdi", "", p.name))),
+    ),
   );
   let now = 0;
-  let plot = null;
-  axes(figure, {
-    x: course(time),
+  const plot = axes(figure, {
+    x: course([...time, ...part.points.flatMap((p) => p.time)], time),
     y: extent(all, part.unit),
     xLabel: timeLabel,
+    beside: part.beside,
+    height: figure.classList.contains("lead") ? () => Math.max(220, Math.min(340, 0.42 * window.innerHeight)) : () => 190,
     label: `${part.title}: ${part.curves.map((c) => describe(c, part.unit)).join("; ")}`,
     paint(p) {
-      plot = p;
       part.curves.forEach((c, k) => {
         if (c.lower && c.upper) p.frame.append(svg("path", { class: `band ${colour(k)}`, d: band(p, time, c.lower, c.upper) }));
       });
       part.curves.forEach((c, k) =>
         p.frame.append(svg("path", { class: `line ${colour(k)}`, d: path(p, time, c.values), "stroke-dasharray": dash(k) })),
       );
+      for (const { name, value } of part.limits) {
+        p.frame.append(svg("line", { class: "limit", x1: p.left, x2: p.right, y1: p.y(value), y2: p.y(value) }));
+        p.frame.append(svg("text", { class: "tick limit", x: p.right - 4, y: p.y(value) - 5, "text-anchor": "end" }, name));
+      }
+      part.points.forEach(({ time: at, values: known }, k) => {
+        known.forEach((value, i) => value !== null && p.frame.append(mark(k, p.x(at[i]), p.y(value))));
+      });
       p.cursor = svg("line", { class: "cursor", y1: p.top, y2: p.bottom });
       p.dots = part.curves.map((_, k) => svg("circle", { class: `dot ${colour(k)}`, r: 4 }));
       p.frame.append(p.cursor, ...p.dots);
-      move(now);
+      place(p);
     },
   });
 
   function move(frame) {
     now = frame;
     part.curves.forEach((c, k) => (values[k].textContent = brief(c.values[frame])));
-    if (!plot?.cursor) return;
+    place(plot);
+  }
+
+  function place(plot) {
+    if (!plot.cursor) return; // not drawn yet
+    const frame = now;
     const at = plot.x(time[frame]);
     plot.cursor.setAttribute("x1", at);
     plot.cursor.setAttribute("x2", at);
@@ -61,7 +75,7 @@ export function curves(figure, part, time, timeLabel, go) {
   const point = (event) => go(nearest(time, plot.at(event.clientX - plot.frame.getBoundingClientRect().left)));
   plot.frame.classList.add("clickable");
   plot.frame.addEventListener("pointerdown", point);
-  plot.frame.addEventListener("pointermove", (event) => event.buttons && point(event));
+  plot.frame.addEventListener("pointermove", (event) => (event.buttons || !plays) && point(event));
   return move;
 }
 
@@ -78,29 +92,29 @@ function nearest(time, value) {
 
 /** Strip over thresholds: envelope of all frames, this frame's line, the chosen threshold. */
 export function strip(figure, part) {
-  const { thresholds, values, current } = part;
+  const { thresholds, values } = part;
+  let { current } = part;
   const column = (k) => values.map((row) => row[k]).filter((value) => value !== null);
   const ends = (pick) => thresholds.map((_, k) => (column(k).length ? pick(...column(k)) : null));
   const [lower, upper] = [ends(Math.min), ends(Math.max)];
   const value = html("span", "value");
-  figure.append(html("p", "chosen", `chosen: ${brief(current)} mm `, value, html("span", "faint", "shaded: all frames")));
+  const chosenName = html("span", "");
+  figure.append(html("p", "chosen", "chosen: ", chosenName, " ", value, html("span", "faint", "shaded: all frames")));
   let now = 0;
-  let plot = null;
-  axes(figure, {
+  const plot = axes(figure, {
     x: [Math.min(0, thresholds[0]), thresholds.at(-1)],
     y: extent([...lower, ...upper, 0], part.unit),
     xLabel: "threshold [mm]",
-    height: 150,
-    label: `${part.title}: ${part.unit} against the threshold in mm; chosen ${current} mm`,
+    height: () => 150,
+    label: `${part.title}: ${part.unit} against the threshold in mm`,
     paint(p) {
-      plot = p;
       p.frame.append(svg("path", { class: "band c0", d: band(p, thresholds, lower, upper) }));
-      const at = p.x(current);
-      p.frame.append(svg("line", { class: "chosen", x1: at, x2: at, y1: p.top, y2: p.bottom }));
+      p.chosen = svg("line", { class: "chosen", y1: p.top, y2: p.bottom });
+      p.frame.append(p.chosen);
       p.line = svg("path", { class: "line c0" });
       p.dots = thresholds.map(() => svg("circle", { class: "dot c0", r: 3 }));
       p.frame.append(p.line, ...p.dots);
-      move(now);
+      place(p);
     },
   });
 
@@ -108,8 +122,16 @@ export function strip(figure, part) {
     now = frame;
     const row = values[frame];
     const chosen = thresholds.findIndex((threshold) => Math.abs(threshold - current) <= 1e-6 * Math.abs(current));
+    chosenName.textContent = `${brief(current)} mm`;
     value.textContent = chosen < 0 ? "" : `${brief(row[chosen])} ${part.unit}`;
-    if (!plot?.line) return;
+    place(plot);
+  }
+
+  function place(plot) {
+    if (!plot.line) return; // not drawn yet
+    const row = values[now];
+    plot.chosen.setAttribute("x1", plot.x(current));
+    plot.chosen.setAttribute("x2", plot.x(current));
     plot.line.setAttribute("d", path(plot, thresholds, row));
     plot.dots.forEach((dot, k) => {
       dot.setAttribute("visibility", row[k] === null ? "hidden" : "visible");
@@ -118,5 +140,9 @@ export function strip(figure, part) {
       dot.setAttribute("cy", plot.y(row[k]));
     });
   }
+  move.choose = (threshold) => {
+    current = threshold ?? part.current;
+    move(now);
+  };
   return move;
 }

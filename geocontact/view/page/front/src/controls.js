@@ -12,24 +12,34 @@ export function cursor(data) {
   const unit = /\[(.*)\]/.exec(data.timeLabel)?.[1] ?? "";
   const name = data.timeLabel.replace(/\s*\[.*\]/, "");
   const number = (k) => data.numbers?.[k] ?? k + 1; // in the whole motion, of which the page may hold a part
-  const words = (k) => `${name} ${brief(data.time[k], 6)} ${unit}, frame ${number(k)} of ${data.total}`;
+  const here = (k) => `${brief(data.time[k], 6)} ${unit}`.trim();
+  const words = (k) => `${name} ${here(k)}${data.plays ? `, frame ${number(k)} of ${data.total}` : ""}`;
 
   function go(wanted) {
     const next = Math.min(Math.max(Math.round(wanted), 0), last);
     if (next === frame) return;
     frame = next;
-    slider.value = frame;
-    slider.setAttribute("aria-valuetext", words(frame));
-    element("now").textContent = `${brief(data.time[frame], 6)} ${unit} · frame ${number(frame)}/${data.total}`;
+    if (slider) {
+      slider.value = frame;
+      slider.setAttribute("aria-valuetext", words(frame));
+      element("now").textContent = `${here(frame)} · frame ${number(frame)}/${data.total}`;
+    }
+    for (const place of document.querySelectorAll(".readout .now")) place.textContent = here(frame);
     for (const listen of listeners) listen(frame);
   }
-  slider.addEventListener("input", () => go(Number(slider.value)));
+  slider?.addEventListener("input", () => go(Number(slider.value)));
   return { go, words, last, listen: (f) => listeners.push(f), frame: () => frame };
 }
 
-/** Play and pause; one loop takes the chosen time whatever the number of frames. */
+const STILL = { toggle: () => {}, pause: () => {}, playing: () => false };
+
+/** Play and pause; one loop takes the chosen time whatever the number of frames. Some pages have nothing that runs. */
 export function player(time) {
   const button = element("play");
+  if (!button) {
+    time.listen(() => say(time, 500));
+    return STILL;
+  }
   let started = null;
   function tick(now) {
     if (started === null) return;
@@ -69,7 +79,8 @@ let waiting = 0;
 /** Tells a screen reader where the cursor stands once it rests there. */
 function say(time, delay) {
   clearTimeout(waiting);
-  waiting = setTimeout(() => (element("said").textContent = time.words(time.frame())), delay);
+  const place = element("said");
+  if (place) waiting = setTimeout(() => (place.textContent = time.words(time.frame())), delay);
 }
 
 /** Keys of the whole page; what has the focus keeps its own. */
@@ -89,7 +100,7 @@ export function keys(time, play, scene) {
 function action({ key, shiftKey }, presses, slides, time, play, scene) {
   const step = { ArrowLeft: -1, ArrowRight: 1 }[key];
   const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[key];
-  if (key === " " && !presses) return play.toggle;
+  if (key === " " && !presses && play !== STILL) return play.toggle;
   if (step && !shiftKey && !slides) {
     return () => {
       play.pause();

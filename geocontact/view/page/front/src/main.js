@@ -1,8 +1,12 @@
 // Starts the page: cursor first, then what follows it. Without WebGL the curves, tables and words still work.
 import { curves, strip } from "./charts.js";
+import { continues } from "./continues.js";
 import { cursor, keys, player } from "./controls.js";
+import { intervals } from "./intervals.js";
+import { names } from "./linkages.js";
 import { legend, scaleBar, triad } from "./overlays.js";
-import { quantitiesOf } from "./quantities.js";
+import { plan } from "./plan.js";
+import { boldFirst, quantitiesOf } from "./quantities.js";
 import { openScene } from "./scene.js";
 import { tools } from "./tools.js";
 
@@ -11,7 +15,12 @@ const state = (window.__geocontact = { ready: false, frame: 0 });
 
 function notice(text) {
   element("notice").textContent = text;
-  element("notice").hidden = false;
+  element("notice").hidden = !text;
+}
+
+/** Shows what belongs to a choice in place of what belongs to the others. */
+function show(choice) {
+  for (const part of document.querySelectorAll("[data-choice]")) part.hidden = Number(part.dataset.choice) !== choice;
 }
 
 function readout(panel, part) {
@@ -21,7 +30,8 @@ function readout(panel, part) {
 
 async function picture(data, time) {
   const canvas = element("canvas");
-  canvas.addEventListener("webglcontextlost", () => notice("The 3-D picture was lost (graphics driver); reload the page to get it back."));
+  canvas.addEventListener("webglcontextlost", () => notice("The 3-D picture was lost (graphics driver). It comes back by itself; if not, reload the page."));
+  canvas.addEventListener("webglcontextrestored", () => notice(""));
   const scene = await openScene(data.scene, canvas);
   scene.presets = data.scene.directions.length;
   const choices = quantitiesOf(data.scene);
@@ -29,15 +39,23 @@ async function picture(data, time) {
   const colour = () => {
     chosen = choices[Number(element("colours")?.value ?? 0)];
     scene.setQuantity(chosen);
-    legend(element("legend"), data.scene, chosen);
+    if (data.scene.bodies.length) legend(element("legend"), data.scene, chosen);
+    else names(element("legend"), data.scene);
   };
   element("colours")?.addEventListener("change", colour);
   colour();
   const overlays = [triad(element("triad"), data.scene, scene.view), scaleBar(element("scale"), scene.view)];
   for (const draw of overlays) scene.drawn(draw);
   const drawings = () => ({ legend: element("legend").firstChild, triad: element("triad").firstChild, scale: element("scale") });
-  tools(scene, drawings, () => [data.title, `${chosen.name} [${chosen.unit}], ${time.words(time.frame())}`]);
+  const meaning = () => (data.scene.bodies.length ? `${chosen.name} [${chosen.unit}], ` : "");
+  tools(scene, drawings, () => [data.title, meaning() + time.words(time.frame())]);
   time.listen(scene.show);
+  scene.choose = (threshold) => {
+    const thresholds = boldFirst(data.scene.thresholds, threshold);
+    choices.at(-1).thresholds = thresholds;
+    scene.setThresholds(thresholds);
+    colour();
+  };
   return scene;
 }
 
@@ -49,10 +67,13 @@ async function start() {
     play.pause();
     time.go(frame);
   };
-  const makers = { curves: (f, p) => curves(f, p, data.time, data.timeLabel, pointed), strip, readout };
-  for (const part of data.parts) time.listen(makers[part.kind](element(part.id), part));
+  const reading = { go: pointed, plays: data.plays };
+  const makers = { curves: (f, p) => curves(f, p, data.time, data.timeLabel, reading), strip, plan, intervals, readout };
+  const parts = data.parts.filter((part) => element(part.id)).map((part) => makers[part.kind](element(part.id), part));
+  for (const move of parts) time.listen(move);
   time.listen((frame) => (state.frame = frame));
-  element("timeline").hidden = element("keys").hidden = false;
+  for (const id of ["timeline", "keys", "choose"]) if (element(id)) element(id).hidden = false;
+  continues();
   let scene = null;
   if (data.scene) {
     try {
@@ -63,6 +84,11 @@ async function start() {
       state.problem = String(problem);
     }
   }
+  element("choice")?.addEventListener("input", ({ target }) => {
+    const choice = Number(target.value);
+    show(choice);
+    for (const one of [...parts, scene]) one?.choose?.(data.thresholds[choice]);
+  });
   keys(time, play, scene);
   time.go(data.start);
   scene?.draw();

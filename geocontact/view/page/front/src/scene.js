@@ -2,6 +2,7 @@
 import { Color, Group, LessEqualDepth, Matrix4, Mesh, Scene, Vector3, WebGLRenderer } from "three";
 import { cameraFor } from "./camera.js";
 import { geometryOf } from "./geometry.js";
+import { linkageOf } from "./linkages.js";
 import { materialOf, sharedUniforms, showQuantity } from "./material.js";
 import { unpack } from "./unpack.js";
 
@@ -19,8 +20,12 @@ export async function openScene(data, canvas) {
     bodies.push(await bodyOf(described, maps, shared, data, INSIDES[k % INSIDES.length]));
     world.add(bodies[k].group);
   }
+  const linkages = await Promise.all(data.linkages.map(linkageOf));
+  for (const each of linkages) world.add(each.group);
+  const moving = [...bodies, ...linkages];
   const reach = reachOf(bodies);
-  const view = cameraFor(data, canvas, reach, pointsOf(bodies));
+  for (const each of linkages) each.reach(reach);
+  const view = cameraFor(data, canvas, reach, [...pointsOf(bodies), ...linkages.flatMap((each) => each.some())]);
   let waiting = 0;
   let shown = -1;
   const listeners = [];
@@ -45,6 +50,7 @@ export async function openScene(data, canvas) {
   new ResizeObserver(fit).observe(canvas.parentElement);
   view.changed(later);
   window.addEventListener("beforeprint", draw);
+  canvas.addEventListener("webglcontextrestored", fit); // the renderer has put its programs and arrays back by then
 
   const scene = {
     view,
@@ -56,7 +62,7 @@ export async function openScene(data, canvas) {
     show(frame) {
       if (frame === shown) return;
       shown = frame;
-      for (const body of bodies) body.show(frame);
+      for (const each of moving) each.show(frame);
       later();
     },
     setQuantity(quantity) {
@@ -64,8 +70,13 @@ export async function openScene(data, canvas) {
       for (const body of bodies) body.setMap(quantity.map, shown);
       later();
     },
+    /** Which contour is bold: the first. */
+    setThresholds(thresholds) {
+      shared.thresholds.value = thresholds;
+      later();
+    },
     setVisible(k, visible) {
-      bodies[k].group.visible = visible;
+      moving[k].group.visible = visible;
       later();
     },
     setOpacity(k, opacity) {

@@ -22,9 +22,9 @@ export function ticks(lower, upper, count) {
 export const brief = (value, digits = 4) =>
   value === null || value === undefined || !Number.isFinite(value) ? "–" : String(Number(value.toPrecision(digits))).replace("-", "−");
 
-/** Ends of a time axis: it runs the way time does, also down, and holds times that come back. */
-export function course(time) {
-  const ends = [Math.min(...time), Math.max(...time)];
+/** Ends of a time axis that holds `values`: it runs the way time does, also down, and holds times that come back. */
+export function course(values, time = values) {
+  const ends = [Math.min(...values), Math.max(...values)];
   return time[0] > time.at(-1) ? ends.reverse() : ends;
 }
 

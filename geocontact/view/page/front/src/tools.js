@@ -11,6 +11,16 @@ export function tools(scene, overlays, caption) {
   element("reset").addEventListener("click", scene.view.reset);
   element("png").addEventListener("click", () => savePicture(scene, overlays(), caption(), "picture.png"));
 
+  if (element("cut")) sections(scene);
+  element("more").open = !window.matchMedia("(max-width: 860px)").matches;
+  element("tools").hidden = false;
+  element("tools").addEventListener("focusin", ({ target }) => {
+    // browsers leave what is seen in part where it is; the row of views is wider than a phone
+    if (target.matches(":focus-visible")) target.scrollIntoView({ block: "nearest", inline: "nearest" });
+  });
+}
+
+function sections(scene) {
   const [axis, at, other] = ["cut", "cut-at", "cut-flip"].map(element);
   let flipped = false;
   const cut = () => {
@@ -25,11 +35,5 @@ export function tools(scene, overlays, caption) {
   other.addEventListener("click", () => {
     flipped = !flipped;
     cut();
-  });
-  element("more").open = !window.matchMedia("(max-width: 860px)").matches;
-  element("tools").hidden = false;
-  element("tools").addEventListener("focusin", ({ target }) => {
-    // browsers leave what is seen in part where it is; the row of views is wider than a phone
-    if (target.matches(":focus-visible")) target.scrollIntoView({ block: "nearest", inline: "nearest" });
   });
 }

@@ -1,0 +1,86 @@
+"""What sits a little elsewhere in every trial: constants, zeros of inputs, gains and zeros of outputs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.gap_benchmark.synthetic.course import InputCourse
+
+Outputs = Float[np.ndarray, "c t"]
+
+
+@dataclass(frozen=True)
+class Placement:
+    """How far things are off in one trial; or, for all trials of a case, by how much on average (standard deviation).
+
+    Parameters
+    ----------
+    constants
+        What is added to a constant, by name.
+    inputs
+        What the true motion is ahead of what is measured, by row.
+    gains, zeros
+        Of outputs, by row: measured is (1 + gain) true + zero.
+    """
+
+    constants: Mapping[str, float] = field(default_factory=dict)
+    inputs: Mapping[int, float] = field(default_factory=dict)
+    gains: Mapping[int, float] = field(default_factory=dict)
+    zeros: Mapping[int, float] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return sum(len(one) for one in self._parts.values())
+
+    def drawn(self, rng: np.random.Generator) -> Placement:
+        """Of one trial, these being standard deviations."""
+        return self.times(rng.standard_normal(len(self)))
+
+    def each(self) -> Iterator[Placement]:
+        """Every single deviation alone."""
+        yield from (self.times(one) for one in np.eye(len(self)))
+
+    def opposite(self) -> Placement:
+        """As far to the other side."""
+        return self.times(np.full(len(self), -1.0))
+
+    def moved(self, course: InputCourse) -> InputCourse:
+        """The true motion."""
+        if not self.inputs:
+            return course
+        position = course.position.copy()
+        for row, by in self.inputs.items():
+            position[row] += by
+        return replace(course, position=position)
+
+    def shifted(self, constants: Mapping[str, float]) -> Mapping[str, float]:
+        """The true constants."""
+        return {**constants, **{name: constants[name] + by for name, by in self.constants.items()}}
+
+    def measured(self, outputs: Outputs) -> Outputs:
+        """What the sensors give for the true outputs."""
+        out = outputs.copy()
+        for row, gain in self.gains.items():
+            out[row] *= 1.0 + gain
+        for row, by in self.zeros.items():
+            out[row] += by
+        return out
+
+    def times(self, factors: Float[np.ndarray, " q"]) -> Placement:
+        """Each multiplied by a factor, in the order of the fields."""
+        left = iter(factors.tolist())
+        return Placement(
+            **{part: {key: by * next(left) for key, by in one.items()} for part, one in self._parts.items()}
+        )
+
+    @property
+    def _parts(self) -> dict[str, Mapping[Any, float]]:
+        return {"constants": self.constants, "inputs": self.inputs, "gains": self.gains, "zeros": self.zeros}
+
+
+IN_PLACE = Placement()
+"""Nothing is off."""

@@ -1,0 +1,82 @@
+"""A laboratory with another recorder: coarse numbers, noise that is 1/f, grows or has heavy tails, another clock."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from geocontact.gap_benchmark.synthetic.equipment.clock import Clock
+from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
+from geocontact.gap_benchmark.synthetic.equipment.recorder import Quotient, Recorder
+from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import Sizes, another_device, sampled, sizes
+from geocontact.gap_benchmark.synthetic.laboratories.paced import Pace, paced
+from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, USUAL, LowPass
+from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
+
+SLOWEST, FASTEST = 25.0, 1000.0
+"""Samples per second."""
+MOST, MOST_OF_ALL = 1100, 2200
+"""Samples of a channel, and of all outputs, in a trial; a trial has no more, since whole covariances are inverted."""
+QUICKEST = {"elbow": 10.0, "shoulder": 1.4}
+"""How much quicker than at home a device may move, so that a high rate does not make too many samples."""
+COARSEST, FINEST = 2.0, 0.05
+"""Step of an output's numbers, in standard deviations of its noise."""
+COARSEST_INPUT = 1.0
+"""The same of an input."""
+SORTS = ("pink", "growing", "tailed")
+CLOCKS = (
+    Clock(losing=0.0),
+    Clock(uneven=0.3, losing=0.0),
+    Clock(losing=1.0, alone=0.05, longest=12),
+)
+TAILS = 4.0
+"""Degrees of freedom."""
+QUARTER = 0.25
+"""Share of the largest divisor at which a quotient has the noise that is stated."""
+
+
+def recorder_laboratory(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
+    """The scene, recorded in another way."""
+    scene = at_another_rate(rng, another_device(rng, scene))
+    size, sort = sizes(rng, scene), str(rng.choice(SORTS))
+    noise = tuple(_noise(rng, sort, one.sd) for one in scene.noise)
+    recorder = Recorder(
+        _growth(rng, scene, size) if sort == "growing" else {},
+        {row: Quotient(by, QUARTER * float(size.largest[by])) for row, by in scene.body.quotients.items()},
+        {row: one.sd * _step(rng, COARSEST) for row, one in enumerate(noise)},
+        {row: float(sd) * _step(rng, COARSEST_INPUT) for row, sd in enumerate(scene.input_noise) if sd},
+    )
+    laboratory = replace(scene.laboratory, recorder=recorder, clock=CLOCKS[rng.integers(len(CLOCKS))])
+    return sampled(rng, replace(scene, noise=noise, laboratory=laboratory))
+
+
+def at_another_rate(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
+    """The scene at 25 to 1000 samples per second, as far as a trial has room; what nobody filtered is filtered now."""
+    quicker = float(np.exp(rng.uniform(0.0, np.log(QUICKEST.get(scene.system, 1.0)))))
+    scene = paced(scene, lambda _, duration: Pace.even(duration, quicker))
+    duration = scene.path(rng, 0)(np.zeros(1)).duration
+    most = min(MOST, MOST_OF_ALL / len(scene.outputs)) / (1.15 * duration)
+    rate = float(np.exp(rng.uniform(np.log(SLOWEST), np.log(min(FASTEST, most)))))
+    highest = FAR_FROM_NYQUIST * rate
+    white = 0.5 / scene.step
+    filters = tuple(
+        LowPass(min(USUAL if one.corner >= white else one.corner, highest), one.order) for one in scene.filters
+    )
+    return replace(scene, step=1.0 / rate, filters=filters)
+
+
+def _noise(rng: Rng, sort: str, sd: float) -> PowerLawNoise:
+    sd = sd * rng.uniform(0.7, 1.4)
+    if sort == "pink":
+        return PowerLawNoise(sd, rng.uniform(0.7, 1.2), float(np.exp(rng.uniform(np.log(0.5), np.log(5.0)))), 0.3)
+    return PowerLawNoise(sd, 0.0 if rng.random() < 0.5 else 0.5, freedom=TAILS if sort == "tailed" else np.inf)
+
+
+def _growth(rng: Rng, scene: SyntheticScene, size: Sizes) -> dict[int, float]:
+    rows = [row for row in range(len(scene.outputs)) if row not in scene.body.quotients]
+    return {row: float(np.exp(rng.uniform(np.log(0.5), np.log(3.0)))) / float(size.largest[row]) for row in rows}
+
+
+def _step(rng: Rng, coarsest: float) -> float:
+    return float(np.exp(rng.uniform(np.log(FINEST), np.log(coarsest))))

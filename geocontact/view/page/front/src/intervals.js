@@ -1,0 +1,53 @@
+// Numbers with whiskers, or as bars, one below the other on one axis. Names stand above them where room is scarce.
+import { html, svg } from "./svg.js";
+import { brief, extent, ticks } from "./ticks.js";
+
+const [RIGHT, BOTTOM, NARROW] = [16, 34, 560];
+
+/** Puts the rows into `figure`. Nothing moves. */
+export function intervals(figure, part) {
+  const rows = part.intervals;
+  const frame = svg("svg", { role: "img", "aria-label": `${part.title}: ${rows.map((row) => words(row, part.unit)).join("; ")}` });
+  const room = html("div", "plot", frame);
+  figure.append(room);
+  const [lower, upper] = extent([...rows.flatMap((r) => [r.value, r.lower, r.upper]), ...(part.bars ? [0] : [])], part.unit);
+
+  function redraw() {
+    const width = room.clientWidth;
+    if (!width) return;
+    const narrow = width < NARROW;
+    const left = narrow ? 12 : 24 + 6.6 * Math.min(44, Math.max(...rows.map((row) => row.name.length)));
+    const high = narrow ? 42 : 28;
+    const bottom = 6 + high * rows.length;
+    const x = (value) => left + ((value - lower) / (upper - lower)) * (width - left - RIGHT);
+    frame.setAttribute("viewBox", `0 0 ${width} ${bottom + BOTTOM}`);
+    frame.setAttribute("height", bottom + BOTTOM);
+    frame.replaceChildren();
+    for (const value of ticks(lower, upper, (width - left) / 80)) {
+      frame.append(svg("line", { class: value === 0 ? "zero" : "grid", x1: x(value), x2: x(value), y1: 6, y2: bottom }));
+      frame.append(svg("text", { class: "tick", x: x(value), y: bottom + 15, "text-anchor": "middle" }, brief(value)));
+    }
+    frame.append(svg("text", { class: "axis", x: 0.5 * (left + width - RIGHT), y: bottom + 30, "text-anchor": "middle" }, part.unit));
+    rows.forEach((row, k) => {
+      const y = 6 + high * (k + (narrow ? 0.7 : 0.5));
+      const place = narrow ? { x: left, y: y - 13 } : { x: left - 12, y: y + 4, "text-anchor": "end" };
+      frame.append(svg("text", { class: "label", ...place }, narrow ? words(row, "") : row.name));
+      if (part.bars && row.value !== null) {
+        const [from, to] = [x(Math.min(0, row.value)), x(Math.max(0, row.value))];
+        frame.append(svg("rect", { class: "bar c0", x: from, y: y - 6, width: to - from, height: 12 }));
+      }
+      if (row.lower !== null && row.upper !== null) {
+        const [a, b] = [x(row.lower), x(row.upper)];
+        frame.append(svg("path", { class: `line whisker ${part.bars ? "c4" : "c0"}`, d: `M${a} ${y - 5}V${y + 5}M${a} ${y}H${b}M${b} ${y - 5}V${y + 5}` }));
+      }
+      if (!part.bars && row.value !== null) frame.append(svg("circle", { class: "dot c0", cx: x(row.value), cy: y, r: 5 }));
+      frame.append(svg("title", {}, words(row, part.unit)));
+    });
+  }
+  new ResizeObserver(redraw).observe(room);
+  redraw();
+  return () => {};
+}
+
+const words = ({ name, value, lower, upper }, unit) =>
+  `${name}: ${brief(value)}${lower === null || upper === null ? "" : ` (${brief(lower)} … ${brief(upper)})`} ${unit}`.trim();

@@ -1,0 +1,88 @@
+// A drawing to scale: outlines, tracks with the point of the frame shown, named marks. Redrawn at the size it has.
+import { path } from "./axes.js";
+import { colour, dash, sample } from "./strokes.js";
+import { html, svg } from "./svg.js";
+import { brief, extent, ticks } from "./ticks.js";
+
+const [LEFT, RIGHT, TOP, BOTTOM] = [44, 14, 8, 34];
+
+/** Puts the plan into `figure`; returns what moves its points. */
+export function plan(figure, part) {
+  const { tracks, marks, lines } = part;
+  const values = tracks.map(() => html("span", "value"));
+  if (tracks.length) {
+    figure.append(html("ul", "key", ...tracks.map((t, k) => html("li", "", sample(k), html("bdi", "", t.name), values[k]))));
+  }
+  const frame = svg("svg", { role: "img", "aria-label": `${part.title}: ${part.across} and ${part.up} in ${part.unit}` });
+  const room = html("div", "plot", frame);
+  figure.append(room);
+  const all = (i) => [...lines.flatMap((l) => l[i]), ...tracks.flatMap((t) => (i ? t.y : t.x)), ...marks.map((m) => m.at[i])];
+  const reach = [0, 1].map((i) => span(all(i)));
+  let now = 0;
+  let dots = [];
+  let plot = null;
+
+  function redraw() {
+    const width = room.clientWidth;
+    if (!width) return;
+    const most = figure.classList.contains("lead") ? 0.5 * window.innerHeight : 320;
+    const [wide, high] = reach.map(([lower, upper]) => upper - lower);
+    const scale = Math.min((width - LEFT - RIGHT) / wide, (most - TOP - BOTTOM) / high);
+    const tall = TOP + BOTTOM + scale * high;
+    const start = LEFT + 0.5 * (width - LEFT - RIGHT - scale * wide);
+    plot = { x: (v) => start + (v - reach[0][0]) * scale, y: (v) => TOP + (reach[1][1] - v) * scale };
+    frame.setAttribute("viewBox", `0 0 ${width} ${tall}`);
+    frame.setAttribute("height", tall);
+    frame.replaceChildren();
+    const [left, right, bottom] = [start, start + scale * wide, TOP + scale * high];
+    for (const value of ticks(...reach[0], (scale * wide) / 70)) {
+      const at = plot.x(value);
+      frame.append(svg("line", { class: "grid", x1: at, x2: at, y1: TOP, y2: bottom }));
+      frame.append(svg("text", { class: "tick", x: at, y: bottom + 14, "text-anchor": "middle" }, brief(value)));
+    }
+    for (const value of ticks(...reach[1], (scale * high) / 50)) {
+      const at = plot.y(value);
+      frame.append(svg("line", { class: "grid", x1: left, x2: right, y1: at, y2: at }));
+      frame.append(svg("text", { class: "tick", x: left - 6, y: at + 3.5, "text-anchor": "end" }, brief(value)));
+    }
+    frame.append(svg("text", { class: "axis", x: 0.5 * (left + right), y: tall - 4, "text-anchor": "middle" }, `${part.across} [${part.unit}]`));
+    const aside = `rotate(-90 12 ${0.5 * (TOP + bottom)})`;
+    frame.append(svg("text", { class: "axis", x: 12 + start - LEFT, y: 0.5 * (TOP + bottom), "text-anchor": "middle", transform: aside.replace("12", 12 + start - LEFT) }, `${part.up} [${part.unit}]`));
+    const outline = lines.map(([xs, ys]) => path(plot, xs, ys)).join("");
+    frame.append(svg("path", { class: "outline", d: outline }));
+    tracks.forEach((t, k) => frame.append(svg("path", { class: `line ${colour(k)}`, d: path(plot, t.x, t.y), "stroke-dasharray": dash(k) })));
+    for (const { name, at } of marks) {
+      frame.append(svg("circle", { class: "mark", cx: plot.x(at[0]), cy: plot.y(at[1]), r: 3.5 }));
+      frame.append(svg("text", { class: "tick", x: plot.x(at[0]) + 7, y: plot.y(at[1]) - 5 }, name));
+    }
+    dots = tracks.map((_, k) => svg("circle", { class: `dot ${colour(k)}`, r: 5 }));
+    frame.append(...dots);
+    move(now);
+  }
+
+  function move(at) {
+    now = at;
+    tracks.forEach((t, k) => {
+      const known = t.x[at] !== null && t.y[at] !== null;
+      values[k].textContent = known ? `${brief(t.x[at])}, ${brief(t.y[at])}` : "–";
+      if (!dots[k]) return;
+      dots[k].setAttribute("visibility", known ? "visible" : "hidden");
+      if (!known) return;
+      dots[k].setAttribute("cx", plot.x(t.x[at]));
+      dots[k].setAttribute("cy", plot.y(t.y[at]));
+    });
+  }
+
+  new ResizeObserver(redraw).observe(room);
+  redraw();
+  return move;
+}
+
+/** Ends of an axis with some room; not stretched to zero as those of curves are. */
+function span(values) {
+  const known = values.filter((value) => value !== null);
+  if (!known.length) return extent([]);
+  const [lower, upper] = [Math.min(...known), Math.max(...known)];
+  const room = 0.04 * (upper - lower) || 1;
+  return [lower - room, upper + room];
+}

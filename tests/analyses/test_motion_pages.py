@@ -1,0 +1,86 @@
+"""What the pages of `ik` and `id` show: the skeleton with markers and forces, right and left together."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from geocontact.analyses.motion.panels import panels_of
+from geocontact.analyses.motion.sides import stem_and_side
+from geocontact.analyses.motion.skeleton import forces_on, markers_beside, scene_of, skeleton
+from geocontact.data.multibody.joint_kinds import gimbal, revolute
+from geocontact.data.multibody.model import GROUND, Multibody
+from geocontact.data.wrench import Wrench
+from geocontact.view.page.content import Curves, Scale
+from tests import legs
+
+
+def lengths(points: np.ndarray, lines: np.ndarray) -> np.ndarray:
+    return np.linalg.norm(points[:, lines[:, 0]] - points[:, lines[:, 1]], axis=2)
+
+
+def test_segments_run_from_joint_to_joint_and_keep_their_length(tmp_path: Path) -> None:
+    """Pelvis to hip, thigh, shank, and the foot to its farthest marker, whatever the pose."""
+    _, model, _, values = legs.planted(tmp_path)
+    bones = skeleton(model, values)
+    found = lengths(bones.points, bones.lines)
+    far = max(np.linalg.norm(m.location) for m in model.markers if m.body == "foot_r")
+    np.testing.assert_allclose(found, np.broadcast_to([np.hypot(0.1, 0.1), 0.4, 0.4, far], found.shape), atol=1e-12)
+    poses = model.poses(values)
+    np.testing.assert_allclose(bones.points[:, 2], poses["tibia_r"].translation, atol=1e-12)
+    values[3, 4] = np.nan
+    gone = skeleton(model, values).known
+    assert not gone[3].any() and gone[[2, 4]].all()
+
+
+def test_markers_stand_beside_those_of_the_model(tmp_path: Path) -> None:
+    _, model, _, values = legs.planted(tmp_path)
+    modelled = model.marker_places(values)
+    seen = modelled + np.array([0.0, 0.0, 0.01])
+    seen[5, 2] = np.nan
+    measured, own, between = markers_beside(seen, modelled)
+    assert (measured.tone, own.tone) == ("seen", "model") and not measured.known[5, 2]
+    np.testing.assert_allclose(lengths(between.points, between.lines)[6], 0.01, atol=1e-12)
+    scene = scene_of(model, [measured, own])
+    assert scene.linkages[0].name.startswith("floor") and scene.linkages[0].points[..., 1].max() == 0.0
+
+
+def test_a_force_is_drawn_from_its_centre_of_pressure(tmp_path: Path) -> None:
+    """600 N upwards 0.2 m ahead, 0.6 m long; none in the frame with 5 N."""
+    _, model, _, _ = legs.planted(tmp_path)
+    force = np.array([[0.0, 600.0, 0.0], [0.0, 5.0, 0.0]])
+    moment = np.cross([0.2, 0.0, 0.0], force)
+    (ray,) = forces_on(model, {"foot_r": Wrench(force, moment, np.zeros((2, 3)), "ground")}, np.arange(2))
+    np.testing.assert_allclose(ray.points[0], [[0.2, 0.0, 0.0], [0.2, 0.6, 0.0]], atol=1e-12)
+    assert not ray.known[1].any() and forces_on(model, {}, np.arange(2)) == []
+
+
+def test_right_and_left_share_a_panel() -> None:
+    """Knees side by side, the right one first and in the first colour; the back's three angles together."""
+    axis = np.array([0.0, 0.0, 1.0])
+    joints = [gimbal("back", GROUND, "torso"), *(revolute(f"knee_{s}", "torso", f"shank_{s}", axis) for s in "lr")]
+    model = Multibody("two knees", (), tuple(joints), (), np.zeros(3))
+    values = np.arange(10.0).reshape(2, 5)
+    back, knees = panels_of(model, "N m", values, np.ones(5, bool), Scale("N m/kg", 0.5))
+    assert isinstance(back, Curves) and isinstance(knees, Curves)
+    assert (back.title, [c.name for c in back.curves]) == ("back", ["back_rx", "back_ry", "back_rz"])
+    assert (knees.title, [c.name for c in knees.curves]) == ("knee", ["knee_r", "knee_l"])
+    np.testing.assert_array_equal(knees.curves[0].values, [4.0, 9.0])
+    (alone,) = panels_of(model, "N m", values, np.arange(5) == 4)
+    assert isinstance(alone, Curves) and alone.title == "knee_r"
+
+
+@pytest.mark.parametrize(
+    ("name", "stem", "side"),
+    [
+        ("hip_flexion_r", "hip_flexion", "right"),
+        ("knee_left", "knee", "left"),
+        ("l_elbow", "elbow", "left"),
+        ("pelvis_tilt", "pelvis_tilt", ""),
+        ("r", "r", ""),
+    ],
+)
+def test_sides_of_names(name: str, stem: str, side: str) -> None:
+    assert stem_and_side(name) == (stem, side)
