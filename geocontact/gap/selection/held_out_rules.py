@@ -32,7 +32,7 @@ BLOCKS = 16  # per trial
 SURE = 0.975  # one-sided
 HALF = 0.5  # amplitude below which a change makes the error larger
 NOTHING = 1e-12  # of the squared residual, below which a prediction is not changed
-HARM = 0.02  # of a channel's squared error, that it may grow by without being called worse
+HARM = 0.02  # of a channel's squared error, that it may grow by without being called worse; within its floor by more
 SMALL = 0.01  # of a channel's signal, that a gap must exceed: about what its calibration varies by
 FEW = 0.02  # of the samples, that no verdict may hang on
 ENOUGH = 6.0  # nats that the others must gain
@@ -152,16 +152,14 @@ class HeldOutRules:
         system = problem.system.as_measured()
         whiten = [Plain(there, problem.floor) for there in first.present]
         model = refit(system, first, whiten, [problem.plain.values], 20)
-        outputs = [np.where(there, o, 0.0) for o, there in zip(whole.outputs, whole.present, strict=True)][count:]
-        squares = sum((o**2).sum(axis=0) for o in outputs)
-        counts = sum(there.sum(axis=0) for there in whole.present[count:])
         before = whole.residuals(system, model.values)[count:]
+        signal = np.sqrt(mean_squares(whole.outputs[count:], whole.present[count:]))
         varies = base.noise.varies
         weights = tuple(
             TrialWeight.of(there, problem.floor, varied * varies)
             for there, varied in zip(whole.present[count:], problem.varied(base.model.jacobian)[count:], strict=True)
         )
-        return cls(problem, base, before, np.sqrt(squares / np.maximum(counts, 1)), weights)
+        return cls(problem, base, before, signal, weights)
 
     @property
     def present(self) -> tuple[Bool[np.ndarray, "_ c"], ...]:
@@ -185,10 +183,16 @@ class HeldOutRules:
         whole = amplitude(before, moved)
         if whole is None or not whole.better:
             return f"held-out trials are not surely predicted better{'' if whole is None else f' ({whole.words})'}"
+        old, new = (mean_squares(parts, self.present) for parts in (self.before, after))
+        floor = self.problem.floor**2
+        if (new / floor).sum() >= (old / floor).sum():
+            return "the error on held-out trials grows"
         for c, name in enumerate(self.problem.system.outputs):
             own = amplitude([b[:, c : c + 1] for b in before], [m[:, c : c + 1] for m in moved])
-            if own is not None and own.worse:
-                return f"{name} of held-out trials is predicted worse ({own.words})"
+            grown = new[c] > max((1.0 + HARM) * old[c], floor[c])
+            if grown or (own is not None and own.worse):
+                words = "" if own is None else f" ({own.words})"
+                return f"{name} of held-out trials is predicted worse{words}"
         return "" if self.large(change) else TOO_SMALL
 
     def _weighed(self, parts: Sequence[Float[np.ndarray, "_ c"]]) -> list[Float[np.ndarray, "_ c"]]:
@@ -206,9 +210,7 @@ class HeldOutRules:
 
     def large(self, change: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
         """Whether a change of the prediction of the held-out trials is worth speaking of in some channel."""
-        squares = sum(np.where(there, m**2, 0.0).sum(axis=0) for m, there in zip(change, self.present, strict=True))
-        counts = sum(there.sum(axis=0) for there in self.present)
-        return bool((np.sqrt(squares / np.maximum(counts, 1)) > SMALL * self.signal).any())
+        return bool((np.sqrt(mean_squares(change, self.present)) > SMALL * self.signal).any())
 
     def unnamed(self, found: Surrogate, before: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
         """Whether something without a name predicts held-out trials better, as the calibration trials tell it.
@@ -219,6 +221,14 @@ class HeldOutRules:
         change = found.by_calibration[count:]
         whole = amplitude(self._weighed(before[count:]), self._weighed(change))
         return whole is not None and whole.better and self.large(change)
+
+
+def mean_squares(
+    values: Sequence[Float[np.ndarray, "_ c"]], present: Sequence[Bool[np.ndarray, "_ c"]]
+) -> Float[np.ndarray, " c"]:
+    """Of each channel where it was measured; 0 where it never was."""
+    squares = sum(np.where(there, v**2, 0.0).sum(axis=0) for v, there in zip(values, present, strict=True))
+    return np.asarray(squares / np.maximum(sum(there.sum(axis=0) for there in present), 1))
 
 
 def trimmed(gains: Float[np.ndarray, " n"]) -> float:
