@@ -135,7 +135,7 @@ class HeldOutRules:
     signal
         Root mean square of each measured channel on the held-out trials.
     weights
-        Of the held-out trials.
+        Of all trials.
     """
 
     problem: Problem
@@ -157,7 +157,7 @@ class HeldOutRules:
         varies = base.noise.varies
         weights = tuple(
             TrialWeight.of(there, problem.floor, varied * varies)
-            for there, varied in zip(whole.present[count:], problem.varied(base.model.jacobian)[count:], strict=True)
+            for there, varied in zip(whole.present, problem.varied(base.model.jacobian), strict=True)
         )
         return cls(problem, base, before, signal, weights)
 
@@ -175,25 +175,26 @@ class HeldOutRules:
             return ""
         model, count = one.judged.model, len(self.problem.calibration.trials)
         after = self.problem.recorded.residuals(model.system.as_measured(), model.values)[count:]
-        return self._of_prediction(after) or self._of_few(one.judged)
+        return self._of_prediction(one.judged, after) or self._of_few(one.judged)
 
-    def _of_prediction(self, after: list[Float[np.ndarray, "_ c"]]) -> str:
-        change = [b - a for b, a in zip(self.before, after, strict=True)]
-        before, moved = self._weighed(self.before), self._weighed(change)
-        whole = amplitude(before, moved)
+    def _of_prediction(self, one: Judged, after: list[Float[np.ndarray, "_ c"]]) -> str:
+        before, rest = (left_out_residuals(self.problem, each, one.noise) for each in (self.base, one))
+        change = self._weighed([b - a for b, a in zip(before, rest, strict=True)])
+        before = self._weighed(before)
+        whole = amplitude(before, change)
         if whole is None or not whole.better:
-            return f"held-out trials are not surely predicted better{'' if whole is None else f' ({whole.words})'}"
+            return f"trials left out are not surely predicted better{'' if whole is None else f' ({whole.words})'}"
         old, new = (mean_squares(parts, self.present) for parts in (self.before, after))
         floor = self.problem.floor**2
         if (new / floor).sum() >= (old / floor).sum():
             return "the error on held-out trials grows"
         for c, name in enumerate(self.problem.system.outputs):
-            own = amplitude([b[:, c : c + 1] for b in before], [m[:, c : c + 1] for m in moved])
+            own = amplitude([b[:, c : c + 1] for b in before], [m[:, c : c + 1] for m in change])
             grown = new[c] > max((1.0 + HARM) * old[c], floor[c])
             if grown or (own is not None and own.worse):
                 words = "" if own is None else f" ({own.words})"
-                return f"{name} of held-out trials is predicted worse{words}"
-        return "" if self.large(change) else TOO_SMALL
+                return f"{name} is predicted worse{words}"
+        return "" if self.large([b - a for b, a in zip(self.before, after, strict=True)]) else TOO_SMALL
 
     def _weighed(self, parts: Sequence[Float[np.ndarray, "_ c"]]) -> list[Float[np.ndarray, "_ c"]]:
         return [weight(part) for weight, part in zip(self.weights, parts, strict=True)]
@@ -219,8 +220,27 @@ class HeldOutRules:
         """
         count = len(self.problem.calibration.trials)
         change = found.by_calibration[count:]
-        whole = amplitude(self._weighed(before[count:]), self._weighed(change))
+        pairs = zip(self.weights[count:], before[count:], change, strict=True)
+        both = [(weight(b), weight(m)) for weight, b, m in pairs]
+        whole = amplitude([b for b, _ in both], [m for _, m in both])
         return whole is not None and whole.better and self.large(change)
+
+
+def left_out_residuals(problem: Problem, one: Judged, noise: Noise) -> list[Float[np.ndarray, "_ c"]]:
+    """Of every trial, predicted from all others: one Gauss-Newton step without it (`gap.reduction.leave_one_out`)."""
+    whitenings = problem.whitenings(noise, one.model)
+    spread = prior_spread(one.model.system, one.model.values)
+    both = [
+        whiten(np.concatenate([residual[..., None], jacobian * spread], axis=-1))
+        for whiten, residual, jacobian in zip(whitenings, one.model.residuals, one.model.jacobian, strict=True)
+    ]
+    grams = [each[:, 1:].T @ each[:, 1:] for each in both]
+    pulls = [each[:, 1:].T @ each[:, 0] for each in both]
+    found = []
+    for residual, jacobian, gram, pull in zip(one.model.residuals, one.model.jacobian, grams, pulls, strict=True):
+        others = np.eye(len(spread)) + sum(grams) - gram
+        found.append(residual - jacobian @ (spread * np.linalg.solve(others, sum(pulls) - pull)))
+    return found
 
 
 def mean_squares(
