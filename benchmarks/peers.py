@@ -1,7 +1,8 @@
 """geocontact against other distance engines on one core: `python -m benchmarks.peers [--pair knee|sphere-cup|dm]`.
 
 The job: A moves through its poses, B is fixed; distance map of A's vertices to B up to 4 mm and the area of A that is
-clipped exactly at the iso-line. CPU seconds of one process on one core, trees built beforehand.
+clipped exactly at the iso-line. CPU seconds of one process on one core, trees built beforehand. Beside it the whole
+command, from start to end (`whole_command`).
 """
 
 from __future__ import annotations
@@ -35,16 +36,18 @@ def main() -> None:
     pin()
     from benchmarks import tables
     from benchmarks.engines.all import all_engines
-    from benchmarks.engines.ours import OURS
+    from benchmarks.engines.ours import BOTH, OURS
     from benchmarks.machine import machine, versions
     from benchmarks.measure import measured
     from benchmarks.memory import peaks
     from benchmarks.pairs import PAIRS
+    from benchmarks.whole_command import whole_command
 
     pair = PAIRS[options.pair](options.faces, options.frames)
-    wanted = [OURS, *options.only]
+    wanted = [OURS, BOTH, *options.only]
     engines = [e for e in all_engines() if not options.only or any(text in e.name for text in wanted)]
     rows = measured(pair, engines, options.rounds, lambda line: print(line, file=sys.stderr, flush=True))
+    whole = whole_command(pair, options.rounds)
     names = [] if options.no_memory else ["", *(row.engine.name for row in rows if not row.skipped)]
     memory = peaks(names, options.pair, options.faces)
     about = machine()
@@ -52,6 +55,8 @@ def main() -> None:
     print(f"Pair {pair.name}: {size}, {len(pair.rotation)} poses, {options.rounds} interleaved rounds.")
     print(f"{about['processor']}, {about['cores']} cores, one used, load {about['load']}; {about['date']}.\n")
     print(tables.speed_table(pair, rows), "\n")
+    ours, both = (next(row for row in rows if row.engine.name == name) for name in (OURS, BOTH))
+    print(tables.whole_table(whole, ours, both, rows), "\n")
     print(tables.memory_table(memory) if memory else "")
     found = {
         "pair": {"name": pair.name, "moving_faces": len(pair.moving.faces), "fixed_faces": len(pair.fixed.faces)},
@@ -59,6 +64,7 @@ def main() -> None:
         "machine": about,
         "versions": versions({e.package for e in engines}),
         "rows": tables.record(pair, rows),
+        "whole_command": {"machine": about, "cpu_s": whole.all, "parts_cpu_s": whole.parts},
         "peak_memory_MB": memory,
     }
     options.out.mkdir(parents=True, exist_ok=True)

@@ -9,6 +9,7 @@ import numpy as np
 from benchmarks.engines.ours import OURS
 from benchmarks.measure import Row
 from benchmarks.pairs import Pair
+from benchmarks.whole_command import Whole
 
 HEAD = (
     "engine",
@@ -49,7 +50,7 @@ def _cells(pair: Pair, row: Row, ours: Row) -> list[str]:
         engine.name,
         done + (", scaled" if engine.every > 1 else ""),
         "" if bounded else f"{1e6 * mapped / (t * len(pair.moving.vertices)):.3g}",
-        f"{mapped:.3g}",
+        f"{mapped:.3g}" if mapped > 0.0 else "",
         f"{min(row.cpu):.3g}",
         f"{np.median(row.cpu):.3g}",
         f"{np.median(row.wall):.3g}",
@@ -58,6 +59,25 @@ def _cells(pair: Pair, row: Row, ours: Row) -> list[str]:
         f"{1e3 * row.distance_error:.1e}",
         "" if np.isnan(row.area_error) else f"{100 * row.area_error:.1e}",
     ]
+
+
+def whole_table(whole: Whole, ours: Row, both: Row, rows: Sequence[Row]) -> str:
+    """The whole command beside what peers need for the map of one body and its clipped area alone."""
+    head = ("", "CPU [s]: min", "median", "÷ map + clip of one body", "of both bodies")
+    one, two, all_ = (float(np.median(each)) for each in (ours.cpu, both.cpu, whole.all))
+    cells = [["whole `area` command", f"{min(whole.all):.3g}", f"{all_:.3g}", f"{all_ / one:.3g}", f"{all_ / two:.3g}"]]
+    for name, seconds in whole.parts.items():
+        middle = float(np.median(seconds))
+        cells.append(
+            [f"  of it {name}", f"{min(seconds):.3g}", f"{middle:.3g}", f"{middle / one:.3g}", f"{middle / two:.3g}"]
+        )
+    for row in rows:
+        if row.cpu and row.engine.package != "geocontact":
+            middle = float(np.median(row.cpu))
+            cells.append(
+                [f"{row.engine.name}, map + clip of one body ÷ whole command", "", f"{middle / all_:.3g}", "", ""]
+            )
+    return markdown(head, cells)
 
 
 def memory_table(peaks: dict[str, float]) -> str:

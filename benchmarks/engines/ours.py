@@ -11,10 +11,14 @@ from jaxtyping import Float
 
 from benchmarks.engines.engine import Engine, Frame, Step
 from benchmarks.pairs import THRESHOLD, Pair
+from geocontact.analyses.area.read import BRIEF
 from geocontact.geometry.contact_area.area import AS_GIVEN, Refinement, area_within
+from geocontact.geometry.contact_area.evolution import ContactPair, Settings
 from geocontact.geometry.contact_area.sampled import Distances, Sampled
 
 OURS = "geocontact, map + clip"
+BOTH = "geocontact, map + clip of both bodies"
+FRAMES = "geocontact, all that `area` finds, gap and depth included"
 
 
 def prepare(pair: Pair, refinement: Refinement) -> Step:
@@ -31,6 +35,37 @@ def prepare(pair: Pair, refinement: Refinement) -> Step:
         return Frame((sampled, distances), area, seconds)
 
     return step
+
+
+def both(pair: Pair) -> Step:
+    """Bounded maps and clipped areas of both bodies: what the command needs at least."""
+    steps = [prepare(one, AS_GIVEN) for one in (pair, _turned(pair))]
+
+    def step(k: int) -> Frame:
+        frames = [one(k) for one in steps]
+        return Frame(frames[0].distance, frames[0].area, sum(frame.map_seconds for frame in frames))
+
+    return step
+
+
+def whole_frames(pair: Pair) -> Step:
+    """All that the command finds of a frame: refined areas of both bodies, the curve of thresholds, gap and depth."""
+    sensitivity = tuple(THRESHOLD * np.linspace(0.0, 1.5, 13))
+    settings = Settings((THRESHOLD,), refinement=Refinement(pieces=BRIEF), sensitivity=sensitivity)
+    bodies = ContactPair(pair.fixed, pair.moving, settings)  # the area that is compared is that of A
+    turned, sampled = _turned(pair), Sampled.of(pair.moving, THRESHOLD)
+
+    def step(k: int) -> Frame:
+        found = bodies.at(turned.rotation[k], turned.translation[k])
+        return Frame((sampled, found.fixed_distances), found.fixed[0].area, 0.0)
+
+    return step
+
+
+def _turned(pair: Pair) -> Pair:
+    """A and B with their parts exchanged."""
+    back = np.ascontiguousarray(pair.rotation.transpose(0, 2, 1))
+    return Pair(pair.name, pair.fixed, pair.moving, back, -np.einsum("tij,tj->ti", back, pair.translation))
 
 
 def in_given_order(frame: Frame) -> Float[np.ndarray, " n"]:
@@ -64,5 +99,7 @@ def engines() -> list[Engine]:
     return [
         row(OURS, AS_GIVEN),
         row("geocontact, map + refined area with bounds", Refinement()),
+        Engine(BOTH, "geocontact", both, in_given_order, lambda pair: THRESHOLD),
+        Engine(FRAMES, "geocontact", whole_frames, in_given_order, lambda pair: THRESHOLD),
         Engine("geocontact, unbounded signed proximity", "geocontact", unbounded, every=10, note="no area"),
     ]

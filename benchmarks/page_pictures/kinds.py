@@ -14,7 +14,9 @@ KINDS = {
     "compare": "page_compare",
     "pressure": "page_pressure",
     "fit": "fit_profile",
-    "loadcells": "loadcells_stride",
+    "loadcells": "page_loadcells",
+    "cop": "cop_compare",
+    "cop_alone": "cop",
     "modulus": "modulus",
     "mat": "mat_plain",
     "ik": "ik",
@@ -24,6 +26,9 @@ KINDS = {
     "elbow_compare": "elbow_compare",
     "elbow_design": "elbow_design",
     "elbow_population": "elbow_population",
+    "scale": "scale",
+    "markers": "markers",
+    "gather": "gap_gather_knee",
     "gap": "gap_diagnose",
     "confuse": "gap_confuse",
 }
@@ -35,7 +40,8 @@ KNEE = (
 )
 FURTHER = f"""
 page_compare: {KNEE} --threshold 4 --compare inputs/measured_11.csv --tolerance 3%
-page_pressure: {KNEE} --split z --region "ny>0.25" --pressure --modulus 500MPa --poisson 0.46
+page_pressure: {KNEE} --split z --side right --region "ny>0.25" --pressure --modulus 500MPa --poisson 0.46
+page_loadcells: loadcells inputs/knee/walk.csv --unit N --cycles stride --part 60% --body-mass 72.6
 """
 MEASURED = "time [s], area_fixed [mm^2]\n0,2080\n0.2,2275\n0.5,1880\n0.8,2380\n1,2080\n"
 

@@ -12,7 +12,7 @@ from jaxtyping import Bool
 from geocontact.analyses.quantities import named_file
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.mesh import Mesh
+from geocontact.data.mesh import AXES, Mesh
 from geocontact.geometry.patch_names import Values
 from geocontact.geometry.placement import placed
 from geocontact.geometry.regions import faces_where
@@ -39,7 +39,7 @@ def read_body(record: Record, role: str, path: Path, unit: str, placement: str |
 def read_surface(
     record: Record, role: str, path: Path, unit: str, placement: str | None, assume_closed: bool = False
 ) -> Surface:
-    """Surface in its body frame; says nothing.
+    """Surface in its body frame; says which anatomical axes its file names.
 
     `placement` is a text file with a 4x4 matrix (translation in the mesh unit), or `model.osim:body[:mesh]`.
     """
@@ -62,8 +62,19 @@ def read_surface(
         irregular_edges=topology.irregular_edges,
         area_mm2=round(float(surface.face_area.sum()) * 1e6, 4),
         median_edge_mm=_median_edge(surface),
+        **({"space": mesh.space} if mesh.space else {}),
     )
+    if mesh.space:
+        record.say(f"{mesh.name}: its header says SPACE={mesh.space}, {AXES[mesh.space]}")
     return surface
+
+
+def refuse_two_spaces(moving: Surface, fixed: Surface) -> None:
+    """InputError for two bodies whose files name different anatomical axes; one that was placed names none."""
+    if moving.space and fixed.space and moving.space != fixed.space:
+        what = f"is in {moving.space} and {fixed.name} in {fixed.space}: their x and y point opposite ways"
+        remedy = "export both from 3D Slicer with the same coordinate system, or turn one by half a turn about z with "
+        raise InputError(moving.name, "", what, f"{remedy}`place_moving` (-1 0 0 0 / 0 -1 0 0 / 0 0 1 0 / 0 0 0 1)")
 
 
 def chosen_faces(

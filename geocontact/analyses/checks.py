@@ -14,11 +14,6 @@ def bootstrap_rule(count: int, usual: int) -> Idle:
     return (count != 0 and not 100 <= count <= 100_000, "`bootstrap`", what, remedy)
 
 
-def width_rule(option: str, width_deg: float) -> Idle:
-    """Widths of bins that no recording has."""
-    return (not 0.1 <= width_deg <= 30.0, option, f"{width_deg} is not 0.1 to 30 degrees", "give for example 2")
-
-
 def refuse(*rows: Idle) -> None:
     """Refuse the first of these mistakes that is made."""
     for wrong, option, what, remedy in rows:

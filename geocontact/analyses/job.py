@@ -14,6 +14,7 @@ from geocontact.analyses.options import Declared, Options, declared
 from geocontact.analyses.result import Result
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record, as_python
+from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
 from geocontact.data.errors import InputWarning
 
 I = TypeVar("I")
@@ -58,6 +59,7 @@ class Job(Generic[I, R]):
         asked = self.options(*inputs, **options)
         record = Record(self.command, asked.in_si(), asked.in_si())
         with record.catching_warnings():
+            tell_doubts(asked, record)
             result = self.run(self.read(asked, record), asked, record)
         for line in record.warnings:
             warnings.warn(line, InputWarning, stacklevel=2)
@@ -73,6 +75,12 @@ def _parameter(one: Declared) -> Parameter:
     return Parameter(one.name, kind, default=default, annotation=one.kind | None if one.optional else one.kind)
 
 
+def tell_doubts(options: Options, record: Record) -> None:
+    """What is unusual about the options is a reservation of the result."""
+    for line in options.doubts():
+        record.warn(line)
+
+
 @dataclass(frozen=True)
 class Call:
     """How the command line called an analysis.
@@ -85,16 +93,25 @@ class Call:
         Hears of the work.
     spell
         Turns options in backticks into what was typed.
+    forms
+        Further forms of the tables.
+    overwrite
+        Whether a folder that holds results already may be written into.
     """
 
     typed: Mapping[str, object]
     listener: Listener
     spell: Callable[[str], str] = as_python
+    forms: TableForms = AS_ALWAYS
+    overwrite: bool = True
 
 
 def execute(job: Job[Any, R], options: Options, out: Path, call: Call) -> tuple[R, list[str]]:
     """Evaluate and write into `out`, whole or not at all; the result and the names of the files."""
-    record = Record(job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell)
-    with record.catching_warnings(), written_whole(out) as draft:
+    record = Record(
+        job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell, forms=call.forms
+    )
+    with record.catching_warnings(), written_whole(out, call.overwrite) as draft:
+        tell_doubts(options, record)
         result = job.run(job.read(options, record), options, record)
         return result, result.put(draft)

@@ -2,20 +2,24 @@
 
 The options of an analysis are a frozen dataclass below `Options`: inputs first, then keyword-only options, values
 in SI. What else there is to know of an option stands in its annotation: its unit (`Typed`), how the command line spells
-it (`Spelled`), and with which other options it has an effect (`Requires`, `Excludes`, `Needs`). A message names an
+it (`Spelled`), with which other options it has an effect (`Requires`, `Excludes`, `Needs`), and what it can be
+(`data.plausible`: what is impossible is refused, what is unusual is a reservation of the result). A message names an
 option in backticks, which is how Python spells it; the command line turns that into its own spelling.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import MISSING, Field, dataclass, fields
 from functools import cache
 from os import PathLike, fspath
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin, get_type_hints
 
+from geocontact.analyses.documented import Documented, documented
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import ByName, ByPlace, Plausible, Range, numbers_in
 
 
 @dataclass(frozen=True)
@@ -71,10 +75,14 @@ class Spelled:
 
 @dataclass(frozen=True)
 class Requires:
-    """The option has no effect unless the other one is given; `remedy` is what to do, "give `other`" unless told."""
+    """The option has no effect unless the other one is given, or `alternative` where there is one.
+
+    `remedy` is what to do, "give `other`" unless told.
+    """
 
     other: str
     remedy: str = ""
+    alternative: str = ""
 
 
 @dataclass(frozen=True)
@@ -118,8 +126,12 @@ class Declared:
         Its type without None and without annotations.
     optional
         Whether it may be None.
+    range
+        What its values can be.
     words
         What the docstring of the options says of it.
+    section
+        Heading of the docstring that it stands under, "" where there is none.
     settable
         Whether it may be given; else it is what the class says.
     """
@@ -132,7 +144,9 @@ class Declared:
     typed: Typed | None
     spelled: Spelled
     rules: tuple[Requires | Excludes | Needs, ...]
+    range: Range | None
     words: str
+    section: str = ""
     settable: bool = True
 
     @property
@@ -175,13 +189,35 @@ class Declared:
 
 @dataclass(frozen=True)
 class Options:
-    """Base of the options of every analysis: values are coerced, and options without effect are refused."""
+    """Base of the options of every analysis: values are coerced, and options without effect are refused.
+
+    `over_time` says whether results have tables over time, which can be written as netCDF.
+    """
+
+    over_time: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         for one in declared(type(self)):
             object.__setattr__(self, one.name, one.coerced(getattr(self, one.name)))
         self.refuse_without_effect()
+        self.refuse_implausible()
         self.refuse_impossible()
+
+    def refuse_implausible(self) -> None:
+        """InputError for the first value that its quantity cannot have."""
+        for place, known, value in self._ranged():
+            known.require(value, place)
+
+    def doubts(self) -> tuple[str, ...]:
+        """What is unusual about the values, each one line."""
+        found = [(place, known.doubt(value)) for place, known, value in self._ranged()]
+        return tuple(dict.fromkeys(f"{place}: {doubt}" for place, doubt in found if doubt))
+
+    def _ranged(self) -> Iterator[tuple[str, Plausible, float]]:
+        """Every number that has a range, and where it was given: "`known` k"."""
+        for one in declared(type(self)):
+            for name, known, value in numbers_in(one.range, getattr(self, one.name)):
+                yield f"`{one.name}` {name}".rstrip(), known, value
 
     def refuse_impossible(self) -> None:
         """InputError for values that cannot be; for an analysis to fill."""
@@ -191,7 +227,7 @@ class Options:
         for one in declared(type(self)):
             if self.given(one.name):
                 for rule in one.rules:
-                    _refuse(one.name, rule, self.given(rule.other))
+                    _refuse(one.name, rule, any(map(self.given, _others(rule))))
 
     def given(self, name: str) -> bool:
         """Whether an option was given: it is neither None, nor False, nor empty."""
@@ -208,11 +244,17 @@ class Options:
         }
 
 
+def _others(rule: Requires | Excludes | Needs) -> tuple[str, ...]:
+    """Options that a rule speaks of."""
+    alternative = rule.alternative if isinstance(rule, Requires) else ""
+    return (rule.other, alternative) if alternative else (rule.other,)
+
+
 def _refuse(name: str, rule: Requires | Excludes | Needs, other: bool) -> None:
     match rule:
         case Requires() if not other:
-            what = f"has no effect without `{rule.other}`"
-            raise InputError("", f"`{name}`", what, rule.remedy or f"give `{rule.other}`")
+            named = " or ".join(f"`{each}`" for each in _others(rule))
+            raise InputError("", f"`{name}`", f"has no effect without {named}", rule.remedy or f"give {named}")
         case Excludes() if other:
             what = rule.why or f"has no effect with `{rule.other}`"
             raise InputError("", f"`{name}`", what, rule.remedy)
@@ -236,14 +278,15 @@ def declared(options: type[Options]) -> tuple[Declared, ...]:
 @cache
 def _all(options: Any) -> tuple[Declared, ...]:
     hints = get_type_hints(options, include_extras=True)
-    words: dict[str, str] = {}
+    told: dict[str, Documented] = {}
     for base in reversed(options.__mro__):
-        words |= documented(base.__doc__ or "")
+        for name, one in documented(base.__doc__ or "").items():
+            told[name] = Documented(one.section or told.get(name, one).section, one.lines)
     ordered = sorted(fields(options), key=lambda each: bool(each.kw_only))
-    return tuple(_declared(each, hints[each.name], words.get(each.name, "")) for each in ordered)
+    return tuple(_declared(each, hints[each.name], told.get(each.name, Documented(""))) for each in ordered)
 
 
-def _declared(each: Field[Any], hint: Any, words: str) -> Declared:
+def _declared(each: Field[Any], hint: Any, told: Documented) -> Declared:
     kind, marks, optional = _taken_apart(hint)
     default = each.default if each.default_factory is MISSING else each.default_factory()
     return Declared(
@@ -255,7 +298,9 @@ def _declared(each: Field[Any], hint: Any, words: str) -> Declared:
         next((mark for mark in marks if isinstance(mark, Typed)), None),
         next((mark for mark in marks if isinstance(mark, Spelled)), Spelled()),
         tuple(mark for mark in marks if isinstance(mark, (Requires, Excludes, Needs))),
-        words,
+        next((mark for mark in marks if isinstance(mark, (Plausible, ByPlace, ByName))), None),
+        told.words,
+        told.section,
         each.init,
     )
 
@@ -273,20 +318,3 @@ def _taken_apart(hint: Any) -> tuple[Any, list[Any], bool]:
             optional = True
         else:
             return hint, marks, optional
-
-
-def documented(docstring: str) -> dict[str, str]:
-    """What the section Parameters of a numpy docstring says of each name; names may share a text."""
-    found: dict[str, list[str]] = {}
-    names: tuple[str, ...] = ()
-    _, _, section = docstring.partition("Parameters\n")
-    lines = section.splitlines()[1:]
-    margin = min((len(line) - len(line.lstrip()) for line in lines if line.strip()), default=0)
-    for line in lines:
-        if line.strip() and len(line) - len(line.lstrip()) == margin:
-            names = tuple(part.strip() for part in line.split(","))
-            found |= {name: [] for name in names}
-        elif line.strip():
-            for name in names:
-                found[name].append(line.strip())
-    return {name: " ".join(text) for name, text in found.items()}

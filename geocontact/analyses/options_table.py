@@ -11,7 +11,8 @@ from geocontact.view.page.content import Table
 
 def options_table(record: Record) -> Table:
     """Options without the folders of files: a page is passed on, and where its files lay is nobody's business."""
-    given = [(key, _shown(value)) for key, value in record.options.items() if value not in (None, False, [], ())]
+    told = {key: value for key, value in record.options.items() if key != "out"}
+    given = [(key, _shown(value)) for key, value in told.items() if value not in (None, False, [], ())]
     rows = [("command", f"geocontact {record.command}"), *given, *record.versions().items()]
     return Table("How it was made", ("option", "value"), rows, folded=True)
 

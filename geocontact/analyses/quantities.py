@@ -104,7 +104,11 @@ def pressure(text: str, option: str) -> float:
 
 def lengths(text: str, option: str) -> tuple[float, ...]:
     """Comma-separated lengths [m], in the order given; mm unless a unit is written."""
-    values = tuple(length(part, option) for part in text.split(","))
+    parts = text.split(",")
+    if len(parts) > 1 and parts[0].strip() == "0":
+        meant, several = f"write {option} 0.{parts[1].strip()}", f"{option} 0mm,{','.join(parts[1:]).strip()}"
+        raise InputError("", option, f"{text!r} may have a decimal comma", f"{meant}, or {several} for two thresholds")
+    values = tuple(length(part, option) for part in parts)
     if min(values) < 0.0:
         raise InputError("", option, f"{text!r} is negative", "a point counts when its distance is not above it")
     if len(set(values)) < len(values):

@@ -6,13 +6,14 @@ from abc import ABC, abstractmethod
 from base64 import b64encode
 from dataclasses import dataclass, field
 from html import escape
-from io import BytesIO
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record
+from geocontact.analyses.table_forms import TableForms
+from geocontact.view.curves.sheet import png_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -82,20 +83,37 @@ class Result(ABC):
     def write_page(self, file: Path) -> None:
         """Write the page, one file that needs no network."""
 
-    def put(self, draft: Path) -> list[str]:
-        """Write everything into `draft`, `run.json` included; names of the files."""
+    def put(self, draft: Path, forms: TableForms | None = None) -> list[str]:
+        """Write everything into `draft`, `run.json` included; names of the files.
+
+        Tables are also written in `forms`, unless given in those that the run was asked for.
+        """
         self.write_files(draft)
+        (forms or self.record.forms).write(self.tables(), draft, self.record.command)
         self.record.write(draft, *(draft / name for name in self.folders))
         return sorted(file.relative_to(draft).as_posix() for file in draft.rglob("*") if file.is_file())
 
-    def write(self, folder: str | PathLike[str]) -> Path:
+    def write(
+        self, folder: str | PathLike[str], *, parquet: bool = False, netcdf: bool = False, overwrite: bool = True
+    ) -> Path:
         """Write what the command writes into a folder, whole or not at all; the folder is made where it is missing.
 
         Results that an earlier run left there and this one does not write again are removed, all else stays.
+
+        Parameters
+        ----------
+        folder
+            Where to.
+        parquet
+            Also write the tables as .parquet.
+        netcdf
+            Also write the tables over time as .nc; refused where there are none.
+        overwrite
+            Refuse a folder that holds results already when false.
         """
         out = Path(folder)
-        with self.record.catching_warnings(), written_whole(out) as draft:
-            self.put(draft)
+        with self.record.catching_warnings(), written_whole(out, overwrite) as draft:
+            self.put(draft, TableForms(parquet, netcdf))
         return out
 
     def page(self, file: str | PathLike[str]) -> Path:
@@ -115,6 +133,4 @@ class Result(ABC):
         figure = self.figure()
         if figure is None:
             return text
-        picture = BytesIO()
-        figure.savefig(picture, format="png", dpi=96)
-        return f'{text}<img src="data:image/png;base64,{b64encode(picture.getvalue()).decode("ascii")}"/>'
+        return f'{text}<img src="data:image/png;base64,{b64encode(png_of(figure)).decode("ascii")}"/>'

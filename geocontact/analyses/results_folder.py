@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from geocontact.analyses.stale_results import left_over
+from geocontact.analyses.stale_results import RUN, left_over
 from geocontact.data.errors import InputError
 
 _drafts: set[Path] = set()
@@ -44,12 +44,16 @@ def _discard(folder: Path) -> None:
 
 
 @contextmanager
-def written_whole(out: Path) -> Iterator[Path]:
+def written_whole(out: Path, overwrite: bool = True) -> Iterator[Path]:
     """Folder to write into; its files move to `out` when the block ends well, and vanish when it does not.
 
     A folder that is there already keeps its other files, but not those in which an earlier run of the same command left
-    what this one has not written again.
+    what this one has not written again. Without `overwrite` a folder that holds results is refused.
     """
+    if not overwrite and (out / RUN).exists():
+        raise InputError(
+            out, "", f"holds results already ({RUN})", "choose another `out`, or allow it to be overwritten"
+        )
     for folder in (out, *out.parents):
         if folder.exists() and not folder.is_dir():
             raise InputError(folder, "", "is a file", "`out` names a folder")

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from geocontact.analyses.listener import Listener
 from geocontact.analyses.stale_results import RUN, digest, written
+from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
 from geocontact.data.errors import InputWarning
 from geocontact.data.version import VERSION
 
@@ -52,6 +53,8 @@ class Record:
         Hears of the work while it goes on.
     spell
         Turns options in backticks into what the user wrote them as.
+    forms
+        Further forms of the tables.
     """
 
     command: str
@@ -65,6 +68,7 @@ class Record:
     started: float = field(default_factory=time.perf_counter)
     listener: Listener = field(default_factory=Listener)
     spell: Callable[[str], str] = as_python
+    forms: TableForms = AS_ALWAYS
 
     def add_input(self, role: str, path: str | PathLike[str], **facts: object) -> None:
         """Note a file with its SHA-256 and what is known of it."""

@@ -16,8 +16,8 @@ from geocontact.geometry.kernels.compile import kernel
 
 ELBOW_GEOMETRY = LawParameters(
     {
-        "l_ex": 1.0,
-        "z_ex": 0.0,
+        "l": 1.0,
+        "z": 0.0,
         "x": 0.0,
         "y": 0.0,
         "axis_migration.slope": 0.0,

@@ -22,7 +22,7 @@ from jaxtyping import Float
 from geocontact.axis_misalignment.deflection import ELBOW_GEOMETRY, POLE_SHARE, closure, deflect
 from geocontact.geometry.kernels.compile import kernel
 
-NEUTRAL = ELBOW_GEOMETRY.numbers({})  # l_ex, z_ex, x, y come first
+NEUTRAL = ELBOW_GEOMETRY.numbers({})  # l, z, x, y come first
 
 
 @dataclass(frozen=True)

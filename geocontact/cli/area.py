@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.area.options import AreaOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Contact area of two rigid surfaces over a motion, with certified bounds.
 
@@ -12,4 +12,4 @@ as in contact when its signed distance to the other body is not above the thresh
 unsigned, and the table says so.
 """
 
-area = command("geocontact.analyses.area.job:area", AreaOptions, HELP, rest="motion")
+area = Command("geocontact.analyses.area.job:area", AreaOptions, HELP, rest="motion")

@@ -4,33 +4,35 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any
 
-from cyclopts import Parameter
+from cyclopts import Group, Parameter
 
 from geocontact.analyses.job import Call, execute
 from geocontact.analyses.options import Declared, Options, declared
 from geocontact.analyses.result import Result
+from geocontact.analyses.table_forms import AS_ALWAYS, TableForms
 from geocontact.cli.show import Terminal
 from geocontact.data.errors import InputError
 
 OUT = "Folder for the results."
+RESULTS = "Results"
+"""Heading of what every command can be asked about its results."""
+
+FORMS = {
+    "parquet": "Also write the tables as .parquet, with all their digits.",
+    "netcdf": "Also write the tables over time as .nc (netCDF), with units.",
+    "no_overwrite": "Refuse a folder that holds results already.",
+}
 MOST_FILES = 20  # that are listed at the end, those in sub-folders among them
 
 
-def command(
-    job: str | Callable[[Options], str],
-    options: type[Options],
-    words: str,
-    *,
-    rest: str = "",
-    out: str = OUT,
-    after: Callable[[Result, Path], None] | None = None,
-) -> Callable[..., int]:
-    """The function that the command line calls.
+class Command:
+    """What the command line calls for an analysis.
 
     Parameters
     ----------
@@ -48,29 +50,67 @@ def command(
     after
         Says more at the end.
     """
-    known = declared(options)
-    spell = speller(known)
 
-    def run(*arguments: Any, **typed: Any) -> int:
+    def __init__(
+        self,
+        job: str | Callable[[Options], str],
+        options: type[Options],
+        words: str,
+        *,
+        rest: str = "",
+        out: str = OUT,
+        after: Callable[[Result, Path], None] | None = None,
+    ) -> None:
+        self.job, self.options, self.rest, self.after = job, options, rest, after
+        self.known = declared(options)
+        self.spell = speller(self.known)
+        self.__doc__ = in_paragraphs(self.spell(words))
+        self.__name__ = options.__name__
+        self.__annotations__: dict[str, Any] = {}  # types stand in the signature
+        self.__signature__ = _signature(options, rest, self.spell, out)
+
+    def __call__(self, *arguments: Any, **typed: Any) -> int:
+        """Run it with what was typed, and say what was found; the exit code."""
+        with self.respelling():
+            folder, asked = typed["out"], _typed(self.known, self.rest, arguments, typed)
+            forms = TableForms(typed.get("parquet", False), typed.get("netcdf", False))
+            result, files = self.execute(
+                {**asked, **forms.given()}, folder, forms, overwrite=not typed.get("no_overwrite", False)
+            )
+            tell(result, folder, files)
+            if self.after is not None:
+                self.after(result, folder)
+            return int(result.exit_code)
+
+    def execute(
+        self, typed: Mapping[str, Any], folder: Path, forms: TableForms = AS_ALWAYS, *, overwrite: bool = True
+    ) -> tuple[Result, list[str]]:
+        """Run it with options as typed, by their names in `run.json`; the result and the names of its files."""
+        given = {one.name: read(one, typed[key(one)]) for one in self.known if key(one) in typed}
+        return self.execute_in_si(given, typed, folder, forms, overwrite=overwrite)
+
+    def execute_in_si(
+        self,
+        given: Mapping[str, Any],
+        told: Mapping[str, Any],
+        folder: Path,
+        forms: TableForms = AS_ALWAYS,
+        *,
+        overwrite: bool = True,
+    ) -> tuple[Result, list[str]]:
+        """Run it with options in SI, by their names in Python; `told` is what `run.json` says of them."""
+        options = self.options(**given)
+        place, _, name = (self.job if isinstance(self.job, str) else self.job(options)).partition(":")
+        call = Call(told, Terminal(), self.spell, forms, overwrite)
+        return execute(getattr(import_module(place), name), options, folder, call)
+
+    @contextmanager
+    def respelling(self) -> Iterator[None]:
+        """Mistakes in the words of the command line."""
         try:
-            return _run(_typed(known, rest, arguments, typed))
+            yield
         except InputError as error:
-            raise respelled(error, spell) from error
-
-    def _run(typed: dict[str, Any]) -> int:
-        folder = typed["out"]
-        given = options(**{one.name: read(one, typed[key(one)]) for one in known if key(one) in typed})
-        place, _, name = (job if isinstance(job, str) else job(given)).partition(":")
-        result, files = execute(getattr(import_module(place), name), given, folder, Call(typed, Terminal(), spell))
-        tell(result, folder, files)
-        if after is not None:
-            after(result, folder)
-        return int(result.exit_code)
-
-    run.__doc__ = spell(words)
-    run.__name__ = options.__name__
-    run.__signature__ = _signature(known, rest, spell, out)  # type: ignore[attr-defined]
-    return run
+            raise respelled(error, self.spell) from error
 
 
 def _shortened(files: list[str]) -> list[str]:
@@ -80,9 +120,15 @@ def _shortened(files: list[str]) -> list[str]:
     return sorted({name if "/" not in name else f"{name.partition('/')[0]}/…" for name in files})
 
 
+def in_paragraphs(text: str) -> str:
+    """Text whose lines are as long as the terminal makes them; blank lines stay."""
+    return "\n\n".join(" ".join(paragraph.split()) for paragraph in text.strip().split("\n\n"))
+
+
 def speller(known: tuple[Declared, ...]) -> Callable[[str], str]:
     """What turns `` `radius` `` into --radius-mm, for the options of one command."""
-    names = {one.name: one.name.upper() if argument(one) else f"--{option(one)}" for one in known} | {"out": "--out"}
+    names = {one.name: one.name.upper() if argument(one) else f"--{option(one)}" for one in known}
+    names |= {name: f"--{name.replace('_', '-')}" for name in ("out", *FORMS)}
 
     def spelled(text: str) -> str:
         return re.sub(r"`(\w+)`", lambda found: names.get(found[1], found[0]), text)
@@ -146,7 +192,8 @@ def _default(one: Declared) -> Any:
     return one.default if one.spelled.default is None else one.spelled.default
 
 
-def _signature(known: tuple[Declared, ...], rest: str, spell: Callable[[str], str], out: str) -> inspect.Signature:
+def _signature(options: type[Options], rest: str, spell: Callable[[str], str], out: str) -> inspect.Signature:
+    known = declared(options)
     parameters: list[inspect.Parameter] = []
     for one in known:
         if argument(one):
@@ -155,11 +202,19 @@ def _signature(known: tuple[Declared, ...], rest: str, spell: Callable[[str], st
         words = f"Further ones, as a shell pattern after `{rest}` gives them."
         parameters.append(_parameter(f"more_{rest}s", inspect.Parameter.VAR_POSITIONAL, str, {"help": spell(words)}))
     keywords = [one for one in known if not argument(one)]
-    required = [_keyword(one, spell) for one in keywords if one.required]
+    sections = list(dict.fromkeys(one.section for one in known))
+    spelled = {one.name: _keyword(one, sections.index(one.section), spell) for one in keywords}
+    required = [spelled[one.name] for one in keywords if one.required]
     folder = _parameter("out", inspect.Parameter.KEYWORD_ONLY, Path, {"help": out})
-    return inspect.Signature(
-        [*parameters, *required, folder, *(_keyword(o, spell) for o in keywords if not o.required)]
-    )
+    others = [spelled[one.name] for one in keywords if not one.required]
+    group = Group(RESULTS, sort_key=sections.index(RESULTS) if RESULTS in sections else len(sections))
+    forms = [_flag(name, words, group) for name, words in FORMS.items() if name != "netcdf" or options.over_time]
+    return inspect.Signature([*parameters, *required, folder, *others, *forms])
+
+
+def _flag(name: str, words: str, group: Group) -> inspect.Parameter:
+    told = {"help": words, "group": group, "negative": "", "show_default": False}
+    return _parameter(name, inspect.Parameter.KEYWORD_ONLY, bool, told).replace(default=False)
 
 
 def _positional(one: Declared, spell: Callable[[str], str]) -> list[inspect.Parameter]:
@@ -175,11 +230,14 @@ def _positional(one: Declared, spell: Callable[[str], str]) -> list[inspect.Para
     return [first, many.replace(name=f"more_{one.name}", annotation=Annotated[Path, more])]
 
 
-def _keyword(one: Declared, spell: Callable[[str], str]) -> inspect.Parameter:
+def _keyword(one: Declared, place: int, spell: Callable[[str], str]) -> inspect.Parameter:
+    """An option; `place` is where the section that it belongs to stands among the sections."""
     hint = f" ({one.typed.hint})" if one.typed is not None and one.typed.hint else ""
     told: dict[str, Any] = {"name": f"--{option(one)}", "help": spell(one.words) + hint}
+    if one.section:
+        told["group"] = Group(one.section, sort_key=place)
     if one.kind is bool and one.default is False:
-        told["negative"] = ""
+        told |= {"negative": "", "show_default": False}
     if one.spelled.dashed:
         told["allow_leading_hyphen"] = True
     if one.several or one.spelled.each:

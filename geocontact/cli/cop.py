@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from geocontact.analyses.cop.options import CopOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Centre of pressure, force and free moment of a foot that stands on spheres, over a motion.
 
-Writes cop.csv, zones.csv, cop.png, cop.svg and run.json into OUT, and comparison.csv with `compare`.
+Writes cop.csv, zones.csv, cop.png, cop.svg, report.html and run.json into OUT, and comparison.csv with `compare`.
 """
 
-cop = command("geocontact.analyses.cop.job:centre_of_pressure", CopOptions, HELP)
+cop = Command("geocontact.analyses.cop.job:centre_of_pressure", CopOptions, HELP)

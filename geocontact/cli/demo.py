@@ -32,6 +32,7 @@ def demo(*, out: Path = Path("demo-result")) -> int:
         motion=(str(meshes / "gait.csv"),),
         threshold=(1e-3, 4e-3),
         split="z",
+        side="right",
     )
     typed = {**vars(options), "threshold": "1,4", "out": out}
     result, files = execute(area, options, out, Call(typed, Terminal(), speller(declared(AreaOptions))))

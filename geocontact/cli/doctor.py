@@ -11,6 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 from geocontact.view.surfaces import child, probe
 
 PATIENCE = 8.0  # s for all child processes together
+ALONE = 30.0  # s for one that did not answer in time, asked again when the others have ended
 LATER = "try again when the machine is less busy; if it stays: "
 
 
@@ -100,25 +101,54 @@ FEATURES = (
 def doctor() -> int:
     """Say what works on this machine, feature by feature, with the exact fix for what does not.
 
-    Exit 1 when something that every analysis needs does not work.
+    Exit 1 when something that every analysis needs does not work, or gave no answer.
     """
     print(f"geocontact {_version('geocontact')}, Python {platform.python_version()}, {platform.platform()}")
     print(f"{os.cpu_count()} cores; compiled kernels are kept in {_cache_folder()}")
-    running = [(feature, _started(feature)) for feature in FEATURES]
-    sound = True
-    for feature, started in running:
-        trouble = "not installed" if started is None else child.outcome(started, PATIENCE)
-        slow = trouble.startswith(child.SLOW)
-        installed = _version(feature.package)
+    troubles = _troubles()
+    for feature in FEATURES:
+        trouble, installed = troubles[feature.name], _version(feature.package)
         if not trouble:
             print(f"  ok       {feature.name:20} {feature.package} {installed}")
             continue
-        sound = sound and (not feature.needed or slow)
+        slow = trouble.startswith(child.SLOW)
         word = "unclear " if slow else "MISSING " if feature.needed else "missing "
         print(f"  {word} {feature.name:20} {feature.package} {installed} ({feature.purpose}): {trouble}")
         print(f"           fix: {LATER if slow else ''}{feature.fix}")
-    print("everything an analysis needs works" if sound else "an analysis cannot run here before the fixes above")
-    return 0 if sound else 1
+    line, code = _verdict(troubles)
+    print(line)
+    return code
+
+
+def _troubles() -> dict[str, str]:
+    """What is wrong with each feature, "" where nothing is; the slow ones are asked again alone."""
+    running = [(feature, _started(feature)) for feature in FEATURES]
+    found = {
+        feature.name: "not installed" if started is None else child.outcome(started, PATIENCE)
+        for feature, started in running
+    }
+    for feature in FEATURES:
+        if found[feature.name].startswith(child.SLOW):
+            found[feature.name] = child.outcome(child.start(feature.probe), ALONE)
+    return found
+
+
+def _verdict(troubles: dict[str, str]) -> tuple[str, int]:
+    """The last line, which says no more than the lines above, and the exit code."""
+    slow = [one for one in FEATURES if troubles[one.name].startswith(child.SLOW)]
+    if any(one.needed and troubles[one.name] and one not in slow for one in FEATURES):
+        return "an analysis cannot run here before the fixes above", 1
+    names = ", ".join(one.name for one in slow)
+    if any(one.needed for one in slow):
+        return f"whether an analysis runs here is not known: no answer from {names}{_load()}", 1
+    return "everything an analysis needs works" + (f"; not known: {names}{_load()}" if slow else ""), 0
+
+
+def _load() -> str:
+    """How busy the machine is, where it tells."""
+    if not hasattr(os, "getloadavg"):
+        return ""
+    return f" (this machine has {os.cpu_count()} cores and {os.getloadavg()[0]:.1f} processes that want one)"
 
 
 def _version(package: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.shape.options import ShapeOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Cylinder, sphere or plane that fits a surface best, by distance and robustly, with the map of the residuals.
 
@@ -11,4 +11,4 @@ Writes fit.json, fit.png, fit.svg, report.html and run.json into OUT, and profil
 `profile`. Which faces count decides the radius: say it with `region`.
 """
 
-fit = command("geocontact.analyses.shape.job:fit_shape", ShapeOptions, HELP)
+fit = Command("geocontact.analyses.shape.job:fit_shape", ShapeOptions, HELP)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Joint moments and forces of a recorded motion: Newton and Euler, with the measured ground reactions.
 
@@ -11,4 +11,4 @@ Writes id.sto (for OpenSim), id.json with what is left over at the joint to the 
 are known, report.html (a moving skeleton) and run.json into OUT.
 """
 
-inverse_dynamics = command("geocontact.analyses.motion.inverse_dynamics.job:inverse_dynamics", IdOptions, HELP)
+inverse_dynamics = Command("geocontact.analyses.motion.inverse_dynamics.job:inverse_dynamics", IdOptions, HELP)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Joint angles from recorded markers: weighted least squares in every frame, limits of the model kept.
 
@@ -11,4 +11,4 @@ Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each m
 `knee`, cycles.csv where heel strikes are known, ik.json, report.html (a moving skeleton) and run.json into OUT.
 """
 
-ik = command("geocontact.analyses.motion.inverse_kinematics.job:inverse_kinematics", IkOptions, HELP)
+ik = Command("geocontact.analyses.motion.inverse_kinematics.job:inverse_kinematics", IkOptions, HELP)

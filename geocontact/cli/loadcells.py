@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.loadcells.options import LoadcellOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Medial and lateral contact force of a tibial tray from its load cells, and their mean over cycles.
 
@@ -11,4 +11,4 @@ Writes forces.csv, loadcells.png, loadcells.svg, report.html and run.json into O
 ensemble.csv, ensemble.png, ensemble.svg, and styles.csv where there are several gait styles.
 """
 
-loadcells = command("geocontact.analyses.loadcells.job:load_cells", LoadcellOptions, HELP)
+loadcells = Command("geocontact.analyses.loadcells.job:load_cells", LoadcellOptions, HELP)

@@ -12,9 +12,11 @@ from io import TextIOWrapper
 from cyclopts import App, CycloptsError, MissingArgumentError
 
 from geocontact.analyses.results_folder import discard_drafts
+from geocontact.cli.suggestions import help_of, mistyped
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
 
+HELP = "--help", "-h"
 USAGE_ERROR = 2
 FAILURE = 1
 
@@ -23,6 +25,7 @@ app = App(
     help="Contact areas, contact forces and material properties from meshes, motion and pressure data.",
     version=VERSION,
     version_flags=["--version"],
+    help_format="plaintext",  # <trial>, [N] and * are what they are
     suppress_keyboard_interrupt=False,
 )
 app.command("geocontact.cli.area:area", name="area")
@@ -38,8 +41,12 @@ app.command("geocontact.cli.loadcells:loadcells", name="loadcells")
 app.command("geocontact.cli.markers:markers", name="markers")
 app.command("geocontact.cli.mat:mat", name="mat")
 app.command("geocontact.cli.modulus:modulus", name="modulus")
+app.command("geocontact.cli.rerun:rerun", name="rerun")
 app.command("geocontact.cli.scale:scale", name="scale")
 app.command("geocontact.cli.view:view", name="view")
+app.register_install_completion_command(
+    help="Let the shell complete commands, options and their choices (bash, zsh, fish, PowerShell)."
+)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -56,14 +63,16 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def run(tokens: Sequence[str], debug: bool = False) -> int:
     """Exit code of one call; with `debug` a traceback precedes the line that says what went wrong."""
     try:
+        _load_what_is_listed(tokens)
         result = app(list(tokens), exit_on_error=False, print_error=False, result_action="return_value")
         return result if isinstance(result, int) else 0
     except MissingArgumentError as error:
         name = str(error.argument.name) if error.argument else "an argument"
-        hint = "mesh files carry no unit; pass --unit mm, cm, m or in" if name == "--unit" else "see geocontact --help"
+        unit = "mesh files carry no unit; pass --unit mm, cm, m or in"
+        hint = unit if name == "--unit" else help_of(error.command_chain or ())
         return _fail(f"{name} is missing: {hint}", USAGE_ERROR, debug)
     except CycloptsError as error:
-        return _fail(_with_hint(_one_line(str(error)), "see geocontact --help"), USAGE_ERROR, debug)
+        return _fail(mistyped(error, app), USAGE_ERROR, debug)
     except InputError as error:
         return _fail(str(error), USAGE_ERROR, debug)
     except KeyboardInterrupt:
@@ -89,9 +98,12 @@ def _one_line(text: str) -> str:
     return " ".join(text.split())
 
 
-def _with_hint(text: str, hint: str) -> str:
-    """Sentence and remedy; a question keeps its mark and the remedy follows as a sentence of its own."""
-    return f"{text} {hint.capitalize()}" if text.endswith("?") else f"{text.rstrip('.')}; {hint}"
+def _load_what_is_listed(tokens: Sequence[str]) -> None:
+    """Import all commands of a group whose help is asked for, so that each says what it does."""
+    _, apps, left = app.parse_commands([token for token in tokens if token not in HELP])
+    if not left:
+        for name in apps[-1]:
+            apps[-1][name]
 
 
 def _fail(line: str, code: int, debug: bool) -> int:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from geocontact.analyses.motion.virtual_markers.options import MarkersOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Where the markers of a model are along a motion: virtual markers by forward kinematics.
 
 Writes markers.trc [mm] and run.json into OUT.
 """
 
-markers = command("geocontact.analyses.motion.virtual_markers.job:virtual_markers", MarkersOptions, HELP)
+markers = Command("geocontact.analyses.motion.virtual_markers.job:virtual_markers", MarkersOptions, HELP)

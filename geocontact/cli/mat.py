@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Pressures of a mat on the surface of a body scan: force, moment, centre of pressure and area over time.
 
@@ -11,4 +11,4 @@ Writes wrench.csv, uncertainty.csv, cells.csv, frames_cells.csv, segments.csv wi
 `body_landmarks`, agreement.csv with `compare`, mat_on_surface.vtp, report.html, mat.png, mat.svg, run.json.
 """
 
-mat = command("geocontact.analyses.mat.job:mat", MatOptions, HELP)
+mat = Command("geocontact.analyses.mat.job:mat", MatOptions, HELP)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.modulus.options import ModulusOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Elastic modulus E* of a contact from the evolution of its area and measured forces, with intervals.
 
@@ -11,4 +11,4 @@ Writes modulus.json, curves.csv, sensitivity.csv, modulus.png, modulus.svg, repo
 prediction.csv with `predict_area`. Area and force give one number, E* = E/(1 - nu^2): E is told for a stated nu.
 """
 
-modulus = command("geocontact.analyses.modulus.job:modulus", ModulusOptions, HELP)
+modulus = Command("geocontact.analyses.modulus.job:modulus", ModulusOptions, HELP)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from geocontact.analyses.motion.scale.options import ScaleOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """A model made to measure from a static trial: sizes of bodies, mass, places of markers.
 
 Writes scaled.osim (for ik, id and OpenSim; its defaults are the static pose), scale.json and run.json into OUT.
 """
 
-scale = command("geocontact.analyses.motion.scale.job:scale", ScaleOptions, HELP)
+scale = Command("geocontact.analyses.motion.scale.job:scale", ScaleOptions, HELP)

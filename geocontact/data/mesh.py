@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+AXES = {"LPS": "x to the left, y to the back, z up", "RAS": "x to the right, y to the front, z up"}
+"""Anatomical axes of scans, of a patient who stands: LPS as in DICOM, RAS as in 3D Slicer."""
+
 
 @dataclass(frozen=True)
 class Mesh:
@@ -24,6 +27,9 @@ class Mesh:
         Unit the file was declared to be in ("mm"); vertices are in metres whatever it says.
     sha256
         Hash of the file's bytes, empty when the mesh does not come from a file.
+    space
+        Anatomical axes that the file says it is in, a key of `AXES`; empty where it says nothing, and once the mesh is
+        placed in the frame of its body.
     """
 
     vertices: Float[np.ndarray, "n 3"]
@@ -31,3 +37,4 @@ class Mesh:
     name: str = "surface"
     unit: str = "m"
     sha256: str = ""
+    space: str = ""

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
-from scipy.spatial.transform import RigidTransform, Rotation
+from scipy.spatial.transform import RigidTransform, Rotation, Slerp
 
 
 @dataclass(frozen=True)
@@ -47,6 +47,10 @@ class Course:
         return value if self.name == "time" else f"{self.name} {value}"
 
 
+SAME_TIME = 1e-6
+"""Seconds (or per cent of a cycle) that two clocks may differ by and still tell the same time."""
+
+
 @dataclass(frozen=True)
 class Motion:
     """Poses of MOVING in the frame of FIXED, one per time.
@@ -76,6 +80,29 @@ class Motion:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def at(self, time: Float[np.ndarray, " k"]) -> Motion:
+        """The motion at other times within its own: translations linear, rotations along the shortest arc between."""
+        if len(time) == len(self.time) and np.allclose(time, self.time, rtol=0.0, atol=SAME_TIME):
+            return self
+        if time[0] < self.time[0] - SAME_TIME or time[-1] > self.time[-1] + SAME_TIME:
+            known = f"{self.time[0]:g} to {self.time[-1]:g} {self.time_unit}"
+            raise ValueError(f"is known from {known} only, not from {time[0]:g} to {time[-1]:g}")
+        inside = np.clip(time, self.time[0], self.time[-1])
+        shifts = np.column_stack([np.interp(inside, self.time, column) for column in self.poses.translation.T])
+        poses = RigidTransform.from_components(shifts, Slerp(self.time, self.poses.rotation)(inside))
+        return replace(self, time=time, poses=poses)
+
+    def relative_to(self, fixed: Motion) -> Motion:
+        """Poses of this body in the body that `fixed` moves, both given in one frame, such as the laboratory's.
+
+        X_FM = X_LF^-1 X_LM at this motion's times, to which the other one is interpolated (`at`).
+        """
+        if fixed.time_unit != self.time_unit:
+            raise ValueError(f"is over {fixed.time_unit}, the other motion over {self.time_unit}")
+        source = f"{self.source} relative to {fixed.source}"
+        poses = fixed.at(self.time).poses.inv() * self.poses
+        return replace(self, poses=poses, source=source, heeded=self.heeded | fixed.heeded)
 
     def turned(self, axis: tuple[float, float, float], angle: float) -> Motion:
         """The motion with MOVING turned in every frame about a direction of FIXED through MOVING's origin [rad]."""

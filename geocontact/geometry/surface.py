@@ -36,12 +36,15 @@ class Surface:
     assume_closed
         Trust the caller that the surface bounds a body although its edges do not show it: sides then come from the
         winding number, and points where it is undecided are reported.
+    space
+        Anatomical axes that its file says it is in, as in `Mesh`.
     """
 
     vertices: Float[np.ndarray, "n 3"]
     faces: Int[np.ndarray, "m 3"]
     name: str = "surface"
     assume_closed: bool = False
+    space: str = ""
 
     def __post_init__(self) -> None:
         if len(self.faces) == 0:
@@ -54,7 +57,7 @@ class Surface:
     @classmethod
     def of(cls, mesh: Mesh, assume_closed: bool = False) -> Surface:
         """Surface of a mesh as read from a file."""
-        return cls(mesh.vertices, mesh.faces, mesh.name, assume_closed)
+        return cls(mesh.vertices, mesh.faces, mesh.name, assume_closed, mesh.space)
 
     @cached_property
     def topology(self) -> Topology:

@@ -19,7 +19,7 @@ from geocontact.analyses.options import Length, Options, Spelled
 from geocontact.analyses.plain_page import write_plain_page
 from geocontact.analyses.result import Result
 from geocontact.analyses.run_record import Record
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 from geocontact.data.errors import InputError, InputWarning
 
 
@@ -75,7 +75,7 @@ def run(value: float, o: DoubleOptions, record: Record) -> Doubled:
 
 
 double = Job("double", DoubleOptions, read_length, run)
-from_command = command("tests.analyses.test_job:double", DoubleOptions, "Twice, see `more`.")
+from_command = Command("tests.analyses.test_job:double", DoubleOptions, "Twice, see `more`.")
 
 
 @pytest.fixture
@@ -116,7 +116,7 @@ def test_a_result_is_written_as_the_command_writes_it(file: Path, tmp_path: Path
 
 def test_the_page_alone(file: Path, tmp_path: Path) -> None:
     page = double(file).page(tmp_path / "page.html").read_text(encoding="utf-8")
-    assert "twice 0.005 m" in page and "length [mm]" in page and file.name in page
+    assert "Twice 0.005\u00a0m." in page and "length [mm]" in page and file.name in page
 
 
 def test_the_command_says_what_was_found_and_spells_options(

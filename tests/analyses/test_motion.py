@@ -59,15 +59,33 @@ def test_a_scaled_model_is_that_of_the_command(markers: Path, tmp_path: Path) ->
     called = result.write(tmp_path / "called")
     for name in ("scaled.osim", "scale.json"):
         assert typed.bytes(name) == (called / name).read_bytes(), name
-    assert "Model scaled to markers.trc" in result.page(tmp_path / "page.html").read_text(encoding="utf-8")
+    page = (called / "report.html").read_text(encoding="utf-8")
+    assert "Model scaled to markers.trc" in page and "The scaled model stands" in page
+    far = np.linalg.norm(result.seen - result.modelled, axis=1)
+    np.testing.assert_allclose(far, result.pose.distances[0], atol=1e-9)
+
+
+def test_virtual_markers_are_shown_on_the_skeleton(tmp_path: Path) -> None:
+    result = gc.virtual_markers(SWING, model=LEG)
+    np.testing.assert_allclose(result.model.marker_places(result.values), result.markers.positions, atol=1e-12)
+    page = result.page(tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "segments and joints" in page and "moves farthest" in page
 
 
 def test_refusals_name_arguments(markers: Path) -> None:
-    with pytest.raises(gc.InputError, match="`fill`: -1 is not a time"):
+    with pytest.raises(gc.InputError, match="`fill`: -1 s cannot be a gap in a recording"):
         gc.inverse_kinematics(markers, model=LEG, fill=-1.0)
     with pytest.raises(gc.InputError, match="`axes`: has no effect without plates"):
         gc.inverse_dynamics(SWING, model=LEG, axes="x,z,-y")
     with pytest.raises(gc.InputError, match="`plates`: with `loads` names the plates twice"):
         gc.inverse_dynamics(SWING, model=LEG, loads="a.xml", plates="b.mot", plate="1=foot_r")
-    with pytest.raises(gc.InputError, match="`mass`: 0 kg is not a mass"):
+    with pytest.raises(gc.InputError, match="`mass`: 0 kg cannot be the mass of a person"):
         gc.scale(markers, model=LEG, mass=0.0)
+
+
+def test_coordinates_that_markers_do_not_tell_come_first(markers: Path) -> None:
+    """Markers of the pelvis alone fit very well, and say nothing of the leg."""
+    left_out = tuple(f"{body}{k}=0" for body in ("femur_r", "tibia_r", "foot_r") for k in range(4))
+    with pytest.warns(gc.InputWarning, match="no frame tells hip_x"):
+        found = gc.inverse_kinematics(markers, model=LEG, weight=left_out)
+    assert found.sentences[0].startswith("5 of 11 coordinates are not determined; 101 frames, 4 markers")

@@ -11,7 +11,6 @@ from typing import Annotated, Literal
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.gap.benchmark.job import benchmark
 from geocontact.analyses.job import Job
 from geocontact.analyses.options import (
     Declared,
@@ -28,30 +27,8 @@ from geocontact.analyses.options import (
 )
 from geocontact.cli.command import option, read, speller
 from geocontact.data.errors import InputError
+from tests.analyses.jobs import JOBS
 
-JOBS: tuple[Job, ...] = (
-    gc.area,
-    gc.pressure,
-    gc.centre_of_pressure,
-    gc.fit_shape,
-    gc.load_cells,
-    gc.modulus,
-    gc.mat,
-    gc.scale,
-    gc.inverse_kinematics,
-    gc.inverse_dynamics,
-    gc.virtual_markers,
-    gc.misalignment.simulate,
-    gc.misalignment.identify,
-    gc.misalignment.compare,
-    gc.misalignment.design,
-    gc.misalignment.population,
-    gc.diagnose,
-    gc.discriminability,
-    gc.inject,
-    gc.gather,
-    benchmark,
-)
 EVERY = [pytest.param(job, one, id=f"{job.command}-{one.name}") for job in JOBS for one in declared(job.options)]
 
 
@@ -158,6 +135,12 @@ def test_every_option_is_documented(job: Job, one: Declared) -> None:
     assert "--" not in one.words, "Python's spelling, which the command line turns into its own"
 
 
+def test_headings_of_the_docstring_are_sections() -> None:
+    sections = {one.name: one.section for one in declared(gc.area.options)}
+    assert sections["unit"] == "" and sections["osim"] == "Motion" and sections["poisson"].startswith("Pressure")
+    assert {one.section for one in declared(gc.pressure.options) if one.name == "poisson"} == {sections["poisson"]}
+
+
 @pytest.mark.parametrize(("job", "one"), EVERY)
 def test_every_default_that_is_typed_is_the_default(job: Job, one: Declared) -> None:
     """And every default is finite, so that no NaN stands for a missing value."""
@@ -170,7 +153,8 @@ def test_every_default_that_is_typed_is_the_default(job: Job, one: Declared) -> 
 @pytest.mark.parametrize(("job", "one"), EVERY)
 def test_rules_name_options_that_there_are(job: Job, one: Declared) -> None:
     names = {other.name for other in declared(job.options)}
-    assert {rule.other for rule in one.rules} <= names - {one.name}
+    spoken = {rule.other for rule in one.rules} | {r.alternative for r in one.rules if isinstance(r, Requires)} - {""}
+    assert spoken <= names - {one.name}
 
 
 @pytest.mark.parametrize("job", JOBS, ids=lambda job: job.command)

@@ -70,6 +70,8 @@ def test_time_and_error_of_cylinder_fits() -> None:
             assert one["largest_error_m"] < 2e-5 and one["seconds"] < 0.7
 
 
+BOTH = "geocontact, map + clip of both bodies"
+FRAMES = "geocontact, all that `area` finds, gap and depth included"
 PEERS = {
     "**geocontact, map + clipped area**": "geocontact, map + clip",
     "geocontact, map + refined area with certified bounds": "geocontact, map + refined area with bounds",
@@ -102,6 +104,25 @@ def test_speed_beside_other_libraries() -> None:
     text = (ROOT / "docs/reference/speed.md").read_text(encoding="utf-8")
     assert f"{above['geocontact, map + clip']:.0f} MB above the loaded pair" in " ".join(text.split())
     assert "4.5 % wrong" in text and round(1e3 * told["warp (CPU), bounded to 4 mm"]["relative_area_error"]) == 45
+
+
+def test_speed_of_the_whole_command() -> None:
+    told = results("peers-knee")["whole_command"]
+    both, frames = (
+        float(np.median(next(one["cpu_s"] for one in told["rows"] if one["engine"] == name))) for name in (BOTH, FRAMES)
+    )
+    parts = {name: float(np.median(seconds)) for name, seconds in told["parts_cpu_s"].items()}
+    parts |= {"**whole command**": float(np.median(told["cpu_s"])), "its frames": frames}
+    for label, *cells in rows("reference/speed.md"):
+        for name, seconds in parts.items():
+            if name != "frames" and label.startswith(name) and len(cells) == 3:
+                assert near(cells[0], seconds) and near(cells[1], seconds / both), label
+    took = {one["engine"]: float(np.median(one["cpu_s"])) for one in told["rows"]}
+    text = " ".join((ROOT / "docs/reference/speed.md").read_text(encoding="utf-8").split())
+    libigl, whole = took["libigl AABB"], float(np.median(told["cpu_s"]))
+    assert f"libigl took {libigl:.2f} s" in text and f"{libigl / whole:.1f} times as long as the whole command" in text
+    fcpw, warp = (took[f"{name}, bounded to 4 mm + longest edge"] for name in ("fcpw", "warp (CPU)"))
+    assert f"took {fcpw:.2f} and {warp:.2f} s" in text
 
 
 def test_accuracy_against_closed_forms() -> None:

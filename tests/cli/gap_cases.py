@@ -47,8 +47,8 @@ evaluation = {list(EVALUATION)}
 force = {NOISE}
 
 [constants]
-l_ex = {ELBOW_CONSTANTS["l_ex"]}
-z_ex = {ELBOW_CONSTANTS["z_ex"]}
+l = {ELBOW_CONSTANTS["l"]}
+z = {ELBOW_CONSTANTS["z"]}
 
 [parameters.k]
 start = 280.0

@@ -36,7 +36,7 @@ def pressed(
 
 
 def test_files_page_and_maps(tmp_path: Path) -> None:
-    result = done(pressed(tmp_path, "--save-map", "--parquet", "--split", "z", picture=True))
+    result = done(pressed(tmp_path, "--save-map", "--parquet", "--split", "z", "--side", "right", picture=True))
     more = {"area.parquet", "distances.npz", "pressure.parquet", "pressure.npz"}
     assert set(inventory(result.folder)) == FILES | PRESSURE | more
     page = result.bytes("report.html").decode()
@@ -66,19 +66,19 @@ LID = stl_bytes(block(80.0, 80.0, 12.0, 8)[0], block(80.0, 80.0, 12.0, 8)[1][4:]
         ({**LAYER, SECOND: "500MPa"}, ("--poisson-moving", f"is missing with {SECOND}")),
         (
             {**LAYER, SECOND: "500MPa", "--poisson-moving": "0.5"},
-            ("--poisson-moving", "0.5 is not from 0 to below 0.5"),
+            ("--poisson-moving", "0.5 cannot be", "below 0.5"),
         ),
         ({"--piece": "1mm"}, ("--piece", "has no effect without --pressure")),
         ({**LAYER, "--modulus": None}, ("--modulus", "is missing with --pressure")),
         ({**LAYER, "--poisson": None}, ("--poisson", "is missing with --pressure")),
-        ({**LAYER, "--poisson": "0.5"}, ("--poisson", "0.5 is not from 0 to below 0.5")),
-        ({**LAYER, "--poisson": "nan"}, ("--poisson", "nan is not from 0")),
+        ({**LAYER, "--poisson": "0.5"}, ("--poisson", "0.5 cannot be", "below 0.5")),
+        ({**LAYER, "--poisson": "nan"}, ("--poisson", "nan is not a finite number")),
         ({**LAYER, "--modulus": "500"}, ("--modulus", "'500' is not a pressure", "500MPa")),
         ({**LAYER, "--modulus": "500N"}, ("--modulus", "'500N' is not a pressure")),
         ({**LAYER, "--modulus": "-5MPa"}, ("--modulus", "is not positive")),
-        ({**LAYER, "--thickness": "0mm"}, ("--thickness", "is not a positive length")),
+        ({**LAYER, "--thickness": "0mm"}, ("--thickness", "0 mm cannot be the thickness")),
         ({**LAYER, "--thickness": "thick"}, ("--thickness", "'thick'")),
-        ({**LAYER, "--piece": "0"}, ("--piece", "is not a positive length")),
+        ({**LAYER, "--piece": "0"}, ("--piece", "0 mm cannot be the edge")),
         ({**LAYER, "--piece": "1um"}, ("--piece", "pieces, more than", "give a longer edge")),
         ({**LAYER, "--foundation": "stiff"}, ("--foundation", "stiff")),
         ({**LAYER, "MOVING": lambda f: written(f / "ball.stl", OPEN)}, ("ball", "is open", "no depth")),

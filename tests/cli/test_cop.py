@@ -15,7 +15,7 @@ from tests.cli.calls import PLATE, Call, call, done, poses, written
 COLUMNS = ["time [s]", *(f"force_{a} [N]" for a in "xyz"), *(f"cop_{a} [m]" for a in "xyz"), "free_moment [N m]"]
 """The contract; more may follow."""
 
-FILES = {"cop.csv", "cop.png", "cop.svg", "run.json", "zones.csv"}
+FILES = {"cop.csv", "cop.png", "cop.svg", "report.html", "run.json", "zones.csv"}
 HEAD = "px [m], py [m], pz [m], radius [m], zone"
 RADIUS = 0.02
 STATIC = ("--damping", "0", "--friction", "0,0")

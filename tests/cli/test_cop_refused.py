@@ -43,7 +43,7 @@ GOOD = "0,0,0,0.02,heel"
         (f"{HEAD}, k [N/m^n]", [f"{GOOD},0"], "line 2: k is 0; it must be positive"),
         (f"{HEAD}, b [N s/m]", [f"{GOOD},-1"], "line 2: b is -1; it must not be negative"),
         (f"{HEAD}, b [Ns/mm]", [f"{GOOD},1"], "column 'b' is in 'Ns/mm'"),
-        (HEAD.replace(",", ";"), [GOOD.replace(",", ";")], "no column px, py, radius"),
+        (HEAD.replace(",", "\t"), [GOOD.replace(",", "\t")], "no column px, py, radius"),
     ],
 )
 def test_tables_of_spheres(tmp_path: Path, head: str, rows: list[str], words: str) -> None:
@@ -62,13 +62,13 @@ def test_files_that_are_no_table(tmp_path: Path, content: bytes) -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--gate", "-1"), "--gate: -1 is not a force"),
-        (("--gate", "nan"), "--gate: nan is not a force"),
-        (("--stiffness", "-1"), "must be positive"),
-        (("--damping", "-1"), "damping and friction not negative"),
+        (("--gate", "-1"), "--gate: -1 N cannot be the force"),
+        (("--gate", "nan"), "--gate: nan is not a finite number"),
+        (("--stiffness", "-1"), "-1 cannot be the stiffness k of a sphere"),
+        (("--damping", "-1"), "-1 N s/m cannot be a damping"),
         (("--friction", "0.9"), "--friction: '0.9' is not two numbers"),
         (("--friction", "0.9,x"), "--friction: 'x' is not a finite number"),
-        (("--full-depth", "0"), "must be positive"),
+        (("--full-depth", "0"), "0 mm cannot be a depth of contact"),
         (("--point", "toe"), "toe"),
         (("--ground", "plane:0,1,0"), "has 3 numbers"),
         (("--ground", "plane:0,0,0,0"), "has no length"),
@@ -107,6 +107,7 @@ def test_options(tmp_path: Path, options: tuple[str, ...], words: str) -> None:
         ("k = 1e4", ("--stiffness", "2e4"), "--stiffness: is given a second time by k in"),
         ("n = 1.5", ("--exponent", "1.2"), "--exponent: is given a second time by n in"),
         ("n = -1.5", (), "must be positive"),
+        ("k = 0.5", (), "law.toml k: 0.5 cannot be the stiffness k of a sphere, in N/m^n"),
     ],
 )
 def test_law_files(tmp_path: Path, law: str, options: tuple[str, ...], words: str) -> None:

@@ -110,7 +110,7 @@ def test_python_compares_as_the_command_does(tmp_path: Path, made: Path, fitted:
 def test_the_help_says_what_each_command_does(tmp_path: Path) -> None:
     shown = done(call("elbow", "--help", folder=tmp_path)).out
     for command in ("simulate", "fit", "compare", "design", "population"):
-        assert f"{command}: " in shown, shown
+        assert re.search(rf"{command} +[A-Z]", shown), shown
 
 
 def test_the_help_of_a_simulation_tells_what_it_takes_unless_given(tmp_path: Path) -> None:
@@ -198,11 +198,14 @@ REFUSED = {
     "bounds without room": (("--bounds", "x=60:-60"), "no room between its bounds"),
     "start outside": (("--bounds", "x=0:10", "--start", "x=20"), "x = 20 mm is not between its bounds"),
     "everything known": (("--known", "k=222,x=48,y=59,l=169,z=127"), "leaves nothing"),
-    "negative link": (("--known", "l=-169"), "l is not positive"),
-    "link in metres": (("--known", "l=0.169"), "--known: l = 0.169 mm is no link"),
-    "prior on a link in metres": (("--prior", "l=0.185:0.01"), "--prior: l = 0.185 mm is no link"),
-    "start of a link in metres": (("--start", "l=0.2"), "--start: l = 0.2 mm is no link"),
-    "bounds of a link in metres": (("--bounds", "l=0.16:0.21"), "--bounds: l = 0.21 mm is no link"),
+    "negative link": (("--known", "l=-169"), "--known l: -169 mm cannot be a link"),
+    "link in metres": (
+        ("--known", "l=0.169"),
+        "0.169 mm cannot be a link of an exoskeleton: that is 20 to 2000 mm; is 0.169 m meant?",
+    ),
+    "prior on a link in metres": (("--prior", "l=0.185:0.01"), "--prior l: 0.185 mm cannot be a link"),
+    "start of a link in metres": (("--start", "l=0.2"), "--start l: 0.2 mm cannot be a link"),
+    "bounds of a link in metres": (("--bounds", "l=0.16:0.21"), "--bounds l: 0.21 mm cannot be a link"),
     "free what is free": (("--free", "k"), "not b or s"),
     "pressure that is not there": (("--free", "s", "--map", "pressure=cuff"), "cuff"),
     "damping bounds unasked": (("--bounds", "b=0:10"), "b is not free; give --free b"),
@@ -227,15 +230,15 @@ SIMULATED = {
     "a fold": (("--numbers", "x=180"), "|x| = 180 mm is more than the link's l = 169 mm"),
     "a pole": (("--numbers", "x=150,y=150", "--range", "0:140"), "tan γ has a pole at"),
     "a range in radians": (("--range", "0.1:1.6"), "are degrees and radians mixed up?"),
-    "a range beyond any elbow": (("--range", "0:200"), "beyond any elbow"),
+    "a range beyond any elbow": (("--range", "0:200"), "200 deg cannot be an angle of an elbow"),
     "a band that aliases": (("--band", "10:90", "--rate", 100), "half of 100 Hz; give a higher --rate"),
     "s without a pressure": (("--numbers", "s=0.01"), "s has no effect without a cuff pressure; give --pressure"),
-    "no stiffness": (("--numbers", "k=0"), "not positive"),
+    "no stiffness": (("--numbers", "k=0"), "0 N/m cannot be the stiffness"),
     "a stroke that ends first": (("--stroke-mm=10:-10",), "--stroke-mm: its upper end is below the lower one"),
     "no trials": (("--trials", 0), "1 to 1000"),
-    "negative noise": (("--noise", -1), "0 or more"),
+    "negative noise": (("--noise", -1), "-1 N cannot be the noise"),
     "a map of nothing": (("--map", "beta=b"), "--map: has no effect without RECORDINGS"),
-    "a band from 0": (("--band", "0:0.3"), "not above 0 Hz"),
+    "a band from 0": (("--band", "0:0.3"), "0 Hz cannot be a frequency"),
     "trials along a recording": (("walk.csv", "--trials", 3), "--trials: has no effect along a recording"),
 }
 
@@ -269,3 +272,28 @@ def test_recordings_of_other_columns_are_mapped(tmp_path: Path, made: Path) -> N
     columns = ("--map", "beta=flexion,force=-Fx", "--simulated", locked(made)[0])
     result = done(elbow("compare", tmp_path / "out", tmp_path / "locked_1.csv", *columns))
     assert result.table("comparison.csv")["mae"].item() == 0.0
+
+
+def test_recordings_become_a_gap_case(tmp_path: Path) -> None:
+    """Locked trials only, angle and force as in the tables beside it; l and z are known, k, x, y are free."""
+    result = done(elbow("simulate", tmp_path, *QUICK[:-1], 4, "--stroke-mm=-10:60", "--case"))
+    case = gc.read_gap_case(result.folder / "case")
+    assert [each.name for each in (*case.calibration, *case.evaluation)] == [f"locked_{k}" for k in range(1, 5)]
+    assert len(case.calibration) == 3 and [each.name for each in case.parameters] == ["k", "x", "y"]
+    assert case.constants == pytest.approx({"l": 0.169, "z": 0.127})
+    table = pd.read_csv(result.folder / "locked_1.csv", comment="#")
+    np.testing.assert_allclose(case.calibration[0].column("beta"), np.radians(table["beta [deg]"]), rtol=1e-8)
+    np.testing.assert_allclose(case.calibration[0].column("force"), table["force [N]"], rtol=1e-8)
+    system = gc.system_of(case)
+    numbers = {each.name: each.start for each in case.parameters} | dict(case.constants)
+    off = system.simulate(case.evaluation[0], numbers)[:, 0] - case.evaluation[0].column("force")
+    assert np.sqrt(np.mean(off**2)) < 2.0, "what is left is what the person adds"
+
+
+@pytest.mark.parametrize(
+    ("options", "line"),
+    [(("--trials", "3", "--case"), "--trials: 3 trials are too few for --case; give 4 or more")],
+)
+def test_a_case_needs_trials_to_hold_out(tmp_path: Path, options: tuple[str, ...], line: str) -> None:
+    result = elbow("simulate", tmp_path, *options)
+    assert result.code == 2 and result.complaints[0].startswith(line)

@@ -55,6 +55,8 @@ def test_python_draws_as_the_command_does(tmp_path: Path) -> None:
         ({}, {"y": ""}, "no [y]"),
         ({}, {"w": "value = 1"}, "[w]"),
         ({}, {"y": 'unit = "mm"\nvalue = 3'}, "the same for everybody"),
+        ({}, {"k": 'unit = "N/m"\nvalue = 0.22'}, "[k] value: 0.22 N/m cannot be the stiffness of an attachment"),
+        ({}, {"l": 'unit = "m"\nnormal = { mean = 185, sd = 10 }'}, "[l] mean: 185000 mm cannot be a link"),
         ({}, {"y": 'unit = "N"\nvalue = 3'}, "unit is 'N'"),
         ({}, {"y": 'unit = "mm"\nvalue = 3\nnormal = { mean = 0, sd = 1 }'}, "told in 2 ways"),
         ({}, {"y": 'unit = "mm"\nnormal = { mean = 0 }'}, "sd is missing"),

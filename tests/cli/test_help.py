@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
+from collections import Counter
+from pathlib import Path
 
 import pytest
 
 from geocontact import __version__
+from geocontact.analyses.job import Job
+from geocontact.analyses.options import declared
+from geocontact.cli.main import app
+from geocontact.cli.suggestions import commands
+from tests.analyses.jobs import JOBS
 from tests.cli.calls import ROOT, call
+
+MOST_TOGETHER = 16
 
 HELP = [["--help"], ["area", "--help"], ["demo", "--help"], ["doctor", "--help"], ["view", "--help"]]
 HELP += [["cop", "--help"], ["fit", "--help"], ["loadcells", "--help"], ["--version"]]
@@ -63,6 +73,84 @@ def test_help_names_the_commands_and_every_option_of_the_contract() -> None:
     )
     told = call("area", "--help").out
     assert not [option for option in promised.split() if f"--{option}" not in told]
+
+
+def flat(text: str) -> str:
+    """Help as one line, without frames."""
+    return " ".join(text.replace("│", " ").split())
+
+
+def test_help_shows_what_stands_between_angles_and_brackets() -> None:
+    assert "trials/<id>.csv" in flat(call("gap", "gather", "--help").out)
+    assert "[from.<trial>]" in flat(call("gap", "gather", "--help").out)
+    assert "k [N/m^n] of every sphere" in flat(call("cop", "--help").out)
+
+
+@pytest.mark.parametrize("group", [(), ("gap",), ("elbow",)], ids=" ".join)
+def test_every_command_says_what_it_does(group: tuple[str, ...]) -> None:
+    told = flat(call(*group, "--help").out)
+    of = app
+    for name in group:
+        of = of[name]
+    for name in commands(of):
+        assert of[name].help.splitlines()[0] in told, name
+    assert flat(call(*group).out) == told
+
+
+def test_options_stand_under_headings() -> None:
+    told = call("area", "--help").out
+    before, _, after = told.partition("─ Motion ─")
+    assert "--unit" in before and "--osim" not in before
+    motion, _, rest = after.partition("╭─")
+    assert "--osim" in motion and "--modulus" not in motion
+    assert "─ Pressure of an elastic layer ─" in rest
+
+
+@pytest.mark.parametrize("job", JOBS, ids=lambda job: job.command)
+def test_many_options_are_never_one_heap(job: Job) -> None:
+    sections = Counter(one.section for one in declared(job.options))
+    assert max(sections.values()) <= MOST_TOGETHER
+
+
+@pytest.mark.parametrize(
+    ("typed", "line"),
+    [
+        ("aera", "aera is no command; did you mean area?"),
+        ("gap dignose x", "dignose is no command of gap; did you mean diagnose?"),
+        ("area --unti mm", "--unti is no option of area; did you mean --unit?"),
+        ("elbow fit a.csv --bootstrp=7 --out x", "--bootstrp is no option of elbow fit; did you mean --bootstrap?"),
+        ("area --zzzz mm", "--zzzz is no option of area; see geocontact area --help"),
+        ("--verison", "--verison is no option of geocontact; did you mean --version?"),
+        (
+            "gap --sze 2",
+            "--sze is no option of geocontact gap; name the command before its options, see geocontact gap --help",
+        ),
+        ("elbow zzzz", "zzzz is no command of elbow; there are simulate, fit, compare, design, population"),
+        ("cop a.csv --out x", "--motion is missing: see geocontact cop --help"),
+    ],
+)
+def test_what_was_mistyped_is_told_in_one_line(typed: str, line: str) -> None:
+    result = call(*typed.split())
+    assert (result.code, result.err.splitlines(), result.out) == (2, [line], "")
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish", "powershell"])
+def test_shells_complete_commands_and_options(shell: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    file = tmp_path / "completion"
+    assert call("--install-completion", "--shell", shell, "--output", file).code == 0
+    script = file.read_text(encoding="utf-8")
+    assert all(word in script for word in ("loadcells", "discriminability", "assume-closed", "grood-suntay"))
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="asks a shell")
+def test_bash_completes_a_choice(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    file = tmp_path / "completion"
+    call("--install-completion", "--shell", "bash", "--output", file)
+    asked = f"source {file}; COMP_WORDS=(geocontact area --rule cl); COMP_CWORD=3; COMP_TYPE=9; _geocontact; "
+    told = subprocess.run(["bash", "-c", asked + 'echo "${COMPREPLY[@]}"'], capture_output=True, text=True)
+    assert told.stdout.split() == ["clip"], told.stderr
 
 
 def test_version() -> None:

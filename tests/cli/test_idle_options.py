@@ -113,7 +113,7 @@ IDLE: Cases = {
     "--axis without --sweep": ({"--axis": "0,0,0,0,0,1"}, ("--axis", "without --sweep", "give --sweep")),
     "--side without --convention": (
         {"--side": "left"},
-        ("--side", "has no effect without --convention", "give --convention"),
+        ("--side", "has no effect without --convention or --split", "give --convention or --split"),
     ),
     "--convention without --side": ({"--convention": "grood-suntay"}, ("--side", "missing", "right or left")),
     "--convention beside poses": (
@@ -134,7 +134,7 @@ IDLE: Cases = {
             (f"{next(iter(more))}: ", "has no effect with --sweep", "leave it"),
         )
         for option, more in OPTIONS.items()
-        if option not in ("--axis", "--medial", "--tolerance")
+        if option not in ("--axis", "--medial", "--side", "--tolerance")
     },
 }
 

@@ -465,7 +465,7 @@ REFUSED = {
     "no such side": (("--knee", "centre=femur_r,tibia_r"), "not a side and two bodies"),
     "no such body": (("--knee", "right=femur_r,patella"), "no body 'patella'"),
     "a knee twice": (("--knee", "left=femur_r,tibia_r", "--knee", "left=tibia_r,foot_r"), "left knee is given twice"),
-    "a gap of no time": (("--fill", "-1"), "not a time"),
+    "a gap of no time": (("--fill", "-1"), "-1 s cannot be a gap in a recording"),
 }
 
 
@@ -562,9 +562,9 @@ ID_REFUSED = {
     "plates without a body": (("--plates", "grf.mot"), "belong together"),
     "a plate without its file": (("--plate", "1=foot_r"), "belong together"),
     "axes without plates": (("--axes", "x,z,-y"), "has no effect without plates"),
-    "a threshold below nothing": (("--threshold", "-3"), "not a force of 0 N or more"),
+    "a threshold below nothing": (("--threshold", "-3"), "-3 N cannot be the force"),
     "a cut-off above half the rate": (("--cutoff", "70"), "--cutoff"),
-    "a negative cut-off": (("--cutoff", "-1"), "not a frequency"),
+    "a negative cut-off": (("--cutoff", "-1"), "-1 Hz cannot be a cut-off frequency"),
     "no such span": (("--time", "3:4"), "no frame between 3 and 4 s"),
 }
 
@@ -643,7 +643,7 @@ SCALE_REFUSED = {
     "no such body": (("--scale", "arm=femur_r0/femur_r2"), "no body 'arm'"),
     "a body twice": ((*PAIRS, *PAIRS), "body 'femur_r' is named twice"),
     "no such marker": (("--scale", "femur_r=femur_r0/heel"), "the model has no marker heel"),
-    "a mass of nothing": ((*PAIRS, "--mass", "0"), "0 kg is not a mass"),
+    "a mass of nothing": ((*PAIRS, "--mass", "0"), "0 kg cannot be the mass of a person"),
 }
 
 

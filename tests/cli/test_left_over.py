@@ -16,7 +16,14 @@ from tests.cli.calls import PLATE, SPHERE, Call, area, done, inventory, poses, w
 from tests.contract import FILES
 
 PLAIN = {"area.csv", "run.json"}
-FULL = {*PLAIN, "area.parquet", "comparison.csv", "distances.npz"}
+FILES_OF = {
+    "--save-map": {"distances.npz"},
+    "--parquet": {"area.parquet", "comparison.parquet"},
+    "--compare": {"comparison.csv", "comparison.parquet"},
+}
+"""Files that are not there without an option."""
+
+FULL = PLAIN.union(*FILES_OF.values())
 
 
 def run(out: Path, *options: object, picture: bool = False) -> Call:
@@ -69,16 +76,16 @@ def test_stills_and_the_paraview_series_come_and_go(tmp_path: Path) -> None:
     assert for_viewers(out) == set()
 
 
-@pytest.mark.parametrize("gone", sorted(FULL - PLAIN))
+@pytest.mark.parametrize("gone", sorted(FILES_OF))
 def test_each_option_takes_its_file_with_it(tmp_path: Path, gone: str) -> None:
     """Without one option of all, exactly the files of the other options are there, and all of them are new."""
     out = tmp_path / "out"
     options = everything(tmp_path)
     done(run(out, *options))
     assert set(inventory(out)) == FULL
-    parts = {"distances.npz": options[:1], "area.parquet": options[1:2], "comparison.csv": options[2:]}
+    parts = {"--save-map": options[:1], "--parquet": options[1:2], "--compare": options[2:]}
     done(run(out, "--threshold", "3", *(word for name, part in parts.items() if name != gone for word in part)))
-    assert set(inventory(out)) == FULL - {gone}
+    assert set(inventory(out)) == FULL - FILES_OF[gone]
     assert json.loads((out / "run.json").read_bytes())["options"]["threshold"] == "3"
 
 

@@ -99,7 +99,6 @@ def test_python_writes_what_the_command_writes(tmp_path: Path) -> None:
         segment=("near=x < 40", "far=x > 40"),
         compare=model,
         phases=phases,
-        parquet=True,
     )
     with unpictured():
         result.write(tmp_path / "p" / "out")
@@ -139,14 +138,14 @@ REFUSED = {
     "a window without frames": (("--unloaded", "7:8"), "--unloaded: 7 … 8 s holds 0 frames"),
     "a window without end": (("--unloaded", "1"), "--unloaded: '1' is not a time from"),
     "a filter above its limit": (("--cutoff", "30"), "needs to lie between"),
-    "a cutoff that is none": (("--cutoff", "-1"), "--cutoff: -1 is not a frequency"),
+    "a cutoff that is none": (("--cutoff", "-1"), "--cutoff: -1 Hz cannot be a cut-off frequency"),
     "a part without a name": (("--segment", "x < 40"), "has no name"),
     "a part without faces": (("--segment", "far=x > 400"), "--segment: 'x > 400' holds for no face"),
     "half a registration": (("--registration", "2deg"), "--registration: '2deg' is not a length and an angle"),
     "a length for a pressure": (("--touched", "3mm"), "--touched: '3mm' is not a pressure"),
     "per cent without a sign": (("--accuracy", "10"), "--accuracy: '10' may be meant in per cent"),
     "no such mat": (("--sensor", "left"), "--sensor: there is no mat 'left'"),
-    "a negative gate": (("--gate", "-1"), "--gate: -1 is not a force"),
+    "a negative gate": (("--gate", "-1"), "--gate: -1 N cannot be the force"),
     "half a point": (("--point", "1,2"), "--point: '1,2' is neither a fit.json nor three numbers"),
     "the other side": (("--seen-from", "body"), "check landmarks, unit and --seen-from"),
     "no such way": (("--dead", "bury"), "bury"),

@@ -58,7 +58,7 @@ def test_writes_what_python_writes(tmp_path: Path) -> None:
     other, force = areas(tmp_path, "other.csv", scale=1.3), forces(tmp_path)
     typed = ("--area", two, "--poisson", "0.25,0.46", "--threshold", "4mm", "--predict-area", other, "--parquet")
     result = done(modulus(tmp_path, *typed, area=one, force=force, picture=True))
-    tables = {f"{name}.{ending}" for name in TABLES for ending in ("csv", "parquet")}
+    tables = {f"{name}.{ending}" for name in TABLES for ending in ("csv", "parquet")} | {"modulus.parquet"}
     assert set(inventory(result.folder)) == FILES | tables
     python = gc.modulus(
         (one, two),
@@ -68,9 +68,8 @@ def test_writes_what_python_writes(tmp_path: Path) -> None:
         poisson=(0.25, 0.46),
         predict_area=other,
         bootstrap=100,
-        parquet=True,
     )
-    python.write(tmp_path / "python")
+    python.write(tmp_path / "python", parquet=True)
     for name in {*tables, "modulus.json"}:
         assert (tmp_path / "python" / name).read_bytes() == result.bytes(name), name
     assert result.out.splitlines()[:-1] == list(python.sentences)
@@ -115,10 +114,14 @@ REFUSED = {
     "threshold not there": (("--threshold", "2.5"), "2.5 mm was not evaluated", True),
     "unknown beyond the areas": (("--free", "threshold=1:9"), "reaches beyond the areas", True),
     "no such unknown": (("--free", "nu"), "is none of threshold, lag, adduction, slope", True),
-    "impossible ratio": (("--poisson", "0.6"), "is not above -1 and at most 0.5", True),
+    "impossible ratio": (("--poisson", "0.6"), "cannot be Poisson's ratio", True),
     "strip without length": (("--reading", "strip"), "--length-mm: is missing", True),
     "no such reading": (("--reading", "circle"), "circle", True),
-    "radius in metres": (("--radius-mm", "0.037"), "--radius-mm: 0.037 is no radius of a contact in mm", False),
+    "radius in metres": (
+        ("--radius-mm", "0.037"),
+        "--radius-mm: 0.037 mm cannot be the radius of a contact: that is 0.1 to 10000 mm; is 0.037 m meant?",
+        False,
+    ),
     "lower bound above": (("--free", "lag=0.1:-0.1"), "has no room between its bounds", True),
     "one bound": (("--free", "lag=0.1"), "--free: '0.1' is not lower:upper", True),
     "named twice": (("--free", "lag,lag"), "or is named twice", True),
@@ -126,7 +129,7 @@ REFUSED = {
     "clocks apart": (("--lag", "50"), "0 frames of the area", True),
     "idle prediction": (("--predict-force", "x.csv"), "has no effect without --predict-area", True),
     "idle angles": (("--angles", "deg"), "has no effect without --flexion", True),
-    "negative strip": (("--length-mm", "-5"), "is no length in mm", True),
+    "negative strip": (("--length-mm", "-5"), "cannot be the length of a contact", True),
 }
 
 

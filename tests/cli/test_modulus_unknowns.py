@@ -23,7 +23,7 @@ def test_offset_of_a_motion_is_that_of_its_poses(tmp_path: Path) -> None:
     rows = [(1.0, 30.2, -0.5)]
     half = np.radians(0.75)
     turned = [(*row, np.cos(half), np.sin(half), 0.0, 0.0) for row in rows]
-    how = ("--split", "z", "--rule", "clip")
+    how = ("--split", "z", "--side", "right", "--rule", "clip")
     ours = done(area(tmp_path / "a", "--adduction", "x=1.5", *how, motion=poses(tmp_path, *rows))).table()
     assert (ours.pop(OFFSET) == 1.5).all()
     byhand = poses(tmp_path, *turned, name="turned.csv")
@@ -34,11 +34,12 @@ def test_offset_of_a_motion_is_that_of_its_poses(tmp_path: Path) -> None:
 def test_adduction_from_meshes(tmp_path: Path, elsewhere: Elsewhere) -> None:
     """Areas of the sample knee at three offsets; forces by the law of areas at an offset between them."""
     motion, found = gait(tmp_path, SOME), {}
+    how = ("--split", "z", "--side", "right", "--rule", "clip")
     for degrees in (-1.5, 0.0, 1.5, 0.6):
         turn = ("--adduction", f"x={degrees}") if degrees else ()
         out = tmp_path / f"at {degrees}"
-        found[degrees] = done(elsewhere(area, out, "--split", "z", "--rule", "clip", *turn, moving=FEMUR, fixed=INSERT,
-                                   motion=motion)).folder / "area.csv"  # fmt: skip
+        call = elsewhere(area, out, *how, *turn, moving=FEMUR, fixed=INSERT, motion=motion)
+        found[degrees] = done(call).folder / "area.csv"
     force = pressed(tmp_path, pd.read_csv(found[0.6]))
     others = ("--area", found[0.0], "--area", found[1.5])
     m = told(

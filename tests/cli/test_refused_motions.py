@@ -36,7 +36,10 @@ FAR = edited("-0.0306176748938", "-0.1306176748938", frames=(0,))
 MOTIONS: Cases = {
     "missing file": ({"--motion": "nowhere.csv"}, ("nowhere.csv", "No such file", "check the path")),
     "folder": ({"--motion": made("poses.csv")}, ("poses.csv", "irectory", "check the path")),
-    "unknown format": (motion(HEAD + "0,0,20,0,1,0,0,0\n", "poses.trc"), ("poses.trc", ".csv, .mot, .sto")),
+    "unknown format": (
+        motion(HEAD + "0,0,20,0,1,0,0,0\n", "poses.trc"),
+        ("poses.trc", ".csv, .xlsx, .mot, .sto, .txt"),
+    ),
     "pattern without a file": ({"--motion": "nowhere*.csv"}, ("nowhere*.csv", "matches no file", "check the pattern")),
     "two motions of one name": (
         {"--motion": lambda f: [poses(f, (0, 20, 0)), poses(made("b")(f), (0, 20, 0))]},
@@ -103,7 +106,10 @@ MOTIONS: Cases = {
 
 
 APART: Cases = {
-    "poses": ({"--motion": lambda f: poses(f, (0, 55, 0), (0, 60, 0))}, ("35 mm apart in every frame", "check unit")),
+    "poses": (
+        {"--motion": lambda f: poses(f, (0, 55, 0), (0, 60, 0))},
+        ("35 mm apart in every frame", "check unit", "--place-moving", "nearest in frame 1 of 2, 0 s"),
+    ),
     "joint": ({**JOINT, "--motion": FAR}, ("99 mm apart in every frame", "wrong direction? try --moving parent")),
     "joint the other way round": (
         {**JOINT, "--motion": FAR, "--moving": "parent"},

@@ -29,7 +29,20 @@ def everything(tmp_path_factory: pytest.TempPathFactory) -> tuple[Call, mock.Moc
     """A knee with a comparison, stills and the series, the last two only noted down; most contact in frame 2 of 3."""
     folder = tmp_path_factory.mktemp("report")
     measured = written(folder / "measured.csv", "time [s],threshold [mm],area_fixed [mm^2]\n0.3,4,2400\n")
-    options = ("--threshold", "4,1", "--split", "z", "--compare", measured, "--tolerance", "90%", "--bounds", "1e-9")
+    options = (
+        "--threshold",
+        "4,1",
+        "--split",
+        "z",
+        "--side",
+        "right",
+        "--compare",
+        measured,
+        "--tolerance",
+        "90%",
+        "--bounds",
+        "1e-9",
+    )
     patched = "geocontact.analyses.area.scene"
     with (
         mock.patch(f"{patched}.draw_stills", return_value=(Still(Path("x.png"), "matplotlib", NOTE),)) as stills,
@@ -97,7 +110,7 @@ def test_each_motion_has_its_own_inputs_and_reservations(tmp_path: Path) -> None
         assert digest not in said
 
 
-@pytest.mark.parametrize("threshold", ["0", "0,1"])
+@pytest.mark.parametrize("threshold", ["0", "0mm,1"])
 def test_a_threshold_of_zero_is_an_analysis_like_any_other(tmp_path: Path, threshold: str) -> None:
     motion = poses(tmp_path, (0, 19.5, 0), (0, 22, 0))
     result = done(

@@ -55,7 +55,7 @@ def elbow_case(
     rng = np.random.default_rng(seed)
     names = ("t01", "t02", "t03", "t04", "t05")
     motions = {name: _motion(rng, duration) for name in names}
-    empty = GapCase("case", "elbow", *_split(motions, {}), PARAMETERS, {"l_ex": 0.185, "z_ex": 0.09}, {"force": NOISE})
+    empty = GapCase("case", "elbow", *_split(motions, {}), PARAMETERS, {"l": 0.185, "z": 0.09}, {"force": NOISE})
     system = system_of(empty).scaled(_trials(motions, {}), TRUE)
     model = _with(system, effect)
     forces = {}

@@ -182,7 +182,7 @@ def test_part_beyond_the_splitting_plane_is_exact(at):
     floor, wall, side, _ = tilted_box_parts(25.0, THRESHOLD)
     negative = (floor[0] + wall[0]) * (at + D / 2) / D + side[0]
     box = surface(tilted_box(25.0, 3))
-    found = contact(PLATE, box, pose_of(), THRESHOLD * MM, split=Plane.across("z", at * MM)).fixed[0]
+    found = contact(PLATE, box, pose_of(), THRESHOLD * MM, split=Plane.across("z", at * MM), medial_side=-1).fixed[0]
     assert found.negative / MM2 == pytest.approx(negative, rel=1e-12)
 
 
@@ -191,7 +191,9 @@ def test_oblique_plane_through_the_middle_halves_a_symmetric_patch():
     box = surface(tilted_box(25.0, 3))
     parts = []
     for normal in ((0.6, 0.0, 0.8), (0.6, 0.0, -0.8), (-0.6, 0.0, -0.8)):
-        found = contact(PLATE, box, pose_of(), THRESHOLD * MM, split=Plane(normal, 1e-3 * np.sign(normal[0]))).fixed[0]
+        found = contact(
+            PLATE, box, pose_of(), THRESHOLD * MM, split=Plane(normal, 1e-3 * np.sign(normal[0])), medial_side=-1
+        ).fixed[0]
         parts.append(found.negative)
     assert parts[0] == pytest.approx(parts[1], rel=1e-12)
     assert parts[0] + parts[2] == pytest.approx(found.area, rel=1e-12)
@@ -207,7 +209,9 @@ def test_medial_part_of_a_disc_is_cut_by_its_chord():
     for c in (-7.0, 0.0, 3.3, 12.0):
         segment = r**2 * np.arccos(c / r) - c * (r**2 - c**2) ** 0.5
         split = Plane.across("x", (1.3 - c) * MM)
-        found = contact(*over_plate(shapes.sphere(20.0, n), 20 + gap), threshold * MM, split=split).fixed[0]
+        found = contact(
+            *over_plate(shapes.sphere(20.0, n), 20 + gap), threshold * MM, split=split, medial_side=-1
+        ).fixed[0]
         off = found.negative / MM2 - segment
         assert abs(off) < 1.5e-3 * area, f"chord at {c}: {off:.3f} mm^2 off {segment:.1f}"
 

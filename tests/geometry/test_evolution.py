@@ -16,7 +16,7 @@ from tests.contract import COLUMNS, SPLIT
 from tests.geometry.bodies import MM, cube, surface
 
 INSERT, FEMORAL = (surface(body, name) for body, name in zip(total_knee(1.0), ("insert", "femoral"), strict=True))
-SETTINGS = Settings(thresholds=(0.1 * MM, 4 * MM), split=Plane.across("z"))
+SETTINGS = Settings(thresholds=(0.1 * MM, 4 * MM), split=Plane.across("z"), medial_side=-1)
 
 
 def gait(frames=5):
@@ -150,7 +150,9 @@ def test_pose_that_is_not_finite_is_refused(bad):
 def test_sensitivity_is_the_clipped_area_at_further_thresholds(evolution):
     """Below and above the threshold that is asked for; the areas themselves stay what they are."""
     further = (0.0, 0.5 * MM, 2 * MM, 6 * MM)
-    found = area_evolution(FEMORAL, INSERT, gait(), Settings((4 * MM,), split=SETTINGS.split, sensitivity=further))
+    found = area_evolution(
+        FEMORAL, INSERT, gait(), Settings((4 * MM,), split=SETTINGS.split, medial_side=-1, sensitivity=further)
+    )
     clipped = area_evolution(FEMORAL, INSERT, gait(), Settings(further, rule="clip"))
     assert found.sensitivity_thresholds == further
     assert found.sensitivity == pytest.approx(clipped.fixed.area, rel=1e-12)

@@ -28,7 +28,7 @@ def test_sides_are_those_of_the_whole_job() -> None:
     moving, fixed = knee()
     motion = motion_from_csv(MESHES / "gait.csv")
     split = Plane.across("z")
-    pair = ContactPair(moving, fixed, Settings((4e-3,), split=split))
+    pair = ContactPair(moving, fixed, Settings((4e-3,), split=split, medial_side=-1))
     sides = SidedAreas(moving, fixed, 4e-3, split)
     for frame in (15, 72):
         rotation, translation = motion.poses[frame].rotation.as_matrix(), np.asarray(motion.poses[frame].translation)

@@ -52,7 +52,7 @@ def test_tables_of_gap_cases_are_in_si() -> None:
 def test_a_table_in_another_unit_is_not_written(tmp_path: Path) -> None:
     """All commands write through `write_table`, so that every test of a command asks this of its tables."""
     with pytest.raises(ValueError, match=r"depths: depth \[m\]: not the unit"):
-        write_table(pd.DataFrame({"depth [m]": np.zeros(2)}), tmp_path, parquet=False, name="depths")
+        write_table(pd.DataFrame({"depth [m]": np.zeros(2)}), tmp_path, "depths")
     assert list(tmp_path.iterdir()) == []
 
 

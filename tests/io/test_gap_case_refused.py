@@ -203,7 +203,6 @@ BAD_TRIALS = {
     "binary": ("10.5", "\0", ": is not a CSV table: it looks like binary data"),
     "no header": (TRIAL, BODY, " line 1: numbers where the header should be; one row of `name [unit]` is needed"),
     "blank first line": (TRIAL, "\n" + TRIAL, " line 1: no column names; one row of `name [unit]` is needed above"),
-    "comment first": (TRIAL, "# lab 3\n" + TRIAL, " line 1: the first column is '# lab 3'; put `time [s]` first"),
     "header alone": (BODY, "", " line 2: no rows below the column labels"),
     "one row": (BODY, BODY.split("\n")[0], ": 1 row; a trial needs at least 2"),
     "time alone": (TRIAL, "time [s]\n0\n1\n", " line 1: time is the only column"),
@@ -232,7 +231,7 @@ BAD_TRIALS = {
     "missing column": (TRIAL, "time [s],beta [rad],force [N]\n0,1,1\n1,1,1\n", " line 1: no column cop, unl"),
     "additional column": (TRIAL, "time [s],a [N],beta [rad],force [N],cop [m]\n0,1,1,1,1\n1,1,1,1,1\n", " line 1: col"),
     "another column": ("cop [m]", "cop_x [m]", " line 1: no column cop, unlike t01.csv; all trials need the same colu"),
-    "semicolons": (TRIAL, TRIAL.replace(",", ";").replace(".", ","), " line 1: columns are separated by ';'; save it"),
+    "semicolons, commas and points": (TRIAL, TRIAL.replace(",", ";").replace("11.5", "11,5"), " line 3: '11,5' has a"),
     "tabs": (TRIAL, TRIAL.replace(",", "\t"), " line 1: columns are separated by tabs; save it with commas"),
     "decimal commas": (BODY, BODY.replace(".", ","), " line 2: 8 cells where 4 columns are named (decimal c"),
     "decimal comma later": ("11.5,", "11,5,", " line 3: more cells where 4 columns are named; rows must be as long"),
@@ -253,7 +252,7 @@ BAD_TRIALS = {
     "time is infinite": ("0.2,", "inf,", " line 4: 'time' is infinite or too large"),
     "time stands": ("0.1,", "0.0,", " line 3: time 0 s does not follow 0 s; time must increase from row to row"),
     "time runs back": ("0.2,", "0.05,", " line 4: time 0.05 s does not follow 0.1 s; time must increase"),
-    "row of commas": (TRIAL, TRIAL + ",,,\n", " line 5: time is missing"),
+    "row of commas": ("0.2,", ",,,\n0.2,", " line 4: time is missing"),
     "second header": ("0.1,", TRIAL.split("\n")[0] + "\n0.1,", " line 3: 'time [s]' in column 'time' is not a number"),
     "NaN throughout": (BODY, "0,,,\n1,nan,,\n", ": every channel is empty in every row; strike the trial from case.to"),
 }  # fmt: skip
@@ -287,7 +286,7 @@ BAD_TABLES = {
     "quote left open": ("z1", '"z1', " line 3: 'z1\\n0.5,0.02,0.012,2\\n' in column 'zone' is not a word"),
     "decimal commas": ("0.0,0.01", "0,0,0,01", " line 2: 6 cells where 4 columns are named (decimal commas?); write"),
     "decimal comma in quotes": ("0.02", '"0,02"', ' line 3: decimal comma in "0,02"; write decimal points'),
-    "semicolons": (SPHERES, SPHERES.replace(",", ";"), " line 1: columns are separated by ';'"),
+    "thousands or decimals": (SPHERES, "px [m];py [m]\n1,234;5,678\n", " line 2: '1,234' may be thousands or have a"),
 }
 
 

@@ -29,7 +29,7 @@ VALUES = np.linspace(0.0, 1.0, len(EPOCH))
 
 def by_table(folder: Path) -> np.ndarray:
     rows = pd.DataFrame({"time [s]": EPOCH, "force [N]": VALUES})
-    write_table(rows, folder, parquet=False, name="forces")
+    write_table(rows, folder, "forces")
     return read_table(folder / "forces.csv").time
 
 
@@ -57,7 +57,7 @@ def test_milliseconds_stay(tmp_path: Path, written: Callable[[Path], np.ndarray]
 def test_times_that_need_no_more_digits_are_written_as_they_were(tmp_path: Path) -> None:
     time = np.array([0.1 + 0.2, 12.3456789012345, 999999.123456])
     rows = pd.DataFrame({"time [s]": time, "force [N]": [1.76e9 + 1e-3, np.nan, 1.0]})
-    write_table(rows, tmp_path, parquet=False, name="forces")
+    write_table(rows, tmp_path, "forces")
     lines = (tmp_path / "forces.csv").read_text(encoding="utf-8").splitlines()
     assert lines[1:] == ["0.3,1760000000", "12.3456789012,", "999999.123456,1"]
 

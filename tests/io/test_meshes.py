@@ -374,6 +374,21 @@ def test_absurd_unit_says_what_the_style_guide_prints(tmp_path):
     )
 
 
+def test_a_size_that_a_commoner_unit_would_make_usual_is_warned_about(tmp_path):
+    """An implant of 60 mm read as inches is 2 m long; bodies and bones are silent in their own unit."""
+    text = "v 0 0 0\nv {0!r} 0 0\nv 0 {0!r} 0\nf 1 2 3\n"
+    with pytest.warns(InputWarning) as said:
+        read_mesh(write_obj(tmp_path, text.format(60.0), "insert.obj"), "in")
+    assert str(said[0].message) == (
+        "insert.obj: bounding box 60 x 60 x 0 in is 2155 mm across, unusual for an implant or a bone; "
+        "mm would make it 85 mm: check `unit`"
+    )
+    with pytest.warns(InputWarning, match="is 8 mm across.* cm would make it 85 mm: check `unit`"):
+        read_mesh(write_obj(tmp_path, text.format(6.0), "insert.obj"), "mm")
+    for length, unit in ((60.0, "mm"), (1200.0, "mm"), (1.2, "m"), (6.0, "cm"), (2.4, "in")):
+        read_mesh(write_obj(tmp_path, text.format(length), "body.obj"), unit)
+
+
 def test_plausible_size_can_be_widened_and_ignores_unused_vertices(tmp_path):
     path = write_obj(tmp_path, "v 1e6 0 0\nv 0 0 0\nv 2 0 0\nv 0 2 0\nf 2 3 4\n")
     with pytest.warns(InputWarning, match="1 vertex belongs to no face"):

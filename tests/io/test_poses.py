@@ -315,7 +315,7 @@ def test_pose_matrix_in_the_unit_of_the_mesh(tmp_path: Path, text: str) -> None:
         (POSE.replace("30", "nan"), "not a 4x4 matrix of finite numbers"),
         (POSE.replace("0, -1,", "0, -1.001,"), "rotation part is off orthonormal by 0.002"),
         (POSE.replace("0, -1,", "0, 1,"), "rotation part mirrors"),
-        (POSE.replace("0, 0, 0, 1", "10, 20, 30, 1"), "row 4: is not 0 0 0 1"),
+        (POSE.replace("0, 0, 0, 1", "10, 20, 30, 1"), "the last row of the matrix is not 0 0 0 1"),
         ("", "not a 4x4 matrix"),
         ("1 " * 50000, "too long for a 4x4 matrix"),
     ],

@@ -136,11 +136,11 @@ def test_bad_tables_are_refused_with_their_place(tmp_path: Path, text: str, mess
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (CSV.replace(",", ";"), "line 1: columns are separated by ';'"),
+        (CSV.replace(",", ";").replace("0.5;20", "0,5;20"), "line 3: '0,5' has a comma and '0.0' in line 2 a point"),
         (CSV.replace("[s]", "[h]"), "time is in 'h'"),
         (CSV.replace("20,", ","), ""),
     ],
-    ids=["semicolons", "time in hours", "empty cell"],
+    ids=["commas and points", "time in hours", "empty cell"],
 )
 def test_bad_csv(tmp_path: Path, text: str, message: str) -> None:
     if message:

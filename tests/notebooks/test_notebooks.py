@@ -6,6 +6,7 @@ import ast
 import json
 import os
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -21,6 +22,20 @@ ROOT = Path(__file__).resolve().parents[2]
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 
 
+SHOWS = re.compile(r"(\.figures?\(.*\)(\[.*\])?|\.plot\(.*\);?|\.legend\(\);|aspect=.*\);)\s*\Z")
+"""End of a cell below which a picture is meant."""
+
+NO_PICTURE = re.compile(r"<\w+ size [\d.]+x[\d.]+ with \d+ Axes>")
+
+
+def pictures(cell) -> int:
+    """How many pictures stand below a cell; none stands there as text."""
+    shown = [output.get("data", {}) for output in cell.outputs]
+    for data in shown:
+        assert "image/png" in data or not NO_PICTURE.search(data.get("text/plain", "")), cell.source
+    return sum("image/png" in data or "<img src" in data.get("text/html", "") for data in shown)
+
+
 @pytest.fixture
 def run(tmp_path, monkeypatch):
     """Execute a notebook with a folder of its own as the place where it writes; returns what its cells said."""
@@ -31,7 +46,10 @@ def run(tmp_path, monkeypatch):
         os.symlink(ROOT / "meshes", tmp_path / "meshes")
         book = nbformat.read(notebook, as_version=4)
         NotebookClient(book, timeout=600, resources={"metadata": {"path": str(tmp_path)}}).execute()
-        outputs = [output for cell in book.cells if cell.cell_type == "code" for output in cell.outputs]
+        cells = [cell for cell in book.cells if cell.cell_type == "code"]
+        for cell in cells:
+            assert pictures(cell) >= (SHOWS.search(cell.source) is not None), f"no picture below {cell.source}"
+        outputs = [output for cell in cells for output in cell.outputs]
         return "".join(output.get("text", "") for output in outputs)
 
     return executed
@@ -54,12 +72,29 @@ def test_kept_without_outputs_and_with_any_python(notebook):
     assert "version" not in book["metadata"].get("language_info", {})
 
 
+WITHOUT_PYPLOT = """
+import sys
+import geocontact as gc
+from IPython.core.formatters import DisplayFormatter
+
+found = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").figure()
+assert "matplotlib.pyplot" not in sys.modules
+data, _ = DisplayFormatter().format(found)
+assert data["image/png"][:4] == b"\\x89PNG", data
+"""
+
+
+def test_a_figure_is_a_picture_where_pyplot_was_never_imported():
+    told = subprocess.run([sys.executable, "-c", WITHOUT_PYPLOT], cwd=ROOT, capture_output=True, text=True)
+    assert told.returncode == 0, told.stderr
+
+
 @pytest.mark.slow
 @pytest.mark.filterwarnings("default")  # of the notebook machinery itself
 def test_contact_area_writes_what_the_command_writes(run, tmp_path):
     said = run(ROOT / "notebooks" / "contact_area.ipynb", GEOCONTACT_DATA=str(tmp_path / "none"))
     assert "101 frames, signed: both" in said and "no real data here; everything above is synthetic" in said
-    given = ("--unit", "mm", "--motion", MESHES / "gait.csv", "--threshold", "1,4", "--split", "z")
+    given = ("--unit", "mm", "--motion", MESHES / "gait.csv", "--threshold", "1,4", "--split", "z", "--side", "right")
     with unpictured():
         assert call("area", FEMUR, INSERT, *given, "--out", tmp_path / "out").code == 0
     notebook = tmp_path / "contact-area-result"
@@ -163,8 +198,8 @@ def by_commands(made: Path, out: Path) -> list[str]:
         ROOT / "meshes" / f"{name}.stl"
         for name in ("femoral_component_right_medium", "femoral_component_right_coarse", "tibial_insert_right_coarse")
     )
-    how = ("--unit", "mm", "--motion", made / "gait.csv", "--split", "z", "--rule", "clip")
-    patch = ("--axis", "0,0,0,0,0,1", "--sagittal=-y,-x", "--region", "outward>0.5", "--split", "z")
+    how = ("--unit", "mm", "--motion", made / "gait.csv", "--split", "z", "--side", "right", "--rule", "clip")
+    patch = ("--axis", "0,0,0,0,0,1", "--sagittal=-y,-x", "--region", "outward>0.5", "--split", "z", "--side", "right")
     layer = ("--pressure", "--modulus", "500MPa", "--poisson", "0.46", "--piece", "1mm", "--region", "ny>0.25")
     bent = ("--profile", made / "radii" / "profile.csv", "--flexion", ROOT / "meshes" / "gait.mot")
     given = ("--area", made / "area.csv", "--force", made / "forces.csv", "--threshold", "1", "--poisson", "0.25,0.46")

@@ -127,7 +127,8 @@ def bent(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Call:
     return done(
         area(
             folder / "out", "--sweep", "flexion=0:90:15", "--axis", "0.008,0.0335,0,0,0,-1", "--place-moving", place,
-            "--split", "z", moving=stl / "Femoral Component.stl", fixed=stl / "Tibial Insert.stl", unit="m",
+            "--split", "z", "--medial", "+",
+            moving=stl / "Femoral Component.stl", fixed=stl / "Tibial Insert.stl", unit="m",
         )
     )  # fmt: skip
 

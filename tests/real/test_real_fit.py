@@ -74,8 +74,8 @@ def test_whole_surface_is_far_from_any_cylinder_but_not_by_the_papers_16_mm(data
 def test_the_knee_has_two_radii(data_dir: Path, tmp_path: Path) -> None:
     """38.4 mm up to about 30 degrees of flexion, 21.8 mm behind; both condyles alike."""
     mesh = data_dir / JW / FEMUR
-    result = fitted(tmp_path / "o", mesh, "cylinder", *Z, SIDE_VIEW, "--region", "outward>0.5", "--split", "z",
-                    "--profile=-20:80:10")  # fmt: skip
+    result = fitted(tmp_path / "o", mesh, "cylinder", *Z, SIDE_VIEW, "--region", "outward>0.5",
+                    "--split", "z", "--medial", "+", "--profile=-20:80:10")  # fmt: skip
     table = result.table("profile.csv")
     for _, side in table.groupby("side"):
         radius = side.set_index("flexion [deg]")["radius [mm]"]
@@ -86,8 +86,8 @@ def test_the_knee_has_two_radii(data_dir: Path, tmp_path: Path) -> None:
 
 def test_another_knee(data_dir: Path, tmp_path: Path) -> None:
     mesh = next((data_dir / DM).rglob("Femoral Component decimated.stl"))
-    result = fitted(tmp_path / "o", mesh, "cylinder", *Z, SIDE_VIEW, "--region", "outward>0.5", "--split", "z",
-                    "--profile=0:80:40")  # fmt: skip
+    result = fitted(tmp_path / "o", mesh, "cylinder", *Z, SIDE_VIEW, "--region", "outward>0.5",
+                    "--split", "z", "--medial", "+", "--profile=0:80:40")  # fmt: skip
     table = result.table("profile.csv")
     assert table["radius [mm]"].between(15.0, 60.0).all()
     assert (table["rms [mm]"] < 0.3).all()

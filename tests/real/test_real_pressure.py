@@ -20,7 +20,20 @@ def dm(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Call:
     folder = data_dir / "gc6_dm_knee"
     femur, insert = (folder / "stl" / f"{b} decimated.stl" for b in ("Femoral Component", "Tibial Insert"))
     motion = folder / "fluoroscopy" / "Fluoroscopic Gait Data.sto"
-    options = ("--map", MAP, "--angles", "rad", "--region", "ny>0.25", "--split", "z", "--threshold", "0")
+    options = (
+        "--map",
+        MAP,
+        "--angles",
+        "rad",
+        "--region",
+        "ny>0.25",
+        "--split",
+        "z",
+        "--medial",
+        "-",
+        "--threshold",
+        "0",
+    )
     layer = ("--pressure", "--modulus", "500MPa", "--poisson", "0.46", "--facets", "flat")
     out = tmp_path_factory.mktemp("dm") / "out"
     return done(area(out, *options, *layer, moving=femur, fixed=insert, motion=motion, unit="m"))

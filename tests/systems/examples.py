@@ -17,7 +17,7 @@ from geocontact.systems.shoulder import model as shoulder_exoskeleton
 from geocontact.systems.sit_to_stand import model as sit_to_stand
 
 FOOT_CONSTANTS = {"n": 1.2, "delta_full": 0.002, "mu_s": 0.9, "mu_k": 0.7, "v_th": 0.25}
-ELBOW_CONSTANTS = {"l_ex": 0.185, "z_ex": 0.09}
+ELBOW_CONSTANTS = {"l": 0.185, "z": 0.09}
 ELBOW_VALUES = {"k": 300.0, "x": 0.03, "y": 0.04}
 JOINT_CONSTANTS = {"angle0": 0.1, "hardening": 0.6}
 KNEE_CONSTANTS = {"R": 0.037}

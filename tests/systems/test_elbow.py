@@ -9,13 +9,14 @@ from hypothesis import strategies as st
 
 from geocontact.axis_misalignment.deflection import misalignment
 from geocontact.chain.differentiated_inputs import recorded
+from geocontact.systems.elbow.model import build
 from tests.systems.examples import ELBOW_CONSTANTS, elbow, elbow_trial, recording
 
 
-def restated(beta: np.ndarray, k: float, x: float, y: float, l_ex: float, z_ex: float) -> np.ndarray:
-    tangent = (x * np.cos(beta) + y * np.sin(beta)) / (l_ex + y * np.cos(beta) - x * np.sin(beta))
-    linear = y + np.sqrt(l_ex**2 - x**2) - np.hypot(l_ex * np.sin(beta) - x, y + l_ex * np.cos(beta))
-    return k * (linear - z_ex * tangent)
+def restated(beta: np.ndarray, k: float, x: float, y: float, l: float, z: float) -> np.ndarray:
+    tangent = (x * np.cos(beta) + y * np.sin(beta)) / (l + y * np.cos(beta) - x * np.sin(beta))
+    linear = y + np.sqrt(l**2 - x**2) - np.hypot(l * np.sin(beta) - x, y + l * np.cos(beta))
+    return k * (linear - z * tangent)
 
 
 @pytest.mark.parametrize("x", [0.0, 0.03, 0.09])
@@ -27,10 +28,17 @@ def test_force_is_that_of_the_text(x: float, y: float) -> None:
     np.testing.assert_allclose(got[:, 0], want, rtol=1e-12, atol=1e-12)
 
 
+def test_former_names_of_the_lengths_are_read() -> None:
+    trial, free = elbow_trial("t", 2.0), elbow().parameters
+    former = build(free, {"l_ex": ELBOW_CONSTANTS["l"], "z_ex": ELBOW_CONSTANTS["z"]}, {})
+    values = {each.name: each.start for each in free}
+    np.testing.assert_array_equal(former.simulate(trial, values), elbow().simulate(trial, values))
+
+
 def test_a_right_angle_by_hand() -> None:
     # l = 0.17, x = 0.03, y = 0.04, z = 0.1: d_lin = 0.04 + sqrt(0.028) - sqrt(0.0212), tan = 0.04/0.14
     trial = recording("t", np.arange(6.0), {"beta": np.full(6, np.pi / 2), "force": np.zeros(6)})
-    got = elbow().simulate(trial, {"k": 300.0, "x": 0.03, "y": 0.04, "l_ex": 0.17, "z_ex": 0.1})
+    got = elbow().simulate(trial, {"k": 300.0, "x": 0.03, "y": 0.04, "l": 0.17, "z": 0.1})
     assert got[3, 0] == pytest.approx(300.0 * (0.04 + 0.16733200530681513 - 0.14560219778561037 - 0.1 * 2.0 / 7.0))
     assert got[3, 0] == pytest.approx(9.947513684, rel=1e-9)
 
@@ -48,7 +56,7 @@ def test_rate_is_the_derivative(beta: float, x: float, y: float, slope: float, c
 
 def test_lengths_and_stiffness_scale_each_other_away() -> None:
     trial = elbow_trial("t", 2.0)
-    values = {"k": 300.0, "x": 0.03, "y": 0.04, "l_ex": 0.17, "z_ex": 0.09}
+    values = {"k": 300.0, "x": 0.03, "y": 0.04, "l": 0.17, "z": 0.09}
     larger = {name: 2.0 * value for name, value in values.items()} | {"k": 150.0}
     np.testing.assert_allclose(elbow().simulate(trial, larger), elbow().simulate(trial, values), rtol=1e-12)
 

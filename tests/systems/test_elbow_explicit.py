@@ -139,7 +139,7 @@ def test_a_pole_is_named_with_angle_and_offsets() -> None:
 
 
 def test_numbers_stand_where_the_kernel_reads_them() -> None:
-    assert tuple(ELBOW_GEOMETRY.neutral)[:4] == ("l_ex", "z_ex", "x", "y")
+    assert tuple(ELBOW_GEOMETRY.neutral)[:4] == ("l", "z", "x", "y")
     np.testing.assert_array_equal(Offsets(1.0, 2.0, 3.0, 4.0).numbers[:4], [1.0, 2.0, 3.0, 4.0])
 
 

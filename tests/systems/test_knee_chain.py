@@ -31,7 +31,7 @@ CELLS = chain()
 def test_sides_press_by_the_areas_of_the_area_command() -> None:
     motion = motion_from_csv(MESHES / "gait.csv")
     moving, fixed = (Surface.of(bodies()[name].mesh) for name in ("moving", "fixed"))
-    pair = ContactPair(moving, fixed, Settings((4e-3,), split=Plane.across("z")))
+    pair = ContactPair(moving, fixed, Settings((4e-3,), split=Plane.across("z"), medial_side=-1))
     force = chain(SIDES).simulate(trial("t", TIME, POSES, SIDES), {"E_star": MODULUS})
     for k in (0, 3):
         pose = motion.poses[20 * k]

@@ -9,6 +9,7 @@ from jaxtyping import Float, Int
 
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Course
+from geocontact.view.curves.sheet import sheet
 from geocontact.view.surfaces.palette import distance_colours
 
 if TYPE_CHECKING:
@@ -42,9 +43,8 @@ def area_figure(
         Ends of the colours [m], those of the page.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(11.0, 6.4), layout="constrained")
+    figure = sheet(11.0, 6.4)
     FigureCanvasAgg(figure)
     panels = figure.subplot_mosaic([["area", "map"], ["gap", "map"]], height_ratios=[2, 1], width_ratios=[3, 2])
     _areas(panels["area"], evolution, course.values)

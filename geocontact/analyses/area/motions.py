@@ -29,25 +29,63 @@ def motions_given(record: Record, o: AreaOptions, moving: Surface) -> list[tuple
 
 
 def _read(record: Record, o: AreaOptions) -> list[tuple[str, Motion]]:
-    motions = {}
-    for path in _expanded(o.motion or ()):
-        motions[path] = read_motion(
-            path,
-            osim=o.osim,
-            joint=o.joint,
-            moving=o.moving_body or "child",
-            mapping=o.map,
-            order=o.order,
-            angles=o.angles,
-            grood_suntay_side=o.side if o.convention else None,
-        )
-    _refuse_unheeded(o, motions)
-    named = [(path.stem if len(motions) > 1 else "", path, motion) for path, motion in motions.items()]
-    for folder, path, motion in named:
+    paths = _expanded(o.motion or ())
+    _refuse_names(paths)
+    motions = {path: _motion(path, o) for path in paths}
+    bases = _motions_of_fixed(o, paths)
+    _refuse_unheeded(o, {**motions, **dict(bases.values())})
+    found = []
+    for path, motion in motions.items():
+        folder = path.stem if len(motions) > 1 else ""
         record.add_input("motion", path, frames=len(motion), source=motion.source, folder=folder or ".")
+        if path in bases:
+            motion = _relative(record, motion, *bases[path])
+        found.append((folder, motion))
     if o.osim is not None:
         record.add_input("model", o.osim, joint=o.joint)
-    return [(folder, motion) for folder, _, motion in named]
+    return found
+
+
+def _motion(path: Path, o: AreaOptions) -> Motion:
+    return read_motion(
+        path,
+        osim=o.osim,
+        joint=o.joint,
+        moving=o.moving_body or "child",
+        mapping=o.map,
+        order=o.order,
+        angles=o.angles,
+        grood_suntay_side=o.side if o.convention else None,
+        unit=o.unit,
+        rate=o.rate,
+    )
+
+
+def _motions_of_fixed(o: AreaOptions, paths: list[Path]) -> dict[Path, tuple[Path, Motion]]:
+    """File and poses of FIXED for each motion of MOVING; none where FIXED stays."""
+    if not o.motion_fixed:
+        return {}
+    fixed = _expanded(o.motion_fixed)
+    if len(fixed) != len(paths):
+        what = f"names {len(fixed)} files for {len(paths)} of `motion`"
+        raise InputError("", "`motion_fixed`", what, "give one for each, in the same order")
+    read = [read_motion(path, order=o.order, angles=o.angles, unit=o.unit, rate=o.rate) for path in fixed]
+    return dict(zip(paths, zip(fixed, read, strict=True), strict=True))
+
+
+def _relative(record: Record, motion: Motion, file: Path, fixed: Motion) -> Motion:
+    """Poses of MOVING in FIXED, both moving in one frame."""
+    record.add_input("motion of fixed", file, frames=len(fixed), source=fixed.source)
+    try:
+        found = motion.relative_to(fixed)
+    except ValueError as error:
+        raise InputError(file, "", str(error), "cut `motion` to times at which both are known") from error
+    if fixed.at(motion.time) is not fixed:
+        record.warn(
+            f"{file}: has other times than the motion of MOVING; interpolated to those, translations linearly, "
+            "rotations along the shortest arc"
+        )
+    return found
 
 
 def _refuse_unheeded(o: AreaOptions, motions: dict[Path, Motion]) -> None:
@@ -58,6 +96,7 @@ def _refuse_unheeded(o: AreaOptions, motions: dict[Path, Motion]) -> None:
         ("convention", "knee angle is", "name its columns with `map`"),
         ("order", "two angles to put in order are", "leave it out"),
         ("angles", "angle is", "leave it out"),
+        ("rate", "pose without a time is", "leave it out"),
     ):
         if o.given(option) and option not in heeded:
             raise InputError("", f"`{option}`", f"has no effect here: no {unread} read from {files}", remedy)
@@ -70,13 +109,17 @@ def _expanded(patterns: Sequence[str]) -> list[Path]:
         if not matches:
             raise InputError(pattern, "", "matches no file", "check the pattern")
         paths += [Path(match) for match in matches]
+    return paths
+
+
+def _refuse_names(paths: Sequence[Path]) -> None:
+    """InputError for motions that cannot have a sub-folder each."""
     names = [path.stem for path in paths]
     for name in names if len(names) > 1 else ():
         if name in ("", ".", "..") or name.lower() == "run.json":
             raise InputError("", "`motion`", f"a motion called {name!r} cannot name a folder", "rename its file")
         if names.count(name) > 1:
             raise InputError("", "`motion`", f"two motions are called {name}", "their results would share a folder")
-    return paths
 
 
 def _swept(record: Record, o: AreaOptions, asked: tuple[str, float, float, float], moving: Surface) -> Motion:

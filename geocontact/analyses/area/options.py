@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     AngleUnit,
@@ -22,27 +21,30 @@ from geocontact.analyses.options import (
     Spelled,
     Typed,
 )
+from geocontact.analyses.sides import Medial, Side, medial_side
 from geocontact.data.errors import InputError
+from geocontact.data.ranges import (
+    DIFFERENCE,
+    FRAME_RATE,
+    JOINT_ANGLE,
+    LAYER,
+    LAYER_RATIO,
+    PIECE,
+    SHARE,
+    THRESHOLD,
+    TURN,
+    YOUNG,
+)
 
 RAYS, FLAT = "rays", "flat"
-LARGEST_TURN = math.radians(45.0)  # an offset of adduction is small
 
-POSITIVE = {
-    "bounds": "number",
-    "tolerance": "number",
-    "modulus": "pressure",
-    "modulus_moving": "pressure",
-    "piece": "length",
-    "thickness": "length",
-    "thickness_moving": "length",
-}
 READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which reads no motion file")
 OF_LAYER = Requires("pressure")
 OF_SECOND = Requires("modulus_moving")
 
-Sweep = Annotated[tuple[str, float, float, float], Typed("rad", "sweep_range"), Spelled(dashed=True)]
-Turn = Annotated[tuple[str, float], Typed("rad", "turn")]
-Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness")]
+Sweep = Annotated[tuple[str, float, float, float], Typed("rad", "sweep_range"), Spelled(dashed=True), JOINT_ANGLE]
+Turn = Annotated[tuple[str, float], Typed("rad", "turn"), TURN]
+Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness"), LAYER]
 
 
 @dataclass(frozen=True)
@@ -57,10 +59,17 @@ class AreaOptions(Options):
         Mesh in whose frame results are given.
     unit
         Unit of both meshes; never guessed.
+
+    Motion
+    ------
     motion
-        Poses (.csv) or coordinates (.mot .sto); several, or a pattern in quotes: one sub-folder each.
-    threshold
-        Largest distance that counts, or several: 0.1,0.5,1,4
+        Poses (.csv, or rows of 16 or 12 numbers in a .csv or .txt) or coordinates (.mot .sto); several, or a pattern in
+        quotes: one sub-folder each.
+    motion_fixed
+        Poses of FIXED where it moves too: `motion` and these are in one frame then, such as the laboratory's. As many
+        as motions, in their order; interpolated to their times.
+    rate
+        Frames per second [Hz] of poses without times, which rows of numbers are; 1 numbers the frames.
     osim
         OpenSim model whose joint turns coordinates into poses: FIXED is the parent body, MOVING the child.
     joint
@@ -76,11 +85,15 @@ class AreaOptions(Options):
     convention
         grood-suntay: columns are clinical knee angles; needs `side`.
     side
-        Side of the knee.
+        Side of the body, for `convention`, and for `split` z: right says that medial is -z, left that it is +z, in a
+        frame whose z points to the subject's right (ISB, OpenSim).
     sweep
         Instead of `motion`: turn MOVING about `axis`; name, start, stop and step, typed flexion=0:90:1 in degrees.
     axis
         x,y,z,dx,dy,dz (point in the mesh unit), a file of these, or a fit.json; else the cylinder fitted to MOVING.
+
+    Placement
+    ---------
     place_moving
         Where the mesh sits in its body: a file with a 4x4 matrix, or model.osim:body.
     place_fixed
@@ -88,30 +101,47 @@ class AreaOptions(Options):
     adduction
         Turn MOVING in every frame about this axis of FIXED, through MOVING's origin: axis and angle, typed x=2 or x=-2
         (degrees).
-    assume_closed
-        Treat a surface as closed although its edges do not show it.
+
+    Sides and regions
+    -----------------
     split
-        x, y or z (or z=1.5): medial and lateral parts of FIXED apart.
+        x, y or z (or z=1.5): medial and lateral parts of FIXED apart; needs `side` or `medial`.
     medial
-        Side of the splitting plane that is medial; - unless given.
+        Side of the splitting plane that is medial, instead of `side`.
     region
         Faces of FIXED that count: "ny>0.25" in x y z nx ny nz (mesh unit), or a file of face numbers.
     region_moving
         The same for MOVING.
+
+    How area is counted
+    -------------------
+    threshold
+        Largest distance that counts, or several: 0.1,0.5,1,4
+    assume_closed
+        Treat a surface as closed although its edges do not show it.
     rule
         How area is counted; the crude rules are for comparing with papers.
     bounds
         Refine until (upper - lower) / upper is below: 0.02 or 2%; 10% unless given.
+
+    Beside measured areas
+    ---------------------
     compare
         Table of your own measured areas; the result is not accepted (exit 1) beyond the tolerance.
     tolerance
         Largest relative difference from the areas compared; 2% unless given.
+
+    Results
+    -------
     save_map
         Also write the distance of every vertex in every frame (distances.npz).
     paraview
         Also write both bodies with their distances over time for ParaView (folder paraview).
     stills
         Also write 3-D pictures of the frame with the largest area (still_plus_y.png and others).
+
+    Pressure of an elastic layer
+    ----------------------------
     pressure
         Also press MOVING, rigid unless `modulus_moving`, into FIXED as an elastic layer: pressures and forces.
     modulus
@@ -132,18 +162,28 @@ class AreaOptions(Options):
         Of its layer: a length such as 3mm, or rays.
     piece
         Longest edge of the pieces that pressure is summed over: 0.5mm unless given.
-    parquet
-        Also write the tables as .parquet.
+
+    Work
+    ----
     workers
         Threads; all cores by default. Results do not depend on it.
     """
+
+    over_time: ClassVar[bool] = True
 
     moving: Path
     fixed: Path
     _: KW_ONLY
     unit: MeshUnit
     motion: tuple[str, ...] | None = None
-    threshold: Annotated[Lengths, Spelled(default="4")] = (4e-3,)
+    motion_fixed: Annotated[
+        tuple[str, ...] | None,
+        READS_NO_FILE,
+        Excludes("osim", "has no effect with `osim`: the joint's poses are in FIXED already"),
+        Excludes("convention", "has no effect with `convention`: knee angles are in FIXED already"),
+    ] = None
+    rate: Annotated[float | None, READS_NO_FILE, FRAME_RATE] = None
+    threshold: Annotated[Lengths, Spelled(default="4"), THRESHOLD] = (4e-3,)
     osim: Annotated[Path | None, READS_NO_FILE] = None
     joint: Annotated[str | None, READS_NO_FILE] = None
     moving_body: Annotated[Literal["child", "parent"] | None, Spelled("moving"), READS_NO_FILE] = None
@@ -163,7 +203,7 @@ class AreaOptions(Options):
         Excludes("osim", "has no effect with `osim`: the joint says what its coordinates are", "give one"),
         Needs("side", "give right or left"),
     ] = None
-    side: Annotated[Literal["right", "left"] | None, READS_NO_FILE, Requires("convention")] = None
+    side: Annotated[Side | None, Requires("convention", alternative="split")] = None
     sweep: Sweep | None = None
     axis: Annotated[Expression | None, Requires("sweep")] = None
     place_moving: str | None = None
@@ -171,29 +211,30 @@ class AreaOptions(Options):
     adduction: Turn | None = None
     assume_closed: Literal["moving", "fixed", "both"] | None = None
     split: str | None = None
-    medial: Annotated[Literal["-", "+"] | None, Spelled(dashed=True), Requires("split")] = None
+    medial: Annotated[Medial | None, Requires("split")] = None
     region: Expression | None = None
     region_moving: Expression | None = None
     rule: Literal["refined", "clip", "all-vertices", "any-vertex", "centroid"] = "refined"
-    bounds: Fraction | None = None
+    bounds: Annotated[Fraction | None, SHARE] = None
     compare: Path | None = None
-    tolerance: Annotated[Fraction | None, Requires("compare", "give your measured areas too, or leave it out")] = None
+    tolerance: Annotated[
+        Fraction | None, Requires("compare", "give your measured areas too, or leave it out"), DIFFERENCE
+    ] = None
     save_map: bool = False
     paraview: bool = False
     stills: bool = False
     pressure: Annotated[
         bool, Needs("modulus", "give for example 500MPa"), Needs("poisson", "give for example 0.46")
     ] = False
-    modulus: Annotated[Pressure | None, OF_LAYER] = None
-    poisson: Annotated[float | None, OF_LAYER] = None
+    modulus: Annotated[Pressure | None, OF_LAYER, YOUNG] = None
+    poisson: Annotated[float | None, OF_LAYER, LAYER_RATIO] = None
     thickness: Annotated[Thickness | None, OF_LAYER] = None
     foundation: Annotated[Literal["linear", "logarithmic"] | None, OF_LAYER] = None
     facets: Annotated[Literal["smooth", "flat"] | None, OF_LAYER] = None
-    modulus_moving: Annotated[Pressure | None, OF_LAYER, Needs("poisson_moving", "give for example 0.46")] = None
-    poisson_moving: Annotated[float | None, OF_SECOND] = None
+    modulus_moving: Annotated[Pressure | None, OF_LAYER, Needs("poisson_moving", "give for example 0.46"), YOUNG] = None
+    poisson_moving: Annotated[float | None, OF_SECOND, LAYER_RATIO] = None
     thickness_moving: Annotated[Thickness | None, OF_SECOND] = None
-    piece: Annotated[Length | None, OF_LAYER] = None
-    parquet: bool = False
+    piece: Annotated[Length | None, OF_LAYER, PIECE] = None
     workers: int | None = None
 
     def refuse_impossible(self) -> None:
@@ -205,29 +246,22 @@ class AreaOptions(Options):
             raise InputError("", "`moving_body`", what, "swap the two meshes, or give `osim` and `joint`")
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one thread", "give 1 or more")
+        self._refuse_sides()
         self._refuse_thresholds()
-        for name, kind in POSITIVE.items():
-            value = getattr(self, name)
-            if value is not None and value != RAYS and not (math.isfinite(value) and value > 0.0):
-                raise InputError("", f"`{name}`", f"{value:g} is not a positive {kind}", "give more than 0")
-        for name in ("poisson", "poisson_moving"):
-            value = getattr(self, name)
-            if value is not None and not 0.0 <= value < 0.5:
-                raise InputError("", f"`{name}`", f"{value:g} is not from 0 to below 0.5", "give for example 0.46")
-        if self.adduction is not None and not _small(*self.adduction):
-            what = f"{self.adduction} is no small turn about x, y or z"
-            raise InputError("", "`adduction`", what, "give an axis and at most 45 degrees")
+        if self.adduction is not None and self.adduction[0] not in ("x", "y", "z"):
+            raise InputError("", "`adduction`", f"{self.adduction[0]!r} is not an axis", "turn about x, y or z")
+
+    def _refuse_sides(self) -> None:
+        if self.split is not None:
+            medial_side(self.split, self.side, self.medial)
+        if self.medial is not None and self.side is not None and self.convention is None:
+            raise InputError("", "`side`", "has no effect with `medial`, which says what is medial", "give one")
 
     def _refuse_thresholds(self) -> None:
-        values = self.threshold
-        if not values or not all(math.isfinite(value) and value >= 0.0 for value in values):
-            raise InputError("", "`threshold`", f"{values} is not a distance of 0 or more", "give for example 4 mm")
-        if len(set(values)) < len(values):
-            raise InputError("", "`threshold`", f"{values} names a threshold twice", "give each once")
-
-
-def _small(axis: str, angle: float) -> bool:
-    return axis in ("x", "y", "z") and abs(angle) <= LARGEST_TURN + 1e-12
+        if not self.threshold:
+            raise InputError("", "`threshold`", "there is none", "give for example 4 mm")
+        if len(set(self.threshold)) < len(self.threshold):
+            raise InputError("", "`threshold`", f"{self.threshold} names a threshold twice", "give each once")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -247,5 +281,5 @@ class PressureOptions(AreaOptions):
     """
 
     pressure: Annotated[bool, Needs("modulus"), Needs("poisson")] = field(default=True, init=False)
-    modulus: Annotated[Pressure, OF_LAYER] = field()
-    poisson: Annotated[float, OF_LAYER] = field()
+    modulus: Annotated[Pressure, OF_LAYER, YOUNG] = field()
+    poisson: Annotated[float, OF_LAYER, LAYER_RATIO] = field()

@@ -10,8 +10,9 @@ from geocontact.analyses import quantities
 from geocontact.analyses.area.motions import motions_given
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.reference_areas import Reference, read_reference
-from geocontact.analyses.bodies import chosen_faces, read_body
+from geocontact.analyses.bodies import chosen_faces, read_body, refuse_two_spaces
 from geocontact.analyses.run_record import Record
+from geocontact.analyses.sides import MedialSide, medial_side, refuse_other_axes
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import Refinement
 from geocontact.geometry.contact_area.evolution import Settings
@@ -57,7 +58,9 @@ def read(o: AreaOptions, record: Record) -> Bodies:
     """Everything the options name."""
     if o.paraview:
         require_pyvista()
-    split = None if o.split is None else quantities.splitting_plane(o.split, o.unit)
+    split = None
+    if o.split is not None:
+        split = quantities.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
     reference = None
     if o.compare is not None:
         table = read_reference(o.compare)
@@ -66,11 +69,18 @@ def read(o: AreaOptions, record: Record) -> Bodies:
     closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
     moving = read_body(record, "moving", o.moving, o.unit, o.place_moving, closed["moving"])
     fixed = read_body(record, "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
+    refuse_two_spaces(moving, fixed)
+    if split is not None:
+        refuse_other_axes(fixed.space, fixed.name, o.side, o.medial)
     settings = _settings(record, o, split, moving, fixed)
+    if split is not None:
+        record.say(f"medial is {split[1].words} of {fixed.name}")
     return Bodies(moving, fixed, settings, tuple(motions_given(record, o, moving)), reference)
 
 
-def _settings(record: Record, o: AreaOptions, split: Plane | None, moving: Surface, fixed: Surface) -> Settings:
+def _settings(
+    record: Record, o: AreaOptions, split: tuple[Plane, MedialSide] | None, moving: Surface, fixed: Surface
+) -> Settings:
     refinement = Refinement(pieces=BRIEF) if o.bounds is None else Refinement(bounds=o.bounds, pieces=PATIENT)
     return Settings(
         thresholds=o.threshold,
@@ -78,7 +88,7 @@ def _settings(record: Record, o: AreaOptions, split: Plane | None, moving: Surfa
         refinement=refinement,
         fixed_faces=chosen_faces(record, "`region`", o.region, fixed, o.unit),
         moving_faces=chosen_faces(record, "`region_moving`", o.region_moving, moving, o.unit),
-        split=split,
-        medial_side=1 if o.medial == "+" else -1,
+        split=None if split is None else split[0],
+        medial_side=0 if split is None else split[1].sign,
         sensitivity=tuple((max(o.threshold) or ZERO_REACH) * SENSITIVITY),
     )

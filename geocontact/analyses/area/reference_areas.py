@@ -9,7 +9,9 @@ import numpy as np
 import pandas as pd
 
 from geocontact.data.errors import InputError
+from geocontact.io.text.frame import read_frame
 
+PARTS = ("", "_lower", "_upper", "_medial", "_lateral")
 TIME, THRESHOLD, RELATIVE = "time [s]", "threshold [mm]", "relative [-]"
 
 
@@ -46,11 +48,8 @@ class Compared:
 
 def read_reference(path: Path) -> pd.DataFrame:
     """Reference table: `time [s]`, optionally `threshold [mm]`, and one or more area columns as in area.csv [mm^2]."""
-    try:
-        table = pd.read_csv(path, comment="#")
-    except (OSError, ValueError, pd.errors.ParserError) as error:
-        raise InputError(path, "", f"cannot be read as a table ({error})", "give a CSV like area.csv") from error
-    table.columns = [str(name).strip() for name in table.columns]
+    areas = (f"area_{body}{part} [mm^2]" for body in ("fixed", "moving") for part in PARTS)
+    table = read_frame(path, (TIME, THRESHOLD, *areas), "give a CSV like area.csv")
     if TIME not in table or not any(_is_area(name) for name in table.columns):
         what = f"has the columns {', '.join(map(str, table.columns))}"
         raise InputError(path, "", what, "it needs 'time [s]' and for example 'area_fixed [mm^2]'")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.area.apart import refuse_strangers, warn_of_lift_off, warn_of_no_contact, warn_of_overlap
 from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.page import FRAMES
@@ -13,15 +14,12 @@ from geocontact.analyses.area.read import Bodies
 from geocontact.analyses.area.reference_areas import Reference, compared, largest_difference
 from geocontact.analyses.area.result import AreaResult
 from geocontact.analyses.run_record import Record
-from geocontact.data.errors import InputError
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import FrameContact, Settings, area_evolution
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.contact_area.rules import REFINED
 from geocontact.geometry.contact_area.warm_up import warm_up
-
-NEAR = 20e-3  # m; bodies that never come this close are a mistake in the input
 
 
 def run(bodies: Bodies, o: AreaOptions, record: Record) -> AreaResult:
@@ -56,19 +54,13 @@ def _evaluated(
             step()
 
         evolution = area_evolution(bodies.moving, bodies.fixed, motion, bodies.settings, o.workers, each)
-    _refuse_strangers(evolution, o)
+    refuse_strangers(evolution, motion, o)
+    warn_of_no_contact(record, evolution, motion, name)
+    warn_of_lift_off(record, evolution, motion, name)
+    warn_of_overlap(record, evolution, motion, name)
     _warn_of_doubts(record, evolution, bodies.settings, o.bounds is not None)
     _summarise(record, evolution, name)
     return evolution, maps
-
-
-def _refuse_strangers(evolution: AreaEvolution, o: AreaOptions) -> None:
-    closest = float(evolution.min_distance.min())
-    if closest > NEAR:
-        remedy = "wrong direction? try `moving_body` parent" if o.osim else "check unit, frames and direction"
-        if o.osim and o.moving_body == "parent":
-            remedy = "wrong direction? try `moving_body` child"
-        raise InputError("", "", f"bodies are {closest * 1e3:.0f} mm apart in every frame", remedy)
 
 
 def _warn_of_doubts(record: Record, e: AreaEvolution, settings: Settings, asked: bool) -> None:

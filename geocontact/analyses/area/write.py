@@ -41,7 +41,7 @@ def write_motion(record: Record, o: AreaOptions, bodies: Bodies, one: MotionResu
     """Everything of one motion into its folder, which is made where it is missing."""
     folder.mkdir(exist_ok=True)
     for name, table in tables_of(one, o).items():
-        write_table(table, folder, o.parquet and name != "comparison", name)
+        write_table(table, folder, name)
     save_both(figure_of(bodies, one), folder, "area")
     shown = None
     if one.pressure is not None:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.view.curves.sheet import sheet
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -36,9 +38,8 @@ def cop_figure(ours: LoadCurves, plate: LoadCurves | None, normal: Float[np.ndar
         Normal of the ground in each frame, NaN without contact: the path is seen along the axis nearest to it.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(11.0, 6.4), layout="constrained")
+    figure = sheet(11.0, 6.4)
     FigureCanvasAgg(figure)
     panels = figure.subplot_mosaic([["force", "path"], ["centre", "path"], ["free", "path"]], width_ratios=[3, 2])
     known = normal[np.isfinite(normal[:, 0])]

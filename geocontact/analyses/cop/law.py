@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.cop.options import CopOptions
+from geocontact.analyses.cop.options import LAW, CopOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import numbers_in
 from geocontact.io.recordings.spheres import LawFile, SphereTable, read_law
 from geocontact.loads.sphere_set import SoleLaw
 
@@ -43,8 +44,27 @@ def sole_law(record: Record, table: SphereTable, o: CopOptions) -> SoleLaw:
         raise
     except ValueError as error:
         raise InputError(o.law or "", "force law", str(error), "correct the number") from error
+    _check_sizes(record, o, law)
     _tell_assumed(record, assumed, law)
     return law
+
+
+def _check_sizes(record: Record, o: CopOptions, law: SoleLaw) -> None:
+    """Refuse numbers of files that a law cannot have, and warn of unusual ones; those of options are checked there."""
+    found = {
+        "k": None if o.stiffness is not None else (float(law.stiffness.min()), float(law.stiffness.max())),
+        "b": None if o.damping is not None else (float(law.damping.min()), float(law.damping.max())),
+        "n": None if o.exponent is not None else law.exponent,
+        "delta_full": None if o.full_depth is not None else law.full_depth,
+        "mu_s": None if o.friction is not None else law.static,
+        "mu_k": None if o.friction is not None else law.kinetic,
+        "v_th": None if o.threshold_speed is not None else law.threshold_speed,
+    }
+    for name, known, value in numbers_in(LAW, found):
+        if refusal := known.refusal(value):
+            raise InputError(o.law or o.spheres, name, *refusal)
+        if doubt := known.doubt(value):
+            record.warn(f"force law: {name}: {doubt}")
 
 
 class _Numbers:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     AngleUnit,
@@ -18,9 +17,24 @@ from geocontact.analyses.options import (
     Spelled,
     Typed,
 )
-from geocontact.data.errors import InputError
+from geocontact.data.plausible import PLAIN, ByName, Plausible
+from geocontact.data.ranges import DAMPING, DEPTH, FORCE, FRICTION, SPEED
 
-Friction = Annotated[tuple[float, float], Typed("-", "friction")]
+EXPONENT = Plausible("the exponent of a force over depth", PLAIN, (0.1, 10.0), (0.8, 3.0))
+STIFFNESS = Plausible("the stiffness k of a sphere, in N/m^n", PLAIN, (1.0, 1e9), (1e3, 1e7))
+LAW = ByName(
+    (
+        ("k", STIFFNESS),
+        ("b", DAMPING),
+        ("n", EXPONENT),
+        ("delta_full", DEPTH),
+        ("mu_s", FRICTION),
+        ("mu_k", FRICTION),
+        ("v_th", SPEED),
+    )
+)
+"""What the numbers of the force law can be, wherever they come from."""
+Friction = Annotated[tuple[float, float], Typed("-", "friction"), FRICTION]
 
 
 @dataclass(frozen=True)
@@ -33,15 +47,24 @@ class CopOptions(Options):
         Table of the spheres in the foot's frame: px [m], py [m], pz [m], radius [m], zone.
     motion
         Poses of the foot in the ground's frame (.csv), or coordinates (.mot .sto) with `osim` and `joint`, or `map`.
+
+    The ground
+    ----------
     ground
         plane:nx,ny,nz,offset (all x with n.x = offset [m], n made a unit vector), stairs:h0,x1:h1,x2:h2 (height h1 [m]
         from x1 on, y up), or a mesh; plane:0,1,0,0 unless given.
     unit
         Unit of the ground's mesh; never guessed.
+
+    The centre
+    ----------
     point
         What the normal forces weigh: the points on the ground, or the centres of the spheres.
     gate
         Normal force [N] below which there is no centre of pressure.
+
+    The force law
+    -------------
     law
         Numbers of the force law in a .toml: k, b, n, delta_full, mu_s, mu_k, v_th, and k, b in [zone.NAME].
     stiffness
@@ -56,12 +79,18 @@ class CopOptions(Options):
         Static and kinetic coefficient: 0.9,0.7 unless given.
     threshold_speed
         Speed [m/s] at which static friction is reached; 0.25 unless given.
+
+    Beside a force plate
+    --------------------
     compare
         Ground reactions of force plates (.mot .sto .c3d) to put beside ours.
     plate
         Name or number of the plate; needed when there are several.
     plate_pose
         File with the 4x4 pose of the plates' frame in ours (translation in m), as for a laboratory with z up.
+
+    Motion
+    ------
     osim
         OpenSim model whose joint turns coordinates into poses: its parent body is the ground, its child the foot.
     joint
@@ -74,9 +103,9 @@ class CopOptions(Options):
         Order of intrinsic rotations: XYZ is R = Rx Ry Rz.
     angles
         Unit of angles where the file does not say.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     spheres: Path
     _: KW_ONLY
@@ -84,14 +113,14 @@ class CopOptions(Options):
     ground: Expression | None = None
     unit: MeshUnit | None = None
     point: Literal["ground", "sphere"] = "ground"
-    gate: float = 20.0
+    gate: Annotated[float, FORCE] = 20.0
     law: Path | None = None
-    stiffness: float | None = None
-    damping: float | None = None
-    exponent: float | None = None
-    full_depth: Length | None = None
+    stiffness: Annotated[float | None, STIFFNESS] = None
+    damping: Annotated[float | None, DAMPING] = None
+    exponent: Annotated[float | None, EXPONENT] = None
+    full_depth: Annotated[Length | None, DEPTH] = None
     friction: Friction | None = None
-    threshold_speed: float | None = None
+    threshold_speed: Annotated[float | None, SPEED] = None
     compare: Path | None = None
     plate: Annotated[str | None, Requires("compare", "name the file of force plates")] = None
     plate_pose: Annotated[Path | None, Requires("compare", "name the file of force plates")] = None
@@ -103,9 +132,3 @@ class CopOptions(Options):
     map: Annotated[Expression | None, Excludes("osim", "with `osim` names the columns twice", "give one")] = None
     order: Annotated[str | None, Excludes("osim")] = None
     angles: AngleUnit | None = None
-    parquet: bool = False
-
-    def refuse_impossible(self) -> None:
-        """A gate that is no force."""
-        if not (math.isfinite(self.gate) and self.gate >= 0.0):
-            raise InputError("", "`gate`", f"{self.gate:g} is not a force of 0 N or more", "e.g. 20")

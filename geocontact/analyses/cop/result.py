@@ -10,15 +10,10 @@ import numpy as np
 import pandas as pd
 
 from geocontact.analyses.cop.figure import LoadCurves, cop_figure
-from geocontact.analyses.cop.force_plate import PlateCurves
-from geocontact.analyses.cop.options import CopOptions
-from geocontact.analyses.cop.read import Foot
+from geocontact.analyses.cop.foot_loads import FootLoads
+from geocontact.analyses.cop.page import write_cop_report
 from geocontact.analyses.figure_files import save_both
-from geocontact.analyses.plain_page import write_plain_page
-from geocontact.analyses.result import Result
 from geocontact.io.text.results import write_table
-from geocontact.loads.centre_of_pressure import CentreOfPressure
-from geocontact.loads.sphere_loads import SphereLoads
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -29,27 +24,8 @@ CENTRES = {"ground": "centre of the ground points", "sphere": "centre of the sph
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class CopResult(Result):
-    """Loads on a foot over its motion, in the frame of the ground.
-
-    Parameters
-    ----------
-    foot
-        Sole, law, motion and ground.
-    loads
-        Force of every sphere in every frame.
-    centre
-        Resultant, centre of pressure and free moment of every frame.
-    plate, comparison
-        What a force plate shows, and the differences to it; None without a plate.
-    """
-
-    options: CopOptions
-    foot: Foot
-    loads: SphereLoads
-    centre: CentreOfPressure
-    plate: PlateCurves | None
-    comparison: pd.DataFrame | None
+class CopResult(FootLoads):
+    """Loads on a foot over its motion, with tables, figure and page."""
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`cop`, `zones`, and `comparison` with a plate."""
@@ -66,16 +42,17 @@ class CopResult(Result):
         return cop_figure(ours, theirs, c.normal, f"{self.foot.name} on the ground, {self.options.motion.name}")
 
     def write_files(self, folder: Path) -> None:
-        """Tables and figure."""
+        """Tables, figure and page."""
         for name, table in self.tables().items():
-            write_table(table, folder, self.options.parquet, name)
+            write_table(table, folder, name)
             told = {"frame": FRAME, "words": WORDS, "cop": CENTRES[self.options.point]}
             self.record.tables[f"{name}.csv"] = told
         save_both(self.figure(), folder, "cop")
+        write_cop_report(self, folder / "report.html")
 
     def write_page(self, file: Path) -> None:
-        """Figure and numbers of every frame."""
-        write_plain_page(self, f"Centre of pressure of {self.foot.name}", file)
+        """The path under the foot, the forces along it, and their numbers in every frame."""
+        write_cop_report(self, file)
 
     def _loads_table(self) -> pd.DataFrame:
         """Force, centre and free moment of every frame; centre and free moment are empty below the gate."""

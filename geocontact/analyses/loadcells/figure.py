@@ -12,7 +12,7 @@ from jaxtyping import Float
 from geocontact.identify.signals.cycles import STEPS, Span
 from geocontact.identify.signals.gaps import broken
 from geocontact.view.curves.over_cycle import mean_over_cycle
-from geocontact.view.curves.quantity import CYCLE, FORCE, TIME
+from geocontact.view.curves.quantity import CYCLE, FORCE, TIME, Quantity
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, legend, panels
 from geocontact.view.curves.text import plain
 
@@ -51,10 +51,21 @@ def _lines(axes: Axes, time: Float[np.ndarray, " t"], curves: Mapping[str, Float
 
 
 @in_style
-def ensemble_figure(sides: Mapping[str, Mapping[str, Float[np.ndarray, "_ 101"]]], along: str = "cycle") -> Figure:
-    """Mean and SD over the cycle, a panel per compartment, a line per gait style."""
+def ensemble_figure(
+    sides: Mapping[str, Mapping[str, Float[np.ndarray, "_ 101"]]],
+    along: str = "cycle",
+    unit: str = "N",
+    per_newton: float = 1.0,
+) -> Figure:
+    """Mean and SD over the cycle and, thin, every cycle; a panel per compartment, a colour per gait style.
+
+    Forces are shown in `unit`, of which one newton is `per_newton`.
+    """
     figure, row = panels(1, len(sides), DOUBLE, 0.07)
     for axes, (side, styles) in zip(row, sides.items(), strict=True):
-        named = f"{side} contact force"
-        mean_over_cycle(STEPS, styles, replace(FORCE, name=named), axes, replace(CYCLE, name=along))
+        shown = Quantity(f"{side} contact force", unit, per_newton)
+        mean_over_cycle(STEPS, styles, shown, axes, replace(CYCLE, name=along))
+        for k, trials in enumerate(styles.values()):
+            if len(trials) > 1:
+                axes.plot(STEPS, shown.shown(trials).T, color=PALETTE[k], lw=0.5, alpha=0.6, zorder=2)
     return figure

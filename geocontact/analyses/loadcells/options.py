@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import Expression, ForceUnit, Fraction, Options, Requires
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import N, Plausible
+from geocontact.data.ranges import SHARE
 
 STRIDE, STANCE = "stride", "stance"
 FOUND = (STRIDE, STANCE)
 """Cycles that are found in the total force; all others are named by their times."""
+MASSES = (20.0, 300.0)  # kg; of people who may have a knee implant, with room
+GRAVITY = 9.80665  # m/s^2, standard
 
+LEVEL = Plausible("the force at which load sets in", N, (1e-3, 1e5), (1.0, 5000.0))
 Cycles = Requires("cycles", "say what a cycle is")
 
 
@@ -38,9 +42,11 @@ class LoadcellOptions(Options):
         Take this first part of each cycle for the whole: 60% is the stance of a gait cycle.
     level
         Total force [N] at which load sets in, for stride and stance; a quarter of the largest unless given.
-    parquet
-        Also write the tables as .parquet.
+    body_mass
+        Of the subject [kg]: the page then offers forces in per cent of body weight as well.
     """
+
+    over_time: ClassVar[bool] = True
 
     recordings: tuple[Path, ...]
     _: KW_ONLY
@@ -48,19 +54,23 @@ class LoadcellOptions(Options):
     map: Expression | None = None
     matrix: Path | None = None
     cycles: Expression | None = None
-    part: Annotated[Fraction | None, Cycles] = None
-    level: Annotated[float | None, Cycles] = None
-    parquet: bool = False
+    part: Annotated[Fraction | None, Cycles, SHARE] = None
+    level: Annotated[float | None, Cycles, LEVEL] = None
+    body_mass: float | None = None
 
     def refuse_impossible(self) -> None:
-        """A part that is none, a level that is no force or that no cycle needs, sub-folders of one name."""
-        if self.part is not None and not 0.0 < self.part <= 1.0:
-            raise InputError("", "`part`", f"{self.part:g} is not above 0 and at most 1", "give for example 0.6")
-        if self.level is not None and not (math.isfinite(self.level) and self.level > 0.0):
-            raise InputError("", "`level`", f"{self.level:g} is not a force above 0 N", "e.g. 400")
+        """A level that no cycle needs, a mass that no body has, sub-folders of one name."""
         if self.level is not None and str(self.cycles).strip() not in FOUND:
             raise InputError("", "`level`", "has no effect here: the cycles are given", "leave it out")
+        if self.body_mass is not None and not MASSES[0] <= self.body_mass <= MASSES[1]:
+            what = f"{self.body_mass:g} kg is no body mass ({MASSES[0]:g} to {MASSES[1]:g} kg)"
+            raise InputError("", "`body_mass`", what, "give the mass in kg, e.g. 72.6")
         self._refuse_names()
+
+    @property
+    def body_weight(self) -> float | None:
+        """Weight of the subject [N]; None where the mass is not given."""
+        return None if self.body_mass is None else self.body_mass * GRAVITY
 
     def _refuse_names(self) -> None:
         if not self.recordings:

@@ -1,93 +1,197 @@
-"""The page of a load-cell recording: how much, when, on which side, and by which weights."""
+"""The page of a load-cell recording: how much, on which side, where on the tray, and by which weights."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from geocontact.analyses.loadcells.cycles import Cut, stacked
+from geocontact.analyses.loadcells.page_cycles import beside_their_mean
+from geocontact.analyses.loadcells.page_samples import Samples, samples
+from geocontact.analyses.loadcells.page_tray import tray_plan
 from geocontact.analyses.loadcells.recorded import Recorded
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.page_words import NOT_A_DEVICE, counted
 from geocontact.data.cell_regression import CellRegression
-from geocontact.loads.loadcells import CompartmentForces
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
+from geocontact.data.seconds import seconds
+from geocontact.view.page.content import Choice, Choices, Curve, Curves, Page, Picture, Section, Table, Words
 from geocontact.view.page.write import write_page
 
-FRAMES = 1001  # samples that the page shows at most; longer recordings are thinned out
 CELLS = (
     "Each cell measures the force along its own axis. The sum is the axial force on the tray; how it is shared between "
     "the compartments is a regression, not a measurement, and shear and friction are in neither."
 )
 CYCLES, STYLES = "Cycles", "Difference to the first style (root mean square of the means)"
-ENSEMBLE = "Mean of the cycles of each style as a line, mean ± SD as a band; 0 to 100 % of each cycle's own duration."
+ENSEMBLE = (
+    "Every cycle as a thin line, the mean of each style as a thick one, mean ± SD as a band; 0 to 100 % of each "
+    "cycle's own duration."
+)
+
+
+@dataclass(frozen=True)
+class Unit:
+    """What forces are shown in: newtons, or per cent of body weight."""
+
+    name: str
+    per_newton: float
+
+    def text(self, force: float) -> str:
+        """A force as a sentence says it."""
+        return f"{force * self.per_newton:.0f} {self.name}"
+
+
+NEWTON = Unit("N", 1.0)
+
+
+def body_weight(weight: float) -> Unit:
+    """Per cent of a body weight [N]."""
+    return Unit("% of body weight", 100.0 / weight)
+
+
+Drawn = Callable[[Unit], bytes | None]
+"""The figure of the mean over the cycle (SVG) in a unit; None where there is none."""
 
 
 def write_loadcell_report(
     path: Path,
     recorded: Recorded,
     regression: CellRegression,
-    ensemble: bytes | None,
+    cuts: list[Cut],
+    ensemble: Drawn,
+    weight: float | None = None,
     results: Sequence[Table] = (),
     provenance: Sequence[Table] = (),
     warnings: Sequence[str] = (),
-    sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page of one recording; returns its size in bytes.
 
     Parameters
     ----------
-    ensemble
-        Figure of the mean over the cycle (SVG), where cycles were asked for.
+    cuts
+        Cycles of all recordings; empty where none were asked for.
+    weight
+        Of the body [N]: forces can be read in per cent of it.
     results
         Cycles and styles.
     provenance
         Inputs with hashes, options, versions.
     warnings
         Reservations that came up on the way.
-    sentences
-        What was found.
     """
-    forces, cells = recorded.forces, recorded.by_cell(regression)
-    every = -(-len(forces.time) // FRAMES)
-    shown = np.arange(0, len(forces.time), every)
-    sections: list[Section] = [
-        Readout([Row(name, "N", [f"{value:.1f}" for value in v[shown]]) for name, v in forces.curves.items()]),
-        Curves("Contact force", "N", [Curve(name, values[shown]) for name, values in forces.curves.items()]),
-        Curves("Load cells", "N", [Curve(name, values[shown]) for name, values in cells.items()]),
-    ]
-    if ensemble is not None:
-        sections.append(Picture("Over the cycle", ENSEMBLE, ensemble, wide=True))
-    sections += [*results, _weights(regression), *provenance]
-    sections.append(Words("What the numbers do not contain", [CELLS, NOT_A_DEVICE]))
-    if every > 1:
-        warnings = [*warnings, f"the page shows every {every}th sample; forces.csv has them all"]
-    page = Page(
-        title=f"Load cells of {recorded.file.name}",
-        subtitle=f"Tibial contact force from {len(cells)} load cells, weights '{regression.name}'",
-        time=forces.time[shown],
-        time_label="time [s]",
-        headline=headline(sentences, most=2),
-        facts=_facts(forces),
-        reservations=tuple(warnings),
-        start_frame=int(np.argmax(forces.total[shown])),
-        sections=tuple(sections),
-        numbers=shown + 1,
-        total=len(forces.time),
-    )
+    page = loadcell_page(recorded, regression, cuts, ensemble, weight, [*results], [*provenance], list(warnings))
     return write_page(page, path)
 
 
-def _facts(forces: CompartmentForces) -> list[tuple[str, str]]:
+def loadcell_page(
+    recorded: Recorded,
+    regression: CellRegression,
+    cuts: list[Cut],
+    ensemble: Drawn,
+    weight: float | None = None,
+    results: Sequence[Table] = (),
+    provenance: Sequence[Table] = (),
+    warnings: Sequence[str] = (),
+) -> Page:
+    """The page before it becomes a file."""
+    forces, shown = recorded.forces, samples(recorded.forces.time)
+    cells = {name: shown.of(values) for name, values in recorded.by_cell(regression).items()}
+    tray = tray_plan(cells)
+
+    def sections(unit: Unit) -> list[Section]:
+        drawn = ensemble(unit)
+        forces_over_time, *others = _curves(recorded, shown, cells, cuts, unit)
+        return [
+            forces_over_time,
+            *([] if tray is None else [tray]),
+            *others,
+            *([] if drawn is None else [Picture("Over the cycle", ENSEMBLE, drawn, wide=True)]),
+        ]
+
+    own, choices = sections(NEWTON), None
+    if weight is not None:
+        unit = body_weight(weight)
+        instead = {k: other for k, other in enumerate(sections(unit)) if other is not tray}
+        other = Choice(unit.name, _headline(recorded, cuts, unit), _facts(recorded, unit), instead)
+        choices = Choices("forces in", NEWTON.name, [other])
+    if len(shown.kept) < len(forces.time):
+        warnings = [*warnings, f"the page shows {len(shown.kept)} of {len(forces.time)} samples; forces.csv has all"]
+    return Page(
+        title=f"Load cells of {recorded.file.name}",
+        subtitle=f"Tibial contact force from {len(cells)} load cells, weights '{regression.name}'",
+        time=shown.time,
+        time_label="time [s]",
+        headline=_headline(recorded, cuts, NEWTON),
+        facts=_facts(recorded, NEWTON),
+        reservations=tuple(warnings),
+        start_frame=int(np.nanargmax(shown.of(forces.total))),
+        sections=(
+            *own,
+            *results,
+            _weights(regression),
+            Words(
+                "What the numbers do not contain", [CELLS, f"Weights of the cells: {regression.source}.", NOT_A_DEVICE]
+            ),
+            *provenance,
+        ),
+        numbers=shown.numbers,
+        total=shown.total,
+        choices=choices,
+    )
+
+
+def _curves(
+    recorded: Recorded, shown: Samples, cells: dict[str, np.ndarray], cuts: list[Cut], unit: Unit
+) -> list[Curves]:
+    """Compartments, cells, and the total beside the mean of its cycles; broken where samples are missing."""
+    per = unit.per_newton
+    sides = {name: shown.of(values) for name, values in recorded.forces.curves.items()}
+    panels = [Curves("Contact force", unit.name, [Curve(name, values * per) for name, values in sides.items()])]
+    if any(cut.recording == recorded.file.stem for cut in cuts):
+        beside = beside_their_mean(shown.time, sides["total"], cuts, recorded.file.stem, "total")
+        panels.append(
+            Curves("Total force, each cycle beside the mean", unit.name, [_times(one, per) for one in beside])
+        )
+    panels.append(Curves("Load cells", unit.name, [Curve(name, values * per) for name, values in cells.items()]))
+    return panels
+
+
+def _times(curve: Curve, per: float) -> Curve:
+    lower, upper = (None if each is None else each * per for each in (curve.lower, curve.upper))
+    return Curve(curve.name, curve.values * per, lower, upper)
+
+
+def _headline(recorded: Recorded, cuts: list[Cut], unit: Unit) -> list[str]:
+    """The largest total force and how it is shared; what the cycles have in common."""
+    f = recorded.forces
+    k = int(np.argmax(f.total))
+    share = f.medial[k] / f.total[k]
+    lines = [f"The tray bears up to {unit.text(f.total[k])}, at {_when(recorded, k)}: {share:.0%} of it medially."]
+    mine = [cut for cut in cuts if cut.recording == recorded.file.stem]
+    for style, trials in stacked(mine, "total").items() if mine else ():
+        peaks = trials.max(axis=1)
+        spread = f" (SD {unit.text(float(peaks.std(ddof=1)))})" if len(peaks) > 1 else ""
+        named = "" if style == recorded.file.stem else f" of {style}"
+        lines.append(f"Peak total force of {counted(len(peaks), 'cycle')}{named}: {unit.text(peaks.mean())}{spread}.")
+    return lines[:3]
+
+
+def _when(recorded: Recorded, k: int) -> str:
+    return f"{seconds(round(float(recorded.forces.time[k]), 3))} s"
+
+
+def _facts(recorded: Recorded, unit: Unit) -> list[tuple[str, str]]:
+    f = recorded.forces
     lines = []
-    for name, values in forces.curves.items():
+    for name, values in f.curves.items():
         k = int(np.argmax(values))
-        lines.append((f"Largest {name} force", f"{values[k]:.0f} N at {forces.time[k]:.3f} s"))
-    k = int(np.argmax(forces.total))
-    lines.append(("Medial share at the largest total", f"{forces.medial[k] / forces.total[k]:.0%}"))
+        lines.append((f"Largest {name} force", f"{unit.text(values[k])} at {_when(recorded, k)}"))
+    k = int(np.argmax(f.total))
+    lines.append(("Medial share at the largest total", f"{f.medial[k] / f.total[k]:.0%}"))
     return lines
 
 
 def _weights(r: CellRegression) -> Table:
     rows = [(c, f"{m:g}", f"{k:g}") for c, m, k in zip(r.cells, r.medial, r.lateral, strict=True)]
-    return Table(f"Weights of the cells ({r.source})", ("cell", "medial", "lateral"), rows)
+    return Table(f"Weights of the cells, '{r.name}'", ("cell", "medial", "lateral"), rows)

@@ -12,7 +12,7 @@ from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.loadcells.cycles import SIDES, Cut, stacked
 from geocontact.analyses.loadcells.figure import ensemble_figure, loadcell_figure
 from geocontact.analyses.loadcells.options import LoadcellOptions
-from geocontact.analyses.loadcells.page import CYCLES, STYLES, write_loadcell_report
+from geocontact.analyses.loadcells.page import CYCLES, NEWTON, STYLES, Unit, write_loadcell_report
 from geocontact.analyses.loadcells.recorded import Recorded
 from geocontact.analyses.loadcells.tables import cycle_table, ensemble_table, style_table
 from geocontact.analyses.options_table import options_table
@@ -63,23 +63,23 @@ class LoadcellResult(Result):
     def write_files(self, folder: Path) -> None:
         """Cycles of all recordings; forces, figure and page of each."""
         for name, table in self._over_cycles().items():
-            write_table(table, folder, self.options.parquet, name)
+            write_table(table, folder, name)
         figure = self._ensemble()
-        ensemble = None if figure is None else save_both(figure, folder, "ensemble")
+        if figure is not None:
+            save_both(figure, folder, "ensemble")
         for each in self.recordings:
             own = folder / each.folder
             own.mkdir(exist_ok=True)
-            write_table(each.table(), own, self.options.parquet, "forces")
+            write_table(each.table(), own, "forces")
             save_both(self._over_time(each), own, "loadcells")
-            self._write_report(own / "report.html", each, ensemble)
+            self._write_report(own / "report.html", each)
 
     def write_page(self, file: Path) -> None:
         """The page of the recording; of several all their tables."""
         if len(self.recordings) > 1:
             write_plain_page(self, f"Load cells of {len(self.recordings)} recordings", file)
             return
-        figure = self._ensemble()
-        self._write_report(file, self.recordings[0], None if figure is None else drawing(figure))
+        self._write_report(file, self.recordings[0])
 
     def _over_cycles(self) -> dict[str, pd.DataFrame]:
         if not self.cuts:
@@ -87,22 +87,37 @@ class LoadcellResult(Result):
         found = {"cycles": cycle_table(self.cuts), "ensemble": ensemble_table(self.cuts)}
         return {**found, "styles": style_table(self.cuts)} if len(stacked(self.cuts, SIDES[0])) > 1 else found
 
-    def _ensemble(self) -> Figure | None:
+    def _ensemble(self, unit: Unit = NEWTON) -> Figure | None:
         """Mean over the cycle; None without cycles, and where there are more styles than a figure tells apart."""
         sides = {side: stacked(self.cuts, side) for side in SIDES[:2]}
         if not 0 < len(sides[SIDES[0]]) <= SERIES:
             return None
         part = self.options.part
-        return ensemble_figure(sides, "cycle" if part is None else f"first {100.0 * part:g}% of the cycle")
+        along = "cycle" if part is None else f"first {100.0 * part:g}% of the cycle"
+        return ensemble_figure(sides, along, unit.name, unit.per_newton)
+
+    def _drawn(self, unit: Unit) -> bytes | None:
+        figure = self._ensemble(unit)
+        return None if figure is None else drawing(figure)
 
     def _over_time(self, each: Recorded) -> Figure:
         mine = tuple(cut.span for cut in self.cuts if cut.recording == each.file.stem)
         return loadcell_figure(each.forces.time, each.by_cell(self.regression), each.forces.curves, mine)
 
-    def _write_report(self, file: Path, each: Recorded, ensemble: bytes | None) -> None:
+    def _write_report(self, file: Path, each: Recorded) -> None:
         found, titles = self._over_cycles(), {"cycles": CYCLES, "styles": STYLES}
         shown = [frame_table(title, found[name], 5) for name, title in titles.items() if name in found]
         own = each.folder or "."
         inputs = [entry for entry in self.record.inputs if entry.get("folder", own) == own]
         provenance = [inputs_table(inputs), options_table(self.record)]
-        write_loadcell_report(file, each, self.regression, ensemble, shown, provenance, self.warnings, self.sentences)
+        write_loadcell_report(
+            file,
+            each,
+            self.regression,
+            self.cuts,
+            self._drawn,
+            self.options.body_weight,
+            shown,
+            provenance,
+            self.warnings,
+        )

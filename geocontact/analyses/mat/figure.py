@@ -10,6 +10,7 @@ from jaxtyping import Float
 from geocontact.geometry.drape.cells import Drape
 from geocontact.loads.mat.load import MatLoad
 from geocontact.loads.mat.map import MatMap
+from geocontact.view.curves.sheet import sheet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -17,14 +18,25 @@ if TYPE_CHECKING:
 COLOURS = ("#0072B2", "#D55E00", "#009E73")  # Okabe-Ito: told apart by colour-blind readers
 
 
-def mat_figure(
-    time: Float[np.ndarray, " t"], load: MatLoad, laid: Drape, pressure: Float[np.ndarray, "t n"], placed: MatMap
-) -> Figure:
-    """Force with its components, area and largest pressure over time; beside them the largest pressure of each cell."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
+UNTOUCHED = "#c9cdd2"  # of cells without pressure, as of faces on the page
 
-    figure = Figure(figsize=(11.0, 6.0), layout="constrained")
+
+def mat_figure(
+    time: Float[np.ndarray, " t"],
+    load: MatLoad,
+    laid: Drape,
+    pressure: Float[np.ndarray, "t n"],
+    placed: MatMap,
+    largest: float,
+) -> Figure:
+    """Force with its components, area and largest pressure over time; beside them the largest pressure of each cell.
+
+    `largest` is the upper end of the colours [Pa]: the largest pressure of a face in all frames, as on the page.
+    """
+    from matplotlib import colormaps
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    figure = sheet(11.0, 6.0)
     FigureCanvasAgg(figure)
     panels = figure.subplot_mosaic([["force", "cells"], ["peak", "cells"], ["area", "cells"]], width_ratios=[3, 2])
     for k, axis in enumerate("xyz"):
@@ -38,7 +50,9 @@ def mat_figure(
     panels["area"].plot(time, load.area * 1e4, color="black")
     grid = np.full(laid.area.shape, np.nan)
     grid[placed.cell[:, 0], placed.cell[:, 1]] = pressure.max(axis=0) * 1e-3
-    image = panels["cells"].imshow(grid, cmap="viridis", vmin=0.0)
+    grid[grid == 0.0] = -1.0
+    colours = colormaps["inferno_r"].with_extremes(under=UNTOUCHED)
+    image = panels["cells"].imshow(grid, cmap=colours, vmin=0.0, vmax=largest * 1e-3 or 1.0)
     figure.colorbar(image, ax=panels["cells"], label="largest pressure [kPa]", shrink=0.8)
     panels["cells"].set_xlabel("column")
     panels["cells"].set_ylabel("row")

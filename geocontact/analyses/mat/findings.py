@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import pandas as pd
@@ -77,6 +78,12 @@ class MatFindings(Result):
     def heaviest(self) -> int:
         """Frame with the largest force."""
         return int(np.argmax(self.loads.pressing))
+
+    @cached_property
+    def on_faces(self) -> Float[np.ndarray, " t"]:
+        """Largest pressure of a face in each frame [Pa]: colours of page and figure end at the largest of all."""
+        area = self.surface.face_area
+        return np.array([self.cells.face_pressure(one[None], area).max(initial=0.0) for one in self.pressure])
 
     @property
     def deviation(self) -> Float[np.ndarray, "t six"]:

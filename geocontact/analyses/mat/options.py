@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import (
     AngleUnit,
@@ -22,9 +21,10 @@ from geocontact.analyses.options import (
     Typed,
 )
 from geocontact.data.errors import InputError
+from geocontact.data.ranges import BORDER, CUTOFF, DISPLACEMENT, FORCE, SHARE, TOUCH
 
 TimeWindows = Annotated[tuple[tuple[float, float], ...], Typed("s", "windows"), Spelled(dashed=True)]
-Displacement = Annotated[tuple[float, float], Typed("m, rad", "registration")]
+Displacement = Annotated[tuple[float, float], Typed("m, rad", "registration"), DISPLACEMENT]
 FromMotion = Requires("motion")
 FromSecondScan = Requires("scan_with_mat", "leave it out")
 
@@ -41,6 +41,9 @@ class MatOptions(Options):
         Scan of the body that the mat lies on.
     unit
         Length unit of the scan; never guessed.
+
+    Where the mat lies
+    ------------------
     landmarks
         Places of the mat and the points of the scan that they lie on: id, row, column, x [mm], y [mm], z [mm], in the
         scan's frame; row and column count cells from the corner of the first one.
@@ -50,6 +53,9 @@ class MatOptions(Options):
         Place x,y,z of `surface` near the mat's corner at its first cell, in the scan's unit; needed by `scan_with_mat`.
     mat_edge
         Width of the mat's border without cells, for `scan_with_mat`: 5mm; none unless given.
+
+    The mat
+    -------
     layout
         layout.toml: rows, columns, pitch_mm or cell_area_mm2, order of the cells, origin, mirrored, saturation.
     kind
@@ -65,6 +71,9 @@ class MatOptions(Options):
         Faces of an open scan look into the body: turn them over. A closed scan needs none.
     belt
         The mat goes once around the body and its last rows (or columns) meet its first: rows or columns.
+
+    Motion of the segment
+    ---------------------
     motion
         Pose of the segment over time (.csv .mot .sto); forces, moments and centres are in the frame it leads to then.
     osim
@@ -79,10 +88,16 @@ class MatOptions(Options):
         Order of the motion's intrinsic rotations: XYZ is R = Rx Ry Rz.
     angles
         Unit of the motion's angles where the file does not say.
+
+    Frame of the results
+    --------------------
     point
         Point that moments refer to, x,y,z in the scan's unit and the frame of the results; 0,0,0 unless given.
     frame
         Name of the scan's frame in the results.
+
+    The readings
+    ------------
     cutoff
         Zero-lag Butterworth low-pass [Hz]; 0 for none.
     unloaded
@@ -94,6 +109,9 @@ class MatOptions(Options):
         Pressure from which a cell counts as touched: 1kPa unless given.
     gate
         Force [N] below which there is no centre of pressure.
+
+    Beside a body model
+    -------------------
     body_landmarks
         Points seen on the scan and on a body model: id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm].
         All results are in the body's frame then.
@@ -108,6 +126,9 @@ class MatOptions(Options):
         given.
     segment
         Part of the surface with a name, as often as there are parts: "upper=y > 20" (x y z nx ny nz, the scan's unit).
+
+    Uncertainty
+    -----------
     accuracy
         How far each cell is off by itself: 10% unless given.
     gain
@@ -115,15 +136,18 @@ class MatOptions(Options):
     registration
         How far the mat may lie elsewhere, along and about each axis: 1mm,2deg; unless given, what the residuals tell of
         `landmarks`, and of `body_landmarks` or `icp`.
+
+    Beside a model
+    --------------
     compare
         Forces of a model (or of a plate) over time, columns as in wrench.csv: agreement in agreement.csv. Lines
         `# point_mm = ...` and `# frame = ...` above it are heeded.
     phases
         Phases of the recording for `compare`: name, start [s], end [s]; a name may come back in every cycle. Tenths of
         the recording without.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     frames: Path
     _: KW_ONLY
@@ -134,7 +158,7 @@ class MatOptions(Options):
         Path | None, Excludes("landmarks", "with `landmarks` says twice where the mat lies", "give one of them")
     ] = None
     first_corner: Annotated[Expression | None, FromSecondScan] = None
-    mat_edge: Annotated[Length | None, FromSecondScan] = None
+    mat_edge: Annotated[Length | None, FromSecondScan, BORDER] = None
     layout: Path | None = None
     kind: Literal["grid", "pedar", "tekscan", "xsensor"] | None = None
     sensor: str | None = None
@@ -155,11 +179,11 @@ class MatOptions(Options):
     angles: Annotated[AngleUnit | None, FromMotion] = None
     point: Expression | None = None
     frame: str | None = None
-    cutoff: float = 6.0
+    cutoff: Annotated[float, CUTOFF] = 6.0
     unloaded: TimeWindows | None = None
     dead: Literal["warn", "mask", "fill"] = "warn"
-    touched: Annotated[Pressure, Spelled(default="1kPa")] = 1e3
-    gate: float = 5.0
+    touched: Annotated[Pressure, Spelled(default="1kPa"), TOUCH] = 1e3
+    gate: Annotated[float, FORCE] = 5.0
     body_landmarks: Path | None = None
     body: Annotated[Path | None, Requires("icp", "give `icp`, or leave it out")] = None
     body_unit: Annotated[MeshUnit | None, Requires("body", "leave it out")] = None
@@ -170,27 +194,17 @@ class MatOptions(Options):
         None
     )
     segment: tuple[str, ...] = ()
-    accuracy: Annotated[Fraction, Spelled(default="10%")] = 0.1
-    gain: Fraction | None = None
+    accuracy: Annotated[Fraction, Spelled(default="10%"), SHARE] = 0.1
+    gain: Annotated[Fraction | None, SHARE] = None
     registration: Displacement | None = None
     compare: Path | None = None
     phases: Annotated[Path | None, Requires("compare", "leave it out")] = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
-        """A mat that lies nowhere, a belt pushed down flat, numbers that cannot be."""
+        """A mat that lies nowhere, a belt pushed down flat."""
         if self.landmarks is None and self.scan_with_mat is None:
             what = "is missing: nothing says where the mat lies"
             raise InputError("", "`landmarks`", what, "give `landmarks`, or a second scan `scan_with_mat`")
         if self.belt is not None and self.lay == "closest":
             what = "has no effect with `lay` closest, which pushes a flat mat straight down"
             raise InputError("", "`belt`", what, "leave one of them out")
-        if not (math.isfinite(self.gate) and self.gate >= 0.0):
-            raise InputError("", "`gate`", f"{self.gate:g} is not a force of 0 N or more", "e.g. 5")
-        if not (math.isfinite(self.cutoff) and self.cutoff >= 0.0):
-            raise InputError("", "`cutoff`", f"{self.cutoff:g} is not a frequency", "e.g. 6")
-        for name, value in (("touched", self.touched), ("accuracy", self.accuracy), ("gain", self.gain)):
-            if value is not None and not (math.isfinite(value) and value > 0.0):
-                raise InputError("", f"`{name}`", f"{value:g} is not positive", "give a number above 0")
-        if self.registration is not None and min(self.registration) < 0.0:
-            raise InputError("", "`registration`", "is negative", "give a length and an angle of 0 or more")

@@ -34,7 +34,10 @@ FEWEST = 21  # frames below which a page is not thinned any further
 LARGEST_FILE = 5_000_000  # bytes
 KPA, CM2, MM = 1e-3, 1e4, 1e3
 NEAR = 1e-3  # m; a scene asks for a distance, and nothing here has one
-FIGURE = "Force, pressure and area over time; right, the mat unrolled with the largest pressure of each cell."
+FIGURE = (
+    "Force, pressure and area over time; right, the mat unrolled with the largest pressure of each cell, in the "
+    "colours of the picture above."
+)
 AXES: Mapping[str, Sequence[float]] = {
     "+x": (1.0, 0.0, 0.0),
     "−x": (-1.0, 0.0, 0.0),
@@ -53,7 +56,7 @@ def write_mat_report(path: Path, r: MatFindings, drawing: bytes) -> int:
     most = FRAMES
     while True:
         every = -(-len(r.frames.time) // most)
-        shown = np.unique([*range(0, len(r.frames.time), every), r.heaviest])
+        shown = np.unique([*range(0, len(r.frames.time), every), r.heaviest, int(np.argmax(r.on_faces))])
         size = write_page(mat_page(r, shown, drawing), path)
         most = len(shown) // 2
         if size <= LARGEST_FILE or most < FEWEST:

@@ -41,13 +41,14 @@ class MatResult(MatFindings):
 
     def figure(self) -> Figure:
         """Force, pressure and area over time, and the cells with their largest pressure."""
-        return mat_figure(self.frames.time, self.loads, self.drape, self.pressure, self.cells)
+        largest = float(self.on_faces.max())
+        return mat_figure(self.frames.time, self.loads, self.drape, self.pressure, self.cells, largest)
 
     def write_files(self, folder: Path) -> None:
         """Tables, surface, figure and page."""
         for name, table in self.tables().items():
             units = CASES if name in OF_A_CASE else RESULTS
-            write_table(table, folder, self.options.parquet, name, units)
+            write_table(table, folder, name, units)
             if name in REFERRED:
                 self.record.tables[f"{name}.csv"] = self._point_and_frame()
         try:

@@ -7,8 +7,6 @@ from collections.abc import Mapping
 
 from geocontact.data.errors import InputError
 
-BINS = math.radians(0.1), math.radians(30.0)
-"""rad; widths of bins that a recording of a joint can have."""
 SMALLEST_SPAN = math.radians(5.0)
 """rad; nobody asks for what happens within less, but radians are taken for degrees."""
 MIXED_UP = "are degrees and radians mixed up?"
@@ -50,27 +48,8 @@ def require_within(
         raise InputError("", option, f"{value:g} is not {ends[0]:g} to {ends[1]:.10g}", f"give {usual:g}")
 
 
-def require_above_0(value: float, option: str, unit: str) -> None:
-    """Refuse a value that is not a finite number above 0."""
-    if not 0.0 < value < math.inf:
-        raise InputError("", option, f"{value:g} {unit} is not above 0", "give a positive number")
-
-
 def require_drift(drift: object) -> None:
     """Refuse coefficients of something else than x and y."""
     for name in drift if isinstance(drift, Mapping) else ():
         if name not in ("x", "y"):
             raise InputError("", "`drift`", f"{name!r} is neither x nor y", "the axis drifts along these")
-
-
-def require_width(width: float, option: str) -> None:
-    """Refuse a width [rad] of bins that no recording has."""
-    if not BINS[0] <= width <= BINS[1]:
-        what = f"{math.degrees(width):.6g} is not 0.1 to 30 degrees"
-        raise InputError("", option, what, "give for example 2 degrees")
-
-
-def require_cutoff(frequency: float | None) -> None:
-    """Refuse a cut-off that is no frequency."""
-    if frequency is not None and not math.isfinite(frequency):
-        raise InputError("", "`cutoff`", f"{frequency} is not a finite number", "write for example 6")

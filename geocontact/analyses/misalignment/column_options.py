@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
+from typing import Annotated
 
-from geocontact.analyses.misalignment.checks import require_cutoff
 from geocontact.analyses.options import AngleUnit, Expression, ForceUnit, Options
+from geocontact.data.ranges import CUTOFF
 
 
 @dataclass(frozen=True)
@@ -14,6 +15,8 @@ class ColumnOptions(Options):
 
     Parameters
     ----------
+    Columns and units
+    -----------------
     map
         Columns by what they are, where they have other names: beta=elbow_flexion,force=-Fx.
     angles
@@ -28,8 +31,4 @@ class ColumnOptions(Options):
     map: Expression | None = None
     angles: AngleUnit | None = None
     unit: ForceUnit | None = None
-    cutoff: float | None = None
-
-    def refuse_impossible(self) -> None:
-        """A cut-off that cannot be."""
-        require_cutoff(self.cutoff)
+    cutoff: Annotated[float | None, CUTOFF] = None

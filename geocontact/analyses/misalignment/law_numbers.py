@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import ByName, ByPlace, Plausible
+from geocontact.data.ranges import ATTACHMENT, DAMPING
+from geocontact.data.units import Unit, mm
 from geocontact.io.text.units import DIMENSIONS
 
 MMHG = DIMENSIONS["Pa"]["mmHg"]
@@ -12,8 +15,29 @@ PER_SI = {"k": 1.0, "x": 1e3, "y": 1e3, "l": 1e3, "z": 1e3, "b": 1.0, "s": MMHG}
 """How many of the unit written one SI unit is."""
 WRITTEN = {"k": "N/m", "x": "mm", "y": "mm", "l": "mm", "z": "mm", "b": "N s/m", "s": "1/mmHg"}
 """Unit in which files, tables and the command line write each number."""
-LINKS = 20e-3, 2.0
-"""m; no arm wears a shorter or a longer link."""
+STIFFENING = Plausible("stiffening by the pressure of the cuff", Unit("1/mmHg", "1/Pa", 1.0 / MMHG), (-1.0, 1.0))
+LINK = Plausible("a link of an exoskeleton", mm, (20.0, 2000.0), (40.0, 800.0))
+OFFSET = Plausible("an offset of axes", mm, (-1000.0, 1000.0), (-250.0, 250.0))
+ACROSS = Plausible("the distance of the attachment from the limb's line", mm, (-1000.0, 1000.0), (-300.0, 300.0))
+STROKE = Plausible("a stroke", mm, (-1000.0, 1000.0), (-200.0, 200.0))
+NUMBERS = ByName(
+    (
+        ("k", ATTACHMENT),
+        ("x", OFFSET),
+        ("y", OFFSET),
+        ("l", LINK),
+        ("z", ACROSS),
+        ("b", DAMPING),
+        ("s", STIFFENING),
+    )
+)
+"""What the numbers of the law can be."""
+MEANS = ByName(tuple((name, ByPlace((known, None))) for name, known in NUMBERS.ranges))
+"""The same where a standard deviation follows each."""
+TOPS = ByName(tuple((name, ByPlace((None, known))) for name, known in NUMBERS.ranges))
+"""The same for upper bounds; a lower one may be 0."""
+DRIFT = ByName((("x", ByPlace((OFFSET,))), ("y", ByPlace((OFFSET,)))))
+"""What the first coefficients of a drifting axis can be."""
 
 
 def with_units(numbers: Mapping[str, float]) -> dict[str, float]:
@@ -31,10 +55,3 @@ def require_names(names: Mapping[str, object] | None, option: str) -> None:
     for name in names or {}:
         if name not in PER_SI:
             raise InputError("", option, f"{name!r} is no number of the law", f"these are {', '.join(PER_SI)}")
-
-
-def require_link(length: float, option: str) -> None:
-    """Refuse a link [m] that no arm wears: metres where millimetres are asked for, or the other way round."""
-    if 0.0 < length < LINKS[0] or length > LINKS[1]:
-        what = f"l = {length * 1e3:g} mm is no link of an exoskeleton"
-        raise InputError("", option, what, "are metres taken for millimetres, or millimetres for metres?")

@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.analyses.run_record import Record
 from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.write import write_page
 
+FACTS = 5  # at most
 FRAMES = 601  # samples that a page shows at most
 LAW = (
     "One rigid link, one spring along the limb, both axes fixed: no friction, no slip of the cuff, no give of the "
@@ -28,21 +29,26 @@ def write_elbow_page(
     subtitle: str,
     time: Float[np.ndarray, " t"],
     label: str,
+    answer: Sequence[str],
     facts: Sequence[tuple[str, str]],
     sections: Sequence[Section],
     record: Record,
-    plays: bool = True,
+    start_frame: int | None = None,
 ) -> int:
-    """Write the page with the answer and the reservations of `record`; returns its size in bytes."""
+    """Write the page with the answer and the reservations of `record`; returns its size in bytes.
+
+    `start_frame` is that of bins of the angle; None where the frames run in time, from the first.
+    """
     page = Page(
         title,
         subtitle,
         time,
         label,
-        headline=headline(record.sentences, most=2),
-        facts=facts,
+        headline=[record.spell(line) for line in answer],
+        facts=facts[:FACTS],
         reservations=tuple(record.warnings),
         sections=tuple(sections),
-        plays=plays,
+        start_frame=start_frame or 0,
+        plays=start_frame is None,
     )
     return write_page(page, path)

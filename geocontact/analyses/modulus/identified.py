@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from geocontact.analyses.modulus.figure import ForcePair
 from geocontact.analyses.modulus.prediction import Prediction
 from geocontact.analyses.modulus.read import BOTH, HALVES
@@ -15,6 +17,7 @@ from geocontact.elastic_modulus.threshold_calibration import Calibration
 ONE_NUMBER = "E and nu are one number here: area and force tell E* = E/(1 - nu^2) only, and E for a stated nu"
 RADIUS = "E* and a constant R are one number as well, E*/R: the radius is an input, not a result"
 RADII = "of R the forces tell only how it changes with flexion (slope): its size at 0 degrees is one number with E*"
+FLAT = 1e-6  # of a force by the law; one that varies less does not vary
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,3 +77,8 @@ def confounded(each: Identification) -> list[str]:
     """Free numbers that change nothing, or nothing that E* does not change alike."""
     groups = {name: each.told_apart.get(f"E*, {name}") for name in each.fit.names if name != MODULUS}
     return [name for name, group in groups.items() if group is None or group.verdict == "one number"]
+
+
+def constant(each: Identification) -> bool:
+    """Whether the force by the law is the same in every frame, as of a constant area."""
+    return bool(np.ptp(each.predicted) <= FLAT * each.predicted.max())

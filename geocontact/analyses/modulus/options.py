@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.checks import bootstrap_rule, refuse
 from geocontact.analyses.options import (
@@ -23,9 +23,12 @@ from geocontact.analyses.options import (
     Typed,
 )
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import ByName
+from geocontact.data.ranges import DELAY, POISSON, RADIUS, STRIP, THRESHOLD, TURN
 
-Free = Annotated[Mapping[str, tuple[float, float] | None], Typed("-", "free_numbers"), Spelled(dashed=True)]
-Ratios = Annotated[tuple[float, ...], Typed("-", "ratios")]
+FREE = ByName((("threshold", THRESHOLD), ("lag", DELAY), ("adduction", TURN)))
+Free = Annotated[Mapping[str, tuple[float, float] | None], Typed("-", "free_numbers"), Spelled(dashed=True), FREE]
+Ratios = Annotated[tuple[float, ...], Typed("-", "ratios"), POISSON]
 
 
 @dataclass(frozen=True)
@@ -42,12 +45,18 @@ class ModulusOptions(Options):
         Radius R of the contact in the law.
     threshold
         Threshold of the area: 4 mm where it was evaluated, else the only one.
+
+    Inputs as they are
+    ------------------
     unit
         Unit of the forces, unless each column says it: total [N].
     map
         Columns by what they are, where they have other names: medial=F1,total=-Fz,flexion=knee_flexion.
     lag
         Seconds that the force's clock is behind the area's: force(t + lag) belongs to area(t). 0 unless given.
+
+    What is unknown
+    ---------------
     free
         Unknown besides E*, with bounds or without: threshold=1:6,lag=-0.05:0.05,adduction=-2:2,slope=-0.3:0.3
         (mm, s, degrees, per rad of flexion; in Python a dict of pairs in SI, None without bounds).
@@ -57,12 +66,18 @@ class ModulusOptions(Options):
         Motion (.csv .mot .sto) whose column flexion says where on the profile the contact is, or what R may follow.
     angles
         Unit of the flexion where its file does not say.
+
+    The law
+    -------
     reading
         What the area is taken for: one circle, two, a strip, a rigid cap, a rigid cap within the threshold.
     length
         Length of the strip, for the reading of that name.
     poisson
         Poisson's ratio, or several, that E is told for: 0.25,0.46. E* needs none.
+
+    Checks and prediction
+    ---------------------
     calibrate
         Table force [N], area [mm^2] of measured areas: the threshold that gives them is taken.
     predict_area
@@ -71,34 +86,34 @@ class ModulusOptions(Options):
         Its measured forces.
     bootstrap
         Replicates of the block bootstrap, 0 for none; 200 at most where more than E* is free.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     area: Annotated[tuple[Path, ...], Spelled(keyword=True)]
     force: Annotated[Path, Spelled(keyword=True)]
     _: KW_ONLY
-    radius: Annotated[Millimetres | None, Spelled("radius-mm", "radius_mm")] = None
-    threshold: Length | None = None
+    radius: Annotated[Millimetres | None, Spelled("radius-mm", "radius_mm"), RADIUS] = None
+    threshold: Annotated[Length | None, THRESHOLD] = None
     unit: ForceUnit | None = None
     map: Expression | None = None
-    lag: Annotated[float | None, Spelled(dashed=True)] = None
+    lag: Annotated[float | None, Spelled(dashed=True), DELAY] = None
     free: Free | None = None
     profile: Annotated[Path | None, Needs("flexion", "give both")] = None
     flexion: Path | None = None
     angles: Annotated[AngleUnit | None, Requires("flexion", "leave it out")] = None
     reading: Literal["disc", "discs", "strip", "cap", "threshold"] = "disc"
-    length: Annotated[Millimetres | None, Spelled("length-mm", "length_mm")] = None
+    length: Annotated[Millimetres | None, Spelled("length-mm", "length_mm"), STRIP] = None
     poisson: Annotated[Ratios, Spelled(default="0.25")] = (0.25,)
     calibrate: Annotated[Path | None, Excludes("threshold", "finds what `threshold` gives", "give one")] = None
     predict_area: tuple[Path, ...] | None = None
     predict_force: Annotated[Path | None, Requires("predict_area", "give it too")] = None
     bootstrap: int = 1000
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Numbers that cannot be, unknowns that no input tells of, a radius said twice or not at all."""
-        self._refuse_ratios()
+        if not self.poisson:
+            raise InputError("", "`poisson`", "there is none", "give for example 0.46")
         self._refuse_free()
         slope = "slope" in (self.free or {})
         refuse(
@@ -108,7 +123,6 @@ class ModulusOptions(Options):
                 "or `profile`: exactly one says the radius of the contact",
                 "give for example 37 mm",
             ),
-            _size_rule("`radius`", self.radius, "is no radius of a contact in mm", "give for example 37 mm"),
             (slope and self.flexion is None, "`free`", "slope needs `flexion`", "give the motion of the areas"),
             (
                 self.flexion is not None and self.profile is None and not slope,
@@ -117,7 +131,6 @@ class ModulusOptions(Options):
                 "give one of them",
             ),
             (self.reading == "strip" and self.length is None, "`length`", "is missing for a strip", "give it"),
-            _size_rule("`length`", self.length, "is no length in mm", "give for example 60 mm"),
             (
                 self.predict_area is not None and (self.profile is not None or slope),
                 "`predict_area`",
@@ -125,18 +138,7 @@ class ModulusOptions(Options):
                 "give `radius`",
             ),
             bootstrap_rule(self.bootstrap, 1000),
-            (
-                self.lag is not None and not math.isfinite(self.lag),
-                "`lag`",
-                f"{self.lag} is not a time",
-                "give seconds",
-            ),
         )
-
-    def _refuse_ratios(self) -> None:
-        if not self.poisson or not all(-1.0 < ratio <= 0.5 for ratio in self.poisson):
-            said = ", ".join(f"{ratio:g}" for ratio in self.poisson)
-            raise InputError("", "`poisson`", f"{said} is not above -1 and at most 0.5", "give for example 0.46")
 
     def _refuse_free(self) -> None:
         from geocontact.analyses.quantities import FREE_UNITS  # numpy and friends: not for --help
@@ -149,9 +151,3 @@ class ModulusOptions(Options):
                 raise InputError("", "`free`", what, "give the lower one first")
         if "threshold" in (self.free or {}) and self.calibrate is not None:
             raise InputError("", "`free`", "threshold with `calibrate` says it twice", "give one")
-
-
-def _size_rule(option: str, value: float | None, what: str, remedy: str) -> tuple[bool, str, str, str]:
-    """Lengths that no joint has."""
-    wrong = value is not None and not 1e-4 <= value <= 10.0
-    return wrong, option, f"{0.0 if value is None else value * 1e3:g} {what}", remedy

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from geocontact.analyses.modulus.figure import ForcePair
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
-from geocontact.view.page.content import Curve, Curves, Intervals, Page, Picture, Readout, Row, Section, Table, Words
+from geocontact.analyses.modulus.identified import Identified
+from geocontact.analyses.modulus.page_answer import facts, headline, undescribed
+from geocontact.analyses.modulus.page_intervals import modulus_intervals
+from geocontact.analyses.page_words import NOT_A_DEVICE
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 FIGURE = (
@@ -26,58 +28,57 @@ LAW = (
 def write_modulus_report(
     path: Path,
     title: str,
-    pairs: Mapping[str, ForcePair],
+    found: Identified,
     drawing: bytes,
     tables: Sequence[Table],
-    intervals: Intervals,
-    lost: Sequence[str],
     warnings: Sequence[str],
-    sentences: Sequence[str] = (),
 ) -> int:
-    """Write the self-contained page; returns its size in bytes.
+    """Write the self-contained page; returns its size in bytes."""
+    return write_page(modulus_page(title, found, drawing, tables, warnings), path)
+
+
+def modulus_page(
+    title: str,
+    found: Identified,
+    drawing: bytes,
+    tables: Sequence[Table],
+    warnings: Sequence[str],
+) -> Page:
+    """The page before it becomes a file; it opens with E*, or with the forces where the law does not describe them.
 
     Parameters
     ----------
-    pairs
-        Measured and predicted forces by side, all at the same times.
     drawing
         The figure (SVG).
     tables
-        Results first; the first one's numbers make the headline.
-    intervals
-        E* of each side.
-    lost
-        What the data cannot tell, a sentence each.
-    warnings, sentences
-        Reservations, and what was found.
+        Results first.
+    warnings
+        Reservations.
     """
+    pairs = found.curves()
     first = next(iter(pairs.values()))
-    texts = [
-        Row(f"{side}, {kind}", "N", [f"{value:.1f}" for value in values])
+    forces: list[Section] = [
+        Curves(f"Contact force, {side}", "N", [Curve("measured", pair.measured), Curve("by the law", pair.predicted)])
         for side, pair in pairs.items()
-        for kind, values in (("measured", pair.measured), ("by the law", pair.predicted))
     ]
-    sections: list[Section] = [Readout(texts)]
-    for side, pair in pairs.items():
-        curves = [Curve("measured", pair.measured), Curve("by the law", pair.predicted)]
-        sections.append(Curves(f"Contact force, {side}", "N", curves))
-    sections += [
-        intervals,
+    intervals = modulus_intervals(found)
+    sections: list[Section] = [
+        *([*forces, intervals] if undescribed(found) else [intervals, *forces]),
         tables[0],
-        Words("What the data cannot tell", list(lost)),
+        Words("What the data cannot tell", found.not_identifiable()),
         Picture("Force by the law and profile of E*", FIGURE, drawing, wide=True),
         *tables[1:],
         Words("What the numbers do not contain", [LAW, NOT_A_DEVICE]),
     ]
-    page = Page(
+    return Page(
         title=title,
         subtitle="Elastic modulus of a contact by the area-integrated Hertz law",
         time=first.time,
         time_label="time [s]",
-        headline=headline(sentences, most=2),
+        headline=headline(found),
+        facts=facts(found),
         reservations=tuple(warnings),
-        facts=[(f"{row[0]}: {row[1]}", f"{row[2]} ({row[3]})" if row[3] else row[2]) for row in tables[0].rows[:5]],
         start_frame=int(np.argmax(first.measured)),
         sections=tuple(sections),
+        plays=False,
     )
-    return write_page(page, path)

@@ -16,7 +16,6 @@ from geocontact.analyses.modulus.identified import Identified
 from geocontact.analyses.modulus.numbers import describe
 from geocontact.analyses.modulus.options import ModulusOptions
 from geocontact.analyses.modulus.page import write_modulus_report
-from geocontact.analyses.modulus.page_intervals import modulus_intervals
 from geocontact.analyses.modulus.page_tables import moduli, told_apart
 from geocontact.analyses.modulus.tables import curve_table, modulus_table, prediction_table, sensitivity_table
 from geocontact.analyses.options_table import options_table
@@ -80,7 +79,7 @@ class ModulusResult(Result):
         (folder / "modulus.json").write_text(text + "\n", encoding="utf-8")
         for name, table in self.tables().items():
             if name != "modulus":  # which modulus.json holds
-                write_table(table, folder, self.options.parquet, name)
+                write_table(table, folder, name)
         self._write_report(folder / "report.html", save_both(self.figure(), folder, "modulus"))
 
     def write_page(self, file: Path) -> None:
@@ -92,14 +91,4 @@ class ModulusResult(Result):
         provenance = [inputs_table(self.record.inputs), options_table(self.record)]
         tables = [moduli(self.found), told_apart(self.found), sensitivity, *provenance]
         title = f"E* from {self.options.area[0].name} and {self.options.force.name}"
-        write_modulus_report(
-            file,
-            title,
-            self.found.curves(),
-            figure,
-            tables,
-            modulus_intervals(self.found),
-            self.not_identifiable,
-            self.warnings,
-            self.sentences,
-        )
+        write_modulus_report(file, title, self.found, figure, tables, self.warnings)

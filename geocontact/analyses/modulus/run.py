@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
-from geocontact.analyses.modulus.identified import Identified
+from geocontact.analyses.modulus.identified import Identified, constant
 from geocontact.analyses.modulus.model import model_of, threshold_given
 from geocontact.analyses.modulus.numbers import describe
 from geocontact.analyses.modulus.options import ModulusOptions
@@ -25,7 +23,6 @@ from geocontact.elastic_modulus.threshold_calibration import Calibration, calibr
 from geocontact.identify.signals.gaps import gaps
 
 FEW_BLOCKS = 5
-FLAT = 1e-6  # of a force by the law; one that varies less does not vary
 STRAYED = 0.3  # rms of the calibration's relative differences beyond which the table is not met
 
 
@@ -107,7 +104,7 @@ def _calibrated(record: Record, inputs: Inputs, path: Path | None) -> Calibratio
 def _reserve(record: Record, side: str, each: Identification) -> None:
     """What has to be said about one side."""
     _, r2 = agreement(each.measured, each.predicted)
-    if np.ptp(each.predicted) <= FLAT * each.predicted.max():
+    if constant(each):
         record.warn(f"{side}: the area is the same in every frame: nothing tells whether the law holds")
     if r2 < 0.0:
         record.warn(f"{side}: R² is {r2:.2f}, a constant force would do better than the law")

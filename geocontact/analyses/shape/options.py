@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
 from geocontact.analyses.checks import refuse
 from geocontact.analyses.options import Degrees, Excludes, Expression, MeshUnit, Options, Requires, Spelled, Typed
+from geocontact.analyses.sides import Medial, Side, medial_side
+from geocontact.data.plausible import Plausible
+from geocontact.data.ranges import JOINT_ANGLE
+from geocontact.data.units import deg
 
 NEEDS = {
     "radial": "`axis` or `centre`",
@@ -18,8 +21,8 @@ NEEDS = {
 }
 """Names that a region may use, by the options that say where they are counted from."""
 
-AngleRange = Annotated[tuple[float, float, float], Typed("rad", "degree_range"), Spelled(dashed=True)]
-Side = Annotated[Literal["-", "+"], Spelled(dashed=True)]
+WINDOW = Plausible("a window of flexion", deg, (1.0, 180.0))
+AngleRange = Annotated[tuple[float, float, float], Typed("rad", "degree_range"), Spelled(dashed=True), JOINT_ANGLE]
 Profile = Requires("profile")
 
 
@@ -35,6 +38,9 @@ class ShapeOptions(Options):
         What is fitted.
     unit
         Unit of the meshes; never guessed.
+
+    Which faces count, and how they are placed
+    ------------------------------------------
     region
         Faces that count: "outward>0.5 and flexion>30" in x y z nx ny nz (mesh unit), and with `axis` or `centre` radial
         outward, with `axis` and `sagittal` flexion [deg], with `other` distance; or a file of face numbers.
@@ -52,23 +58,34 @@ class ShapeOptions(Options):
         Where the mesh sits in its body: a file with a 4x4 matrix, or model.osim:body.
     place_other
         The same for the other mesh, in the frame of the first.
+
+    How it is fitted
+    ----------------
     points
         What the shape is fitted to: vertices of the faces that count, or their centroids.
     robust
         Whether points far off do not count; else it is plain least squares.
+
+    Sides and profile
+    -----------------
     split
-        x, y or z (or z=1.5): medial and lateral points are fitted apart as well, cylinders along the axis of the whole.
+        x, y or z (or z=1.5): medial and lateral points are fitted apart as well, cylinders along the axis of the whole;
+        needs `side` or `medial`.
+    side
+        Side of the body, for `split` z: right says that medial is -z, left that it is +z, in a frame whose z points to
+        the subject's right (ISB, OpenSim).
     medial
-        Side of the splitting plane that is medial; - unless given.
+        Side of the splitting plane that is medial, instead of `side`.
     profile
         Also tell the radius as a function of flexion: start, stop and step, typed -30:120:5 in degrees, about `axis` or
         the fitted cylinder's axis.
     window
         Flexion over which the radius of the profile is taken; 30 degrees unless given.
+
+    Results
+    -------
     paraview
         Also write the surface with its residuals for ParaView (fit.vtp).
-    parquet
-        Also write the profile as .parquet.
     """
 
     mesh: Path
@@ -88,15 +105,19 @@ class ShapeOptions(Options):
     points: Literal["vertices", "faces"] = "vertices"
     robust: bool = True
     split: str | None = None
-    medial: Annotated[Side | None, Requires("split")] = None
+    side: Annotated[Side | None, Requires("split")] = None
+    medial: Annotated[
+        Medial | None, Requires("split"), Excludes("side", "with `side` says twice what is medial", "give one")
+    ] = None
     profile: AngleRange | None = None
-    window: Annotated[Degrees | None, Profile] = None
+    window: Annotated[Degrees | None, Profile, WINDOW] = None
     paraview: bool = False
-    parquet: Annotated[bool, Requires("profile", "leave it out")] = False
 
     def refuse_impossible(self) -> None:
-        """Places that nothing is counted from, a profile without an axis, angles that cannot be."""
+        """Places that nothing is counted from, a profile without an axis or an end."""
         self._refuse_places()
+        if self.split is not None:
+            medial_side(self.split, self.side, self.medial)
         needs_axis = self.profile is not None and self.shape != "cylinder" and self.axis is None
         refuse(
             (
@@ -104,12 +125,6 @@ class ShapeOptions(Options):
                 "`profile`",
                 f"needs an axis, and a {self.shape} has none",
                 "give `axis`, or fit a cylinder",
-            ),
-            (
-                self.window is not None and not math.radians(1.0) <= self.window <= math.pi,
-                "`window`",
-                f"{math.degrees(self.window or 0.0):g} is not between 1 and 180 degrees",
-                "give for example 30 degrees",
             ),
             (
                 self.profile is not None and not _arrives(*self.profile),

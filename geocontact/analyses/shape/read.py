@@ -13,6 +13,7 @@ from geocontact.analyses.bodies import chosen_faces, read_surface
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shape.options import NEEDS, ShapeOptions
 from geocontact.analyses.shape.patch import Patch
+from geocontact.analyses.sides import medial_side, refuse_other_axes
 from geocontact.data.errors import InputError
 from geocontact.geometry.patch_names import Values, about, about_flexion, about_other
 from geocontact.geometry.sagittal import Sagittal
@@ -40,9 +41,13 @@ def read(o: ShapeOptions, record: Record) -> Inputs:
             record.warn(f"{surface.name}: faces point inwards; taken the other way round")
         axis = _axis(record, o)
         faces = chosen_faces(record, "`region`", o.region, surface, o.unit, _names(record, surface, axis, o))
-    split = None if o.split is None else quantities.splitting_plane(o.split, o.unit)
     counted = np.ones(len(surface.faces), bool) if faces is None else faces
-    return Inputs(Patch(surface, counted, o.points == "vertices", split, 1 if o.medial == "+" else -1), axis)
+    if o.split is None:
+        return Inputs(Patch(surface, counted, o.points == "vertices", None, 0), axis)
+    plane, side = quantities.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
+    refuse_other_axes(surface.space, surface.name, o.side, o.medial)
+    record.say(f"medial is {side.words} of {surface.name}")
+    return Inputs(Patch(surface, counted, o.points == "vertices", plane, side.sign), axis)
 
 
 def sagittal_about(axis: Axis, o: ShapeOptions) -> Sagittal:

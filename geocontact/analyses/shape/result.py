@@ -81,7 +81,7 @@ class ShapeResult(Result):
         text = json.dumps(describe(f, self.options), indent=2, ensure_ascii=False, allow_nan=False)
         (folder / "fit.json").write_text(text + "\n", encoding="utf-8")
         if self.profiles:
-            write_table(self.table("profile"), folder, self.options.parquet, "profile")
+            write_table(self.table("profile"), folder, "profile")
         drawings = {name: save_both(figure, folder, name) for name, figure in self._figures().items()}
         if self.options.paraview:
             s = f.patch.surface

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from jaxtyping import Float
 
@@ -22,18 +24,22 @@ from geocontact.geometry.sweep import Axis
 
 FLATTEST = np.radians(60.0)  # arc below which a radius is hardly determined
 WINDOW = np.radians(30.0)
+POOR = 0.1  # of the radius, that the rms of the points may be
 
 
 def run(given: Inputs, o: ShapeOptions, record: Record) -> ShapeResult:
     """Fit the whole, then each side along the axis of the whole."""
     patch = given.patch
     along = np.asarray(given.axis.direction, float) if given.axis is not None and o.hold_axis else None
-    whole = _fitted(record, patch.surface.name, patch.points, along, o)
-    sides = {}
-    for name, (plane, side) in patch.sides.items():
-        own = patch.points[plane.height(patch.points) * side >= 0.0]
-        sides[name] = _fitted(record, name, own, whole.axis, o)
-    fitting = Fitting(patch, whole, sides, _profiles(patch, given.axis, whole, o))
+    with record.listener.stages(patch.surface.name) as at:
+        at(f"{o.shape} through {len(patch.points)} points")
+        whole = _fitted(record, patch.surface.name, patch.points, along, o)
+        sides = {}
+        for name, (plane, side) in patch.sides.items():
+            at(f"{o.shape} through the {name} points")
+            own = patch.points[plane.height(patch.points) * side >= 0.0]
+            sides[name] = _fitted(record, name, own, whole.axis, o)
+        fitting = Fitting(patch, whole, sides, _profiles(patch, given.axis, whole, o, at))
     record.results["fit"] = describe(fitting, o)
     return ShapeResult(record=record, options=o, fitting=fitting)
 
@@ -72,12 +78,19 @@ def _warn_of_doubts(record: Record, name: str, fit: ShapeFit) -> None:
             f"{name}: the points cover {np.degrees(fit.arc):.0f} degrees about the axis; "
             "below 60 radius and axis are hardly determined"
         )
+    if fit.radius is not None and fit.rms > POOR * fit.radius:
+        record.warn(
+            f"{name}: rms {fit.rms * 1e3:.2f} mm is {fit.rms / fit.radius:.0%} of the radius: "
+            f"a {fit.shape} does not describe this patch; another shape, or fewer faces with `region`?"
+        )
     share = float(fit.quality.inlier.mean())
     if share < 0.7:
         record.warn(f"{name}: {1.0 - share:.0%} of the points are outliers; is it a {fit.shape}, and the right patch?")
 
 
-def _profiles(patch: Patch, axis: Axis | None, whole: ShapeFit, o: ShapeOptions) -> dict[str, SagittalProfile]:
+def _profiles(
+    patch: Patch, axis: Axis | None, whole: ShapeFit, o: ShapeOptions, at: Callable[[str], None]
+) -> dict[str, SagittalProfile]:
     """Profile of each side, or of the whole patch where it is not split."""
     if o.profile is None:
         return {}
@@ -86,9 +99,10 @@ def _profiles(patch: Patch, axis: Axis | None, whole: ShapeFit, o: ShapeOptions)
     angle = start + step * np.arange(round((stop - start) / step) + 1)
     window = WINDOW if o.window is None else o.window
     parts: dict[str, tuple[Plane, int] | None] = {**patch.sides} or {"whole": None}
-    found = {
-        name: sagittal_profile(patch.surface, patch.faces, sagittal, angle, window, s) for name, s in parts.items()
-    }
+    found = {}
+    for name, s in parts.items():
+        at(f"profile of the {name}, {len(angle)} angles")
+        found[name] = sagittal_profile(patch.surface, patch.faces, sagittal, angle, window, s)
     for name, profile in found.items():
         if not np.isfinite(profile.radius).any():
             raise InputError("", "`profile`", f"{name}: no face of the patch lies there", "check `sagittal` and `axis`")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.misalignment.design.options import DesignOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Which offsets of an exoskeleton's axis, and which stroke of a compensation joint, keep |F| under a limit.
 
@@ -11,4 +11,4 @@ For the elbow, and for the knee, the hip or any joint of one degree of freedom; 
 map.csv, boundary.csv, sensitivity.csv, force.csv, design.png, design.svg, report.html and run.json into OUT.
 """
 
-design = command("geocontact.analyses.misalignment.design.job:design", DesignOptions, HELP)
+design = Command("geocontact.analyses.misalignment.design.job:design", DesignOptions, HELP)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Stiffness, link and offsets of an exoskeleton from force and angle, and what these recordings cannot tell.
 
@@ -12,4 +12,4 @@ and run.json into OUT, with `unlocked` also conditions.csv and boxes_free.csv. k
 factor only, unless one of them comes from elsewhere.
 """
 
-fit = command("geocontact.analyses.misalignment.identify.job:identify", IdentifyOptions, HELP)
+fit = Command("geocontact.analyses.misalignment.identify.job:identify", IdentifyOptions, HELP)

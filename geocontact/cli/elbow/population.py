@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.misalignment.population.options import PopulationOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Distribution of the largest force over people whose offsets and attachment differ.
 
@@ -11,4 +11,4 @@ Writes population.json, quantiles.csv, exceedance.csv, influence.csv, population
 run.json into OUT. All samples are synthetic: drawn, not measured.
 """
 
-population = command("geocontact.analyses.misalignment.population.job:population", PopulationOptions, HELP)
+population = Command("geocontact.analyses.misalignment.population.job:population", PopulationOptions, HELP)

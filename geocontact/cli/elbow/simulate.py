@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Forces of the explicit model along recorded angles, or synthetic recordings after the paper's experiment.
 
@@ -12,4 +12,4 @@ surfaces.csv and a figure of the displacement over angle and offsets, report.htm
 that they are synthetic.
 """
 
-simulate = command("geocontact.analyses.misalignment.simulate.job:simulate", SimulateOptions, HELP)
+simulate = Command("geocontact.analyses.misalignment.simulate.job:simulate", SimulateOptions, HELP)

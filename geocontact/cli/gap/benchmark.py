@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.gap.benchmark.options import BenchmarkOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Diagnose synthetic cases whose effect is known and withheld, and score the answers.
 
@@ -12,4 +12,4 @@ exact intervals, beside two residual regressions, a constant answer and an oracl
 reliability.svg and run.json into OUT, and prints the table. The default takes an hour and a half on two cores.
 """
 
-benchmark = command("geocontact.analyses.gap.benchmark.job:benchmark", BenchmarkOptions, HELP)
+benchmark = Command("geocontact.analyses.gap.benchmark.job:benchmark", BenchmarkOptions, HELP)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geocontact.analyses.gap.diagnose.options import ManyOptions
 from geocontact.analyses.options import Options
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Diagnose a gap case: which effect the model lacks, where it shows, how far the gap shrinks with it.
 
@@ -18,4 +18,4 @@ def _job(given: Options) -> str:
     return f"geocontact.analyses.gap.diagnose.job:diagnose{'_many' if given.given('many') else ''}"
 
 
-diagnose = command(_job, ManyOptions, HELP)
+diagnose = Command(_job, ManyOptions, HELP)

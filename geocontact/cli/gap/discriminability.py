@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from geocontact.analyses.gap.discriminability.options import DiscriminabilityOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """What the trials of a case can tell: which effects they would show, from which size on, and which look alike.
 
 Writes confuse.json, separability.csv, detectability.csv, report.html, figures (.png, .svg) and run.json into OUT.
 """
 
-discriminability = command(
+discriminability = Command(
     "geocontact.analyses.gap.discriminability.job:discriminability", DiscriminabilityOptions, HELP
 )

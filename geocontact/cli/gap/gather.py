@@ -6,7 +6,7 @@ from pathlib import Path
 
 from geocontact.analyses.gap.gather.options import GatherOptions
 from geocontact.analyses.result import Result
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Make a gap case of recordings: pressure mats, force plates under a foot, loads of a knee, angles and moments.
 
@@ -19,6 +19,6 @@ def _next(_: Result, folder: Path) -> None:
     print(f"next: geocontact gap diagnose {folder} --out …")
 
 
-gather = command(
+gather = Command(
     "geocontact.analyses.gap.gather.job:gather", GatherOptions, HELP, out="Folder for the case.", after=_next
 )

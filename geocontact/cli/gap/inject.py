@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geocontact.analyses.gap.inject.options import InjectOptions
-from geocontact.cli.command import command
+from geocontact.cli.command import Command
 
 HELP = """Put a known effect into the measured trials of a case, diagnose it, and tell whether it was found.
 
@@ -11,4 +11,4 @@ Writes case/ (the case with the effect in it), diagnosis/ (as `gap diagnose` doe
 OUT. What the trials miss already stays in them.
 """
 
-inject = command("geocontact.analyses.gap.inject.job:inject", InjectOptions, HELP)
+inject = Command("geocontact.analyses.gap.inject.job:inject", InjectOptions, HELP)

@@ -33,7 +33,7 @@ def at_the_tip(system: System) -> Candidate:
     row = system.inputs.index("beta")
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
-        return np.asarray(outputs + values[mass.name] * values["l_ex"] * movement.acceleration[row][:, None])
+        return np.asarray(outputs + values[mass.name] * values["l"] * movement.acceleration[row][:, None])
 
     link = with_balance(Modifier("inertia_load.tip", RANK, change))
     return Candidate("inertia_load", "tip", "load", (mass,), link, {mass.name: 0.0}, ({mass.name: -0.2},))

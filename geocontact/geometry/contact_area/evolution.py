@@ -12,12 +12,14 @@ from jaxtyping import Bool, Float
 
 from geocontact.data.evolution import AreaEvolution, SideAreas
 from geocontact.data.motion import Motion
-from geocontact.geometry.contact_area.area import AS_GIVEN, AreaWithin, Refinement, area_within
+from geocontact.data.ranges import THRESHOLD
+from geocontact.geometry.contact_area.area import AS_GIVEN, AreaWithin, Refinement, area_within, areas_cut_once
 from geocontact.geometry.contact_area.depth import lowest_signed_distance
+from geocontact.geometry.contact_area.gap import Edges, Facing, least_distance
+from geocontact.geometry.contact_area.rise import Rise
 from geocontact.geometry.contact_area.rules import CLIP, REFINED, RULES, counted_area
 from geocontact.geometry.contact_area.sampled import Distances, Sampled
 from geocontact.geometry.plane import Plane
-from geocontact.geometry.separation import Collider
 from geocontact.geometry.surface import Surface
 
 
@@ -36,7 +38,7 @@ class Settings:
     split
         Plane in FIXED's frame between medial and lateral.
     medial_side
-        +1 or -1, the side of the plane that is medial.
+        +1 or -1, the side of the plane that is medial; 0 without a plane.
     sensitivity
         Further thresholds [m] at which FIXED's area is wanted to see how much the choice matters: triangles cut once as
         given, no bounds. Distances reach as far as the largest of all thresholds.
@@ -48,15 +50,19 @@ class Settings:
     fixed_faces: Bool[np.ndarray, " f"] | None = None
     moving_faces: Bool[np.ndarray, " g"] | None = None
     split: Plane | None = None
-    medial_side: int = -1
+    medial_side: int = 0
     sensitivity: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         every = (*self.thresholds, *self.sensitivity)
         if not self.thresholds or min(every) < 0.0 or not np.isfinite(every).all():
             raise ValueError("thresholds must be finite and not negative")
+        for threshold in self.thresholds:
+            THRESHOLD.require(threshold, "`thresholds`")
         if self.rule not in RULES:
             raise ValueError(f"rule must be one of {', '.join(RULES)}, not {self.rule!r}")
+        if self.medial_side not in ((0,) if self.split is None else (-1, 1)):
+            raise ValueError("split and medial_side belong together: -1 or +1 is the side of the plane that is medial")
 
 
 @dataclass(frozen=True)
@@ -95,9 +101,9 @@ class ContactPair:
         self._moving = Sampled.of(moving, largest, settings.moving_faces)
         self._whole_fixed = self._fixed if settings.fixed_faces is None else Sampled.of(fixed, largest)
         self._whole_moving = self._moving if settings.moving_faces is None else Sampled.of(moving, largest)
-        self._collider = Collider(moving, fixed)
-        # built here, before threads share them
-        _ = (moving.tree, fixed.tree, moving.closed and moving.normals_trusted, fixed.closed and fixed.normals_trusted)
+        # trees and what is known of normals are built here, before threads share them
+        self._rise_of_moving, self._rise_of_fixed = Rise.of(moving, fixed), Rise.of(fixed, moving)
+        self._edges_of_moving, self._edges_of_fixed = Edges.of(moving), Edges.of(fixed)
 
     @property
     def signed(self) -> str:
@@ -113,19 +119,15 @@ class ContactPair:
         back, origin = np.ascontiguousarray(rotation.T), -rotation.T @ translation
         on_fixed = self._fixed.distances(self.moving, back, origin)
         on_moving = self._moving.distances(self.fixed, np.ascontiguousarray(rotation), translation)
-        lowest, penetration = self._overlap(on_fixed, on_moving, rotation, translation)
+        lowest, penetration = self._overlap(on_fixed, on_moving)
         moving = [
             _in_frame(self._area(self._moving, self.fixed, on_moving, t, rotation, translation), rotation, translation)
             for t in self.settings.thresholds
         ]
-        clipped = [
-            area_within(self._fixed, self.moving, on_fixed, t, back, origin, AS_GIVEN).area
-            for t in self.settings.sensitivity
-        ]
         return FrameContact(
             fixed=[self._area(self._fixed, self.moving, on_fixed, t, back, origin) for t in self.settings.thresholds],
             moving=moving,
-            sensitivity=np.array(clipped),
+            sensitivity=areas_cut_once(self._fixed, on_fixed, self.settings.sensitivity),
             min_distance=lowest,
             max_penetration_fixed=penetration,
             fixed_distances=on_fixed,
@@ -150,29 +152,26 @@ class ContactPair:
         moment = moment + area * sampled.surface.centre
         return AreaWithin(area, found.lower, found.upper, found.upper - found.lower, moment, negative, found.undecided)
 
-    def _overlap(
-        self,
-        on_fixed: Distances,
-        on_moving: Distances,
-        rotation: Float[np.ndarray, "3 3"],
-        translation: Float[np.ndarray, " 3"],
-    ) -> tuple[float, float]:
+    def _overlap(self, on_fixed: Distances, on_moving: Distances) -> tuple[float, float]:
         """Smallest distance between the surfaces and depth of FIXED's counted faces in MOVING [m]."""
         inside = bool((on_fixed.side < 0).any() or (on_moving.side < 0).any())
         depth = 0.0 if self.moving.closed else np.nan
         if not inside:
-            gap = self._collider.distance(rotation, translation)
+            gap = least_distance(
+                Facing(self._edges_of_fixed, on_fixed, self.moving, self._rise_of_moving),
+                Facing(self._edges_of_moving, on_moving, self.fixed, self._rise_of_fixed),
+            )
             if gap > 0.0:
                 return gap, depth
         lowest = 0.0
         if self.moving.closed:
-            lowest = min(lowest, lowest_signed_distance(self._whole_fixed, self.moving, on_fixed))
+            lowest = lowest_signed_distance(self._whole_fixed, self.moving, on_fixed, self._rise_of_moving)
             counted = lowest
             if self._fixed is not self._whole_fixed:
-                counted = lowest_signed_distance(self._fixed, self.moving, on_fixed)
-            depth = max(0.0, -counted)
+                counted = lowest_signed_distance(self._fixed, self.moving, on_fixed, self._rise_of_moving)
+            depth = -counted
         if self.fixed.closed:
-            lowest = min(lowest, lowest_signed_distance(self._whole_moving, self.fixed, on_moving))
+            lowest = lowest_signed_distance(self._whole_moving, self.fixed, on_moving, self._rise_of_fixed, lowest)
         return lowest, depth
 
 
@@ -232,7 +231,7 @@ def area_evolution(
         min_distance=np.array(lowest),
         max_penetration_fixed=np.array(deepest),
         signed=pair.signed,
-        medial_side=settings.medial_side if settings.split is not None else 0,
+        medial_side=settings.medial_side,
         split_normal=settings.split.normal if settings.split is not None else (0.0, 0.0, 0.0),
         sensitivity_thresholds=settings.sensitivity,
         sensitivity=np.array(sensitivity),

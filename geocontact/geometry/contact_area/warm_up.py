@@ -13,12 +13,15 @@ from geocontact.geometry.surface import Surface
 
 @cache
 def warm_up() -> None:
-    """Run one small overlap, so that kernels are compiled (once on a machine) or loaded before the clock matters.
+    """Run a small overlap and a gap, so that kernels are compiled (once on a machine) or loaded before time counts.
 
     Once in a process is enough.
     """
     vertices = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) * 1e-2
     faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     tetrahedron = Surface(vertices, faces, "tetrahedron")
-    pair = ContactPair(tetrahedron, tetrahedron, Settings(thresholds=(1e-3,), split=Plane.across("x", 1e-3)))
-    pair.at(np.eye(3), np.full(3, 1e-3))
+    split = Plane.across("x", 1e-3)
+    settings = Settings(thresholds=(1e-3,), sensitivity=(1e-3,), split=split, medial_side=1)
+    pair = ContactPair(tetrahedron, tetrahedron, settings)
+    for shift in (1e-3, 2e-2):
+        pair.at(np.eye(3), np.full(3, shift))

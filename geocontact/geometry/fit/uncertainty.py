@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Float, Int
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 LEVELS = 4  # halvings: 16 cells
 POINTS = 16  # a cell holds at least; with fewer in all every point is one
@@ -74,4 +74,4 @@ def half_width(variance: float, cell: Int[np.ndarray, " n"], parameters: int) ->
     free = count - 1 if count < len(cell) else count - parameters
     if free < 1 or not np.isfinite(variance):
         return float(np.inf)
-    return float(student.ppf(0.975, free) * np.sqrt(variance))
+    return float(stdtrit(free, 0.975) * np.sqrt(variance))

@@ -20,13 +20,18 @@ def chunk_spheres(points, limit):
         first = c * CHUNK
         last = min(first + CHUNK, len(points))
         for k in range(3):
-            sphere[c, k] = 0.5 * (points[first:last, k].min() + points[first:last, k].max())
-        r2 = 0.0
+            low, high = points[first, k], points[first, k]
+            for i in range(first + 1, last):
+                low = min(low, points[i, k])
+                high = max(high, points[i, k])
+            sphere[c, k] = 0.5 * (low + high)
+        r2, farthest = 0.0, limit[first]
         for i in range(first, last):
-            d = points[i] - sphere[c, :3]
-            r2 = max(r2, d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
+            x, y, z = points[i, 0] - sphere[c, 0], points[i, 1] - sphere[c, 1], points[i, 2] - sphere[c, 2]
+            r2 = max(r2, x * x + y * y + z * z)
+            farthest = max(farthest, limit[i])
         sphere[c, 3] = np.sqrt(r2)
-        sphere[c, 4] = limit[first:last].max()
+        sphere[c, 4] = farthest
     return sphere
 
 

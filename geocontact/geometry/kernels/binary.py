@@ -119,9 +119,12 @@ def _cheapest_bin(lower, upper, centre, order, first, last, axis, low, extent):
             lo[b, k] = min(lo[b, k], lower[t, k])
             hi[b, k] = max(hi[b, k], upper[t, k])
     cost = np.zeros(BINS + 1)
+    l = np.empty(3)
+    h = np.empty(3)
     for sweep in range(2):
-        l = np.full(3, np.inf)
-        h = np.full(3, -np.inf)
+        for k in range(3):
+            l[k] = np.inf
+            h[k] = -np.inf
         n = 0
         for j in range(BINS - 1):
             b = j if sweep == 0 else BINS - 1 - j
@@ -131,6 +134,10 @@ def _cheapest_bin(lower, upper, centre, order, first, last, axis, low, extent):
                     l[k] = min(l[k], lo[b, k])
                     h[k] = max(h[k], hi[b, k])
             if n > 0:
-                e = h - l
-                cost[b + 1 if sweep == 0 else b] += n * (e[0] * e[1] + e[1] * e[2] + e[2] * e[0])
-    return 1 + np.argmin(cost[1:BINS])
+                x, y, z = h[0] - l[0], h[1] - l[1], h[2] - l[2]
+                cost[b + 1 if sweep == 0 else b] += n * (x * y + y * z + z * x)
+    cheapest = 1
+    for b in range(2, BINS):
+        if cost[b] < cost[cheapest]:
+            cheapest = b
+    return cheapest

@@ -29,6 +29,28 @@ def fraction_below(f0, f1, f2):
 
 
 @kernel
+def areas_below(faces, value, area, thresholds):
+    """Area of the parts of all triangles where `value`, linear in each, is <= each of growing thresholds; (s,).
+
+    faces (k, 3) index value (n,); area (k,).
+    """
+    found = np.zeros(len(thresholds))
+    whole = np.zeros(len(thresholds) + 1)  # area of triangles that lie below from this threshold on
+    last = thresholds[-1]
+    for f in range(len(faces)):
+        a, b, c = value[faces[f, 0]], value[faces[f, 1]], value[faces[f, 2]]
+        low, high = min(a, min(b, c)), max(a, max(b, c))
+        if low > last:
+            continue
+        t = np.searchsorted(thresholds, low)
+        while t < len(thresholds) and thresholds[t] < high:
+            found[t] += area[f] * fraction_below(a - thresholds[t], b - thresholds[t], c - thresholds[t])
+            t += 1
+        whole[t] += area[f]
+    return found + np.cumsum(whole)[:-1]
+
+
+@kernel
 def _cut(polygon, count, f, out):
     """Part of a convex polygon in barycentric coordinates where b @ f <= 0; returns its corner count."""
     kept = 0

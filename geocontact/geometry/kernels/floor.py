@@ -5,33 +5,56 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.rise import free_above, plane_of, rise_of, size_of
+from geocontact.geometry.kernels.tree import offset
+from geocontact.geometry.kernels.triangle import closest_point
+
+MARGIN = 0.25  # edges of a triangle that the radius about it leaves for the rise
 
 
 @kernel
-def promising(faces, points, closest, signed, bar):
-    """Faces that may reach below `bar` and, for each, a value that no point of it is below.
+def promising(tree, place, above, reach, use, faces, edges, points, signed, slot, bar):
+    """Faces that may reach below `bar` <= 0 and, for each, a value that no point of it is below.
 
-    signed (n,) is infinite beyond a point's limit, and such a point is outside by more than any edge at it.
+    faces (k, 3) index points (n, 3), signed (n,), slot (n,) as `signed_distances` finds them; edges (k, 3) are the
+    lengths opposite to each corner. signed is infinite beyond a point's limit, and such a point is outside by more than
+    any edge at it. place (m,) is the place of each slot. With `use` the rise over the planes of faces counts. above
+    (m,) holds it for each slot with the radius `reach` beyond its triangle, NaN where it has not been asked for; where
+    above is empty it is found anew for each face, with no larger radius than that face needs.
     """
+    leaves = tree.leaves
     keep = np.empty(len(faces), np.int64)
     floors = np.empty(len(faces))
     count = 0
+    v = np.empty((3, 3))
+    far = np.empty((3, 3))
     for f in range(len(faces)):
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
-        e0 = _apart(points, j, k)
-        e1 = _apart(points, k, i)
-        e2 = _apart(points, i, j)
-        low = max(
-            signed[i] - max(e1, e2),
-            signed[j] - max(e2, e0),
-            signed[k] - max(e0, e1),
-        )  # 1-Lipschitz
+        e0, e1, e2 = edges[f, 0], edges[f, 1], edges[f, 2]
+        low = max(signed[i] - max(e1, e2), signed[j] - max(e2, e0), signed[k] - max(e0, e1))  # 1-Lipschitz
         if low >= bar:
             continue
-        # the distance to one point of the other surface is convex, so its largest value is at a corner
-        depth = min(_farthest(points, closest, i, j, k, i), _farthest(points, closest, i, j, k, j))
-        depth = min(depth, _farthest(points, closest, i, j, k, k))
-        low = max(low, -depth)
+        for c in range(3):
+            for x in range(3):
+                v[c, x] = points[faces[f, c], x]
+        for c in range(3):
+            s = slot[faces[f, c]]
+            for corner in range(3):
+                far[c, corner] = np.inf if s < 0 else _to_triangle(leaves, place[s], v, corner)
+        low = max(low, -_farthest(far))
+        for c in range(3):
+            s = slot[faces[f, c]]
+            if s < 0 or low >= bar or not use:
+                continue
+            if len(above) == 0:
+                margin = MARGIN * max(e0, max(e1, e2))
+                low = max(low, _over_plane_nearby(tree, place[s], margin, v, signed[i], signed[j], signed[k]))
+                continue
+            cx, cy, cz, nx, ny, nz = plane_of(leaves, place[s])
+            radius = reach + size_of(leaves, place[s])
+            if np.isnan(above[s]):
+                above[s] = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, True)
+            low = max(low, _over_plane(cx, cy, cz, nx, ny, nz, above[s], radius, v))
         if low < bar:
             keep[count] = f
             floors[count] = low
@@ -40,18 +63,82 @@ def promising(faces, points, closest, signed, bar):
 
 
 @kernel
-def _apart(points, i, j):
-    return np.sqrt(
-        (points[i, 0] - points[j, 0]) ** 2 + (points[i, 1] - points[j, 1]) ** 2 + (points[i, 2] - points[j, 2]) ** 2
-    )
+def _over_plane_nearby(tree, place, margin, v, a, b, c):
+    """Bound of the signed distance over a triangle v (3, 3) by the plane of the face at a place, about v's middle.
+
+    a, b, c are the signed distances of its corners: one that is outside and above says that what is free is outside.
+    """
+    cx, cy, cz, nx, ny, nz = plane_of(tree.leaves, place)
+    mx, my, mz = _middle(v, 0), _middle(v, 1), _middle(v, 2)
+    h = (mx - cx) * nx + (my - cy) * ny + (mz - cz) * nz
+    cx, cy, cz = mx - h * nx, my - h * ny, mz - h * nz
+    radius = 0.0
+    for corner in range(3):
+        dx, dy, dz = v[corner, 0] - cx, v[corner, 1] - cy, v[corner, 2] - cz
+        h = dx * nx + dy * ny + dz * nz
+        radius = max(radius, np.sqrt(dx * dx + dy * dy + dz * dz) + abs(h))
+    radius += margin
+    rise = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, False)
+    low = _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v)
+    if low == -np.inf:
+        return low
+    for corner, signed in enumerate((a, b, c)):
+        h = (v[corner, 0] - cx) * nx + (v[corner, 1] - cy) * ny + (v[corner, 2] - cz) * nz
+        if h > rise and signed > 0.0:
+            return low
+    return low if free_above(tree, cx, cy, cz, nx, ny, nz, rise, radius) else -np.inf
 
 
 @kernel
-def _farthest(points, closest, i, j, k, foot):
-    far2 = 0.0
-    for v in (i, j, k):
-        d2 = 0.0
-        for x in range(3):
-            d2 += (points[v, x] - closest[foot, x]) ** 2
-        far2 = max(far2, d2)
-    return np.sqrt(far2)
+def _middle(v, axis):
+    return (v[0, axis] + v[1, axis] + v[2, axis]) / 3.0
+
+
+@kernel
+def _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v):
+    """Bound of the signed distance over a triangle v (3, 3) by the rise over a plane; -inf where it does not hold."""
+    if rise == np.inf:
+        return -np.inf
+    low = np.inf
+    for c in range(3):
+        dx, dy, dz = v[c, 0] - cx, v[c, 1] - cy, v[c, 2] - cz
+        g = dx * nx + dy * ny + dz * nz - rise
+        if np.sqrt(dx * dx + dy * dy + dz * dz) + abs(g) >= radius:
+            return -np.inf
+        low = min(low, g)
+    return low
+
+
+@kernel
+def _to_triangle(leaves, place, v, corner):
+    """Distance of one of the corners v (3, 3) to the triangle at a place."""
+    x, y, z = v[corner, 0], v[corner, 1], v[corner, 2]
+    qx, qy, qz, _, _ = closest_point(leaves, offset(place), x, y, z)
+    return np.sqrt((x - qx) ** 2 + (y - qy) ** 2 + (z - qz) ** 2)
+
+
+@kernel
+def _farthest(far):
+    """Bound of the distance over a triangle by those of its corners to three faces: far (face, corner).
+
+    The distance to a face is convex, and so is a weighted mean of two of them, which the smaller one is not above: its
+    largest value is at a corner. The mean tells what is deepest half-way between two walls.
+    """
+    best = np.inf
+    for i in range(3):
+        best = min(best, max(far[i, 0], max(far[i, 1], far[i, 2])))
+    for i in range(3):
+        j = (i + 1) % 3
+        if far[i, 0] == np.inf or far[j, 0] == np.inf:
+            continue
+        for c in range(3):  # the best weight is one at which two corners are alike
+            d = (c + 1) % 3
+            slope = far[i, c] - far[j, c] - far[i, d] + far[j, d]
+            if slope == 0.0:
+                continue
+            w = (far[j, d] - far[j, c]) / slope
+            if 0.0 < w < 1.0:
+                mean = w * far[i, 0] + (1.0 - w) * far[j, 0]
+                mean = max(mean, w * far[i, 1] + (1.0 - w) * far[j, 1])
+                best = min(best, max(mean, w * far[i, 2] + (1.0 - w) * far[j, 2]))
+    return best

@@ -32,8 +32,11 @@ def pierced(tree, corner, faces):
 def _pierce(tree, corner, faces, f, k, l, nodes, marked):
     p = corner[f, k]
     q = corner[f, l]
-    lo = np.minimum(p, q)
-    hi = np.maximum(p, q)
+    lo = np.empty(3)
+    hi = np.empty(3)
+    for x in range(3):
+        lo[x] = min(p[x], q[x])
+        hi[x] = max(p[x], q[x])
     nodes[0] = 0
     waiting = 1
     while waiting > 0:
@@ -73,14 +76,22 @@ def _share(face, i, j):
 
 @kernel
 def _volume(a, b, c, d):
-    u, v, w = b - a, c - a, d - a
-    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0])
+    ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+    vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
+    wx, wy, wz = d[0] - a[0], d[1] - a[1], d[2] - a[2]
+    return ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx)
+
+
+@kernel
+def _extent(a, b):
+    """Largest difference of two points along an axis."""
+    return max(abs(b[0] - a[0]), max(abs(b[1] - a[1]), abs(b[2] - a[2])))
 
 
 @kernel
 def _crosses(p, q, a, b, c):
     """Whether segment pq passes through triangle abc: its ends clearly on different sides, rounding apart."""
-    size = max(np.abs(q - p).max(), np.abs(b - a).max(), np.abs(c - a).max(), np.abs(a - p).max())
+    size = max(max(_extent(p, q), _extent(a, b)), max(_extent(a, c), _extent(p, a)))
     zero = ROUNDING * size * size * size
     above = _volume(a, b, c, p)
     below = _volume(a, b, c, q)

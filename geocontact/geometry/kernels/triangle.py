@@ -32,21 +32,27 @@ def _frame(vertices, face, out):
     shift = 0
     longest = -1.0
     for k in range(3):
-        edge = vertices[face[(k + 1) % 3]] - vertices[face[k]]
-        length2 = edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2]
+        i, j = face[(k + 1) % 3], face[k]
+        length2 = 0.0
+        for x in range(3):
+            length2 += (vertices[i, x] - vertices[j, x]) * (vertices[i, x] - vertices[j, x])
         if length2 > longest:
             longest = length2
             shift = k
-    a = vertices[face[shift]]
-    ab = vertices[face[(shift + 1) % 3]] - a
-    ac = vertices[face[(shift + 2) % 3]] - a
+    a, b, c = face[shift], face[(shift + 1) % 3], face[(shift + 2) % 3]
     length = np.sqrt(longest)
-    u = np.array([1.0, 0.0, 0.0])
+    u = np.zeros(3)
+    v = np.empty(3)
+    u[0] = 1.0
     if length > 0.0:
-        u = ab / length
-    cx = ac[0] * u[0] + ac[1] * u[1] + ac[2] * u[2]
-    v = ac - cx * u
-    cy = np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+        for x in range(3):
+            u[x] = (vertices[b, x] - vertices[a, x]) / length
+    cx = 0.0
+    for x in range(3):
+        cx += (vertices[c, x] - vertices[a, x]) * u[x]
+    for x in range(3):
+        v[x] = vertices[c, x] - vertices[a, x] - cx * u[x]
+    cy = _length(v)
     if cy <= FLAT * length or length == 0.0:
         cy = 0.0
         k = 0
@@ -54,23 +60,33 @@ def _frame(vertices, face, out):
             k = 1
         if abs(u[2]) < abs(u[k]):
             k = 2
-        v = -u[k] * u
+        for x in range(3):
+            v[x] = -u[k] * u[x]
         v[k] += 1.0
-        v /= np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
     else:
-        v = v / cy
-        v = v - (v[0] * u[0] + v[1] * u[1] + v[2] * u[2]) * u
-        v /= np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
-    out[0:3] = a
+        for x in range(3):
+            v[x] /= cy
+        along = v[0] * u[0] + v[1] * u[1] + v[2] * u[2]
+        for x in range(3):
+            v[x] -= along * u[x]
+    norm = _length(v)
+    for x in range(3):
+        v[x] /= norm
+        out[x] = vertices[a, x]
+        out[6 + x] = u[x]
+        out[9 + x] = v[x]
     out[3] = u[1] * v[2] - u[2] * v[1]
     out[4] = u[2] * v[0] - u[0] * v[2]
     out[5] = u[0] * v[1] - u[1] * v[0]
-    out[6:9] = u
-    out[9:12] = v
     out[12] = length
     out[13] = min(max(cx, 0.0), length)
     out[14] = cy
     out[15] = shift
+
+
+@kernel
+def _length(v):
+    return np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
 
 
 @kernel

@@ -50,8 +50,9 @@ def channel_name(cell: str) -> str:
 
 
 def _layout(path: Path) -> pd.DataFrame:
-    table = read_side_table(path)
-    missing = [name for name in ("id", *PLACE, AREA) if name not in table.columns]
+    wanted = ("id", *PLACE, AREA)
+    table = read_side_table(path, wanted)
+    missing = [name for name in wanted if name not in table.columns]
     if missing:
         raise InputError(path, "line 1", f"no column {listed(tuple(missing))}", f"write {EXAMPLE}")
     names = [str(name) for name in table["id"]]

@@ -11,6 +11,7 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Signals
+from geocontact.io.text.column_names import ColumnNames
 from geocontact.io.text.csv_text import Column, open_csv, split_commas
 from geocontact.io.text.table_rows import read_rows
 
@@ -41,16 +42,16 @@ def read_trial(path: Path) -> TrialTable:
     The size of a number is no reason: a trial wrong by a thousand is something to be diagnosed.
     """
     file = fspath(path)
-    with open_csv(path, LARGEST_TRIAL) as (stream, columns):
+    with open_csv(path, LARGEST_TRIAL) as (stream, columns, first):
         _check_header(columns, file)
         names = tuple(column.name for column in columns)
-        values, lines = read_rows(stream, 2, names, file, split_commas)
+        values, lines = read_rows(stream, first, names, file, split_commas)
     with np.errstate(over="ignore"):
         values = values * np.array([column.factor for column in columns])
     _check_finite(values, lines, names, file)
     _check_time(values[:, 0], lines, file)
     channels = columns[1:]
-    signals = Signals(values[:, 0], values[:, 1:], names[1:], tuple(column.si for column in channels))
+    signals = Signals(values[:, 0], values[:, 1:], ColumnNames(names[1:]), tuple(column.si for column in channels))
     return TrialTable(file, signals, channels)
 
 

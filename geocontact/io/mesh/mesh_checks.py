@@ -14,7 +14,10 @@ FLAT = 1e-12
 """A face is degenerate when its height is below this fraction of its longest edge: rounding, not shape."""
 
 _IN_WORDS = {"m": "metres", "cm": "centimetres", "mm": "millimetres", "in": "inches"}
+SIZES = (5e-3, 3.0)
+"""Smallest and largest diagonal [m] of an implant, a bone or a body."""
 _LIKELY = (10e-3, 2.5)
+_USUAL = (10e-3, 0.7)
 _COMMON_FIRST = ("mm", "m", "cm", "in")
 _BLOCK = 1 << 18
 
@@ -36,19 +39,34 @@ def require_plausible(vertices: Float[np.ndarray, "n 3"], unit: str, plausible: 
     """Refuse a bounding box whose diagonal is outside `plausible` [m], and name the unit that would fit.
 
     `vertices` are in the `unit` given. A unit fits when it makes the diagonal 10 mm to 2.5 m long; of several that fit
-    the commonest is named (mm, m, cm, in).
+    the commonest is named (mm, m, cm, in). A box that is not 10 mm to 0.7 m long is warned about (InputWarning) where a
+    commoner unit would make it that: it may be a body scan, but more likely is an implant in another unit.
     """
     with np.errstate(over="ignore"):
         box = vertices.max(axis=0).astype(float) - vertices.min(axis=0)
         diagonal = float(np.hypot(np.hypot(box[0], box[1]), box[2]))
     metres = diagonal * LENGTH[unit]
+    shown = " x ".join(f"{side:.0f}" if 100 <= side < 1e7 else f"{side:.3g}" for side in box)
     if plausible[0] <= metres <= plausible[1]:
+        if plausible == SIZES:
+            _warn_of_size(diagonal, unit, f"{file}: bounding box {shown} {unit}")
         return
     size = "too small for an implant" if metres < plausible[0] else "too large for an implant or a body"
     fitting = [u for u in _COMMON_FIRST if u != unit and _LIKELY[0] <= diagonal * LENGTH[u] <= _LIKELY[1]]
     remedy = f"the file looks like {_IN_WORDS[fitting[0]]}, pass `unit` {fitting[0]}" if fitting else "check the unit"
-    shown = " x ".join(f"{side:.0f}" if 100 <= side < 1e7 else f"{side:.3g}" for side in box)
     raise InputError(file, "", f"bounding box {shown} {unit} is {size}", remedy)
+
+
+def _warn_of_size(diagonal: float, unit: str, box: str) -> None:
+    """An unusual size that would be usual in a commoner unit; `diagonal` is in the unit given."""
+    metres = diagonal * LENGTH[unit]
+    commoner = _COMMON_FIRST[: _COMMON_FIRST.index(unit)] if metres > _USUAL[1] else _COMMON_FIRST
+    likely = [u for u in commoner if u != unit and _USUAL[0] <= diagonal * LENGTH[u] <= _USUAL[1]]
+    if _USUAL[0] <= metres <= _USUAL[1] or not likely:
+        return
+    meant = f"{likely[0]} would make it {diagonal * LENGTH[likely[0]] * 1e3:.0f} mm"
+    what = f"{box} is {metres * 1e3:.0f} mm across, unusual for an implant or a bone; {meant}: check `unit`"
+    warnings.warn(InputWarning(what), stacklevel=4)
 
 
 def metres_per(unit: str, file: str) -> float:

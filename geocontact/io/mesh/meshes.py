@@ -12,8 +12,9 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import Mesh
+from geocontact.io.mesh.anatomical_space import space_of_stl
 from geocontact.io.mesh.merge import merge_coincident
-from geocontact.io.mesh.mesh_checks import check_faces, metres_per, require_finite, require_plausible
+from geocontact.io.mesh.mesh_checks import SIZES, check_faces, metres_per, require_finite, require_plausible
 from geocontact.io.mesh.obj import read_obj
 from geocontact.io.mesh.ply import read_ply
 from geocontact.io.mesh.stl import read_stl
@@ -25,7 +26,7 @@ READERS: dict[str, _Reader] = {".stl": read_stl, ".ply": read_ply, ".obj": read_
 """Reader of each file name extension; no other file is opened."""
 
 
-def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, float] = (5e-3, 3.0)) -> Mesh:
+def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, float] = SIZES) -> Mesh:
     """Read a triangle surface; vertices come back in metres.
 
     Face i of the mesh is face i of the file (polygons become consecutive triangles, with a warning). Coincident
@@ -55,6 +56,7 @@ def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, f
         raise InputError(fspath(path), "", what, "convert it, or correct the file name's ending")
     try:
         data = read_bytes(path)
+        space = space_of_stl(data) if reader is read_stl else ""
         sha256 = hashlib.sha256(data).hexdigest()
         vertices, faces = reader(data, name)
         del data
@@ -65,4 +67,4 @@ def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, f
     require_plausible(vertices, unit, plausible, name)
     metres = vertices.astype(np.float64) * scale
     check_faces(metres, faces, name)
-    return Mesh(metres, faces, name, unit, sha256)
+    return Mesh(metres, faces, name, unit, sha256, space)

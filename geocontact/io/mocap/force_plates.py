@@ -23,7 +23,7 @@ LOADED = 20.0
 """Load [N] from which a sample tells in which direction a plate is loaded."""
 
 _NEWTON = {"N": 1.0, "kN": 1e3, "lbf": 4.4482216152605}
-_FORCE = re.compile(r"(?P<head>.*)force(?P<tail>.*)vx")
+_FORCE = re.compile(r"(?P<head>.*)force(?P<tail>.*)vx", re.IGNORECASE)
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,14 @@ from pathlib import Path
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
+from geocontact.io.motion.pose_rows import is_pose_rows, motion_from_rows
 from geocontact.io.motion.poses import motion_from_csv, motion_from_joint, motion_from_map
 from geocontact.io.opensim.osim import read_joint
-from geocontact.io.text.tables import read_table
+from geocontact.io.text.tables import CELLS, read_table
 
-SUFFIXES = (".csv", ".mot", ".sto")
+SUFFIXES = (*CELLS, ".mot", ".sto", ".txt")
+ROWS = (".csv", ".txt")
+"""Files that may hold rows of numbers without a header."""
 
 
 def read_motion(
@@ -25,13 +28,16 @@ def read_motion(
     order: str | None = None,
     angles: str | None = None,
     grood_suntay_side: str | None = None,
+    unit: str | None = None,
+    rate: float | None = None,
 ) -> Motion:
     """Poses of MOVING in FIXED from a motion file.
 
     Parameters
     ----------
     path
-        `.csv` poses (`time [s], tx [mm], …, qw, qx, qy, qz` or `rx [deg], …` with `order`), `.mot` or `.sto`.
+        `.csv` poses (`time [s], tx [mm], …, qw, qx, qy, qz` or `r11, … r33`, or `rx [deg], …` with `order`), `.csv` or
+        `.txt` of rows of 16 or 12 numbers (`pose_rows.motion_from_rows`), `.mot` or `.sto`.
     osim, joint
         Model and joint whose functions turn coordinates into poses: FIXED is the joint's parent body, MOVING its child.
     moving
@@ -44,12 +50,21 @@ def read_motion(
         "deg" or "rad", where the file does not say or contradicts itself.
     grood_suntay_side
         "right" or "left": columns are knee angles after Grood and Suntay.
+    unit, rate
+        Unit of the translations and frames per second, for rows of numbers, which say neither.
     """
-    if Path(fspath(path)).suffix.lower() not in SUFFIXES:
+    suffix = Path(fspath(path)).suffix.lower()
+    if suffix not in SUFFIXES:
         raise InputError(path, "", "is not a motion file that is read", f"give one of {', '.join(SUFFIXES)}")
     if (osim is None) != (joint is None):
         missing, given = ("`joint`", "`osim`") if joint is None else ("`osim`", "`joint`")
         raise InputError("", missing, f"is missing beside {given}", "give the model and the joint in it")
+    if suffix in ROWS and is_pose_rows(path):
+        _refuse_columns(osim, mapping, grood_suntay_side)
+        return motion_from_rows(path, unit, rate)
+    if suffix == ".txt":
+        what = "the first row of a .txt is not the 16 or 12 numbers of a pose"
+        raise InputError(path, "", what, "give rows of numbers, or a .csv whose header names its columns")
     if osim is not None and joint is not None:
         return motion_from_joint(read_table(path), read_joint(osim, joint), moving, angles)
     if grood_suntay_side is not None:
@@ -57,6 +72,13 @@ def read_motion(
         return motion_from_grood_suntay(read_table(path), mapping, grood_suntay_side, body, angles)
     if mapping is not None:
         return motion_from_map(read_table(path), mapping, order, angles)
-    if Path(fspath(path)).suffix.lower() == ".csv":
+    if suffix in CELLS:
         return motion_from_csv(path, order, angles)
     raise InputError(path, "", "coordinates need a model to become poses", "give `osim` and `joint`, or `map`")
+
+
+def _refuse_columns(osim: object, mapping: str | None, side: str | None) -> None:
+    """InputError for options that name columns, which rows of poses do not have."""
+    for option, value in (("osim", osim), ("map", mapping), ("convention", side)):
+        if value is not None:
+            raise InputError("", f"`{option}`", "has no effect on rows of poses, which name no columns", "leave it out")

@@ -14,6 +14,7 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.motion import Motion
 from geocontact.data.multibody.joint import JointModel
 from geocontact.io.motion.grood_suntay import motion_from_grood_suntay
+from geocontact.io.motion.pose_rows import ENTRIES, rotations, rotations_of
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of, warn_of_defaults
 from geocontact.io.text.columns import angles_of, lengths, mapped, parse_map
 from geocontact.io.text.tables import TextTable, listed, read_table
@@ -25,10 +26,12 @@ _SHIFTS = ("tx", "ty", "tz")
 _TURNS = ("rx", "ry", "rz")
 _QUATERNION = ("qw", "qx", "qy", "qz")
 _LARGEST_POSE = 65536
+EXACT = 1e-6
+"""How far off orthonormal a single pose may be: it is typed or exported with all its digits."""
 
 
 def motion_from_csv(path: str | PathLike[str], order: str | None = None, angles: str | None = None) -> Motion:
-    """Motion in a .csv of poses: `time [s], tx [mm], ty [mm], tz [mm]` and a quaternion or Euler angles.
+    """Motion in a .csv of poses: `time [s], tx [mm], ty [mm], tz [mm]` and a quaternion, a matrix or Euler angles.
 
     Parameters
     ----------
@@ -38,19 +41,20 @@ def motion_from_csv(path: str | PathLike[str], order: str | None = None, angles:
     angles
         Unit of Euler columns whose header has none.
 
-    Quaternions `qw, qx, qy, qz` off unit length by up to 1e-3 are normalised with a warning, others refused.
+    Quaternions `qw, qx, qy, qz` off unit length by up to 1e-3 are normalised with a warning, others refused. A matrix
+    is in the columns r11, r12, … r33 (`pose_rows`).
     """
     table = read_table(path)
-    euler, quaternion = ([c for c in names if c in table.channels] for names in (_TURNS, _QUATERNION))
-    if euler and quaternion:
-        what = f"rotation is given both ways ({', '.join(euler)} and {', '.join(quaternion)})"
-        raise InputError(table.file, "", what, "keep the quaternion or the Euler columns")
+    euler, quaternion, matrix = ([c for c in n if c in table.channels] for n in (_TURNS, _QUATERNION, ENTRIES))
+    if (given := [found for found in (euler, quaternion, matrix) if found])[1:]:
+        what = f"rotation is given both ways ({' and '.join(', '.join(found) for found in given)})"
+        raise InputError(table.file, "", what, "keep the quaternion, the matrix or the Euler columns")
     if euler:
         if order is None:
             raise InputError(table.file, "", "Euler columns without an order", "pass `order`, e.g. `order` XYZ")
         turned = Rotation.from_euler(_sequence(order, "XYZ"), _in_order(angles_of(table, _TURNS, angles), order))
     else:
-        turned = _quaternions(table)
+        turned = rotations_of(table) if matrix else _quaternions(table)
     poses = RigidTransform.from_components(lengths(table, _SHIFTS), turned)
     heeded = frozenset({"order", "angles"} if euler else ())
     return Motion(table.time, poses, table.file, table.time_unit, heeded=heeded)
@@ -120,19 +124,8 @@ def read_pose(path: str | PathLike[str], unit: str = "m") -> RigidTransform:
         matrix = np.zeros(0)
     if matrix.shape != (4, 4) or not np.all(np.isfinite(matrix)):
         raise InputError(file, "", "not a 4x4 matrix of finite numbers", "give 4 rows of 4 numbers")
-    _check_rigid(matrix, file)
-    return RigidTransform.from_components(matrix[:3, 3] * LENGTH[unit], Rotation.from_matrix(matrix[:3, :3]))
-
-
-def _check_rigid(matrix: Float[np.ndarray, "4 4"], file: str) -> None:
-    turn = matrix[:3, :3]
-    skew = float(np.max(np.abs(turn.T @ turn - np.eye(3))))
-    if skew > 1e-6:
-        raise InputError(file, "", f"rotation part is off orthonormal by {skew:.2g}", "scale or shear is not a pose")
-    if np.linalg.det(turn) < 0.0:
-        raise InputError(file, "", "rotation part mirrors (determinant -1)", "mirror the mesh instead")
-    if np.max(np.abs(matrix[3] - [0.0, 0.0, 0.0, 1.0])) > 1e-6:
-        raise InputError(file, "row 4", "is not 0 0 0 1", "write the translation in the last column")
+    turn = rotations(matrix[None], file, [""], EXACT)[0]
+    return RigidTransform.from_components(matrix[:3, 3] * LENGTH[unit], turn)
 
 
 def _sequence(order: str, axes: str) -> str:

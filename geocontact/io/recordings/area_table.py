@@ -13,6 +13,7 @@ from jaxtyping import Float
 
 from geocontact.data.errors import InputError
 from geocontact.data.tilted_areas import TiltedAreas
+from geocontact.io.text.frame import read_frame
 
 TIME, THRESHOLD, OFFSET = "time [s]", "threshold [mm]", "adduction offset [deg]"
 COLUMNS = {
@@ -83,11 +84,7 @@ def read_area_table(paths: Sequence[Path]) -> AreaTable:
 
 
 def _read(path: Path) -> pd.DataFrame:
-    try:
-        table = pd.read_csv(path, comment="#")
-    except (OSError, ValueError, pd.errors.ParserError) as error:
-        raise InputError(path, "", f"cannot be read as a table ({error})", "give an area.csv") from error
-    table.columns = [str(name).strip() for name in table.columns]
+    table = read_frame(path, (TIME, THRESHOLD, OFFSET, *COLUMNS.values()), "give an area.csv")
     needed = [TIME, THRESHOLD, COLUMNS["total"]]
     if missing := [name for name in needed if name not in table]:
         percent = " (time is in per cent of a cycle)" if "time [%]" in table else ""
@@ -109,8 +106,9 @@ def read_area_over_force(path: Path) -> tuple[Float[np.ndarray, " m"], Float[np.
     """Measured areas over force from a table with the columns `force [N]` and `area [mm^2]`, in N and m^2."""
     from geocontact.io.text.side_table import read_side_table
 
-    table = read_side_table(path)
-    for name in ("force [N]", "area [m^2]"):
+    wanted = ("force [N]", "area [m^2]")
+    table = read_side_table(path, wanted)
+    for name in wanted:
         if name not in table:
             what = f"no column for {name.split()[0]} with its unit; columns are: {', '.join(map(str, table.columns))}"
             raise InputError(path, "line 1", what, "write force [N], area [mm^2]")

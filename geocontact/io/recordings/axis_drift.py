@@ -34,7 +34,7 @@ class DriftTable:
 
 def read_axis_drift(path: Path) -> DriftTable:
     """The table in SI units; InputError unless it holds exactly one of the three sets of columns."""
-    table = read_side_table(path)
+    table = read_side_table(path, {name for columns in SETS.values() for name in columns})
     fitting = [name for name, columns in SETS.items() if set(columns) == set(table.columns)]
     if not fitting:
         what = f"columns are {', '.join(map(str, table.columns))}"

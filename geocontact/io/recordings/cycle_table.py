@@ -23,7 +23,7 @@ class CycleRow:
 
 def read_cycle_table(path: Path) -> tuple[CycleRow, ...]:
     """Rows of `style, recording, start [s], end [s]`; `recording` is the name of a file without its ending."""
-    table = read_side_table(path)
+    table = read_side_table(path, (*_COLUMNS, "recording"))
     if missing := [name for name in _COLUMNS if name not in table]:
         found = ", ".join(map(str, table.columns))
         what = f"no column {', '.join(missing)}; columns are: {found}"

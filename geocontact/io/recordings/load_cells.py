@@ -16,7 +16,7 @@ from geocontact.data.cell_regression import CellRegression
 from geocontact.data.errors import InputError
 from geocontact.io.text.csv_text import text_of
 from geocontact.io.text.side_table import LARGEST_TABLE, read_side_table
-from geocontact.io.text.tables import TextTable, read_table
+from geocontact.io.text.tables import CELLS, TextTable, read_table
 from geocontact.io.text.units import DIMENSIONS, si_unit
 
 FORCES = DIMENSIONS["N"]
@@ -107,7 +107,7 @@ def _unit(table: TextTable, name: str, given: str | None) -> str:
 def read_regression(path: Path) -> CellRegression:
     """Weights from a .toml (cells, medial, lateral) or a .csv (cell, medial [-], lateral [-])."""
     suffix = path.suffix.lower()
-    if suffix not in (".toml", ".csv"):
+    if suffix not in (".toml", *CELLS):
         raise InputError(path, "", f"'{suffix}' is not a file of weights", "give a .toml or a .csv")
     file = _from_toml(path) if suffix == ".toml" else _from_csv(path)
     lateral = [1.0 - weight for weight in file.medial] if file.lateral is None else file.lateral
@@ -132,8 +132,8 @@ def _from_toml(path: Path) -> RegressionFile:
 
 
 def _from_csv(path: Path) -> RegressionFile:
-    table = read_side_table(path)
     wanted = ("cell", "medial [-]")
+    table = read_side_table(path, (*wanted, "lateral [-]"))
     if missing := [name for name in wanted if name not in table]:
         found = ", ".join(map(str, table.columns))
         raise InputError(fspath(path), "line 1", f"no column {', '.join(missing)}; columns are: {found}", _MATRIX)

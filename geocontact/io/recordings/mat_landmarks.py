@@ -15,6 +15,7 @@ from geocontact.data.errors import InputError
 from geocontact.io.text.side_table import read_side_table
 
 EXAMPLE = "id, row, column, x [mm], y [mm], z [mm]"
+COLUMNS = ("id", "row", "column", "x [m]", "y [m]", "z [m]")
 FEWEST = 2
 
 
@@ -43,8 +44,8 @@ def read_mat_landmarks(path: Path, rows: int, columns: int) -> MatLandmarks:
     Refused: fewer than two, a name or a place that occurs twice, a place off the mat, a mat that all of them are on one
     point of.
     """
-    table, file = read_side_table(path), fspath(path)
-    missing = [name for name in ("id", "row", "column", "x [m]", "y [m]", "z [m]") if name not in table.columns]
+    table, file = read_side_table(path, COLUMNS), fspath(path)
+    missing = [name for name in COLUMNS if name not in table.columns]
     if missing:
         what = f"no column {', '.join(missing)}; columns are {', '.join(map(str, table.columns))}"
         raise InputError(file, "line 1", what.replace("[m]", "with a unit of length"), f"write {EXAMPLE}")

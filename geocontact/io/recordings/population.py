@@ -109,8 +109,8 @@ def _check_order(path: Path, place: str, kind: str, numbers: Mapping[str, float]
 
 
 def _column(file: Path, name: str, unit: str) -> Float[np.ndarray, " m"]:
-    table = read_side_table(file)
     label = f"{name} [{unit}]"
+    table = read_side_table(file, (label,))
     if label not in table:
         what = f"no column '{name}' in {unit} or a multiple; columns are: {', '.join(map(str, table.columns))}"
         raise InputError(file, "line 1", what, f"write {label}")

@@ -10,6 +10,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
+from geocontact.io.text.frame import read_frame
 
 NAMES = ("side", "flexion [deg]", "radius [mm]")
 
@@ -24,10 +25,7 @@ class RadiusProfile:
 
 def read_radius_profile(path: Path) -> dict[str, RadiusProfile]:
     """Profiles by side, in the order of the file."""
-    try:
-        table = pd.read_csv(path)
-    except (OSError, ValueError, pd.errors.ParserError) as error:
-        raise InputError(path, "", f"cannot be read as a table ({error})", "give a profile.csv") from error
+    table = read_frame(path, NAMES, "give a profile.csv")
     if missing := [name for name in NAMES if name not in table]:
         raise InputError(path, "line 1", f"no column {', '.join(missing)}", "give the profile.csv of geocontact fit")
     found = {}

@@ -13,7 +13,10 @@ from jaxtyping import Bool, Float
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.io.text.column_names import spelled_as
 from geocontact.io.text.file_preflight import read_bytes
+from geocontact.io.text.plain_table import open_plain
+from geocontact.io.text.spreadsheet import is_sheet
 from geocontact.io.text.units import LENGTH, split_header
 
 LARGEST_TABLE = 16_000_000
@@ -77,7 +80,7 @@ def read_spheres(path: str | PathLike[str]) -> SphereTable:
     Lengths may be in any unit of length. Without `pz` the spheres lie in z = 0, without `zone` in one zone "foot",
     both with a warning. Refused with its line: what is no finite number, a radius or k that is not positive, b < 0.
     """
-    cells = _cells(_text(path), fspath(path))
+    cells = _cells(_table_text(path), fspath(path))
     _say_what_is_made_up(cells)
     radius = cells.lengths("radius")
     cells.refuse("radius", radius, radius <= 0.0, "must be positive")
@@ -110,6 +113,13 @@ def read_law(path: str | PathLike[str]) -> LawFile:
         what = "is not known here" if first["type"] == "extra_forbidden" else first["msg"].lower()
         remedy = "known are k, b, n, delta_full, mu_s, mu_k, v_th, and k, b in [zone.NAME]"
         raise InputError(file, place, what, remedy) from error
+
+
+def _table_text(path: str | PathLike[str]) -> str:
+    if not is_sheet(path):
+        _text(path)
+    with open_plain(path, "replace") as stream:
+        return stream.read()
 
 
 def _text(path: str | PathLike[str]) -> str:
@@ -189,7 +199,9 @@ def _cells(text: str, file: str) -> _Cells:
     if len(rows) < 2:
         raise InputError(file, "", "holds no spheres", "write px [m], py [m], pz [m], radius [m], zone and a row each")
     place, header = rows[0]
-    names, units = zip(*map(split_header, header), strict=True)
+    given, units = zip(*map(split_header, header), strict=True)
+    other = spelled_as(_COLUMNS, given)
+    names = tuple(other.get(name, name) for name in given)
     missing = [name for name in ("px", "py", "radius") if name not in names]
     if missing:
         what = f"no column {', '.join(missing)}; columns are: {', '.join(name[:40] for name in names[:30] if name)}"

@@ -59,7 +59,12 @@ def resolve(table: TextTable, name: str, joint: str = "") -> str | None:
     Without `joint` any joint's path will do.
     """
     ending = f"{joint}/{name}/value"
-    found = [c for c in dict.fromkeys(table.channels) if c in (name, ending) or c.endswith(f"/{ending.lstrip('/')}")]
+    there = dict.fromkeys(table.channels)
+    found = [c for c in there if c in (name, ending) or c.endswith(f"/{ending.lstrip('/')}")]
+    if not found:  # then without regard to case
+        name, ending = name.casefold(), ending.casefold()
+        alike = {c: c.casefold() for c in there}
+        found = [c for c, own in alike.items() if own in (name, ending) or own.endswith(f"/{ending.lstrip('/')}")]
     if len(found) > 1:
         raise InputError(table.file, "", f"'{name}' is in several columns: {listed(tuple(found))}", "keep one of them")
     return found[0] if found else None

@@ -7,12 +7,14 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from io import StringIO, TextIOBase
 from os import fspath
 from pathlib import Path
-from typing import TextIO
 
 from geocontact.data.errors import InputError
 from geocontact.io.text.file_preflight import UNKNOWN, looks_like, read_bytes
+from geocontact.io.text.plain_table import open_plain
+from geocontact.io.text.spreadsheet import is_sheet
 from geocontact.io.text.storage_header import LONGEST_LINE
 from geocontact.io.text.text_lines import BYTE_ORDER_MARK
 from geocontact.io.text.units import DIMENSIONS, si_unit, split_header
@@ -22,9 +24,9 @@ MOST_COLUMNS = 1000
 LONGEST_NAME = 100
 """Characters of a column's name."""
 
-_QUOTED_COMMA = re.compile(rb'"\s*[-+]?\d+,\d+(?:[eE][-+]?\d+)?\s*"')
+_QUOTED_COMMA = re.compile(r'"\s*[-+]?\d+,\d+(?:[eE][-+]?\d+)?\s*"')
 
-_FIRST_ROW = re.compile(rb"[^\r\n]*[\r\n]\s*(?P<row>[^\r\n]+)")
+_FIRST_ROW = re.compile(r"[^\r\n]*[\r\n]\s*(?P<row>[^\r\n]+)")
 
 
 @dataclass(frozen=True)
@@ -76,31 +78,36 @@ def _refuse_large(path: Path, most_bytes: int) -> None:
 
 
 @contextmanager
-def open_csv(path: Path, most_bytes: int) -> Iterator[tuple[TextIO, tuple[Column, ...]]]:
-    """Text of a CSV file from the line below the header on, and its columns.
+def open_csv(path: Path, most_bytes: int) -> Iterator[tuple[TextIOBase, tuple[Column, ...], int]]:
+    """Text of a CSV file from the line below the header on, its columns, and the number of that line.
 
-    One header row, a name once; a unit that is there is known. Decimal commas, other separators and a missing header
-    are refused with the line that says so.
+    Lines that begin with # above the header are passed over. One header row, a name once; a unit that is there is
+    known. Decimal commas between commas, tabs and a missing header are refused with the line that says so.
     """
-    data, file = text_of(path, most_bytes), fspath(path)
-    with path.open(encoding="utf-8-sig") as stream:
-        header = stream.readline(LONGEST_LINE)
-        if len(header) >= LONGEST_LINE:
-            raise InputError(file, "line 1", "the header does not end", "one row of `name [unit]` is needed")
-        columns = _columns(header, file)
-        _refuse_decimal_commas(data, len(columns), file)
-        yield stream, columns
+    file = fspath(path)
+    if not is_sheet(path):
+        text_of(path, most_bytes)
+    with open_plain(path) as plain:
+        stream = StringIO(plain.read())
+    line, header = 1, stream.readline(LONGEST_LINE)
+    while header.startswith("#"):
+        line, header = line + 1, stream.readline(LONGEST_LINE)
+    if len(header) >= LONGEST_LINE:
+        raise InputError(file, f"line {line}", "the header does not end", "one row of `name [unit]` is needed")
+    columns = _columns(header, file, line)
+    _refuse_decimal_commas(stream.getvalue()[stream.tell() - len(header) :], len(columns), file, line)
+    yield stream, columns, line + 1
 
 
-def _refuse_decimal_commas(data: bytes, count: int, file: str) -> None:
+def _refuse_decimal_commas(text: str, count: int, file: str, first_line: int) -> None:
     """Quoted ones anywhere, and what is likeliest when the first row is longer than the header's `count` cells."""
-    if found := _QUOTED_COMMA.search(data):
-        line = data.count(b"\n", 0, found.start()) + 1
-        raise InputError(file, f"line {line}", f"decimal comma in {found[0].decode()}", "write decimal points")
-    first = _FIRST_ROW.match(data)
-    cells = first["row"].count(b",") + 1 if first and b'"' not in first["row"] else 0
+    if found := _QUOTED_COMMA.search(text):
+        line = text.count("\n", 0, found.start()) + first_line
+        raise InputError(file, f"line {line}", f"decimal comma in {found[0]}", "write decimal points")
+    first = _FIRST_ROW.match(text)
+    cells = first["row"].count(",") + 1 if first and '"' not in first["row"] else 0
     if first and cells > count > 1:
-        line = data.count(b"\n", 0, first.start("row")) + 1
+        line = text.count("\n", 0, first.start("row")) + first_line
         what = f"{cells} cells where {count} columns are named (decimal commas?)"
         raise InputError(file, f"line {line}", what, "write decimal points, and rows as long as the header")
 
@@ -110,41 +117,44 @@ def split_commas(line: str, _separator: None, most: int) -> list[str]:
     return line.split(",", most) if line.strip() else []
 
 
-def _columns(header: str, file: str) -> tuple[Column, ...]:
-    cells = _cells(header, file)
-    columns = tuple(_column(*split_header(cell), number, file) for number, cell in enumerate(cells, 1))
+def _columns(header: str, file: str, line: int) -> tuple[Column, ...]:
+    cells = _cells(header, file, line)
+    columns = tuple(
+        _column(*split_header(cell), f"line {line}, column {number}", file) for number, cell in enumerate(cells, 1)
+    )
     names = [column.name for column in columns]
     for name in names:
         if names.count(name) > 1:
             what = f"column '{name}' occurs {names.count(name)} times"
-            raise InputError(file, "line 1", what, "give each column a name of its own")
+            raise InputError(file, f"line {line}", what, "give each column a name of its own")
     return columns
 
 
-def _cells(header: str, file: str) -> list[str]:
+def _cells(header: str, file: str, line: int) -> list[str]:
     """Cells of the header row."""
     if not header.strip():
-        raise InputError(file, "line 1", "no column names", "one row of `name [unit]` is needed above the numbers")
-    for separator, word in ((";", "';'"), ("\t", "tabs")):
-        if separator in header and "," not in header:
-            remedy = "save it with commas between columns and decimal points"
-            raise InputError(file, "line 1", f"columns are separated by {word}", remedy)
+        remedy = "one row of `name [unit]` is needed above the numbers"
+        raise InputError(file, f"line {line}", "no column names", remedy)
+    if "\t" in header and "," not in header:
+        remedy = "save it with commas between columns and decimal points"
+        raise InputError(file, f"line {line}", "columns are separated by tabs", remedy)
     if header.count('"') % 2:
-        raise InputError(file, "line 1", "a quote is left open", "check the quotes of the column names")
+        raise InputError(file, f"line {line}", "a quote is left open", "check the quotes of the column names")
     try:
         cells = next(csv.reader([header], skipinitialspace=True))
     except csv.Error as error:
-        raise InputError(file, "line 1", f"the header cannot be split ({error})", "check its quotes") from error
+        raise InputError(file, f"line {line}", f"the header cannot be split ({error})", "check its quotes") from error
     if len(cells) > MOST_COLUMNS:
         what = f"{len(cells)} columns are more than the {MOST_COLUMNS} that are read"
-        raise InputError(file, "line 1", what, "keep the columns that are needed")
+        raise InputError(file, f"line {line}", what, "keep the columns that are needed")
     if all(re.fullmatch(r"\s*[-+]?[\d.]+(e[-+]?\d+)?\s*", cell, re.IGNORECASE) for cell in cells):
-        raise InputError(file, "line 1", "numbers where the header should be", "one row of `name [unit]` is needed")
+        raise InputError(
+            file, f"line {line}", "numbers where the header should be", "one row of `name [unit]` is needed"
+        )
     return cells
 
 
-def _column(name: str, unit: str, number: int, file: str) -> Column:
-    place = f"line 1, column {number}"
+def _column(name: str, unit: str, place: str, file: str) -> Column:
     if not name:
         raise InputError(file, place, "has no name", "write `name [unit]`")
     if not name.isprintable() or len(name) > LONGEST_NAME:

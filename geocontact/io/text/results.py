@@ -1,4 +1,4 @@
-"""Results to files: tables as CSV and Parquet."""
+"""Tables of results to files."""
 
 from __future__ import annotations
 
@@ -13,10 +13,8 @@ from geocontact.io.text.written_units import RESULTS, misfits
 DIGITS = 12
 
 
-def write_table(
-    table: pd.DataFrame, folder: Path, parquet: bool, name: str = "area", units: Mapping[str, str] = RESULTS
-) -> None:
-    """Write `name`.csv (12 digits, empty cells for missing values), and `name`.parquet beside it when asked.
+def write_table(table: pd.DataFrame, folder: Path, name: str = "area", units: Mapping[str, str] = RESULTS) -> None:
+    """Write `name`.csv: 12 digits, empty cells for missing values.
 
     Columns in seconds have microseconds however late their clock is. Nothing but the header stands above the rows:
     what a table refers to is told in run.json. ValueError where a column is in another unit than `units` has for its
@@ -26,5 +24,3 @@ def write_table(
         raise ValueError(f"{name}: {', '.join(odd)}: not the unit that tables have for this kind of quantity")
     shown = with_microseconds(table, DIGITS)
     shown.to_csv(folder / f"{name}.csv", index=False, float_format=f"%.{DIGITS}g", lineterminator="\n")
-    if parquet:
-        table.to_parquet(folder / f"{name}.parquet", index=False)

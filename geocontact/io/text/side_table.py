@@ -4,45 +4,46 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from io import TextIOBase
 from os import fspath
 from pathlib import Path
-from typing import TextIO
 
 import pandas as pd
 
 from geocontact.data.errors import InputError
 from geocontact.io.text.csv_text import Column, open_csv
+from geocontact.io.text.frame import named
 
 LARGEST_TABLE = 8_000_000
 """Bytes; a layout of 100 000 cells."""
 
 
-def read_side_table(path: Path) -> pd.DataFrame:
+def read_side_table(path: Path, wanted: Iterable[str] = ()) -> pd.DataFrame:
     """Table with SI units in the names of its columns: `px [m]`, `torque [N m]`, `zone`.
 
     Columns with a unit hold numbers ([-] for pure ones), columns without hold words, and digits there are words too.
-    No cell may be empty.
+    No cell may be empty. Columns in `wanted` are named so where the file has other upper and lower case.
     """
     file = fspath(path)
-    with open_csv(path, LARGEST_TABLE) as (stream, columns):
+    with open_csv(path, LARGEST_TABLE) as (stream, columns, first):
         cells: list[list[str | float]] = [[] for _ in columns]
-        for row, place in _rows(stream, file):
+        for row, place in _rows(stream, file, first - 1):
             _append(row, cells, columns, file, place)
     if not cells[0]:
-        raise InputError(file, "line 2", "no rows below the column names", "is the file complete?")
-    return pd.DataFrame({column.label: values for column, values in zip(columns, cells, strict=True)})
+        raise InputError(file, f"line {first}", "no rows below the column names", "is the file complete?")
+    return named(pd.DataFrame({column.label: values for column, values in zip(columns, cells, strict=True)}), wanted)
 
 
-def _rows(stream: TextIO, file: str) -> Iterator[tuple[list[str], str]]:
+def _rows(stream: TextIOBase, file: str, above: int) -> Iterator[tuple[list[str], str]]:
     """Cells of each row that has any, and the line it ends in."""
     reader = csv.reader(stream, skipinitialspace=True)
     try:
         for row in reader:
             if any(cell.strip() for cell in row):
-                yield row, f"line {reader.line_num + 1}"
+                yield row, f"line {reader.line_num + above}"
     except csv.Error as error:
-        place = f"line {reader.line_num + 1}"
+        place = f"line {reader.line_num + above}"
         raise InputError(file, place, f"cannot be split ({error})", "check its quotes") from error
 
 

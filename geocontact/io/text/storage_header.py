@@ -10,7 +10,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal, TextIO
+from io import TextIOBase
+from typing import Literal
 
 from geocontact.data.errors import InputError
 
@@ -57,7 +58,7 @@ class StorageHeader:
     lines: int
 
 
-def read_storage_header(stream: TextIO, file: str) -> StorageHeader:
+def read_storage_header(stream: TextIOBase, file: str) -> StorageHeader:
     """Header of a .mot or .sto file; `stream` is left at the line of column labels."""
     rows: list[tuple[int, str, int]] = []
     columns: list[tuple[int, str, int]] = []
@@ -94,7 +95,7 @@ def unit_in_text(line: str) -> AngleUnit | None:
     return "deg" if degrees else "rad"
 
 
-def _header_lines(stream: TextIO, file: str) -> Iterator[tuple[int, str]]:
+def _header_lines(stream: TextIOBase, file: str) -> Iterator[tuple[int, str]]:
     for number in range(1, _LONGEST_HEADER + 1):
         line = stream.readline(LONGEST_LINE)
         text = line.strip()

@@ -6,18 +6,24 @@ import csv
 import re
 import warnings
 from dataclasses import dataclass
+from io import TextIOBase
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TextIO
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.motion import Signals
+from geocontact.io.text.column_names import ColumnNames
+from geocontact.io.text.plain_table import open_plain
+from geocontact.io.text.spreadsheet import SHEET
 from geocontact.io.text.storage_header import LONGEST_LINE, AngleEvidence, StorageHeader, read_storage_header
 from geocontact.io.text.table_rows import read_rows
 from geocontact.io.text.units import split_header
+
+CELLS = (".csv", SHEET)
+"""Endings of tables whose headers say the unit of each column."""
 
 LARGEST_FILE = 256_000_000
 """Bytes; a table of 60 columns at 1 kHz for two hours."""
@@ -71,18 +77,22 @@ def listed(names: tuple[str, ...], most: int = 30) -> str:
 
 
 def read_table(path: str | PathLike[str]) -> TextTable:
-    """Table in a .mot, .sto (versions 1 to 3, SIMM's form too) or .csv file.
+    """Table in a .mot, .sto (versions 1 to 3, SIMM's form too), .csv or .xlsx file.
 
     Refused with InputError: other content, counts that the header declares and the rows do not bear out, ragged rows,
     cells that are not numbers, and time that is missing, NaN or not strictly increasing. NaN elsewhere is kept until
     the column is used: force plates are full of it.
     """
     file, suffix = fspath(path), Path(path).suffix.lower()
-    if suffix not in (".mot", ".sto", ".csv"):
-        raise InputError(file, "", f"'{suffix}' is not a table of motion", "give a .mot, .sto or .csv file")
-    _preflight(file)
+    if suffix not in (".mot", ".sto", *CELLS):
+        raise InputError(file, "", f"'{suffix}' is not a table of motion", "give a .mot, .sto, .csv or .xlsx file")
+    if suffix != SHEET:
+        _preflight(file)
+    if suffix in CELLS:
+        with open_plain(file, "replace") as stream:
+            return _read_csv(stream, file)
     with open(file, encoding="utf-8-sig", errors="replace") as stream:
-        return _read_csv(stream, file) if suffix == ".csv" else _read_storage(stream, file)
+        return _read_storage(stream, file)
 
 
 def _preflight(file: str) -> None:
@@ -102,7 +112,7 @@ def _preflight(file: str) -> None:
         raise InputError(file, "line 1", "HTML or XML, not a table", "was a web page saved in place of the file?")
 
 
-def _read_storage(stream: TextIO, file: str) -> TextTable:
+def _read_storage(stream: TextIOBase, file: str) -> TextTable:
     header = read_storage_header(stream, file)
     names = tuple(_label_line(stream, file, header.lines + 1).split())
     values, lines = read_rows(stream, header.lines + 2, names, file, str.split)
@@ -128,14 +138,10 @@ def _check_rows(header: StorageHeader, count: int, file: str) -> None:
             raise InputError(file, f"line {line}", what, "is the file truncated?")
 
 
-def _read_csv(stream: TextIO, file: str) -> TextTable:
+def _read_csv(stream: TextIOBase, file: str) -> TextTable:
     number, line = 1, _label_line(stream, file, 1)
     while line.lstrip().startswith("#"):
         number, line = number + 1, _label_line(stream, file, number + 1)
-    if ";" in line and "," not in line:
-        raise InputError(
-            file, f"line {number}", "columns are separated by ';'", "save it with commas and decimal points"
-        )
     headers = [split_header(cell) for cell in next(csv.reader([line], skipinitialspace=True), [])]
     names, units = tuple(name for name, _ in headers), tuple(unit for _, unit in headers)
     values, lines = read_rows(stream, number + 1, names, file, _split_commas)
@@ -148,7 +154,7 @@ def _split_commas(line: str, _separator: None, most: int) -> list[str]:
     return cells[:most] if len(cells) > most and not cells[most].strip() else cells
 
 
-def _label_line(stream: TextIO, file: str, number: int) -> str:
+def _label_line(stream: TextIOBase, file: str, number: int) -> str:
     line = stream.readline(LONGEST_LINE)
     if not line.strip() or len(line) >= LONGEST_LINE:
         raise InputError(file, f"line {number}", "no column labels found", "is the file complete?")
@@ -175,7 +181,7 @@ def _table(
     return TextTable(
         time=time,
         values=values[:, rest],
-        channels=tuple(names[i] for i in rest),
+        channels=ColumnNames(names[i] for i in rest),
         units=tuple(units[i] for i in rest),
         file=file,
         lines=lines,

@@ -15,6 +15,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
+from geocontact.io.text.plain_table import open_plain
 from geocontact.io.text.storage_header import LONGEST_LINE
 
 MOST_LINES = 100
@@ -41,7 +42,7 @@ class WrenchHead:
 
 def read_wrench_head(path: Path) -> WrenchHead:
     """Of a table that can be read, whatever its format; lines above its header count before run.json."""
-    with path.open(encoding="utf-8-sig", errors="replace") as stream:
+    with open_plain(path, "replace") as stream:
         lines = [stream.readline(LONGEST_LINE) for _ in range(MOST_LINES)]
     point, frame = None, None
     for number, line in enumerate(takewhile(lambda each: each.startswith("#"), lines), 1):

@@ -1,12 +1,13 @@
 """Elbow exoskeleton: force at the attachment from a misaligned axis, F = k d_tot (explicit pHRI model).
 
-Input `beta [rad]`, output `force [N]`; parameters k, x, y; l_ex and z_ex are constants or fixed parameters.
+Input `beta [rad]`, output `force [N]`; parameters k, x, y; l and z are constants or fixed parameters.
 (k, x, y, l, z) together cannot be told from any data: F(k/s, s × lengths) = F.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -22,7 +23,9 @@ from geocontact.systems.elbow.misalignment import ElbowMisalignment
 
 INPUTS, OUTPUTS = ("beta",), ("force",)
 UNITS = {"beta": "rad", "force": "N"}
-LENGTHS = ("l_ex", "z_ex", "x", "y")
+LENGTHS = ("l", "z", "x", "y")
+FORMER = {"l_ex": "l", "z_ex": "z"}
+"""Names of an earlier version, which cases may still use."""
 
 
 def measured_force(loads: Loads) -> Float[np.ndarray, "t c"]:
@@ -34,6 +37,8 @@ def build(
     parameters: tuple[Parameter, ...], constants: Mapping[str, float], tables: Mapping[str, pd.DataFrame]
 ) -> System:
     """The base model; ValueError when a number that it needs is neither parameter nor constant."""
+    parameters = tuple(replace(each, name=FORMER.get(each.name, each.name)) for each in parameters)
+    constants = {FORMER.get(name, name): value for name, value in constants.items()}
     require_numbers("elbow", (*LENGTHS, "k"), parameters, constants)
     return System(
         name="elbow",

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 
+from geocontact.view.curves.sheet import sheet
 from geocontact.view.curves.text import plain
 
 if TYPE_CHECKING:
@@ -86,9 +87,7 @@ def in_style(draw: Callable[P, T]) -> Callable[P, T]:
 @in_style
 def empty(width: float = SINGLE, height: float = 0.06) -> Figure:
     """Return a figure of `width` times `height` [m] without axes."""
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(width / INCH, height / INCH), layout="constrained")
+    return sheet(width / INCH, height / INCH)
 
 
 @in_style

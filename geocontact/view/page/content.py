@@ -12,7 +12,7 @@ from jaxtyping import Float, Int
 
 from geocontact.view.page.intervals import Interval, Intervals
 from geocontact.view.page.linkage import Linkage
-from geocontact.view.page.plan import Mark, Plan, Track
+from geocontact.view.page.plan import Length, Mark, Plan, Track
 from geocontact.view.page.scene import Body, FaceMap, Scene
 
 DRAWN_IN = 12  # colours of a line drawing at most; more are those of a scale
@@ -26,6 +26,7 @@ __all__ = [
     "FaceMap",
     "Interval",
     "Intervals",
+    "Length",
     "Limit",
     "Linkage",
     "Mark",
@@ -47,12 +48,16 @@ __all__ = [
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """One line over time in the unit of its panel, with a band where bounds are known; NaN is a gap."""
+    """One line over time in the unit of its panel, with a band where bounds are known; NaN is a gap.
+
+    `stroke` is the number of its colour and dashes, its place unless given: one thing looks alike in all panels.
+    """
 
     name: str
     values: Float[np.ndarray, " t"]
     lower: Float[np.ndarray, " t"] | None = None
     upper: Float[np.ndarray, " t"] | None = None
+    stroke: int | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,7 +149,8 @@ class Table:
 class Picture:
     """A drawing that does not change over time, with what it shows in words.
 
-    `svg` is shown as an image: nothing in it can run or load anything. `wide` ones take the whole width of the page.
+    `svg` is shown as an image: nothing in it can run or load anything. `wide` ones take the page's whole width, and
+    scroll on a phone.
     """
 
     title: str

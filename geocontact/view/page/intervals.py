@@ -8,12 +8,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Interval:
-    """A number and the interval that it is known to; NaN where there is none."""
+    """A number and the interval that it is known to; NaN where there is none.
+
+    `kind` tells numbers of the same name apart, by a colour of its own.
+    """
 
     name: str
     value: float
     lower: float = float("nan")
     upper: float = float("nan")
+    kind: str = ""
 
 
 @dataclass(frozen=True, eq=False)

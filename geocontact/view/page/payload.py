@@ -190,8 +190,9 @@ def _curves(panel: Curves) -> dict[str, object]:
             "values": _numbers(curve.values),
             "lower": None if curve.lower is None else _numbers(curve.lower),
             "upper": None if curve.upper is None else _numbers(curve.upper),
+            "stroke": k if curve.stroke is None else curve.stroke,
         }
-        for curve in panel.curves
+        for k, curve in enumerate(panel.curves)
     ]
     points = [{"name": p.name, "time": _numbers(p.time), "values": _numbers(p.values)} for p in panel.points]
     limits = [{"name": limit.name, "value": limit.value} for limit in panel.limits]
@@ -209,6 +210,10 @@ def _plan(plan: Plan) -> dict[str, object]:
         "lines": [[_numbers(line[:, 0]), _numbers(line[:, 1])] for line in plan.lines],
         "tracks": [{"name": t.name, "x": _numbers(t.points[:, 0]), "y": _numbers(t.points[:, 1])} for t in plan.tracks],
         "marks": [{"name": mark.name, "at": [float(x) for x in mark.point]} for mark in plan.marks],
+        "lengths": [
+            {"name": each.name, "told": minus(each.told), "ends": [list(map(float, p)) for p in (each.start, each.end)]}
+            for each in plan.lengths
+        ],
     }
 
 
@@ -216,7 +221,7 @@ def _intervals(shown: Intervals) -> dict[str, object]:
     rows = []
     for one in shown.intervals:
         value, lower, upper = _numbers(np.array([one.value, one.lower, one.upper]))
-        rows.append({"name": one.name, "value": value, "lower": lower, "upper": upper})
+        rows.append({"name": one.name, "value": value, "lower": lower, "upper": upper, "kind": one.kind})
     return {"title": shown.title, "unit": shown.unit, "bars": shown.bars, "intervals": rows}
 
 

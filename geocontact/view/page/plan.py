@@ -25,9 +25,19 @@ class Mark:
     point: tuple[float, float]
 
 
+@dataclass(frozen=True)
+class Length:
+    """A length between two points: `name` stands beside it, `told` (value, unit, how well it is known) in the key."""
+
+    name: str
+    told: str
+    start: tuple[float, float]
+    end: tuple[float, float]
+
+
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Lines, tracks and marks with one scale along both axes.
+    """Lines, tracks, marks and lengths with one scale along both axes.
 
     Parameters
     ----------
@@ -48,4 +58,5 @@ class Plan:
     lines: Sequence[Float[np.ndarray, "_ 2"]] = ()
     tracks: Sequence[Track] = ()
     marks: Sequence[Mark] = ()
+    lengths: Sequence[Length] = ()
     words: str = ""

@@ -133,6 +133,11 @@ class Scene:
             each.check(self.bodies)
 
     @property
+    def measured(self) -> bool:
+        """Whether a body has distances, which colours may show."""
+        return any(body.distance is not None for body in self.bodies)
+
+    @property
     def threshold(self) -> float:
         """The main threshold [m]; 0 without bodies."""
         return float(max(self.thresholds, default=0.0))

@@ -39,7 +39,9 @@ def analysed(heights=(22.0, 21.0, 20.5, 30.0), every=1, settings=None, motion=No
         Surface(v * MM, f, name) for (v, f), name in ((sphere(R, 8), "ball"), (block(40.0, 40.0, 10.0, 16), "plate"))
     )
     motion = moved(heights) if motion is None else motion
-    settings = settings or Settings((1 * MM, T * MM), refinement=AS_GIVEN, split=Plane.across("z"), sensitivity=WIDE)
+    settings = settings or Settings(
+        (1 * MM, T * MM), refinement=AS_GIVEN, split=Plane.across("z"), medial_side=-1, sensitivity=WIDE
+    )
     maps = DistanceMaps(ball, ground, every)
     evolution = area_evolution(ball, ground, motion, settings, each=maps.add)
     return ball, ground, motion, settings, evolution, maps

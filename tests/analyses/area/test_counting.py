@@ -60,7 +60,7 @@ def test_thresholds_keep_their_order_and_do_not_disturb_each_other(tmp_path: Pat
 @pytest.fixture(scope="module")
 def halves(tmp_path_factory: pytest.TempPathFactory) -> AreaResult:
     """Split at z = 0."""
-    return area(FEMUR, INSERT, gait(tmp_path_factory.mktemp("halves")), split="z")
+    return area(FEMUR, INSERT, gait(tmp_path_factory.mktemp("halves")), split="z", side="right")
 
 
 def test_split_leaves_the_rest_of_the_table_alone(knee: AreaResult, halves: AreaResult) -> None:
@@ -72,7 +72,7 @@ def test_split_at_the_middle_equals_two_regions_where_triangles_are_not_cut(tmp_
     straddling = np.ptp(np.sign(np.round(corners(PLATE)[:, :, 2], 3)), axis=1) > 1
     assert not straddling.any()
     given = (SPHERE, PLATE, poses(tmp_path, (3, 19.8, 2)))
-    cut = area(*given, split="z").table()
+    cut = area(*given, split="z", side="right").table()
     for name, region in ((MEDIAL, "z<0"), (LATERAL, "z>0")):
         part = area(*given, region=region).table()
         np.testing.assert_allclose(part[FIXED], cut[name], rtol=1e-3)
@@ -83,8 +83,23 @@ def test_medial_side_swaps_the_columns(tmp_path: Path, halves: AreaResult) -> No
     renamed = halves.table().rename(columns={MEDIAL: LATERAL, LATERAL: MEDIAL})[list(other.columns)]
     agree(other, renamed, areas=1e-9, lengths=1e-9)
     assert not np.allclose(other[MEDIAL], halves.table()[MEDIAL], rtol=1e-3)
-    default = area(FEMUR, INSERT, gait(tmp_path), split="z", medial="-")
-    pd.testing.assert_frame_equal(default.table(), halves.table(), check_exact=True)
+    assert halves.sentences[0] == f"medial is -z (right side, z to the right) of {INSERT.name}"
+
+
+@pytest.mark.parametrize(
+    ("given", "same", "said"),
+    [
+        ({"side": "left"}, {"medial": "+"}, "+z (left side, z to the right)"),
+        ({"medial": "-"}, {"side": "right"}, "-z (as given)"),
+    ],
+)
+def test_the_side_of_the_body_says_what_is_medial(tmp_path: Path, given: dict, same: dict, said: str) -> None:
+    """Without a knee convention; a sphere off the middle of a plate tells the sides apart."""
+    bodies = (SPHERE, PLATE, poses(tmp_path, (3, 19.8, 2)))
+    found, other = (area(*bodies, split="z", **how) for how in (given, same))
+    pd.testing.assert_frame_equal(found.table(), other.table(), check_exact=True)
+    assert f"medial is {said} of {PLATE.name}" in found.sentences
+    assert found.table()[MEDIAL][0] != pytest.approx(found.table()[LATERAL][0], rel=0.1)
 
 
 @pytest.mark.parametrize("plane", ["z=15", "z=1.5cm", "z=-15"])
@@ -96,10 +111,10 @@ def test_split_elsewhere(tmp_path: Path, halves: AreaResult, plane: str) -> None
     table["tz [mm]"] += shift
     table.to_csv(tmp_path / "there.csv", index=False)
     given = (FEMUR, INSERT, tmp_path / "there.csv")
-    elsewhere = area(*given, split=plane, place_fixed=there).table()
+    elsewhere = area(*given, split=plane, side="right", place_fixed=there).table()
     elsewhere["centroid_z [mm]"] -= shift
     agree(elsewhere, halves.table(), areas=1e-6)
-    at_zero = area(*given, split="z", place_fixed=there).table()
+    at_zero = area(*given, split="z", side="right", place_fixed=there).table()
     assert (np.sign(shift) * (elsewhere[MEDIAL] - at_zero[MEDIAL]) > 10.0).all()
 
 
@@ -295,9 +310,9 @@ def test_saved_maps_are_read_as_the_reference_shows(tmp_path: Path, monkeypatch:
 
 
 def test_parquet_holds_the_same_table(tmp_path: Path) -> None:
-    result = area(SPHERE, PLATE, poses(tmp_path, (0, 20, 0)), parquet=True)
+    result = area(SPHERE, PLATE, poses(tmp_path, (0, 20, 0)))
     with unpictured():
-        out = result.write(tmp_path / "out")
+        out = result.write(tmp_path / "out", parquet=True)
     pd.testing.assert_frame_equal(pd.read_parquet(out / "area.parquet"), result.table(), check_exact=True)
 
 

@@ -27,6 +27,7 @@ OPTIONS = {one.name: one for one in declared(AreaOptions)}
     [
         *(("threshold", text, (4e-3,)) for text in ("4", "4mm", "0.4cm", "0.004 m", " 4 ")),
         ("threshold", "4,0.1mm", (4e-3, 1e-4)),
+        ("threshold", "0mm,5", (0.0, 5e-3)),
         *(("bounds", text, 0.02) for text in ("0.02", "2%", "2 %")),
         ("tolerance", "10%", 0.1),
         ("sweep", "flexion=0:90:5", ("flexion", 0.0, gc.deg(90), gc.deg(5))),
@@ -62,7 +63,25 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "side without a convention": (
         MOTION | {"side": "left"},
-        "`side`: has no effect without `convention`; give `convention`",
+        "`side`: has no effect without `convention` or `split`; give `convention` or `split`",
+    ),
+    "split without a side": (
+        MOTION | {"split": "z=1"},
+        (
+            "`split`: 'z=1' does not say which side of the plane is medial; give `side` right or left "
+            "where z points to the subject's right, else `medial` - or +"
+        ),
+    ),
+    "side of a plane across x": (
+        MOTION | {"split": "x", "side": "left"},
+        (
+            "`side`: left does not say which side of a plane across x is medial: z is what points to the right; "
+            "give `medial` - or +"
+        ),
+    ),
+    "side with medial": (
+        MOTION | {"split": "z", "side": "left", "medial": "+"},
+        "`side`: has no effect with `medial`, which says what is medial; give one",
     ),
     "convention without a side": (
         MOTION | {"convention": "grood-suntay"},
@@ -95,40 +114,58 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "no threads": (MOTION | {"workers": 0}, "`workers`: 0 is less than one thread; give 1 or more"),
     "threshold negative": (
         MOTION | {"threshold": (-1e-3,)},
-        "`threshold`: (-0.001,) is not a distance of 0 or more; give for example 4 mm",
+        "`threshold`: -1 mm cannot be a threshold of contact: that is 0 to 200 mm; check the value and its unit",
+    ),
+    "threshold in metres": (
+        MOTION | {"threshold": (4.0,)},
+        "`threshold`: 4000 mm cannot be a threshold of contact: that is 0 to 200 mm; is 4 mm meant?",
+    ),
+    "modulus in MPa": (
+        MOTION | LAYER | {"modulus": 50},
+        "`modulus`: 5e-05 MPa cannot be Young's modulus: that is 0.0001 to 2e+06 MPa; is 50 MPa meant?",
+    ),
+    "sweep in degrees": (
+        {"sweep": ("flexion", 0, 90, 1)},
+        "`sweep`: 5156.62 deg cannot be an angle of a joint: that is -720 to 720 deg; is 90 deg meant?",
     ),
     "threshold nan": (
         MOTION | {"threshold": (math.nan,)},
-        "`threshold`: (nan,) is not a distance of 0 or more; give for example 4 mm",
+        "`threshold`: nan is not a finite number; give a number",
     ),
     "no threshold": (
         MOTION | {"threshold": ()},
-        "`threshold`: () is not a distance of 0 or more; give for example 4 mm",
+        "`threshold`: there is none; give for example 4 mm",
     ),
     "threshold twice": (
         MOTION | {"threshold": (1e-3, 1e-3)},
         "`threshold`: (0.001, 0.001) names a threshold twice; give each once",
     ),
-    "bounds of zero": (MOTION | {"bounds": 0.0}, "`bounds`: 0 is not a positive number; give more than 0"),
+    "bounds of zero": (
+        MOTION | {"bounds": 0.0},
+        "`bounds`: 0 % cannot be a share: that is 1e-10 to 100 %; check the value and its unit",
+    ),
     "modulus infinite": (
         MOTION | LAYER | {"modulus": math.inf},
-        "`modulus`: inf is not a positive pressure; give more than 0",
+        "`modulus`: inf is not a finite number; give a number",
     ),
     "thickness of zero": (
         MOTION | LAYER | {"thickness": 0.0},
-        "`thickness`: 0 is not a positive length; give more than 0",
+        "`thickness`: 0 mm cannot be the thickness of a layer: that is 0.01 to 1000 mm; check the value and its unit",
     ),
     "Poisson's ratio of rubber": (
         MOTION | LAYER | {"poisson": 0.5},
-        "`poisson`: 0.5 is not from 0 to below 0.5; give for example 0.46",
+        (
+            "`poisson`: 0.5 cannot be Poisson's ratio of a layer, below 0.5: that is 0 to 0.4999; "
+            "check the value and its unit"
+        ),
     ),
     "adduction about no axis": (
         MOTION | {"adduction": ("w", 0.0)},
-        "`adduction`: ('w', 0.0) is no small turn about x, y or z; give an axis and at most 45 degrees",
+        "`adduction`: 'w' is not an axis; turn about x, y or z",
     ),
     "adduction of a right angle": (
         MOTION | {"adduction": ("x", 1.5)},
-        "`adduction`: ('x', 1.5) is no small turn about x, y or z; give an axis and at most 45 degrees",
+        "`adduction`: 85.9437 deg cannot be a small turn: that is -45 to 45 deg; is 1.5 deg meant?",
     ),
 }
 
@@ -139,6 +176,12 @@ def test_what_cannot_be_or_has_no_effect_is_refused_in_python_words(given: dict[
     with pytest.raises(InputError) as refused:
         AreaOptions(**BODIES, **given)
     assert str(refused.value) == said
+
+
+def test_the_side_of_a_convention_goes_with_a_medial_direction() -> None:
+    """The knee angles' side, beside a plane in a frame whose z is not to the right."""
+    given = {"convention": "grood-suntay", "side": "left", "split": "x", "medial": "-"}
+    assert AreaOptions(**BODIES, **MOTION, **given).medial == "-"
 
 
 def test_a_sound_call_is_not_refused() -> None:

@@ -73,7 +73,7 @@ def test_what_is_pressed_is_the_area_within_zero(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_sides_add_up(tmp_path: Path) -> None:
-    table = pressed(tmp_path, split="z", at=(0.0, -0.8)).table()
+    table = pressed(tmp_path, split="z", side="right", at=(0.0, -0.8)).table()
     medial, lateral = table["force_medial [N]"], table["force_lateral [N]"]
     np.testing.assert_allclose(medial + lateral, table["force [N]"], rtol=1e-9)
     assert (medial[:2] > lateral[:2]).all() and (lateral[:2] > 0.0).all()
@@ -189,7 +189,7 @@ def test_pressure_needs_its_material(tmp_path: Path, missing: str) -> None:
 
 def test_the_page_shows_the_path_of_the_centre_of_pressure(tmp_path: Path) -> None:
     """One row of numbers, and the path on the outline of the floor as seen along the load."""
-    result = pressed(tmp_path, at=(3.0, -2.0), split="z", n=16)
+    result = pressed(tmp_path, at=(3.0, -2.0), split="z", side="right", n=16)
     shown = shown_pressures(result.motions[0].pressure, result.bodies.fixed)
     course = result.motions[0].motion.course
     plan = next(each for each in pressure_sections(shown, np.arange(3)) if isinstance(each, Plan))

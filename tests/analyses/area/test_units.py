@@ -27,6 +27,7 @@ def in_mesh_units(folder: Path, unit: str) -> dict[str, str]:
     return {
         "unit": unit,
         "split": f"z={4 * PER_MM[unit]!r}",
+        "side": "right",
         "region": f"x > {-15 * PER_MM[unit]!r} and ny > 0.25",
         "place_moving": str(shifted(folder, (0.5 * PER_MM[unit], 0, 0))),
         "rule": "clip",

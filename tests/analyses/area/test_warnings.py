@@ -198,3 +198,16 @@ def test_reservations_are_python_warnings_too(tmp_path: Path) -> None:
     moving = written(tmp_path / "changed.stl", stl(without_a_far_face(corners(SPHERE))))
     with pytest.warns(InputWarning, match=r"changed\.stl is open .*: area_fixed is unsigned"):
         analysis(moving, PLATE, unit="mm", motion=(str(poses(tmp_path, (1, 19.8, 2))),))
+
+
+def test_a_frame_far_off_is_told(tmp_path: Path) -> None:
+    motion = poses(tmp_path, (0, 20, 0), (0, 50, 0), (0, 20, 0))
+    said = " ".join(area(SPHERE, PLATE, motion, rule="clip").warnings)
+    assert "1 of 3 frames have nothing within 4 mm" in said
+    assert "farthest apart, 30 mm, in frame 2 of 3" in said and "exchanged" in said
+
+
+@pytest.mark.parametrize(("height", "told"), [(19.5, False), (17.0, True)])
+def test_rigid_bodies_that_overlap_are_told(tmp_path: Path, height: float, told: bool) -> None:
+    said = " ".join(area(SPHERE, PLATE, poses(tmp_path, (0, height, 0)), rule="clip").warnings)
+    assert ("the bodies overlap, by 3.00 mm at most" in said) == told

@@ -165,10 +165,10 @@ def test_more_styles_than_a_figure_tells_apart_are_said_and_kept(tmp_path: Path)
     ("options", "words"),
     [
         ({"part": 0.6}, "`part`: has no effect without `cycles`; say what a cycle is"),
-        ({"cycles": "stride", "part": 1.5}, "`part`: 1.5 is not above 0 and at most 1"),
-        ({"cycles": "stride", "part": 0.0}, "`part`: 0 is not above 0 and at most 1"),
+        ({"cycles": "stride", "part": 1.5}, "`part`: 150 % cannot be a share"),
+        ({"cycles": "stride", "part": 0.0}, "`part`: 0 % cannot be a share"),
         ({"cycles": "1:2", "level": 400.0}, "`level`: has no effect here: the cycles are given"),
-        ({"cycles": "stance", "level": float("nan")}, "`level`: nan is not a force above 0 N"),
+        ({"cycles": "stance", "level": float("nan")}, "`level`: nan is not a finite number"),
     ],
 )
 def test_refused_before_a_file_is_read(options: dict[str, object], words: str) -> None:

@@ -202,10 +202,10 @@ def test_an_offset_that_was_none_is_told(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"touched": 0.0}, "`touched`: 0 is not positive"),
-        ({"accuracy": -0.1}, "`accuracy`: -0.1 is not positive"),
-        ({"gain": float("nan")}, "`gain`: nan is not positive"),
-        ({"registration": (-1e-3, 0.0)}, "`registration`: is negative"),
+        ({"touched": 0.0}, "`touched`: 0 kPa cannot be the pressure of a touch"),
+        ({"accuracy": -0.1}, "`accuracy`: -10 % cannot be a share"),
+        ({"gain": float("nan")}, "`gain`: nan is not a finite number"),
+        ({"registration": (-1e-3, 0.0)}, "`registration`: -1 mm cannot be how far things are off"),
     ],
 )
 def test_numbers_that_cannot_be_are_refused_in_python_too(tmp_path: Path, options: dict, said: str) -> None:
@@ -214,7 +214,7 @@ def test_numbers_that_cannot_be_are_refused_in_python_too(tmp_path: Path, option
 
 
 def test_files_are_not_read_before_options_are_refused(tmp_path: Path) -> None:
-    with refusal("`gate`: -1 is not a force of 0 N or more"):
+    with refusal("`gate`: -1 N cannot be the force of a person"):
         called(tmp_path / "no.csv", surface=tmp_path / "no.stl", landmarks=tmp_path / "no_marks.csv", gate=-1.0)
 
 

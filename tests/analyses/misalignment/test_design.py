@@ -176,11 +176,14 @@ def test_poles_and_folds_of_the_map_are_counted_and_named() -> None:
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"range": (0.0, 120.0)}, "6875 degrees is more than a turn; are degrees and radians mixed up?"),
+        (
+            {"range": (0.0, 120.0)},
+            "6875.49 deg cannot be an angle of a joint: that is -720 to 720 deg; is 120 deg meant?",
+        ),
         ({"range": gc.deg(120, 0)}, "`range`: has no room between its ends"),
-        ({"l": 169.0}, "l = 169000 mm is no link of an exoskeleton"),
+        ({"l": 169.0}, "169000 mm cannot be a link of an exoskeleton: that is 20 to 2000 mm; is 169 mm meant?"),
         ({"stroke": gc.mm(20, -20)}, "`stroke`: its upper end is below the lower one"),
-        ({"uncertainty": gc.mm(-1)}, "`uncertainty`: -0.001 is not 0 or more"),
+        ({"uncertainty": gc.mm(-1)}, "`uncertainty`: -1 mm cannot be how far things are off"),
         ({"drift": {"z": (0.0, 1.0)}}, "`drift`: 'z' is neither x nor y"),
         ({"step": gc.mm(0.01)}, "`step`: 0.01 mm makes 144024001 points"),
     ],

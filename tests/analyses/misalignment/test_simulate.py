@@ -62,9 +62,9 @@ def test_surfaces_are_those_of_the_link() -> None:
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ({"range": (8.0, 92.0)}, "more than a turn; are degrees and radians mixed up?"),
+        ({"range": (8.0, 92.0)}, "458.366 deg cannot be an angle of an elbow: that is -30 to 180 deg; is 8 deg meant?"),
         ({"range": gc.deg(8, 9)}, "hardly a range"),
-        ({"range": gc.deg(0, 190)}, "beyond any elbow"),
+        ({"range": gc.deg(0, 190)}, "190 deg cannot be an angle of an elbow"),
         ({"stroke": gc.mm(10, -10)}, "`stroke`: its upper end is below"),
         ({"band": (0.3, 0.1)}, "`band`: has no room"),
         ({"numbers": {"q": 1.0}}, "'q' is no number of the law; these are k, x, y, l, z, b, s"),

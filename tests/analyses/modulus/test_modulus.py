@@ -161,8 +161,11 @@ def test_forces_that_a_constant_would_meet_better_are_said(tmp_path: Path) -> No
     ("options", "words"),
     [
         ({"radius": None}, "`radius`: or `profile`: exactly one"),
-        ({"radius": 37.0}, "`radius`: 37000 is no radius of a contact in mm"),
-        ({"poisson": 0.6}, "`poisson`: 0.6 is not above -1 and at most 0.5"),
+        (
+            {"radius": 37.0},
+            "`radius`: 37000 mm cannot be the radius of a contact: that is 0.1 to 10000 mm; is 37 mm meant?",
+        ),
+        ({"poisson": 0.6}, "`poisson`: 0.6 cannot be Poisson's ratio: that is -0.9999 to 0.5"),
         ({"free": {"nu": None}}, "`free`: 'nu' is none of threshold, lag, adduction, slope"),
         ({"free": {"lag": (0.1, -0.1)}}, "`free`: lag: 0.1 to -0.1 has no room"),
         ({"free": {"threshold": None}, "calibrate": "x.csv"}, "`free`: threshold with `calibrate` says it twice"),

@@ -104,7 +104,7 @@ def test_a_plate() -> None:
 @pytest.mark.slow
 def test_radius_by_side_and_by_flexion() -> None:
     """The synthetic femoral component: distal radius 34, posterior 22, about the axis through its origin."""
-    result = fit(FINER, "cylinder", **KNEE, split="z", profile=gc.deg(-20, 100, 20))
+    result = fit(FINER, "cylinder", **KNEE, split="z", side="right", profile=gc.deg(-20, 100, 20))
     table = result.table("profile")
     assert list(result.sides) == list(result.profiles) == ["medial", "lateral"]
     assert list(result.table()["side"]) == ["whole", "medial", "lateral"]
@@ -177,8 +177,13 @@ def test_doubts_are_said_and_kept() -> None:
     [
         ({"axis": "0,0,0,0,0,1", "region": "x>0"}, "`axis`: has no effect here: `region` does not speak of radial"),
         ({"medial": "+"}, "`medial`: has no effect without `split`"),
+        ({"split": "z"}, "`split`: 'z' does not say which side of the plane is medial"),
+        ({"split": "z", "side": "left", "medial": "+"}, "`medial`: with `side` says twice what is medial"),
         ({"window": 0.3}, "`window`: has no effect without `profile`"),
-        ({"profile": (0.0, 1.0, 0.1), "window": 4.0}, "`window`: 229.183 is not between 1 and 180 degrees"),
+        (
+            {"profile": (0.0, 1.0, 0.1), "window": 4.0},
+            "`window`: 229.183 deg cannot be a window of flexion: that is 1 to 180 deg; is 4 deg meant?",
+        ),
         ({"profile": (0.0, 1.0, -0.1)}, "`profile`: never arrives"),
         ({"profile": (0.0, 1.0, 0.0)}, "`profile`: never arrives"),
         ({"shape": "cone"}, "`shape`: 'cone' is not a choice; one of cylinder, sphere, plane"),
@@ -194,4 +199,10 @@ def test_a_region_that_lacks_an_option_names_it_as_python_has_it() -> None:
     with pytest.raises(InputError, match="`region`: flexion needs `axis` and `sagittal`"):
         fit(CYLINDER, "cylinder", region="flexion>3")
     with pytest.raises(InputError, match="`shape` sphere: lateral: a sphere needs at least 5 points, not 0"):
-        fit(SPHERE, "sphere", split="z=100")
+        fit(SPHERE, "sphere", split="z=100", side="right")
+
+
+def test_a_shape_that_does_not_describe_the_patch_is_told() -> None:
+    sphere = MESHES / "sphere_r20.stl"
+    with pytest.warns(gc.InputWarning, match="27% of the radius: a cylinder does not describe this patch"):
+        gc.fit_shape(sphere, unit="mm", shape="cylinder")

@@ -11,6 +11,7 @@ from geocontact.view.page.content import (
     Body,
     Curve,
     Curves,
+    Length,
     Page,
     Plan,
     Readout,
@@ -114,7 +115,15 @@ def small_page(frames: int = 9, name: str = "ball") -> Page:
             Strip("Area against threshold", thresholds, area, "mm²", 4.0),
             Table("Inputs", ["file", "sha256"], [["ball.stl", hashlib.sha256(b"ball").hexdigest()]]),
             CONTEXT,
-            Plan("Path of the middle", "mm", "z", "x", [1e3 * plate_vertices[[0, 23, -1, -24, 0]][:, [2, 0]]], [way]),
+            Plan(
+                "Path of the middle",
+                "mm",
+                "z",
+                "x",
+                [1e3 * plate_vertices[[0, 23, -1, -24, 0]][:, [2, 0]]],
+                [way],
+                lengths=[Length("d", "10 mm (95 % 9 … 11)", (0.0, 0.0), (6.0, 8.0))],
+            ),
         ],
     )
 

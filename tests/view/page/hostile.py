@@ -79,7 +79,8 @@ def hostile_page(page: Page, names: list[str]) -> Page:
             case Plan():
                 tracks = [replace(track, name=it[k + i]) for i, track in enumerate(section.tracks)]
                 marks = [Mark(it[k + 3], (0.0, 0.0))]
-                return Plan(it[k], it[k + 1], it[k + 2], it[k + 3], section.lines, tracks, marks, it[k + 4])
+                lengths = [replace(each, name=it[k + 1], told=it[k + 2]) for each in section.lengths]
+                return Plan(it[k], it[k + 1], it[k + 2], it[k + 3], section.lines, tracks, marks, lengths, it[k + 4])
             case Readout():
                 rows = [
                     Row(it[k], it[k + 1], [it[(k + f) % 200] for f in range(len(row.texts))]) for row in section.rows

@@ -17,9 +17,11 @@ from geocontact.view.page.content import (
     Curves,
     Interval,
     Intervals,
+    Length,
     Limit,
     Page,
     Picture,
+    Plan,
     Points,
     Readout,
     Row,
@@ -121,7 +123,7 @@ def test_versions_and_hashes_are_folded(opened: Open) -> None:
 def test_tables_and_drawings_that_continue_say_so(opened: Open) -> None:
     wide = Table("Wide", [f"column {k}" for k in range(12)], [["1.2345"] * 12])
     tall = Table("Tall", ["a"], [["1"]] * 100)
-    page = angles(wide, tall, Table("Small", ["a"], [["1"]]), Picture("Figure", "", DRAWING))
+    page = angles(wide, tall, Table("Small", ["a"], [["1"]]), Picture("Figure", "", DRAWING, wide=True))
     here = opened(page, device=PHONE)
     script = """Object.fromEntries([...document.querySelectorAll('.hint')].map(e =>
       [e.parentElement.querySelector('h2').textContent, e.hidden ? '' : e.textContent]))"""
@@ -208,6 +210,43 @@ def test_intervals_lie_where_their_axis_says(opened: Open, device: dict[str, Any
         box = label.bounding_box()
         assert box and wide["x"] <= box["x"] and box["x"] + box["width"] <= wide["x"] + wide["width"]
     assert here.complaints == []
+
+
+def test_numbers_of_two_kinds_have_two_colours_and_a_key(opened: Open) -> None:
+    rows = [Interval("x", 0.5, kind="total"), Interval("x", 0.3, kind="first-order")]
+    here = opened(Page("a", "", np.zeros(1), "", sections=[Intervals("Shares", "share", rows, bars=True)]))
+    fills = "[...document.querySelectorAll('#section-0 .plot rect.bar')].map(e => getComputedStyle(e).fill)"
+    assert len(set(here.tab.evaluate(fills))) == 2
+    assert here.tab.locator("#section-0 .key li").all_inner_texts() == ["total", "first-order"]
+    assert here.tab.locator("#section-0 .plot text.label").all_text_contents() == ["x", ""], "named once"
+
+
+def test_one_thing_has_one_colour_in_all_panels(opened: Open) -> None:
+    values = np.linspace(0.0, 1.0, 5)
+    both = Curves("force", "N", [Curve("measured", values), Curve("base", 2.0 * values, stroke=1)])
+    page = Page("a", "", values, "", sections=[both, Curves("off", "N", [Curve("base", values, stroke=1)])])
+    script = "s => [...document.querySelectorAll(s + ' .plot path.line')].map(e => getComputedStyle(e).stroke)"
+    here = opened(page)
+    (_, base), (off,) = (here.tab.evaluate(script, f"#section-{k}") for k in range(2))
+    assert base == off
+
+
+@DEVICES
+def test_a_length_is_drawn_to_scale_with_its_interval_in_the_key(opened: Open, device: dict[str, Any]) -> None:
+    told = Length("x", "30 mm (95 % 28 … 32)", (0.0, 0.0), (30.0, 40.0))
+    page = Page("a", "", np.zeros(1), "", sections=[Plan("Arm", "mm", "x", "y", lengths=[told])])
+    here = opened(page, device=device)
+    drawn = str(here.tab.locator("#section-0 .plot path.line").get_attribute("d"))
+    x1, y1, x2, y2 = (float(v) for v in re.findall(r"-?[\d.]+", drawn)[:4])
+    assert (x2 - x1) / (y1 - y2) == pytest.approx(0.75)
+    assert here.tab.locator("#section-0 .plot text.length").text_content() == "x"
+    assert "28 … 32" in here.tab.locator("#section-0 .key").inner_text()
+
+
+def test_a_narrow_drawing_fits_a_phone(opened: Open) -> None:
+    here = opened(Page("a", "", np.zeros(1), "", sections=[Picture("Map", "", DRAWING)]), device=PHONE)
+    box = here.tab.locator("#section-0 img").bounding_box()
+    assert box and 250 < box["width"] <= 390
 
 
 def test_another_threshold_changes_answer_numbers_curves_and_contour(opened: Open) -> None:

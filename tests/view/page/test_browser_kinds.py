@@ -11,7 +11,7 @@ import pytest
 from benchmarks.page_pictures.kinds import KINDS, make_pages
 from tests.view.page.conftest import DESKTOP, PHONE, Open
 
-STILL = {"fit", "elbow_fit", "elbow_design", "elbow_population", "gap", "confuse"}
+STILL = {"fit", "modulus", "elbow_fit", "elbow_design", "elbow_population", "scale", "gather", "gap", "confuse"}
 """Pages on which nothing runs in time."""
 
 

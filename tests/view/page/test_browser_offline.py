@@ -103,9 +103,10 @@ def test_curves_alone_with_any_number_of_frames(opened: Open, frames: int) -> No
     if frames > 1:
         here.tab.locator("#slider").press("End")
         assert f"frame {frames}/{frames}" in here.text("#now")
+    assert here.text("td.value") == f"{frames - 1:.3f}"
+    if frames > 1:
         here.tab.keyboard.press("Space")
         assert here.tab.locator("#play").get_attribute("aria-label") == "Pause"
-    assert here.text("td.value") == f"{frames - 1:.3f}"
 
 
 def test_one_frame_has_a_picture(opened: Open) -> None:

@@ -35,7 +35,7 @@ SHOWN = {
 def result(tmp_path_factory: pytest.TempPathFactory) -> Call:
     """Ball on a floor, pressed in less and less; the last frame is in the air."""
     folder = tmp_path_factory.mktemp("pressed")
-    return done(pressed(folder, "--split", "z", "--save-map", at=(3.0, -2.0), picture=True))
+    return done(pressed(folder, "--split", "z", "--side", "right", "--save-map", at=(3.0, -2.0), picture=True))
 
 
 @pytest.mark.parametrize("device", [DESKTOP, PHONE], ids=["1280x800", "390x844"])

@@ -35,7 +35,7 @@ SHOWN = {
 def result(tmp_path_factory: pytest.TempPathFactory) -> Call:
     """The synthetic knee in five frames, in a folder of spaces and quotes."""
     folder = tmp_path_factory.mktemp('it\'s a "knee" & more')
-    options = ("--split", "z", "--threshold", "1,4")
+    options = ("--split", "z", "--side", "right", "--threshold", "1,4")
     motion = gait(folder, (0, 20, 40, 60, 80))
     return done(area(folder / "out", *options, moving=FEMUR, fixed=INSERT, motion=motion, picture=True))
 

@@ -11,6 +11,7 @@ from jaxtyping import Float, Int
 
 from geocontact.data.motion import Course
 from geocontact.view.curves.quantity import FORCE, PRESSURE
+from geocontact.view.curves.sheet import sheet
 from geocontact.view.curves.style import DOUBLE, INCH, LINES, PALETTE, in_style, legend
 from geocontact.view.curves.text import plain
 
@@ -42,9 +43,7 @@ def pressure_figure(
     shown: PressureMap,
 ) -> Figure:
     """Force of the whole and of compartments [N], largest pressure [Pa], and the map of one frame."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(DOUBLE / INCH, 0.09 / INCH), layout="constrained")
+    figure = sheet(DOUBLE / INCH, 0.09 / INCH)
     axes = figure.subplot_mosaic([["force", "map"], ["peak", "map"]], width_ratios=[3, 2])
     drawn = [
         (axes["force"].plot(course.values, values, color=PALETTE[k], ls=LINES[k])[0], name)

@@ -57,7 +57,7 @@ class BenchmarkResult(Result):
         write_json(folder / "benchmark.json", content(self.record, self.outcome, self.when))
         text = "\n".join(self.sentences) + "\n"
         (folder / "benchmark.md").write_text(text, encoding="utf-8", newline="\n")
-        write_table(self.table(), folder, parquet=False, name="cases")
+        write_table(self.table(), folder, "cases")
         save_both(self.figure(), folder, "reliability")
         if self.options.keep:
             home = folder / f"cases-{self.outcome.seed}"

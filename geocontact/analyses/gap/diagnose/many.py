@@ -21,6 +21,7 @@ from geocontact.analyses.gap.diagnose.run import run
 from geocontact.analyses.results_folder import Scratch
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.stale_results import RUN
+from geocontact.analyses.table_forms import TableForms
 from geocontact.analyses.workers import each
 from geocontact.data.errors import InputError
 from geocontact.io.cases.gap_case import gap_case_folders
@@ -58,7 +59,8 @@ def run_many(folders: list[Path], o: ManyOptions, record: Record) -> ManyResult:
 def _all(folders: list[Path], draft: Path, o: ManyOptions, record: Record) -> list[Outcome]:
     """Outcomes in the order of the folders."""
     found = {}
-    work = partial(outcome, draft=draft, o=o, options=dict(record.options), run_id=str(record.results["run"]))
+    options, run_id = dict(record.options), str(record.results["run"])
+    work = partial(outcome, draft=draft, o=o, options=options, run_id=run_id, forms=record.forms)
     with record.listener.progress("cases", len(folders)) as step:
         for folder, became in each(work, folders, o.workers):
             found[folder.name] = _outcome_of(folder, became, draft, record)
@@ -73,7 +75,9 @@ def _outcome_of(folder: Path, became: Outcome | BaseException, draft: Path, reco
     return Outcome(folder.name, FAILED, f"{folder}: {type(became).__name__}: {became}")
 
 
-def outcome(folder: Path, draft: Path, o: ManyOptions, options: Mapping[str, object], run_id: str) -> Outcome:
+def outcome(
+    folder: Path, draft: Path, o: ManyOptions, options: Mapping[str, object], run_id: str, forms: TableForms
+) -> Outcome:
     """Diagnosis of one case into draft/<case>; what is wrong is told, not raised.
 
     Parameters
@@ -82,10 +86,12 @@ def outcome(folder: Path, draft: Path, o: ManyOptions, options: Mapping[str, obj
         As they were given for all cases.
     run_id
         Marks the results of one run.
+    forms
+        Further forms of the tables.
     """
     place = draft / folder.name
     one = ManyOptions(folder, many=True, bare=o.bare, workers=o.workers, run_simulator=o.run_simulator)
-    record = Record("gap diagnose", {**options, "case": folder}, one.in_si(), results={"run": run_id})
+    record = Record("gap diagnose", {**options, "case": folder}, one.in_si(), results={"run": run_id}, forms=forms)
 
     def kept(code: int, line: str) -> Outcome:
         shutil.rmtree(place, ignore_errors=True)

@@ -81,7 +81,7 @@ class ManyResult(Result):
         """The summary, and all results of each case in a sub-folder of its name."""
         for one in self.done:
             shutil.copytree(self.scratch.folder / one.name, folder / one.name)
-        write_table(self.table(), folder, parquet=False, name=SUMMARY)
+        write_table(self.table(), folder, SUMMARY)
 
     def write_page(self, file: Path) -> None:
         """The summary."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import Options, Requires
 from geocontact.data.errors import InputError
@@ -23,6 +23,8 @@ class DiagnoseOptions(Options):
     run_simulator
         Allow a case of the system "command" to run the program that it names.
     """
+
+    over_time: ClassVar[bool] = True
 
     case: Path
     _: KW_ONLY

@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
 FRAMES = 201
 PANELS = 12  # held-out trials times channels; more are left to the tables
+STROKES = {"measured": 0, "base model": 1}
+"""Colours that hold in all panels; the model with the effect has the next."""
 WIDE = ("gap_map", "gap_residuals")  # drawings as wide as the page
 WORDS = {"explained": "explained", "no_gap": "no gap", "unknown": "unknown", "unresolved": "unresolved"}
 MAP = (
@@ -159,7 +161,7 @@ def _panels(findings: Findings, phase: Float[np.ndarray, " p"]) -> tuple[list[Cu
             off = {label: trial.measured - values for label, values in models.items()}
             for words, parts in (("", {"measured": trial.measured, **models}), (": measured − predicted", off)):
                 curves = [
-                    Curve(label, quantity.shown(resampled(trial, values, phase)[:, c]))
+                    Curve(label, quantity.shown(resampled(trial, values, phase)[:, c]), stroke=STROKES.get(label, 2))
                     for label, values in parts.items()
                 ]
                 panels.append(Curves(f"{name}, held-out trial {trial.name}{words}", quantity.unit, curves))

@@ -66,7 +66,7 @@ class DiagnoseResult(Result):
         """Answer and tables, and unless they are not wanted figures and page."""
         write_json(folder / "diagnosis.json", self.diagnosis.as_dict())
         for name, table in self.tables().items():
-            write_table(table, folder, parquet=False, name=name, units=CASES)
+            write_table(table, folder, name, CASES)
         if self.options.bare:
             return
         figures = self.figures()

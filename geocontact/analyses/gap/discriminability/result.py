@@ -61,7 +61,7 @@ class DiscriminabilityResult(Result):
         """Answer and tables, and unless they are not wanted figures and page."""
         write_json(folder / "confuse.json", answer(self.case, self.found, self.options.nats))
         for name, table in self.tables().items():
-            write_table(table, folder, parquet=False, name=name, units=CASES)
+            write_table(table, folder, name, CASES)
         if not self.options.bare:
             drawings = {name: save_both(figure, folder, name) for name, figure in self.figures().items()}
             self._write_page(folder / "report.html", drawings)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 from geocontact.analyses.options import Options
 
@@ -20,5 +21,7 @@ class GatherOptions(Options):
         plates = "grf.mot" with plate = "name", for a foot; forces = "forces.csv" and areas = "area.csv", for a knee;
         inputs = "ik.mot" and outputs = "id.sto" with a table [columns].
     """
+
+    over_time: ClassVar[bool] = True
 
     settings: Path

@@ -9,7 +9,7 @@ from pathlib import Path
 import pandas as pd
 
 from geocontact.analyses.gap.gather.options import GatherOptions
-from geocontact.analyses.plain_page import write_plain_page
+from geocontact.analyses.gap.gather.page import write_gather_page
 from geocontact.analyses.result import Result
 from geocontact.analyses.results_folder import Scratch
 from geocontact.data.gap.case import GapCase
@@ -37,9 +37,10 @@ class GatherResult(Result):
         return {f"trials/{one.name}": trial_table(one) for one in (*self.case.calibration, *self.case.evaluation)}
 
     def write_files(self, folder: Path) -> None:
-        """case.toml, trials, cells and tables."""
+        """case.toml, trials, cells and tables, page."""
         shutil.copytree(self.scratch.folder, folder, dirs_exist_ok=True)
+        self.write_page(folder / "report.html")
 
     def write_page(self, file: Path) -> None:
-        """The beginning of every trial."""
-        write_plain_page(self, f"Trials of {self.options.settings.name}", file)
+        """Every channel of the trials over time."""
+        write_gather_page(file, f"Trials of {self.options.settings.name}", self.record, self.case)

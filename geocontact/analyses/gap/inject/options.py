@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import Options, Spelled, Typed
 from geocontact.data.errors import InputError
@@ -38,6 +38,8 @@ class InjectOptions(Options):
     run_simulator
         Allow a case of the system "command" to run the program that it names.
     """
+
+    over_time: ClassVar[bool] = True
 
     case: Path
     _: KW_ONLY

@@ -54,9 +54,10 @@ class InjectResult(Result):
         return self.diagnosed.diagnosis
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`planted`: each parameter of the effect as it was put in and as it was found; then those of the diagnosis."""
+        """`planted`: parameters of the effect as they were put in and found; `diagnosis/ranking` and so on."""
         rows = parameter_rows(self.effect, self.planted, self.diagnosis)
-        return {"planted": pd.DataFrame(rows, columns=COLUMNS), **self.diagnosed.tables()}
+        found = {f"{DIAGNOSIS}/{name}": table for name, table in self.diagnosed.tables().items()}
+        return {"planted": pd.DataFrame(rows, columns=COLUMNS), **found}
 
     def figure(self) -> Figure:
         """Where the gap is."""

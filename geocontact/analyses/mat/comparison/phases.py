@@ -36,7 +36,7 @@ def read_phases(record: Record, o: MatOptions) -> tuple[Phase, ...] | None:
     """Phases in the order of the file; None where nobody names any."""
     if o.phases is None:
         return None
-    table = read_side_table(o.phases)
+    table = read_side_table(o.phases, COLUMNS)
     missing = [name for name in COLUMNS if name not in table.columns]
     if missing:
         raise InputError(o.phases, "line 1", f"no column {', '.join(missing)}", f"write {', '.join(COLUMNS)}")

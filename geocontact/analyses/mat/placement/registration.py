@@ -87,7 +87,7 @@ def _by_shape(scan: Surface, body: Surface, start: Registration, o: MatOptions) 
 
 
 def _pairs(path: Path) -> tuple[tuple[str, ...], Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
-    table = read_side_table(path)
+    table = read_side_table(path, ("id", *SCAN, *BODY))
     missing = [name for name in ("id", *SCAN, *BODY) if name not in table.columns]
     if missing:
         what = f"no column {', '.join(each.replace('[m]', 'with a unit of length') for each in missing)}"

@@ -7,14 +7,18 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.misalignment.checks import require_stroke, require_width
+from geocontact.analyses.misalignment.checks import require_stroke
 from geocontact.analyses.misalignment.column_options import ColumnOptions
+from geocontact.analyses.misalignment.law_numbers import STROKE
 from geocontact.analyses.options import Degrees, Requires, Spelled, Typed
 from geocontact.analyses.page_words import counted
 from geocontact.data.errors import InputError
+from geocontact.data.ranges import BIN
 
-Stroke = Annotated[tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True)]
-BIN = math.radians(2.0)
+Stroke = Annotated[
+    tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
+]
+TWO_DEGREES = math.radians(2.0)
 
 
 @dataclass(frozen=True)
@@ -33,8 +37,6 @@ class CompareOptions(ColumnOptions):
         Stroke of the compensation joint with `fit`, such as -10:40; locked without.
     bin
         Width of the bins of the picture.
-    parquet
-        Also write the tables as .parquet.
     """
 
     recordings: tuple[Path, ...]
@@ -42,16 +44,13 @@ class CompareOptions(ColumnOptions):
     fit: Path | None = None
     simulated: tuple[Path, ...] | None = None
     stroke: Annotated[Stroke | None, Requires("fit")] = None
-    bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0)] = BIN
-    parquet: bool = False
+    bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0), BIN] = TWO_DEGREES
 
     def refuse_impossible(self) -> None:
-        """Not exactly one model for each recording; a stroke, a width, a cut-off that cannot be."""
-        super().refuse_impossible()
+        """Not exactly one model for each recording; a stroke that ends before it begins."""
         if (self.fit is None) == (self.simulated is None):
             raise InputError("", "`fit`", "or `simulated`: exactly one is compared with", "give one")
         if self.simulated is not None and len(self.simulated) != len(self.recordings):
             what = f"is given {len(self.simulated)} times for {counted(len(self.recordings), 'recording')}"
             raise InputError("", "`simulated`", what, "give one for each, in the same order")
         require_stroke(self.stroke)
-        require_width(self.bin, "`bin`")

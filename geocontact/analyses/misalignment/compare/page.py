@@ -9,7 +9,17 @@ from geocontact.analyses.misalignment.compare.pair import QUANTITIES, Pair
 from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, write_elbow_page
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
-from geocontact.view.page.content import Curve, Curves, Picture, Readout, Row, Section, Table
+from geocontact.view.page.content import (
+    Curve,
+    Curves,
+    Interval,
+    Intervals,
+    Picture,
+    Readout,
+    Row,
+    Section,
+    Table,
+)
 
 COMPARED = "Means over bins of the angle: measured as marks, the model as lines, a colour per trial."
 
@@ -17,21 +27,65 @@ COMPARED = "Means over bins of the angle: measured as marks, the model as lines,
 def write_comparison_report(
     path: Path, pairs: Sequence[Pair], drawings: Mapping[str, bytes], tables: Sequence[Table], record: Record
 ) -> int:
-    """Write the page of a comparison, the first trial's force over time; returns its size in bytes.
+    """Write the page of a comparison, the trial with the largest error over time; returns its size in bytes.
 
     `drawings` are the SVG of each channel's figure.
     """
-    first = pairs[0]
+    first = max((p for p in pairs if p.channel == pairs[0].channel), key=lambda p: p.agreement.rmsd)
     shown = slice(None, None, -(-len(first.time) // FRAMES))
-    force = {"measured": first.measured[shown], "model": first.model[shown]}
+    q = QUANTITIES[first.channel]
+    both = {"measured": q.per_si * first.measured[shown], "model": q.per_si * first.model[shown]}
+    off = both["model"] - both["measured"]
+    rows = {**both, "model less measured": off}
+    name = f"{q.name.capitalize()}, {first.trial}"
     sections: list[Section] = [
-        Readout([Row(name, "N", [f"{v:.2f}" for v in values]) for name, values in force.items()]),
-        Curves("Constraint force of the first trial", "N", [Curve(name, values) for name, values in force.items()]),
+        Curves(name, q.unit, [Curve(each, values) for each, values in both.items()]),
+        *_errors(pairs),
+        Curves(f"{name}: model less measured", q.unit, [Curve("error", off, stroke=1)]),
+        Readout([Row(each, q.unit, [f"{v:.2f}" for v in values]) for each, values in rows.items()]),
         *(Picture(QUANTITIES[each].name.capitalize(), COMPARED, svg, wide=True) for each, svg in drawings.items()),
         *tables,
         NOT_IN_THE_NUMBERS,
     ]
     title = f"Model beside {counted(len({p.trial for p in pairs}), 'recording')}"
     subtitle = "Model and measurement of an elbow exoskeleton"
-    facts = [(f"{p.trial}, {p.channel}", f"R² {p.agreement.r2:.3f}") for p in pairs]
-    return write_elbow_page(path, title, subtitle, first.time[shown], "time [s]", facts, sections, record)
+    facts = [(f"{p.trial}, {p.channel}", f"{_rmse(p)}, R² {p.agreement.r2:.3f}") for p in pairs]
+    time = first.time[shown]
+    return write_elbow_page(path, title, subtitle, time, "time [s]", answer(pairs), facts, sections, record)
+
+
+def answer(pairs: Sequence[Pair]) -> list[str]:
+    """How far the model is from each channel, in the best and in the worst trial."""
+    return [_channel(sorted(mine, key=lambda p: p.agreement.rmsd)) for mine in _by_channel(pairs)]
+
+
+def _channel(mine: Sequence[Pair]) -> str:
+    what, best, worst = QUANTITIES[mine[0].channel].name, mine[0], mine[-1]
+    told = f"The model misses the {what} by {_rmse(best)} root mean square in {best.trial} (R² {best.agreement.r2:.3f})"
+    if worst is best:
+        return f"{told}."
+    many = f", the worst of {len(mine)} trials" if len(mine) > 2 else ""
+    return f"{told} and by {_rmse(worst)} in {worst.trial} (R² {worst.agreement.r2:.3f}){many}."
+
+
+def _errors(pairs: Sequence[Pair]) -> list[Section]:
+    """Bars of both errors of every trial, a drawing for each channel."""
+    found: list[Section] = []
+    for mine in _by_channel(pairs):
+        q = QUANTITIES[mine[0].channel]
+        rows = [
+            Interval(p.trial, q.per_si * size, kind=kind)
+            for p in mine
+            for kind, size in (("root mean square", p.agreement.rmsd), ("mean absolute", p.agreement.mae))
+        ]
+        found.append(Intervals(f"Error of the {q.name}", q.unit, rows, bars=True))
+    return found
+
+
+def _by_channel(pairs: Sequence[Pair]) -> list[list[Pair]]:
+    return [mine for channel in QUANTITIES if (mine := [p for p in pairs if p.channel == channel])]
+
+
+def _rmse(p: Pair) -> str:
+    q = QUANTITIES[p.channel]
+    return f"{q.per_si * p.agreement.rmsd:.3g} {q.unit}"

@@ -54,7 +54,7 @@ class CompareResult(Result):
 
     def write_files(self, folder: Path) -> None:
         """comparison.csv, figures, page."""
-        write_table(self.table(), folder, self.options.parquet, "comparison")
+        write_table(self.table(), folder, "comparison")
         drawings = {each: save_both(self.figure(each), folder, f"comparison_{each}") for each in self.channels}
         self._write_page(folder / "report.html", drawings)
 

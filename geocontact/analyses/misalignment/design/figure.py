@@ -12,6 +12,7 @@ from geocontact.view.curves.style import BLACK, DOUBLE, GREY, PALETTE, in_style,
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 MM = 1e3
@@ -32,6 +33,44 @@ def design_figure(
 ) -> Figure:
     """Draw largest |F| [N] over the offsets [m] with the limit, and force, lowest, highest over the angle [rad]."""
     figure, (plane, course) = panels(1, 2, DOUBLE, 0.08)
+    _map(figure, plane, axes, peak, boundary, offset, uncertainty, limit)
+    beta, force, lowest, highest = curves
+    band = course.fill_between(np.degrees(beta), lowest, highest, color=PALETTE[0], alpha=0.25, lw=0)
+    curve = course.plot(np.degrees(beta), force, color=PALETTE[0])[0]
+    ends = [course.axhline(side * limit, color=BLACK, lw=0.8, ls="--") for side in (-1.0, 1.0)]
+    course.axhline(0.0, color=GREY, lw=0.5)
+    course.set_xlabel("angle of the exoskeleton [°]")
+    course.set_ylabel("force on the limb [N]")
+    legend(course, [(curve, "at the offsets"), (band, "within the uncertainty"), (ends[0], f"limit {limit:g} N")])
+    return figure
+
+
+@in_style
+def map_figure(
+    axes: tuple[Float[np.ndarray, " a"], Float[np.ndarray, " b"]],
+    peak: Float[np.ndarray, " ab"],
+    boundary: Boundary,
+    offset: tuple[float, float],
+    uncertainty: float,
+    limit: float,
+) -> Figure:
+    """Draw largest |F| [N] over the offsets [m] with the limit alone."""
+    figure, (plane,) = panels(1, 1, 0.11, 0.085)
+    _map(figure, plane, axes, peak, boundary, offset, uncertainty, limit)
+    return figure
+
+
+def _map(
+    figure: Figure,
+    plane: Axes,
+    axes: tuple[Float[np.ndarray, " a"], Float[np.ndarray, " b"]],
+    peak: Float[np.ndarray, " ab"],
+    boundary: Boundary,
+    offset: tuple[float, float],
+    uncertainty: float,
+    limit: float,
+) -> None:
+    """The largest |F| over the offsets with the limit, the robust radius and the uncertainty."""
     x, y = (axis * MM for axis in axes)
     shown = np.ma.masked_invalid(peak.reshape(len(y), len(x)))
     levels = np.linspace(0.0, BEYOND * limit, LEVELS + 1)
@@ -52,14 +91,5 @@ def design_figure(
     plane.set_facecolor("0.8")
     plane.set_xlabel("offset x [mm]")
     plane.set_ylabel("offset y [mm]")
-    beta, force, lowest, highest = curves
-    band = course.fill_between(np.degrees(beta), lowest, highest, color=PALETTE[0], alpha=0.25, lw=0)
-    curve = course.plot(np.degrees(beta), force, color=PALETTE[0])[0]
-    ends = [course.axhline(side * limit, color=BLACK, lw=0.8, ls="--") for side in (-1.0, 1.0)]
-    course.axhline(0.0, color=GREY, lw=0.5)
-    course.set_xlabel("angle of the exoskeleton [°]")
-    course.set_ylabel("force on the limb [N]")
-    legend(course, [(curve, "at the offsets"), (band, "within the uncertainty"), (ends[0], f"limit {limit:g} N")])
     if circles:
         legend(plane, circles)
-    return figure

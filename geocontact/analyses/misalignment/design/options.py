@@ -2,29 +2,37 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
 from geocontact.analyses.misalignment.checks import (
-    require_above_0,
-    require_at_least_0,
     require_drift,
     require_span,
     require_stroke,
 )
-from geocontact.analyses.misalignment.law_numbers import require_link
+from geocontact.analyses.misalignment.law_numbers import ACROSS, DRIFT, LINK, OFFSET, STROKE
 from geocontact.analyses.options import Millimetres, Options, Spelled, Typed
-from geocontact.data.errors import InputError
+from geocontact.data.plausible import Plausible
+from geocontact.data.ranges import ATTACHMENT, JOINT_ANGLE, LIMIT, SHIFT
+from geocontact.data.units import mm
 
-Angles = Annotated[tuple[float, float], Typed("rad", "angle_span"), Spelled(dashed=True)]
-Stroke = Annotated[tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True)]
-Offset = Annotated[
-    tuple[float, float], Typed("m", "length_pair"), Spelled("offset-mm", "offset_mm", default="0,0", dashed=True)
+Angles = Annotated[tuple[float, float], Typed("rad", "angle_span"), Spelled(dashed=True), JOINT_ANGLE]
+Stroke = Annotated[
+    tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
 ]
-Drift = Annotated[Path | Mapping[str, tuple[float, ...]], Typed("-", "misalignment.drift:typed"), Spelled(dashed=True)]
+Offset = Annotated[
+    tuple[float, float],
+    Typed("m", "length_pair"),
+    Spelled("offset-mm", "offset_mm", default="0,0", dashed=True),
+    OFFSET,
+]
+Drift = Annotated[
+    Path | Mapping[str, tuple[float, ...]], Typed("-", "misalignment.drift:typed"), Spelled(dashed=True), DRIFT
+]
+REACH = Plausible("how far a map goes", mm, (0.1, 1000.0), (2.0, 300.0))
+STEP = Plausible("the step of a map", mm, (0.001, 500.0), (0.05, 50.0))
 
 
 @dataclass(frozen=True)
@@ -57,35 +65,23 @@ class DesignOptions(Options):
         How the joint's axis wanders with the angle: x=0:-8:2,y=0:5 (mm, mm/rad, mm/rad², …, over the exoskeleton's
         angle), or a .csv with the columns beta or alpha [deg], x [mm], y [mm], or alpha [deg], instant_centre_x [mm],
         instant_centre_y [mm]; alpha is the joint's own angle.
-    parquet
-        Also write the tables as .parquet.
     """
 
     _: KW_ONLY
-    k: float
-    l: Annotated[Millimetres, Spelled("l-mm", "l_mm")]
-    z: Annotated[Millimetres, Spelled("z-mm", "z_mm", dashed=True)]
+    k: Annotated[float, ATTACHMENT]
+    l: Annotated[Millimetres, Spelled("l-mm", "l_mm"), LINK]
+    z: Annotated[Millimetres, Spelled("z-mm", "z_mm", dashed=True), ACROSS]
     range: Angles
-    limit: float
+    limit: Annotated[float, LIMIT]
     stroke: Stroke | None = None
     offset: Offset = (0.0, 0.0)
-    uncertainty: Annotated[Millimetres, Spelled("uncertainty-mm", "uncertainty_mm")] = 0.0
-    map: Annotated[Millimetres, Spelled("map-mm", "map_mm", default=60.0)] = 60e-3
-    step: Annotated[Millimetres, Spelled("step-mm", "step_mm", default=2.0)] = 2e-3
+    uncertainty: Annotated[Millimetres, Spelled("uncertainty-mm", "uncertainty_mm"), SHIFT] = 0.0
+    map: Annotated[Millimetres, Spelled("map-mm", "map_mm", default=60.0), REACH] = 60e-3
+    step: Annotated[Millimetres, Spelled("step-mm", "step_mm", default=2.0), STEP] = 2e-3
     drift: Drift | None = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
-        """Numbers that are not positive, angles that are no range, a stroke that ends before it begins."""
+        """Angles that are no range, a stroke that ends before it begins."""
         require_span(self.range)
-        require_above_0(self.l, "`l`", "m")
-        require_link(self.l, "`l`")
-        if not math.isfinite(self.z):
-            raise InputError("", "`z`", f"{self.z:g} is not a finite number", "give a length")
-        require_above_0(self.limit, "`limit`", "N")
-        require_above_0(self.k, "`k`", "N/m")
         require_stroke(self.stroke)
-        require_at_least_0(self.uncertainty, "`uncertainty`")
-        require_above_0(self.map, "`map`", "m")
-        require_above_0(self.step, "`step`", "m")
         require_drift(self.drift)

@@ -7,21 +7,24 @@ from typing import Any
 
 import numpy as np
 
+from geocontact.analyses.misalignment.design.description import stroke_words
 from geocontact.analyses.misalignment.design.designed import Designed
 from geocontact.analyses.misalignment.design.tables import sensitivity_table
 from geocontact.analyses.misalignment.planar_words import MODEL, page_table
 from geocontact.analyses.options_table import options_table
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.analyses.run_record import Record
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Readout, Row, Section, Table, Words
+from geocontact.view.page.content import Curve, Curves, Limit, Page, Picture, Readout, Row, Section, Table, Words
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
 
 FIGURE = (
-    "Left: the largest |F| over the range of angles for every pair of offsets; the white line is the limit, grey has "
-    "no force because tan γ has a pole or the offset is longer than the link. Right: force over the angle at the "
-    "offsets that the design is made for, with the band of all offsets within the uncertainty."
+    "The largest |F| over the range of angles for every pair of offsets. The white line is the limit, the white cross "
+    "the offsets that the design is made for; grey has no force because tan γ has a pole or the offset is longer than "
+    "the link."
 )
+NEAR = 3.0
+"""Limits are drawn with the force unless they are more than so many times its size."""
 
 
 def write_design_report(path: Path, record: Record, d: Designed, summary: dict[str, Any], drawing: bytes) -> int:
@@ -32,27 +35,27 @@ def write_design_report(path: Path, record: Record, d: Designed, summary: dict[s
     summary
         What `design.json` holds.
     drawing
-        The figure (SVG).
+        The map (SVG).
     """
     force = {"force": d.force, "lowest": d.band[0], "highest": d.band[1]}
     numbers = _numbers(summary)
     sections: list[Section] = [
+        Picture("Admissible offsets", FIGURE, drawing),
+        Curves("Force on the limb", "N", [Curve("at the offsets", d.force, *d.band)], limits=_limits(d)),
         Readout([Row(name, "N", [f"{v:.2f}" for v in values]) for name, values in force.items()], "At this angle"),
-        Curves("Force on the limb", "N", [Curve("at the offsets", d.force, *d.band)]),
         numbers,
         Words("Stroke of the compensation joint", [summary["needed_stroke"]["words"]]),
-        Picture("Admissible offsets", FIGURE, drawing, wide=True),
         page_table("Sensitivity at these offsets", sensitivity_table(d)),
         inputs_table(record.inputs),
         options_table(record),
         Words("What the numbers do not contain", [MODEL, NOT_A_DEVICE]),
     ]
     page = Page(
-        title=f"Offsets and stroke that keep the force under {d.task.limit:g} N",
+        title=f"Offsets and stroke for a limit of {d.task.limit:g} N",
         subtitle="Exoskeleton beside a joint: offsets of the axes, stroke, and force on the limb",
         time=np.degrees(d.beta),
         time_label="angle [°]",
-        headline=headline(record.sentences, most=2),
+        headline=answer(d, summary),
         facts=[(row[0], row[1]) for row in numbers.rows[:5]],
         reservations=tuple(record.warnings),
         start_frame=int(np.argmax(np.abs(d.force))),
@@ -60,6 +63,32 @@ def write_design_report(path: Path, record: Record, d: Designed, summary: dict[s
         plays=False,
     )
     return write_page(page, path)
+
+
+def answer(d: Designed, summary: dict[str, Any]) -> list[str]:
+    """Whether the limit is kept at the offsets, how far they may go, and which stroke the uncertainty asks for."""
+    radius, limit = summary["admissible_radius"], f"{d.task.limit:g} N"
+    x, y = (each * 1e3 for each in d.offset)
+    told = f"At x = {x:g} mm and y = {y:g} mm the force reaches {d.peak:.3g} N"
+    if not d.keeps_limit:
+        told += f" and exceeds the limit of {limit}."
+    else:
+        beyond = "" if radius["exceeded_within_map"] else "at least "
+        told += (
+            f" and keeps the limit of {limit}; offsets may go {beyond}{radius['radius_mm']:.3g} mm any way from there."
+        )
+    if not np.isfinite(d.peak):
+        told = f"At x = {x:g} mm and y = {y:g} mm there is no force to keep the limit of {limit} with."
+    stroke = stroke_words(d.task.compensation, d.stroke)
+    return [told, f"Offsets within {d.uncertainty * 1e3:g} mm: {stroke}."]
+
+
+def _limits(d: Designed) -> list[Limit]:
+    """Both signs of the limit, as far as the force comes near."""
+    size, limit = float(np.nanmax(np.abs(d.band), initial=0.0)), d.task.limit
+    if limit > NEAR * size:
+        return []
+    return [Limit(f"limit {sign}{limit:g} N", side * limit) for sign, side in (("", 1.0), ("−", -1.0))]
 
 
 def _numbers(told: dict[str, Any]) -> Table:

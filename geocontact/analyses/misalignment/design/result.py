@@ -11,7 +11,7 @@ import pandas as pd
 from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.misalignment.design.designed import Designed
-from geocontact.analyses.misalignment.design.figure import design_figure
+from geocontact.analyses.misalignment.design.figure import design_figure, map_figure
 from geocontact.analyses.misalignment.design.options import DesignOptions
 from geocontact.analyses.misalignment.design.page import write_design_report
 from geocontact.analyses.misalignment.design.tables import boundary_table, force_table, map_table, sensitivity_table
@@ -58,11 +58,12 @@ class DesignResult(Result):
         """design.json, tables, figure, page."""
         write_json(folder / "design.json", self.summary)
         for name, rows in self.tables().items():
-            write_table(rows, folder, self.options.parquet, name)
-        write_design_report(
-            folder / "report.html", self.record, self.design, self.summary, save_both(self.figure(), folder, "design")
-        )
+            write_table(rows, folder, name)
+        save_both(self.figure(), folder, "design")
+        self.write_page(folder / "report.html")
 
     def write_page(self, file: Path) -> None:
-        """Force over the angle, what the limit asks for, figure, sensitivities."""
-        write_design_report(file, self.record, self.design, self.summary, drawing(self.figure()))
+        """Map of the offsets, force over the angle, what the limit asks for, sensitivities."""
+        d = self.design
+        plane = map_figure(d.axes, d.map.peak, d.boundary, d.offset, d.uncertainty, d.task.limit)
+        write_design_report(file, self.record, d, self.summary, drawing(plane))

@@ -8,17 +8,17 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated
 
-from geocontact.analyses.misalignment.checks import require_width
 from geocontact.analyses.misalignment.column_options import ColumnOptions
-from geocontact.analyses.misalignment.law_numbers import require_names
+from geocontact.analyses.misalignment.law_numbers import MEANS, NUMBERS, TOPS, require_names
 from geocontact.analyses.options import Degrees, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
+from geocontact.data.ranges import BIN
 
-Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True)]
+Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True), NUMBERS]
 Pairs = Annotated[Mapping[str, tuple[float, float]], Typed("-", "misalignment.parameters:pairs"), Spelled(dashed=True)]
 Names = Annotated[tuple[str, ...], Typed("-", "misalignment.parameters:names")]
 REPLICATES = 100, 100_000
-BIN, BOX = math.radians(2.0), math.radians(10.0)
+TWO_DEGREES, TEN_DEGREES = math.radians(2.0), math.radians(10.0)
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,9 @@ class IdentifyOptions(ColumnOptions):
     recordings
         Tables of angle and force with the compensation joint locked (.csv .mot .sto .c3d): time, beta, force; pressure
         as far as it is there.
+
+    Further recordings
+    ------------------
     unlocked
         Recording with the compensation joint free and its displacement, as often as there are. Where nothing else is
         known of k and the lengths, two or more set their scale.
@@ -38,6 +41,9 @@ class IdentifyOptions(ColumnOptions):
         d_lin and not by d_tot.
     held_out
         Recording that is not fitted and tells R², as often as there are; each in turn of those fitted by default.
+
+    Numbers of the law
+    ------------------
     known
         Numbers known from elsewhere (N/m, mm, N s/m, 1/mmHg): l=169,z=127.
     prior
@@ -48,14 +54,15 @@ class IdentifyOptions(ColumnOptions):
         Where the search begins: k=300,x=30,y=40,l=200,z=120.
     free
         Free besides k, x, y, l, z: b (damping), s (stiffness over cuff pressure).
+
+    How it is fitted
+    ----------------
     bin
         Width of the bins that are fitted.
     box
         Width of the bins of the box plots.
     bootstrap
         Replicates of the wild bootstrap, 0 for none. Each is searched from every minimum that fits nearly as well.
-    parquet
-        Also write the tables as .parquet.
     """
 
     recordings: tuple[Path, ...]
@@ -64,22 +71,18 @@ class IdentifyOptions(ColumnOptions):
     rotary_free: Annotated[bool, Requires("unlocked")] = False
     held_out: tuple[Path, ...] | None = None
     known: Numbers | None = None
-    prior: Pairs | None = None
-    bounds: Pairs | None = None
+    prior: Annotated[Pairs | None, MEANS] = None
+    bounds: Annotated[Pairs | None, TOPS] = None
     start: Numbers | None = None
     free: Names | None = None
-    bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0)] = BIN
-    box: Annotated[Degrees, Spelled("box-deg", "box_deg", default=10.0)] = BOX
+    bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0), BIN] = TWO_DEGREES
+    box: Annotated[Degrees, Spelled("box-deg", "box_deg", default=10.0), BIN] = TEN_DEGREES
     bootstrap: int = 500
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
-        """Numbers that the law does not have; widths, cut-off and replicates that cannot be."""
-        super().refuse_impossible()
+        """Numbers that the law does not have, replicates that cannot be."""
         for name in ("known", "prior", "bounds", "start"):
             require_names(getattr(self, name), f"`{name}`")
-        require_width(self.bin, "`bin`")
-        require_width(self.box, "`box`")
         if self.bootstrap != 0 and not REPLICATES[0] <= self.bootstrap <= REPLICATES[1]:
             what = f"{self.bootstrap} is not {REPLICATES[0]} to {REPLICATES[1]}"
             raise InputError("", "`bootstrap`", what, "give 500, or 0 for none")

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
+from geocontact.analyses.misalignment.identify.arm_drawing import arm_drawing
 from geocontact.analyses.misalignment.identify.fitted import Fitted
 from geocontact.analyses.misalignment.identify.free_joint import Free
-from geocontact.analyses.misalignment.identify.sentences import explained
+from geocontact.analyses.misalignment.identify.sentences import answer, explained
 from geocontact.analyses.misalignment.page import NOT_IN_THE_NUMBERS, write_elbow_page
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import counted
@@ -60,7 +62,9 @@ def write_fit_report(
     """
     bins = tables["bins"].dropna(subset="mean [N]")
     force = {"measured": bins["mean [N]"].to_numpy(), "by the model": bins["fitted [N]"].to_numpy()}
+    angle = bins["beta [deg]"].to_numpy()
     sections: list[Section] = [
+        arm_drawing(found, np.radians(angle)),
         Curves("Constraint force", "N", [Curve(name, values) for name, values in force.items()]),
         Words("What the data tell", [record.spell(line) for line in explained(found, free)]),
         *(Picture(*PICTURES[name], svg, wide=True) for name, svg in drawings.items()),
@@ -73,6 +77,9 @@ def write_fit_report(
     ]
     title = f"Offsets and stiffness at an elbow from {counted(len(found.recordings), 'recording')}"
     subtitle = "Constraint force of a misaligned elbow exoskeleton by the explicit model"
-    facts = [*((each.words, each.shown) for each in found.intervals), ("R² of bin means", f"{found.r2:.3f}")]
-    angle = bins["beta [deg]"].to_numpy()
-    return write_elbow_page(path, title, subtitle, angle, "angle [deg]", facts, sections, record, plays=False)
+    facts = [("R² of bin means", f"{found.r2:.3f}")]
+    if found.held:
+        facts.append(("R² of trials not used", f"{min(each.r2 for each in found.held):.3f} at least"))
+    return write_elbow_page(
+        path, title, subtitle, angle, "angle [deg]", answer(found), facts, sections, record, start_frame=len(angle) // 2
+    )

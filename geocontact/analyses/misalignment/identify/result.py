@@ -87,7 +87,7 @@ class IdentifyResult(Result):
         """elbow.json, tables, figures, page."""
         write_json(folder / "elbow.json", self.summary)
         for name, table in self.tables().items():
-            write_table(table, folder, self.options.parquet, name)
+            write_table(table, folder, name)
         drawings = {name: save_both(self.figure(name), folder, name) for name in self.figures}
         self._write_page(folder / "report.html", drawings)
 

@@ -38,6 +38,16 @@ def say(record: Record, found: Fitted, free: Free | None) -> None:
         record.say(f"k by the free joint's displacement: {s.value:.4g} N/m (SE {s.error:.2g}, {s.trials} trials)")
 
 
+def answer(found: Fitted) -> list[str]:
+    """The offsets, or their ratios, and what else was identified, for the page."""
+    told = [f"{each.words} is {each.shown}" for each in found.intervals]
+    offsets = [line for line in told if line[0] in "xy"]
+    others = [line for line in told if line[0] not in "xy"]
+    axes = "The exoskeleton's axis lies off the joint's"
+    lines = [f"{axes}: {' and '.join(offsets)}."] if offsets else []
+    return [*lines, *([f"{'; '.join(others)}."] if others else [])]
+
+
 def explained(found: Fitted, free: Free | None) -> list[str]:
     """What the data tell and what they do not, for the page."""
     words = found.residuals.normality.words

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN, require_link
+from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.law import ABSENT, NAMES, UNITS
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
@@ -79,15 +79,7 @@ def _refuse_bounds_and_priors(bounds: Pairs, prior: Pairs) -> None:
 
 
 def _refuse_values(known: Values, prior: Pairs, bounds: Pairs, start: Values) -> None:
-    """Stiffness and link that are not positive, and links that no arm wears."""
-    for option, values in (("`known`", known), ("`start`", start)):
-        for name in ("k", "l"):
-            if not values.get(name, 1.0) > 0.0:
-                raise InputError("", option, f"{name} is not positive", "give a value above 0")
-    means, tops = {n: mean for n, (mean, _) in prior.items()}, {n: top for n, (_, top) in bounds.items()}
-    for option, values in (("`known`", known), ("`start`", start), ("`prior`", means), ("`bounds`", tops)):
-        if "l" in values:
-            require_link(values["l"], option)
+    """Stiffness and link whose bounds are not positive."""
     for name in ("k", "l"):
         if name in bounds and not bounds[name][0] > 0.0:
             raise InputError("", "`bounds`", f"{name} may not be 0 or less", "give a lower bound above 0")

@@ -8,18 +8,23 @@ from pathlib import Path
 from typing import Annotated
 
 from geocontact.analyses.misalignment.checks import (
-    require_above_0,
     require_at_least_0,
     require_drift,
     require_span,
     require_stroke,
     require_within,
 )
+from geocontact.analyses.misalignment.law_numbers import DRIFT, STROKE
 from geocontact.analyses.options import Options, Spelled, Typed
+from geocontact.data.ranges import JOINT_ANGLE, LIMIT
 
-Angles = Annotated[tuple[float, float], Typed("rad", "angle_span"), Spelled(dashed=True)]
-Stroke = Annotated[tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True)]
-Drift = Annotated[Path | Mapping[str, tuple[float, ...]], Typed("-", "misalignment.drift:typed"), Spelled(dashed=True)]
+Angles = Annotated[tuple[float, float], Typed("rad", "angle_span"), Spelled(dashed=True), JOINT_ANGLE]
+Stroke = Annotated[
+    tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
+]
+Drift = Annotated[
+    Path | Mapping[str, tuple[float, ...]], Typed("-", "misalignment.drift:typed"), Spelled(dashed=True), DRIFT
+]
 SAMPLES = 100, 20_000_000
 """Fewest and most people."""
 
@@ -47,26 +52,22 @@ class PopulationOptions(Options):
         Of the draw.
     keep
         Also write samples.csv: the quantities, the force and the state of every one.
-    parquet
-        Also write the tables as .parquet.
     """
 
     description: Path
     _: KW_ONLY
     range: Angles
-    limit: float
+    limit: Annotated[float, LIMIT]
     stroke: Stroke | None = None
     drift: Drift | None = None
     samples: int = 1_000_000
     seed: int = 1
     keep: bool = False
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
-        """Too few or too many people, a limit that is not positive, angles that are no range."""
+        """Too few or too many people, angles that are no range."""
         require_within(self.samples, "`samples`", SAMPLES, 1_000_000)
         require_at_least_0(self.seed, "`seed`")
         require_span(self.range)
-        require_above_0(self.limit, "`limit`", "N")
         require_stroke(self.stroke)
         require_drift(self.drift)

@@ -10,8 +10,9 @@ from geocontact.analyses.misalignment.planar_words import MODEL, STATES, WITHOUT
 from geocontact.analyses.misalignment.population.drawn import Drawn
 from geocontact.analyses.misalignment.population.tables import influence_table, quantile_table
 from geocontact.analyses.options_table import options_table
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.analyses.run_record import Record
+from geocontact.identify.intervals.sobol_indices import Indices
 from geocontact.view.page.content import (
     Curve,
     Curves,
@@ -37,6 +38,7 @@ DRAWN = (
     "taken from. Intervals tell the error of drawing a finite number of them, nothing else. Samples whose limb or link "
     "comes to a pole or a fold have no force; they count as beyond every force."
 )
+SHARES = "First-order: what knowing the factor takes away. Total: what is left if all others are known."
 INFLUENCE = (
     "Shares of the variance (Sobol): first, what knowing the factor would take away; total, what would be left if all "
     "others were known. They need independent factors and a force for every sample. Coefficients of ranks see what "
@@ -54,9 +56,9 @@ def write_population_report(path: Path, record: Record, d: Drawn, drawing: bytes
     readout = [Row(name, "%", [f"{v:.4f}" for v in values]) for name, values in zip(names, shares, strict=True)]
     numbers = _numbers(d)
     sections: list[Section] = [
-        Readout(readout, "At this force"),
-        Curves("Probability of more", "%", [Curve("share of the samples", *shares)]),
+        Curves("Probability of more", "%", [Curve("share of the samples", shares[0], shares[1], shares[2])]),
         *_shares(d),
+        Readout(readout, "At this force"),
         numbers,
         Picture("Distribution of the largest force", FIGURE, drawing, wide=True),
         page_table("Quantiles of the largest |F|", quantile_table(d)),
@@ -71,7 +73,7 @@ def write_population_report(path: Path, record: Record, d: Drawn, drawing: bytes
         subtitle="Exoskeleton beside a joint: forces over a population",
         time=d.levels,
         time_label="force [N]",
-        headline=headline(record.sentences, most=2),
+        headline=answer(d),
         facts=[(row[0], row[1]) for row in numbers.rows[:5]],
         reservations=tuple(record.warnings),
         start_frame=int(np.argmin(np.abs(d.levels - d.limit))),
@@ -82,14 +84,44 @@ def write_population_report(path: Path, record: Record, d: Drawn, drawing: bytes
 
 
 def _shares(d: Drawn) -> list[Section]:
-    """Bars of the total shares of the factors; none where they could not be known."""
+    """Bars of both shares of every factor, the largest total first; none where they could not be known."""
     if d.indices is None:
         return []
+    kinds = {
+        "total": (d.indices.total, d.indices.total_interval),
+        "first-order": (d.indices.first, d.indices.first_interval),
+    }
     rows = [
-        Interval(" and ".join(factor.names), float(d.indices.total[k]), *map(float, d.indices.total_interval[k]))
-        for k, factor in enumerate(d.sampling.factors)
+        Interval(_factor(d, k), float(share[k]), float(ends[k][0]), float(ends[k][1]), kind)
+        for k in _ordered(d.indices)
+        for kind, (share, ends) in kinds.items()
     ]
-    return [Intervals("Total share of the variance, by factor", "", rows, bars=True)]
+    return [Intervals("Share of the variance, by factor", "share", rows, bars=True, words=SHARES)]
+
+
+def _factor(d: Drawn, k: int) -> str:
+    return " and ".join(d.sampling.factors[k].names)
+
+
+def _ordered(indices: Indices) -> list[int]:
+    """Factors by their total share, the largest first."""
+    return [int(k) for k in np.argsort(-indices.total, kind="stable")]
+
+
+def answer(d: Drawn) -> list[str]:
+    """How many are above the limit, the middle of them, and what makes them differ."""
+    b, middle, high = d.beyond, d.quantiles[0.5], d.quantiles[0.95]
+    told = (
+        f"In {b.value:.2%} of {len(d.peak)} synthetic people the largest force is above {d.limit:g} N "
+        f"(95 % interval {b.lower:.2%} … {b.upper:.2%})."
+    )
+    median = f"The median is {middle.value:.3g} N" if np.isfinite(middle.value) else "Half of them have no finite force"
+    tail = f"95 % stay below {high.value:.3g} N" if np.isfinite(high.value) else "the 95 % quantile is infinite"
+    most = ""
+    if d.indices is not None:
+        k = _ordered(d.indices)[0]
+        most = f" Most of the spread comes from {_factor(d, k)}: a total share of {d.indices.total[k]:.0%}."
+    return [told, f"{median}; {tail}.{most}"]
 
 
 def _numbers(d: Drawn) -> Table:

@@ -10,14 +10,18 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.misalignment.drift import axis_drift
+from geocontact.analyses.misalignment.law_numbers import NUMBERS
 from geocontact.analyses.misalignment.population.options import PopulationOptions
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.axis_drift import AxisDrift
 from geocontact.axis_misalignment.population import QUANTITIES
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import numbers_in
 from geocontact.identify.intervals.sampling import Factor, Normal, People, Sampling, Uniform, root
 from geocontact.io.recordings.population import PopulationFile, read_population
 
+ENDS = {"value", "mean", "upper"}
+"""Numbers of a description that say how large a quantity is."""
 UNITS = {name: "N/m" if name == "k" else "m" for name in QUANTITIES}
 
 
@@ -38,6 +42,7 @@ def read(o: PopulationOptions, record: Record) -> Population:
 def _sampling(record: Record, description: Path) -> Sampling:
     told = read_population(description, UNITS)
     record.add_input("description", description)
+    _check_sizes(record, description, told)
     for file in told.tables:
         record.add_input("table", file)
     drawn = {name: one for name, one in told.quantities.items() if one.kind in ("normal", "uniform")}
@@ -47,6 +52,21 @@ def _sampling(record: Record, description: Path) -> Sampling:
         raise InputError(description, "", "every quantity is the same for everybody", "let one differ")
     fixed = {name: one.numbers["value"] for name, one in told.quantities.items() if one.kind == "value"}
     return Sampling(factors, _correlation(description, told, factors), fixed)
+
+
+def _check_sizes(record: Record, description: Path, told: PopulationFile) -> None:
+    """Refuse numbers that a quantity cannot have, and warn of unusual ones; lower ends and deviations may be small."""
+    ranges = dict(NUMBERS.ranges)
+    stated = [
+        (f"[{n}] {key}", n, one.numbers[key]) for n, one in told.quantities.items() for key in ENDS & {*one.numbers}
+    ]
+    listed = [(f"[{n}] table", n, float(c.max())) for columns in told.tables.values() for n, c in columns.items()]
+    for place, name, value in (*sorted(stated), *listed):
+        for _, known, number in numbers_in(ranges[name], value):
+            if refusal := known.refusal(number):
+                raise InputError(description, place, *refusal)
+            if doubt := known.doubt(number):
+                record.warn(f"{description} {place}: {doubt}")
 
 
 def _factor(name: str, kind: str, numbers: Mapping[str, float]) -> Factor:

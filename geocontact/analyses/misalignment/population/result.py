@@ -59,7 +59,7 @@ class PopulationResult(Result):
         """population.json, tables, figure, page."""
         write_json(folder / "population.json", self.summary)
         for name, rows in self.tables().items():
-            write_table(rows, folder, self.options.parquet, name)
+            write_table(rows, folder, name)
         picture = save_both(self.figure(), folder, "population")
         write_population_report(folder / "report.html", self.record, self.drawn, picture)
 

@@ -2,32 +2,36 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.misalignment.checks import (
-    MIXED_UP,
     require_at_least_0,
     require_rising,
     require_span,
     require_stroke,
     require_within,
 )
-from geocontact.analyses.misalignment.law_numbers import require_names
+from geocontact.analyses.misalignment.law_numbers import NUMBERS, STROKE, require_names
 from geocontact.analyses.options import AngleUnit, Excludes, Expression, Millimetres, Options, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import Plausible
+from geocontact.data.ranges import BAND, CUFF, LENGTH_OF_TRIAL, MEMORY, NOISE, RATE, SHIFT
+from geocontact.data.units import deg
 
+ELBOW = Plausible("an angle of an elbow", deg, (-30.0, 180.0))
 ALONG = Excludes("recordings", "has no effect along a recording")
-Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True)]
-Band = Annotated[tuple[float, float], Typed("Hz", "misalignment.parameters:pair")]
-Angles = Annotated[tuple[float, float], Typed("rad", "misalignment.parameters:degrees"), Spelled(dashed=True)]
-Stroke = Annotated[tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True)]
-Pressures = Annotated[tuple[float, float], Typed("Pa", "misalignment.parameters:mercury")]
-EXTREMES = math.radians(-30.0), math.radians(180.0)
-"""rad; no elbow is straighter or more bent."""
+Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True), NUMBERS]
+Band = Annotated[tuple[float, float], Typed("Hz", "misalignment.parameters:pair"), BAND]
+Angles = Annotated[tuple[float, float], Typed("rad", "misalignment.parameters:degrees"), Spelled(dashed=True), ELBOW]
+Stroke = Annotated[
+    tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
+]
+Pressures = Annotated[tuple[float, float], Typed("Pa", "misalignment.parameters:mercury"), CUFF]
+FEWEST = 4
+"""Trials of a gap case: two to fit to, two held out."""
 
 
 @dataclass(frozen=True)
@@ -38,9 +42,15 @@ class SimulateOptions(Options):
     ----------
     recordings
         Angles to simulate along (.csv .mot .sto .c3d); none to make recordings.
+
+    The law
+    -------
     numbers
         Numbers of the law (N/m, mm, N s/m, 1/mmHg), as many as there are to change; the paper's
         k=222.43,x=48,y=59,l=169,z=127,b=0,s=0 unless given.
+
+    The experiment
+    --------------
     trials
         Locked trials, and as many with the compensation joint free where `stroke` is given; 6 unless given.
     seconds
@@ -54,44 +64,52 @@ class SimulateOptions(Options):
     stroke
         Stroke of the compensation joint, such as -10:40: free trials are made besides, with its displacement. None
         unless given.
+    case
+        Also write the locked trials as a gap case (folder case) that `geocontact gap diagnose` reads.
     pressure
         Range of cuff pressures [mmHg], one drawn for each trial, such as 10:60; no pressure unless given.
+    bits
+        Of the converter, 0 for none; 12 unless given.
+
+    What is drawn at random
+    -----------------------
     noise
         Standard deviation of what the person adds to the force [N]; 0.8 unless given.
     memory
         Its correlation time [s]; 0.3 unless given.
     donning
         Standard deviation of both offsets from trial to trial; 0 unless given.
-    bits
-        Of the converter, 0 for none; 12 unless given.
     seed
         Of what is drawn at random; 0 unless given.
+
+    Columns and units
+    -----------------
     map
         Column of the angle in the recordings, where it has another name: beta=elbow_flexion.
     angles
         Unit of the angle where its file does not say.
-    parquet
-        Also write the tables as .parquet.
     """
+
+    over_time: ClassVar[bool] = True
 
     recordings: tuple[Path, ...] = ()
     _: KW_ONLY
     numbers: Numbers | None = None
     trials: Annotated[int | None, ALONG] = None
-    seconds: Annotated[float | None, ALONG] = None
-    rate: Annotated[float | None, ALONG] = None
+    seconds: Annotated[float | None, ALONG, LENGTH_OF_TRIAL] = None
+    rate: Annotated[float | None, ALONG, RATE] = None
     band: Annotated[Band | None, ALONG] = None
     range: Annotated[Angles | None, ALONG] = None
     stroke: Stroke | None = None
+    case: Annotated[bool, ALONG] = False
     pressure: Annotated[Pressures | None, ALONG] = None
-    noise: Annotated[float | None, ALONG] = None
-    memory: Annotated[float | None, ALONG] = None
-    donning: Annotated[Millimetres | None, Spelled("donning-mm", "donning_mm"), ALONG] = None
+    noise: Annotated[float | None, ALONG, NOISE] = None
+    memory: Annotated[float | None, ALONG, MEMORY] = None
+    donning: Annotated[Millimetres | None, Spelled("donning-mm", "donning_mm"), ALONG, SHIFT] = None
     bits: Annotated[int | None, ALONG] = None
     seed: Annotated[int | None, ALONG] = None
     map: Annotated[Expression | None, Requires("recordings")] = None
     angles: Annotated[AngleUnit | None, Requires("recordings")] = None
-    parquet: bool = False
 
     def refuse_impossible(self) -> None:
         """Two recordings of one name, and values that cannot be."""
@@ -101,20 +119,16 @@ class SimulateOptions(Options):
             raise InputError("", "", f"two recordings are named {twice!r}", "rename one")
         require_names(self.numbers, "`numbers`")
         require_within(self.trials, "`trials`", (1, 1000), 6)
+        if self.case and self.trials is not None and self.trials < FEWEST:
+            what = f"{self.trials} trials are too few for `case`"
+            raise InputError("", "`trials`", what, f"give {FEWEST} or more: some are held out")
         require_within(self.bits, "`bits`", (0, 32), 12)
-        require_within(self.seconds, "`seconds`", (1.0, 3600.0), 60)
-        require_within(self.rate, "`rate`", (5.0, 1e4), 1000)
-        for name in ("noise", "memory", "donning", "seed"):
-            require_at_least_0(getattr(self, name), f"`{name}`")
+        require_at_least_0(self.seed, "`seed`")
         for name in ("band", "pressure"):
             require_rising(getattr(self, name), f"`{name}`")
         require_stroke(self.stroke)
         if self.range is not None:
             require_span(self.range)
-            if self.range[0] < EXTREMES[0] or self.range[1] > EXTREMES[1]:
-                raise InputError("", "`range`", "is beyond any elbow", f"{MIXED_UP} 8 to 92 degrees are usual")
-        if self.band is not None and self.band[0] <= 0.0:
-            raise InputError("", "`band`", f"{self.band[0]:g} is not above 0 Hz", "give for example 0.05 to 0.35 Hz")
         if (self.numbers or {}).get("s", 0.0) != 0.0 and not self.recordings and self.pressure is None:
             what = "s has no effect without a cuff pressure"
             raise InputError("", "`numbers`", what, "give `pressure`, for example 10 to 60 mmHg")

@@ -6,9 +6,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.analyses.misalignment.page import FRAMES, NOT_IN_THE_NUMBERS, write_elbow_page
+from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.view.page.content import Curve, Curves, Picture, Readout, Row, Section, Table, Words
@@ -36,9 +38,9 @@ def write_simulation_report(
     rows = [Row("angle", "deg", [f"{v:.1f}" for v in degrees]), Row("force", "N", [f"{v:.2f}" for v in force])]
     true = [(name, WRITTEN[name], f"{value * PER_SI[name]:g}") for name, value in numbers.items()]
     sections: list[Section] = [
-        Readout(rows),
-        Curves(f"Angle, {first.name} (synthetic)", "deg", [Curve("beta", degrees)]),
         Curves(f"Constraint force, {first.name} (synthetic)", "N", [Curve("force", force)]),
+        Curves(f"Angle, {first.name} (synthetic)", "deg", [Curve("beta", degrees)]),
+        Readout(rows),
         *_free_trial(made),
         Words("What this is", [SYNTHETIC]),
         Picture("Displacement over angle and offset", SURFACES, drawing, wide=True),
@@ -49,7 +51,28 @@ def write_simulation_report(
     facts = [(r.name, f"{r.force.min():.1f} … {r.force.max():.1f} N") for r in made]
     title, subtitle = "Synthetic recordings of an elbow exoskeleton", "Explicit model of constraint forces"
     time = first.time[shown]
-    return write_elbow_page(path, title, subtitle, time, "time [s]", facts, sections, record)
+    return write_elbow_page(path, title, subtitle, time, "time [s]", answer(made, numbers), facts, sections, record)
+
+
+def answer(made: Sequence[ElbowRecording], numbers: Mapping[str, float]) -> list[str]:
+    """What forces were made, with a locked and with a free joint, and from which numbers."""
+    kinds = {
+        "locked joint": [r for r in made if r.displacement is None],
+        "free joint": [r for r in made if r.displacement is not None],
+    }
+    told = [
+        f"{counted(len(trials), 'synthetic trial')} with a {kind}: forces of {_span([r.force for r in trials])} N over "
+        f"{_span([np.degrees(r.beta) for r in trials], 0)}°."
+        for kind, trials in kinds.items()
+        if trials
+    ]
+    shown = ("k", "x", "y", "l", "z")
+    told.append(f"Made with {', '.join(f'{n} = {numbers[n] * PER_SI[n]:g} {WRITTEN[n]}' for n in shown)}; see below.")
+    return told
+
+
+def _span(values: Sequence[Float[np.ndarray, " _"]], digits: int = 1) -> str:
+    return f"{min(v.min() for v in values):.{digits}f} … {max(v.max() for v in values):.{digits}f}"
 
 
 def _free_trial(made: Sequence[ElbowRecording]) -> list[Section]:

@@ -15,17 +15,20 @@ from geocontact.analyses.json_file import write_json
 from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
 from geocontact.analyses.misalignment.simulate.displacement_surfaces import Surfaces
 from geocontact.analyses.misalignment.simulate.figure import surface_figure
+from geocontact.analyses.misalignment.simulate.gap_case import UNITS, gap_case
 from geocontact.analyses.misalignment.simulate.options import SimulateOptions
 from geocontact.analyses.misalignment.simulate.page import write_simulation_report
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.result import Result
 from geocontact.data.elbow_recording import ElbowRecording
+from geocontact.io.cases.gap_case_writer import write_gap_case
 from geocontact.io.text.results import write_table
 from geocontact.view.page.tables import inputs_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+CASE = "case"
 SYNTHETIC = {"synthetic": True, "words": "made by geocontact elbow simulate; nobody was measured"}
 
 
@@ -64,11 +67,14 @@ class SimulateResult(Result):
         return surface_figure(self.surfaces)
 
     def write_files(self, folder: Path) -> None:
-        """A table per trial that says what it is, truth.json, surfaces, page."""
+        """A table per trial that says what it is, truth.json, surfaces, page; the gap case where it is asked for."""
         for name, table in self.tables().items():
-            write_table(table, folder, self.options.parquet, name)
+            write_table(table, folder, name)
         for each in self.trials:
             self.record.tables[f"{each.name}.csv"] = SYNTHETIC
+        if self.options.case:
+            locked = [each for each in self.trials if each.displacement is None]
+            write_gap_case(gap_case(locked, self.numbers), folder / CASE, UNITS)
         write_json(folder / "truth.json", self.truth)
         self._write_page(folder / "report.html", save_both(self.figure(), folder, "surfaces"))
 

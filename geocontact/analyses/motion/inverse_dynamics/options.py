@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import AngleUnit, Excludes, Expression, Options, Texts, TimeSpan
 from geocontact.data.errors import InputError
+from geocontact.data.ranges import CUTOFF, FORCE
 
 TWICE = Excludes("loads", "with `loads` names the plates twice", "give one of them")
 
@@ -45,6 +45,8 @@ class IdOptions(Options):
         Unit of angles where the file does not say it: deg or rad.
     """
 
+    over_time: ClassVar[bool] = True
+
     coordinates: Path
     _: KW_ONLY
     model: Path
@@ -52,21 +54,16 @@ class IdOptions(Options):
     plates: Annotated[Path | None, TWICE] = None
     plate: Annotated[Texts, TWICE] = ()
     axes: Expression | None = None
-    threshold: float = 0.0
-    cutoff: float = 6.0
+    threshold: Annotated[float, FORCE] = 0.0
+    cutoff: Annotated[float, CUTOFF] = 6.0
     time: TimeSpan | None = None
     events: Texts = ()
     angles: AngleUnit | None = None
 
     def refuse_impossible(self) -> None:
-        """Plates without bodies, axes without plates, numbers that cannot be."""
+        """Plates without bodies, axes without plates."""
         if (self.plates is None) != (not self.plate):
             what = "and `plate` belong together"
             raise InputError("", "`plates`", what, "write `plates` grf.c3d `plate` 1=calcn_r")
         if self.axes is not None and self.plates is None and self.loads is None:
             raise InputError("", "`axes`", "has no effect without plates", "leave it out")
-        if not (math.isfinite(self.threshold) and self.threshold >= 0.0):
-            raise InputError("", "`threshold`", f"{self.threshold:g} is not a force of 0 N or more", "e.g. 10")
-        if not (math.isfinite(self.cutoff) and self.cutoff >= 0.0):
-            what = f"{self.cutoff:g} is not a frequency"
-            raise InputError("", "`cutoff`", what, "0 leaves the coordinates as they are")

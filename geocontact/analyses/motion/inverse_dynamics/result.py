@@ -74,7 +74,7 @@ class IdResult(Result):
         f, title = self.forces, "Inverse Dynamics Generalized Forces"
         write_storage(folder / "id.sto", f.time, f.names, f.values, title=title, degrees=False)
         if self.cycles:
-            write_table(self.table("cycles"), folder, False, "cycles")
+            write_table(self.table("cycles"), folder, "cycles")
         write_json(folder / "id.json", self.summary)
         self.write_page(folder / "report.html")
 

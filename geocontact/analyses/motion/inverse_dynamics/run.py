@@ -6,6 +6,7 @@ import numpy as np
 
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
+from geocontact.analyses.motion.inverse_dynamics.feet_and_plates import warn_of_other_feet
 from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.inverse_dynamics.read import Loaded
@@ -26,6 +27,7 @@ def run(given: Loaded, o: IdOptions, record: Record) -> IdResult:
     if cycles:
         summary["gait_cycles"] = cycles.counts
     record.results.update(plain(summary))
+    warn_of_other_feet(record, given.model, given.shown, given.loads)
     _tell(record, forces)
     return IdResult(
         record=record,

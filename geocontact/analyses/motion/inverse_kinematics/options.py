@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
+from typing import Annotated, ClassVar
 
 from geocontact.analyses.options import Expression, Options, Texts, TimeSpan
-from geocontact.data.errors import InputError
+from geocontact.data.ranges import GAP
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,8 @@ class IkOptions(Options):
         First and last time [s]: 0.4:1.6.
     """
 
+    over_time: ClassVar[bool] = True
+
     markers: Path
     _: KW_ONLY
     model: Path
@@ -54,13 +56,8 @@ class IkOptions(Options):
     markers_map: str | None = None
     weight: Texts = ()
     hold: Texts = ()
-    fill: float = 0.1
+    fill: Annotated[float, GAP] = 0.1
     knee: Texts = ()
     events: Texts = ()
     axes: Expression | None = None
     time: TimeSpan | None = None
-
-    def refuse_impossible(self) -> None:
-        """A gap that is no time."""
-        if not (math.isfinite(self.fill) and self.fill >= 0.0):
-            raise InputError("", "`fill`", f"{self.fill:g} is not a time", "write seconds; 0 fills nothing")

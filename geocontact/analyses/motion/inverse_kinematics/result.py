@@ -84,7 +84,7 @@ class IkResult(Result):
         write_storage(file, self.poses.time, self.poses.names, values, title="Coordinates", degrees=True)
         for name, table in self.tables().items():
             if name != "coordinates":  # which ik.mot holds
-                write_table(table, folder, False, name)
+                write_table(table, folder, name)
         write_json(folder / "ik.json", self.summary)
         self.write_page(folder / "report.html")
 

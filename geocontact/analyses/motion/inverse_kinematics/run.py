@@ -19,6 +19,8 @@ from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
 from geocontact.dynamics.tree import tree_of
 from geocontact.io.text.tables import listed
 
+UNTOLD = 1.0 / 3.0  # share of the coordinates beyond which the rest means little
+
 
 def run(seen: Seen, o: IkOptions, record: Record) -> IkResult:
     """Coordinates of every frame, how far the markers are from the model, and what sums them up."""
@@ -38,8 +40,15 @@ def run(seen: Seen, o: IkOptions, record: Record) -> IkResult:
     errors = MarkerErrors.of(found)
     errors.warn(record, MOVING)
     _warn(record, found)
-    record.say(f"{len(found.time)} frames, {len(found.markers)} markers: {errors.words(MOVING)}")
+    told = "" if (free := _never(found)) <= UNTOLD * len(found.names) else f"{free} of {len(found.names)} coordinates "
+    told = told and f"{told}are not determined; "
+    record.say(f"{told}{len(found.time)} frames, {len(found.markers)} markers: {errors.words(MOVING)}")
     return result
+
+
+def _never(found: Poses) -> int:
+    """Coordinates that no frame tells."""
+    return int((~found.determined.any(axis=0)).sum())
 
 
 def _cycles(seen: Seen, found: Poses) -> GaitCycles:

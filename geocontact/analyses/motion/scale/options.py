@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
+from typing import Annotated
 
 from geocontact.analyses.options import Expression, Options, Texts, TimeSpan
-from geocontact.data.errors import InputError
+from geocontact.data.ranges import MASS
 
 
 @dataclass(frozen=True)
@@ -46,13 +46,8 @@ class ScaleOptions(Options):
     scale: Texts = ()
     marker_set: Path | None = None
     markers_map: str | None = None
-    mass: float | None = None
+    mass: Annotated[float | None, MASS] = None
     keep_markers: bool = False
     tasks: Path | None = None
     axes: Expression | None = None
     time: TimeSpan | None = None
-
-    def refuse_impossible(self) -> None:
-        """A mass that is none."""
-        if self.mass is not None and not (math.isfinite(self.mass) and self.mass > 0.0):
-            raise InputError("", "`mass`", f"{self.mass:g} kg is not a mass", "write for example 72.6")

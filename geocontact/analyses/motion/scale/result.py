@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.motion.scale.options import ScaleOptions
-from geocontact.analyses.plain_page import write_plain_page
+from geocontact.analyses.motion.scale.page import write_scaling_page
 from geocontact.analyses.result import Result
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
@@ -31,6 +32,8 @@ class ScaleResult(Result):
         The scaled model.
     pose
         Coordinates of the static pose [rad, m], and how far the markers are from it [m].
+    seen, modelled
+        Markers of the pose as they were seen and as scaling put them, in the ground's frame [m].
     summary
         Numbers of the scaling, with units in their names.
     """
@@ -39,6 +42,8 @@ class ScaleResult(Result):
     factors: Mapping[str, float]
     model: Multibody
     pose: Poses
+    seen: Float[np.ndarray, "m 3"]
+    modelled: Float[np.ndarray, "m 3"]
     summary: dict[str, Any]
 
     def tables(self) -> dict[str, pd.DataFrame]:
@@ -48,13 +53,16 @@ class ScaleResult(Result):
         return {"markers": pd.DataFrame(off), "factors": pd.DataFrame(by)}
 
     def write_files(self, folder: Path) -> None:
-        """scaled.osim and scale.json."""
+        """scaled.osim, scale.json, page."""
         by = {name: factor * np.ones(3) for name, factor in self.factors.items()}
         values = np.asarray(self.pose.values)[0].tolist()
         standing = {name: v for name, v in zip(self.pose.names, values, strict=True) if np.isfinite(v)}
         write_scaled_model(self.options.model, folder / "scaled.osim", self.model, by, standing)
         write_json(folder / "scale.json", self.summary)
+        self.write_page(folder / "report.html")
 
     def write_page(self, file: Path) -> None:
-        """Markers and factors."""
-        write_plain_page(self, f"Model scaled to {self.options.static.name}", file)
+        """The static pose with its markers, factors, distances."""
+        title = f"Model scaled to {self.options.static.name}"
+        both = self.seen, self.modelled
+        write_scaling_page(file, title, self.record, self.model, self.factors, self.pose, both)

@@ -37,7 +37,17 @@ def run(given: Standing, o: ScaleOptions, record: Record) -> ScaleResult:
     summary = _summary(given, pose, moved)
     record.results.update(plain(summary))
     _tell(record, given, pose)
-    return ScaleResult(record=record, options=o, factors=given.factors, model=moved, pose=pose, summary=summary)
+    which = [[m.name for m in made.markers].index(name) for name in pose.markers]
+    return ScaleResult(
+        record=record,
+        options=o,
+        factors=given.factors,
+        model=moved,
+        pose=pose,
+        seen=given.markers.of(pose.markers)[0],
+        modelled=made.marker_places(pose.values)[0, which],
+        summary=summary,
+    )
 
 
 def _placed(model: Multibody, seen: MarkerTrajectories, pose: Poses) -> Multibody:

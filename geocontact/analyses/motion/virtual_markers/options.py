@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
+from typing import ClassVar
 
 from geocontact.analyses.options import AngleUnit, Options
 
@@ -21,6 +22,8 @@ class MarkersOptions(Options):
     angles
         Unit of angles where the file does not say it: deg or rad.
     """
+
+    over_time: ClassVar[bool] = True
 
     coordinates: Path
     _: KW_ONLY

@@ -6,13 +6,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.motion.virtual_markers.options import MarkersOptions
-from geocontact.analyses.plain_page import write_plain_page
+from geocontact.analyses.motion.virtual_markers.page import write_markers_page
 from geocontact.analyses.result import Result
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
 from geocontact.io.mocap.trc_writer import write_trc
 
 if TYPE_CHECKING:
@@ -21,10 +24,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class MarkersResult(Result):
-    """Markers of a model over time, in the ground's frame [m]."""
+    """Markers of a model over time, in the ground's frame [m].
+
+    `values` are the coordinates of `model` that they follow [rad, m].
+    """
 
     options: MarkersOptions
     markers: MarkerTrajectories
+    model: Multibody
+    values: Float[np.ndarray, "t n"]
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`markers` [m]."""
@@ -42,9 +50,11 @@ class MarkersResult(Result):
         return curves_figure(self.markers.time, {f"{axis} [m]": table.filter(like=f"_{axis} [") for axis in "xyz"})
 
     def write_files(self, folder: Path) -> None:
-        """markers.trc [mm]."""
+        """markers.trc [mm], page."""
         write_trc(folder / "markers.trc", self.markers)
+        self.write_page(folder / "report.html")
 
     def write_page(self, file: Path) -> None:
-        """Figure and table."""
-        write_plain_page(self, f"Virtual markers along {self.options.coordinates.name}", file)
+        """The model as it moves, with its markers."""
+        title = f"Virtual markers along {self.options.coordinates.name}"
+        write_markers_page(file, title, self.record, self.model, self.values, self.markers)

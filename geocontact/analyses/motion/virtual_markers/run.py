@@ -40,7 +40,9 @@ def run(moved: Moved, o: MarkersOptions, record: Record) -> MarkersResult:
     """Places of all markers in every frame."""
     model, table = moved.model, moved.table
     names = tuple(m.name for m in model.markers)
-    places = model.marker_places(motion_of(table, model, o.angles))
+    values = motion_of(table, model, o.angles)
+    places = model.marker_places(values)
     record.results.update(frames=len(table.time), markers=len(names))
     record.say(f"{len(names)} markers in {len(table.time)} frames")
-    return MarkersResult(record=record, options=o, markers=MarkerTrajectories(table.time, places, names))
+    markers = MarkerTrajectories(table.time, places, names)
+    return MarkersResult(record=record, options=o, markers=markers, model=model, values=values)

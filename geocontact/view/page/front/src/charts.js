@@ -18,7 +18,7 @@ export function curves(figure, part, time, timeLabel, { go, plays }) {
     html(
       "ul",
       "key",
-      ...part.curves.map((c, k) => html("li", "", sample(k), html("bdi", "", c.name), values[k])),
+      ...part.curves.map((c, k) => html("li", "", sample(c.stroke), html("bdi", "", c.name), values[k])),
       ...part.points.map((p, k) => html("li", "", markSample(k), html("bdi", "", p.name))),
     ),
   );
@@ -31,11 +31,11 @@ export function curves(figure, part, time, timeLabel, { go, plays }) {
     height: figure.classList.contains("lead") ? () => Math.max(220, Math.min(340, 0.42 * window.innerHeight)) : () => 190,
     label: `${part.title}: ${part.curves.map((c) => describe(c, part.unit)).join("; ")}`,
     paint(p) {
-      part.curves.forEach((c, k) => {
-        if (c.lower && c.upper) p.frame.append(svg("path", { class: `band ${colour(k)}`, d: band(p, time, c.lower, c.upper) }));
+      part.curves.forEach((c) => {
+        if (c.lower && c.upper) p.frame.append(svg("path", { class: `band ${colour(c.stroke)}`, d: band(p, time, c.lower, c.upper) }));
       });
-      part.curves.forEach((c, k) =>
-        p.frame.append(svg("path", { class: `line ${colour(k)}`, d: path(p, time, c.values), "stroke-dasharray": dash(k) })),
+      part.curves.forEach((c) =>
+        p.frame.append(svg("path", { class: `line ${colour(c.stroke)}`, d: path(p, time, c.values), "stroke-dasharray": dash(c.stroke) })),
       );
       for (const { name, value } of part.limits) {
         p.frame.append(svg("line", { class: "limit", x1: p.left, x2: p.right, y1: p.y(value), y2: p.y(value) }));
@@ -45,7 +45,7 @@ export function curves(figure, part, time, timeLabel, { go, plays }) {
         known.forEach((value, i) => value !== null && p.frame.append(mark(k, p.x(at[i]), p.y(value))));
       });
       p.cursor = svg("line", { class: "cursor", y1: p.top, y2: p.bottom });
-      p.dots = part.curves.map((_, k) => svg("circle", { class: `dot ${colour(k)}`, r: 4 }));
+      p.dots = part.curves.map((c) => svg("circle", { class: `dot ${colour(c.stroke)}`, r: 4 }));
       p.frame.append(p.cursor, ...p.dots);
       place(p);
     },

@@ -3,10 +3,17 @@ import { html, svg } from "./svg.js";
 import { brief, extent, ticks } from "./ticks.js";
 
 const [RIGHT, BOTTOM, NARROW] = [16, 34, 560];
+const BARS = [0, 3, 2]; // colours of kinds; those of whiskers are apart from them
+const swatch = (k) => svg("svg", { class: "sample small", viewBox: "0 0 16 12", "aria-hidden": "true" }, svg("rect", { class: `bar c${k}`, width: 16, height: 12 }));
 
 /** Puts the rows into `figure`. Nothing moves. */
 export function intervals(figure, part) {
   const rows = part.intervals;
+  const kinds = [...new Set(rows.map((row) => row.kind))];
+  const tone = (row) => (part.bars ? BARS : [0, 1, 2])[kinds.indexOf(row.kind) % 3];
+  if (kinds.length > 1) {
+    figure.append(html("ul", "key", ...kinds.map((kind) => html("li", "", swatch(tone({ kind })), html("bdi", "", kind)))));
+  }
   const frame = svg("svg", { role: "img", "aria-label": `${part.title}: ${rows.map((row) => words(row, part.unit)).join("; ")}` });
   const room = html("div", "plot", frame);
   figure.append(room);
@@ -31,16 +38,16 @@ export function intervals(figure, part) {
     rows.forEach((row, k) => {
       const y = 6 + high * (k + (narrow ? 0.7 : 0.5));
       const place = narrow ? { x: left, y: y - 13 } : { x: left - 12, y: y + 4, "text-anchor": "end" };
-      frame.append(svg("text", { class: "label", ...place }, narrow ? words(row, "") : row.name));
+      frame.append(svg("text", { class: "label", ...place }, narrow ? words(row, "") : rows[k - 1]?.name === row.name ? "" : row.name));
       if (part.bars && row.value !== null) {
         const [from, to] = [x(Math.min(0, row.value)), x(Math.max(0, row.value))];
-        frame.append(svg("rect", { class: "bar c0", x: from, y: y - 6, width: to - from, height: 12 }));
+        frame.append(svg("rect", { class: `bar c${tone(row)}`, x: from, y: y - 6, width: to - from, height: 12 }));
       }
       if (row.lower !== null && row.upper !== null) {
         const [a, b] = [x(row.lower), x(row.upper)];
-        frame.append(svg("path", { class: `line whisker ${part.bars ? "c4" : "c0"}`, d: `M${a} ${y - 5}V${y + 5}M${a} ${y}H${b}M${b} ${y - 5}V${y + 5}` }));
+        frame.append(svg("path", { class: `line whisker ${part.bars ? "c4" : `c${tone(row)}`}`, d: `M${a} ${y - 5}V${y + 5}M${a} ${y}H${b}M${b} ${y - 5}V${y + 5}` }));
       }
-      if (!part.bars && row.value !== null) frame.append(svg("circle", { class: "dot c0", cx: x(row.value), cy: y, r: 5 }));
+      if (!part.bars && row.value !== null) frame.append(svg("circle", { class: `dot c${tone(row)}`, cx: x(row.value), cy: y, r: 5 }));
       frame.append(svg("title", {}, words(row, part.unit)));
     });
   }
@@ -49,5 +56,5 @@ export function intervals(figure, part) {
   return () => {};
 }
 
-const words = ({ name, value, lower, upper }, unit) =>
-  `${name}: ${brief(value)}${lower === null || upper === null ? "" : ` (${brief(lower)} … ${brief(upper)})`} ${unit}`.trim();
+const words = ({ name, kind, value, lower, upper }, unit) =>
+  `${name}${kind && `, ${kind}`}: ${brief(value)}${lower === null || upper === null ? "" : ` (${brief(lower)} … ${brief(upper)})`} ${unit}`.trim();

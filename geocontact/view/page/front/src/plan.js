@@ -1,4 +1,4 @@
-// A drawing to scale: outlines, tracks with the point of the frame shown, named marks. Redrawn at the size it has.
+// A drawing to scale: outlines, tracks with the point of the frame shown, named marks and lengths. Redrawn at its size.
 import { path } from "./axes.js";
 import { colour, dash, sample } from "./strokes.js";
 import { html, svg } from "./svg.js";
@@ -8,16 +8,19 @@ const [LEFT, RIGHT, TOP, BOTTOM] = [44, 14, 8, 34];
 
 /** Puts the plan into `figure`; returns what moves its points. */
 export function plan(figure, part) {
-  const { tracks, marks, lines } = part;
+  const { tracks, marks, lines, lengths } = part;
+  const stroke = (k) => tracks.length + k; // of a length
   const values = tracks.map(() => html("span", "value"));
-  if (tracks.length) {
-    figure.append(html("ul", "key", ...tracks.map((t, k) => html("li", "", sample(k), html("bdi", "", t.name), values[k]))));
+  if (tracks.length + lengths.length) {
+    const moving = tracks.map((t, k) => html("li", "", sample(k), html("bdi", "", t.name), values[k]));
+    const fixed = lengths.map((l, k) => html("li", "", sample(stroke(k)), html("bdi", "", l.name), html("span", "value", l.told)));
+    figure.append(html("ul", "key", ...fixed, ...moving));
   }
   const frame = svg("svg", { role: "img", "aria-label": `${part.title}: ${part.across} and ${part.up} in ${part.unit}` });
   const room = html("div", "plot", frame);
   figure.append(room);
-  const all = (i) => [...lines.flatMap((l) => l[i]), ...tracks.flatMap((t) => (i ? t.y : t.x)), ...marks.map((m) => m.at[i])];
-  const reach = [0, 1].map((i) => span(all(i)));
+  const all = (i) => [...lines.flatMap((l) => l[i]), ...tracks.flatMap((t) => (i ? t.y : t.x)), ...marks.map((m) => m.at[i]), ...lengths.flatMap((l) => l.ends.map((p) => p[i]))];
+  const reach = [0, 1].map((i) => span(all(i), marks.length ? 0.1 : 0.04));
   let now = 0;
   let dots = [];
   let plot = null;
@@ -51,13 +54,28 @@ export function plan(figure, part) {
     const outline = lines.map(([xs, ys]) => path(plot, xs, ys)).join("");
     frame.append(svg("path", { class: "outline", d: outline }));
     tracks.forEach((t, k) => frame.append(svg("path", { class: `line ${colour(k)}`, d: path(plot, t.x, t.y), "stroke-dasharray": dash(k) })));
+    lengths.forEach((l, k) => frame.append(...measured(l, stroke(k))));
     for (const { name, at } of marks) {
       frame.append(svg("circle", { class: "mark", cx: plot.x(at[0]), cy: plot.y(at[1]), r: 3.5 }));
-      frame.append(svg("text", { class: "tick", x: plot.x(at[0]) + 7, y: plot.y(at[1]) - 5 }, name));
+      frame.append(svg("text", { class: "named", x: plot.x(at[0]) + 7, y: plot.y(at[1]) + 15 }, name));
     }
     dots = tracks.map((_, k) => svg("circle", { class: `dot ${colour(k)}`, r: 5 }));
     frame.append(...dots);
     move(now);
+  }
+
+  /** A length with its ends barred and its name beside its middle. */
+  function measured({ name, ends }, k) {
+    const [[x1, y1], [x2, y2]] = ends.map(([x, y]) => [plot.x(x), plot.y(y)]);
+    const size = Math.hypot(x2 - x1, y2 - y1) || 1;
+    const [u, v] = [(y1 - y2) / size, (x2 - x1) / size]; // across it
+    const bar = (x, y) => `M${x - 5 * u} ${y - 5 * v}L${x + 5 * u} ${y + 5 * v}`;
+    const side = (Math.abs(v) > Math.abs(u) ? v > 0 : u < 0) ? -1 : 1; // above level ones, right of steep ones
+    const place = { x: 0.5 * (x1 + x2) + 13 * side * u, y: 0.5 * (y1 + y2) + 13 * side * v + 4 };
+    return [
+      svg("path", { class: `line ${colour(k)}`, d: `M${x1} ${y1}L${x2} ${y2}${bar(x1, y1)}${bar(x2, y2)}` }),
+      svg("text", { class: "length", "text-anchor": "middle", ...place }, name),
+    ];
   }
 
   function move(at) {
@@ -79,10 +97,10 @@ export function plan(figure, part) {
 }
 
 /** Ends of an axis with some room; not stretched to zero as those of curves are. */
-function span(values) {
+function span(values, share) {
   const known = values.filter((value) => value !== null);
   if (!known.length) return extent([]);
   const [lower, upper] = [Math.min(...known), Math.max(...known)];
-  const room = 0.04 * (upper - lower) || 1;
+  const room = share * (upper - lower) || 1;
   return [lower - room, upper + room];
 }

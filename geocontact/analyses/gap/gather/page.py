@@ -1,0 +1,91 @@
+"""The page of a gathered case: every channel of its trials over time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import NOT_A_DEVICE, counted
+from geocontact.analyses.run_record import Record
+from geocontact.data.gap.case import GapCase
+from geocontact.data.trial import Trial
+from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words
+from geocontact.view.page.tables import inputs_table
+from geocontact.view.page.write import write_page
+
+SAMPLES = 401  # of the longest trial that the page shows
+OTHER = {"rad": ("deg", 180.0 / np.pi), "rad/s": ("deg/s", 180.0 / np.pi), "m^2": ("mm²", 1e6)}
+"""Units that are shown in others."""
+
+
+def write_gather_page(path: Path, title: str, record: Record, case: GapCase) -> int:
+    """Write the self-contained page, each trial from its own beginning; returns its size in bytes."""
+    trials = [*case.calibration, *case.evaluation]
+    longest = max(each.time[-1] - each.time[0] for each in trials)
+    time = np.linspace(0.0, float(longest), SAMPLES)
+    sections: list[Section] = [*_panels(trials, time), _told(case)]
+    sections += [inputs_table(record.inputs), options_table(record), Words("What this is", [NOT_A_DEVICE])]
+    page = Page(
+        title=title,
+        subtitle=f"Case for a gap diagnosis of the base model {case.system}",
+        time=time,
+        time_label="time from the trial's beginning [s]",
+        headline=answer(case),
+        facts=[
+            ("To fit to", ", ".join(each.name for each in case.calibration)),
+            ("Held out", ", ".join(each.name for each in case.evaluation) or "none"),
+            *((f"Cells of {site}", f"{len(own.ids)}") for site, own in case.cells.items()),
+        ][:5],
+        reservations=tuple(record.warnings),
+        sections=tuple(sections),
+        plays=False,
+    )
+    return write_page(page, path)
+
+
+def answer(case: GapCase) -> list[str]:
+    """How many trials there are with how much in them, and how much of it is missing."""
+    trials = [*case.calibration, *case.evaluation]
+    channels = trials[0].signals.channels
+    seconds = sum(float(each.time[-1] - each.time[0]) for each in trials)
+    told = (
+        f"{counted(len(trials), 'trial')} with {counted(len(channels), 'channel')} and {seconds:.3g} s in all: "
+        f"{len(case.calibration)} to fit to, {len(case.evaluation)} held out."
+    )
+    gaps = {
+        name: share
+        for name in channels
+        if (share := float(np.mean(np.concatenate([~np.isfinite(each.column(name)) for each in trials])))) > 0.0
+    }
+    if not gaps:
+        return [told, "Every channel is there in every sample."]
+    worst = max(gaps, key=lambda name: gaps[name])
+    return [told, f"{counted(len(gaps), 'channel')} have gaps; {worst} is missing in {gaps[worst]:.1%} of the samples."]
+
+
+def _panels(trials: list[Trial], time: Float[np.ndarray, " s"]) -> list[Curves]:
+    """A panel for each channel, a curve for each trial; outputs, which come last, first."""
+    first = trials[0].signals
+    panels = []
+    for name, si in reversed(list(zip(first.channels, first.units, strict=True))):
+        unit, per = OTHER.get(si, (si, 1.0))
+        curves = [Curve(each.name, per * _along(each, name, time)) for each in trials]
+        panels.append(Curves(name, unit, curves))
+    return panels
+
+
+def _along(trial: Trial, name: str, time: Float[np.ndarray, " s"]) -> Float[np.ndarray, " s"]:
+    """The channel at these times from the trial's beginning; NaN after its end and in its gaps."""
+    return np.asarray(np.interp(time, trial.time - trial.time[0], trial.column(name), right=np.nan))
+
+
+def _told(case: GapCase) -> Table:
+    rows = [
+        (each.name, use, f"{len(each.time)}", f"{each.time[-1] - each.time[0]:.4g}")
+        for use, trials in (("to fit to", case.calibration), ("held out", case.evaluation))
+        for each in trials
+    ]
+    return Table("Trials", ("trial", "use", "samples", "seconds"), rows)

@@ -1,0 +1,110 @@
+"""What `run.json` tells that is needed to run again, and what became of the inputs and the results since."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from geocontact.analyses.stale_results import RUN, digest
+from geocontact.data.errors import InputError
+
+REMEDY = f"name the {RUN} that a command or `Result.write` left beside its results"
+SECONDS = "seconds"
+_UNIT = re.compile(r" \[[^\]]*\]$")
+
+
+@dataclass(frozen=True)
+class EarlierRun:
+    """A run as it was recorded.
+
+    Parameters
+    ----------
+    folder
+        Of its results.
+    command
+        As it is typed.
+    options
+        As recorded: as typed where it was a command, else in SI with units in the names.
+    typed
+        Whether it was a command.
+    inputs
+        SHA-256 of the files that were read.
+    version
+        Of geocontact.
+    """
+
+    folder: Path
+    command: str
+    options: Mapping[str, Any]
+    typed: bool
+    inputs: Mapping[Path, str]
+    version: str
+
+    def in_si(self) -> dict[str, Any]:
+        """Options by their names in Python, where it was called from there."""
+        return {_UNIT.sub("", name): value for name, value in self.options.items()}
+
+    def changed(self) -> list[Path]:
+        """Inputs whose content is another one now; InputError for one that is not there."""
+        for file in self.inputs:
+            if not file.is_file():
+                raise InputError(file, "", "is not there any more", "run again in the folder that names start from")
+        return [file for file, known in self.inputs.items() if digest(file) != known]
+
+
+def read_run(path: str | PathLike[str]) -> EarlierRun:
+    """The run that a run.json, or the one in a folder, tells of."""
+    file = Path(path) / RUN if Path(path).is_dir() else Path(path)
+    told = _content(file)
+    command, options, inputs = told.get("command"), told.get("options"), told.get("inputs")
+    if not (isinstance(command, str) and isinstance(options, dict) and isinstance(inputs, list)):
+        raise InputError(file, "", f"is not a {RUN} of geocontact", REMEDY)
+    known = {
+        Path(each["file"]): str(each.get("sha256")) for each in inputs if isinstance(each, dict) and "file" in each
+    }
+    typed = options != told.get("options_si")
+    return EarlierRun(file.parent, command, options, typed, known, str(told.get("geocontact", "")))
+
+
+def results_of(folder: Path) -> dict[str, str]:
+    """SHA-256 of every file that the run in a folder wrote, its sub-folders included."""
+    found: dict[str, str] = {}
+    for run in sorted(folder.rglob(RUN)):
+        told = _content(run).get("sha256")
+        place = run.parent.relative_to(folder)
+        found |= {(place / name).as_posix(): known for name, known in told.items()} if isinstance(told, dict) else {}
+    return found
+
+
+def differing(before: Mapping[str, str], after: Mapping[str, str], old: Path, new: Path) -> list[str]:
+    """Files of either run that the other has not, or has with other content; the time a run took is no content."""
+    return [
+        name
+        for name in sorted({*before, *after})
+        if before.get(name) != after.get(name) and not _alike(old / name, new / name)
+    ]
+
+
+def _alike(old: Path, new: Path) -> bool:
+    """Whether two files of JSON differ in nothing but the seconds that they tell."""
+    if old.suffix != ".json" or not (old.is_file() and new.is_file()):
+        return False
+    one, other = _content(old), _content(new)
+    return {**one, SECONDS: None} == {**other, SECONDS: None}
+
+
+def _content(file: Path) -> dict[str, Any]:
+    try:
+        told = json.loads(file.read_bytes())
+    except OSError as error:
+        raise InputError(file, "", f"cannot be read ({error.strerror})", REMEDY) from error
+    except (ValueError, RecursionError) as error:
+        raise InputError(file, "", "is not JSON", REMEDY) from error
+    if not isinstance(told, dict):
+        raise InputError(file, "", f"is not a {RUN} of geocontact", REMEDY)
+    return told

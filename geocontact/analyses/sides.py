@@ -1,0 +1,65 @@
+"""Which side of a splitting plane is medial. Light to import."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from geocontact.analyses.options import Spelled
+from geocontact.data.errors import InputError
+
+Side = Literal["right", "left"]
+Medial = Annotated[Literal["-", "+"], Spelled(dashed=True)]
+
+TO_THE_RIGHT = "z"
+"""Axis of a body frame that points to the subject's right: x forward, y up, as ISB (Wu & Cavanagh 1995) and OpenSim."""
+MEDIAL = {"right": "-", "left": "+"}
+"""Side of a plane across that axis that is medial, by the side of the body: towards the other leg."""
+
+
+@dataclass(frozen=True)
+class MedialSide:
+    """The medial side of a plane across a coordinate axis.
+
+    Parameters
+    ----------
+    sign
+        +1 or -1, as the axis points or against it.
+    axis
+        "x", "y" or "z".
+    why
+        How it is known.
+    """
+
+    sign: int
+    axis: str
+    why: str
+
+    @property
+    def words(self) -> str:
+        """For people: "-z (right side, z to the right)"."""
+        return f"{'+' if self.sign > 0 else '-'}{self.axis} ({self.why})"
+
+
+def refuse_other_axes(space: str, name: str, side: str | None, medial: str | None) -> None:
+    """InputError where the side is to say what is medial in a frame whose file says that z points up."""
+    from geocontact.data.mesh import AXES  # numpy: not for --help
+
+    if space and side is not None and medial is None:
+        towards = MEDIAL[side] if space == "RAS" else {"-": "+", "+": "-"}[MEDIAL[side]]
+        what = f"does not say which side of z is medial in {name}: its header says SPACE={space}, {AXES[space]}"
+        raise InputError("", "`side`", what, f"give `split` x and `medial` {towards}")
+
+
+def medial_side(split: str, side: str | None, medial: str | None) -> MedialSide:
+    """What is medial of the plane `split` ("z", "z=1.5"), as said or by the side of the body; InputError if neither."""
+    axis = split.partition("=")[0].strip()
+    if medial is not None:
+        return MedialSide(1 if medial == "+" else -1, axis, "as given")
+    if side is None:
+        remedy = "give `side` right or left where z points to the subject's right, else `medial` - or +"
+        raise InputError("", "`split`", f"{split!r} does not say which side of the plane is medial", remedy)
+    if axis in ("x", "y"):
+        what = f"{side} does not say which side of a plane across {axis} is medial: z is what points to the right"
+        raise InputError("", "`side`", what, "give `medial` - or +")
+    return MedialSide(1 if MEDIAL[side] == "+" else -1, axis, f"{side} side, z to the right")

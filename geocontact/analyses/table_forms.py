@@ -1,0 +1,62 @@
+"""Further forms that the tables of a result are written in, beside those that its command always writes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from geocontact.data.errors import InputError
+from geocontact.data.version import VERSION
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import pandas as pd
+
+
+@dataclass(frozen=True)
+class TableForms:
+    """Which forms are asked for.
+
+    Parameters
+    ----------
+    parquet
+        All tables as .parquet, with all their digits.
+    netcdf
+        Tables over time as .nc, with time and what else numbers their rows as coordinates.
+    """
+
+    parquet: bool = False
+    netcdf: bool = False
+
+    def given(self) -> dict[str, object]:
+        """What is asked for, for `run.json`."""
+        return {name: True for name in ("parquet", "netcdf") if getattr(self, name)}
+
+    def write(self, tables: Mapping[str, pd.DataFrame], folder: Path, command: str) -> None:
+        """Write the tables, each by its name, into the folder or the sub-folder that the name begins with."""
+        if self.parquet:
+            from geocontact.io.results.parquet import write_parquet
+
+            for name, table in tables.items():
+                write_parquet(table, _file(folder, name, "parquet"))
+        if self.netcdf:
+            from geocontact.io.results.netcdf import over_time, write_netcdf
+
+            timed = {name: table for name, table in tables.items() if over_time(table)}
+            if not timed:
+                raise InputError("", "`netcdf`", f"{command} has no table over time", "leave it out")
+            for name, table in timed.items():
+                about = {"title": f"{name} of geocontact {command}", "source": f"geocontact {VERSION}"}
+                write_netcdf(table, _file(folder, name, "nc"), about)
+
+
+AS_ALWAYS = TableForms()
+"""None of them."""
+
+
+def _file(folder: Path, name: str, ending: str) -> Path:
+    file = folder / f"{name}.{ending}"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    return file

@@ -1,0 +1,76 @@
+"""`geocontact rerun run.json`: run again as recorded, and say what differs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from geocontact.analyses.run_again import EarlierRun, differing, read_run, results_of
+from geocontact.analyses.table_forms import TableForms
+from geocontact.cli.command import Command
+from geocontact.cli.main import app
+from geocontact.cli.suggestions import commands
+from geocontact.data.errors import InputError
+from geocontact.data.version import VERSION
+
+DIFFERENT = 1
+
+
+def rerun(run: Path, *, out: Path | None = None) -> int:
+    """Run again what a run.json tells of, with the same options, and say whether the results are the same.
+
+    File names start from the present folder, as they did at first. Exit 1 when a file of the results differs.
+
+    Parameters
+    ----------
+    run
+        A run.json, or the folder that it is in.
+    out
+        Folder for the new results; they are compared and not kept without it.
+    """
+    earlier = read_run(run)
+    command = _command(earlier, run)
+    print(f"geocontact {earlier.command}, {len(earlier.inputs)} inputs, of geocontact {earlier.version}", end="")
+    print("" if earlier.version == VERSION else f"; this is {VERSION}")
+    changed = earlier.changed()
+    for file in changed:
+        print(f"input has changed: {file}")
+    if earlier.inputs and not changed:
+        print("the inputs are the same")
+    before = results_of(earlier.folder)
+    if out is not None and out.resolve() == earlier.folder.resolve():
+        raise InputError(out, "", "holds the results to compare with", "choose another --out, or none")
+    with TemporaryDirectory() as scratch:
+        folder = out or Path(scratch) / "results"
+        forms = TableForms(*(any(name.endswith(ending) for name in before) for ending in (".parquet", ".nc")))
+        with command.respelling():
+            if earlier.typed:
+                command.execute({**earlier.options, "out": folder}, folder, forms)
+            else:
+                command.execute_in_si(earlier.in_si(), earlier.options, folder, forms)
+        after = results_of(folder)
+        different = differing(before, after, earlier.folder, folder)
+    return _tell(before, after, different, out)
+
+
+def _command(earlier: EarlierRun, run: Path) -> Command:
+    group = app
+    for word in earlier.command.split():
+        if word not in commands(group):
+            raise InputError(run, "", f"'{earlier.command}' is no command here", "is it of a newer version?")
+        group = group[word]
+    found = group.default_command
+    if not isinstance(found, Command):
+        raise InputError(run, "", f"'{earlier.command}' is no analysis", "name the run.json of one")
+    return found
+
+
+def _tell(before: dict[str, str], after: dict[str, str], different: list[str], out: Path | None) -> int:
+    """Say which files differ; the exit code."""
+    names = {*before, *after}
+    for name in different:
+        how = "is new" if name not in before else "is missing now" if name not in after else "differs"
+        print(f"{name} {how}")
+    same = len(names) - len(different)
+    print(f"{same} of {len(names)} files of the results are equal" + ("" if out is None else f"; new ones in {out}"))
+    return DIFFERENT if different or not names else 0

@@ -1,0 +1,142 @@
+"""Which values a quantity can have and which it usually has: a unit that was mixed up shows where a value enters."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from numbers import Real
+
+from geocontact.data.errors import InputError
+from geocontact.data.units import UNITS, Unit
+
+PLAIN = Unit("", "1", 1.0)
+N, HZ, S, KG = Unit("N", "N", 1.0), Unit("Hz", "Hz", 1.0), Unit("s", "s", 1.0), Unit("kg", "kg", 1.0)
+RAD, PA, M_PER_S = Unit("rad", "rad", 1.0), Unit("Pa", "Pa", 1.0), Unit("m/s", "m/s", 1.0)
+N_PER_M, N_PER_MM = Unit("N/m", "N/m", 1.0), Unit("N/mm", "N/m", 1e3)
+N_S_PER_M, N_S_PER_MM = Unit("N s/m", "N s/m", 1.0), Unit("N s/mm", "N s/m", 1e3)
+KHZ, G = Unit("kHz", "Hz", 1e3), Unit("g", "kg", 1e-3)
+KNOWN = (*UNITS, N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_PER_MM, N_S_PER_M, N_S_PER_MM, KHZ, G, PLAIN)
+"""Units that a number may have been meant in."""
+
+ROUNDING = 1e-9
+"""Of an end of a range; 45 deg is not exactly pi / 4."""
+
+LEAST_NUMBER = 0.1
+"""Smallest value in SI that may be a number of another unit: 4 m that was to be 4 mm, but not 0.04 m for 0.04 mm."""
+
+
+@dataclass(frozen=True)
+class Plausible:
+    """The values of a quantity.
+
+    Parameters
+    ----------
+    what
+        The quantity, in words after "for": "a threshold of contact".
+    unit
+        Unit that people read it in; the ranges are in it.
+    possible
+        Smallest and largest value; what is outside is refused.
+    usual
+        What is outside is used with a warning; as `possible` unless given.
+    or_zero
+        0 is as good as what is usual: it stands for none.
+    """
+
+    what: str
+    unit: Unit
+    possible: tuple[float, float]
+    usual: tuple[float, float] | None = None
+    or_zero: bool = False
+
+    def refusal(self, value: float) -> tuple[str, str] | None:
+        """What is wrong with a value [SI], and what to do about it; None when it is possible."""
+        if not math.isfinite(value):
+            return f"{value} is not a finite number", "give a number"
+        if self._holds(value, self.possible):
+            return None
+        low, high = self.possible
+        what = f"{self.shown(value)} cannot be {self.what}: that is {low:g} to {self.shown(high * self.unit.factor)}"
+        return what, self._question(value) or "check the value and its unit"
+
+    def doubt(self, value: float) -> str | None:
+        """Why a value [SI] that is possible is not likely; None when it is usual."""
+        if self.usual is None or self._holds(value, self.usual):
+            return None
+        low, high = self.usual
+        usual = f"{low:g} to {self.shown(high * self.unit.factor)}"
+        line = f"{self.shown(value)} is unusual for {self.what}, which mostly is {usual}"
+        question = self._question(value)
+        return f"{line}; {question}" if question else line
+
+    def require(self, value: float, name: str) -> None:
+        """InputError for a value [SI] that cannot be; `name` is the place it is said in."""
+        refusal = self.refusal(value)
+        if refusal is not None:
+            raise InputError("", name, *refusal)
+
+    def shown(self, value: float) -> str:
+        """A value [SI] with the unit that people read."""
+        return f"{value / self.unit.factor:.6g} {self.unit.name}".strip()
+
+    def _holds(self, value: float, ends: tuple[float, float]) -> bool:
+        if self.or_zero and value == 0.0:
+            return True
+        low, high = (end * self.unit.factor for end in ends)
+        return bool(low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high))
+
+    def _question(self, value: float) -> str:
+        """Whether the number that was written was meant in another unit, in which it would be usual."""
+        units = [self.unit, *(unit for unit in KNOWN if unit.si == self.unit.si and unit.name != self.unit.name)]
+        read = value / self.unit.factor
+        for number in filter(_may_be_written, (value, read) if abs(value) >= LEAST_NUMBER else (read,)):
+            for unit in units:
+                meant = number * unit.factor
+                if meant != value and self._holds(meant, self.usual or self.possible):
+                    return f"is {number:.6g} {unit.name} meant?"
+        return ""
+
+
+@dataclass(frozen=True)
+class ByPlace:
+    """Values of several quantities one after the other; None for what has no range."""
+
+    ranges: tuple[Range | None, ...]
+
+
+@dataclass(frozen=True)
+class ByName:
+    """Values of several quantities by name."""
+
+    ranges: tuple[tuple[str, Range], ...]
+
+
+Range = Plausible | ByPlace | ByName
+"""What the values of an option can be."""
+
+
+def numbers_in(known: Range | None, value: object, name: str = "") -> Iterator[tuple[str, Plausible, float]]:
+    """Every number in a value with its range, and the name it has there ("k"), empty for the value itself."""
+    match known:
+        case ByName():
+            ranges = dict(known.ranges)
+            for key, one in value.items() if isinstance(value, Mapping) else ():
+                yield from numbers_in(ranges.get(str(key)), one, str(key))
+        case ByPlace():
+            for one, each in zip(known.ranges, _listed(value), strict=False):
+                yield from numbers_in(one, each, name)
+        case Plausible():
+            if isinstance(value, Real) and not isinstance(value, bool):
+                yield name, known, float(value)
+            for each in value.values() if isinstance(value, Mapping) else _listed(value):
+                yield from numbers_in(known, each, name)
+
+
+def _listed(value: object) -> Sequence[object]:
+    return value if isinstance(value, (tuple, list)) else ()
+
+
+def _may_be_written(number: float) -> bool:
+    """Whether somebody may have written a number: it is not 0 and has few digits."""
+    return number != 0.0 and math.isclose(float(f"{number:.6g}"), number, rel_tol=1e-12)

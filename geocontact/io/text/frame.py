@@ -1,0 +1,38 @@
+"""A table of numbers and words as a data frame, its columns named as they are asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import pandas as pd
+
+from geocontact.data.errors import InputError
+from geocontact.io.text.column_names import spelled_as
+from geocontact.io.text.plain_table import open_plain
+
+
+def read_frame(path: Path, wanted: Iterable[str], remedy: str) -> pd.DataFrame:
+    """Table below a row of names; lines that begin with # are passed over.
+
+    Parameters
+    ----------
+    wanted
+        Names that columns get which are written with other upper and lower case.
+    remedy
+        What to give instead of a file that is no table.
+    """
+    try:
+        with open_plain(path) as stream:
+            table = pd.read_csv(stream, comment="#")
+    except InputError:
+        raise
+    except (OSError, ValueError, pd.errors.ParserError) as error:
+        raise InputError(path, "", f"cannot be read as a table ({error})", remedy) from error
+    table.columns = [str(name).strip() for name in table.columns]
+    return named(table, wanted)
+
+
+def named(table: pd.DataFrame, wanted: Iterable[str]) -> pd.DataFrame:
+    """The table with the columns that are wanted named so, where only upper and lower case differ."""
+    return table.rename(columns=dict(spelled_as(wanted, table.columns)))

@@ -1,0 +1,120 @@
+"""The text of a table with commas between its cells and decimal points, however it was saved.
+
+Spreadsheets of half the world write semicolons and decimal commas. They are read where nothing else can be meant, and
+refused with the cell that leaves a doubt.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from io import StringIO, TextIOBase
+from os import PathLike, fspath
+from pathlib import Path
+
+from geocontact.data.errors import InputError
+from geocontact.io.text.spreadsheet import is_sheet, sheet_text
+from geocontact.io.text.storage_header import LONGEST_LINE
+
+_COMMA = re.compile(r"\s*[-+]?\d*,\d+(?:[eE][-+]?\d+)?\s*")
+_POINT = re.compile(r"\s*[-+]?\d*\.\d+(?:[eE][-+]?\d+)?\s*")
+_THOUSANDS = re.compile(r"\s*[-+]?[1-9]\d{0,2},\d{3}\s*")
+_BOTH = re.compile(r"\s*[-+]?[\d.,]*\d\s*")
+_EMPTY_ROWS = re.compile(r"(?:\r?\n[ \t,]*)+\Z")
+_EMPTY_END = re.compile(rb"[\r\n][ \t]*,[,\s]*\Z")
+POINTS = "write decimal points throughout"
+_TAIL = 1 << 16
+_MOST_COMMENTS = 100
+
+
+@contextmanager
+def open_plain(path: str | PathLike[str], errors: str = "strict") -> Iterator[TextIOBase]:
+    """A .csv or .xlsx file as text; lines keep their numbers, rows without content at the end are left out.
+
+    Parameters
+    ----------
+    errors
+        What becomes of bytes that are not UTF-8: "strict" or "replace".
+    """
+    if is_sheet(path):
+        yield StringIO(_EMPTY_ROWS.sub("\n", sheet_text(path)))
+        return
+    with Path(path).open(encoding="utf-8-sig", errors=errors) as stream:
+        separated = _separated_by_semicolons(stream)
+        stream.seek(0)
+        if separated:
+            yield StringIO(_EMPTY_ROWS.sub("\n", _with_commas(stream.read(), fspath(path))))
+        elif _ends_in_empty_rows(Path(path)):
+            yield StringIO(_EMPTY_ROWS.sub("\n", stream.read()))
+        else:
+            yield stream
+
+
+def _separated_by_semicolons(stream: TextIOBase) -> bool:
+    """Whether the header has semicolons and no comma."""
+    for _ in range(_MOST_COMMENTS):
+        line = stream.readline(LONGEST_LINE)
+        if not line.lstrip().startswith("#"):
+            return ";" in line and "," not in line
+    return False
+
+
+def _ends_in_empty_rows(path: Path) -> bool:
+    with path.open("rb") as raw:
+        raw.seek(max(0, path.stat().st_size - _TAIL))
+        return _EMPTY_END.search(raw.read()) is not None
+
+
+def _with_commas(text: str, file: str) -> str:
+    """The same cells between commas, with decimal points."""
+    lines = text.split("\n")
+    rows = [None if line.lstrip().startswith("#") else _cells(line, k, file) for k, line in enumerate(lines, 1)]
+    decimal_comma = _has_decimal_commas(rows, file)
+    out = StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    for line, row in zip(lines, rows, strict=True):
+        if not row:
+            out.write(line + "\n")
+        else:
+            writer.writerow([_pointed(cell) for cell in row] if decimal_comma else row)
+    return out.getvalue()
+
+
+def _cells(line: str, number: int, file: str) -> list[str]:
+    try:
+        return next(csv.reader([line], delimiter=";", skipinitialspace=True), [])
+    except csv.Error as error:
+        raise InputError(file, f"line {number}", f"cannot be split ({error})", "check its quotes") from error
+
+
+def _pointed(cell: str) -> str:
+    return cell.replace(",", ".") if _COMMA.fullmatch(cell) else cell
+
+
+def _has_decimal_commas(rows: list[list[str] | None], file: str) -> bool:
+    """Whether commas are decimal ones; InputError where they may be something else."""
+    comma = point = thousands = None
+    for line, row in enumerate(rows, 1):
+        for cell in row or ():
+            if "," in cell and "." in cell and _BOTH.fullmatch(cell):
+                raise InputError(file, f"line {line}", f"'{cell.strip()}' has a comma and a point", POINTS)
+            if "," in cell and _COMMA.fullmatch(cell):
+                if _THOUSANDS.fullmatch(cell):
+                    thousands = thousands or (line, cell)
+                else:
+                    comma = comma or (line, cell)
+            elif "." in cell and _POINT.fullmatch(cell):
+                point = point or (line, cell)
+    found = comma or thousands
+    if found is None:
+        return False
+    place, cell = f"line {found[0]}", found[1].strip()
+    if point is not None:
+        what = f"'{cell}' has a comma and '{point[1].strip()}' in line {point[0]} a point"
+        raise InputError(file, place, what, POINTS)
+    if comma is None:
+        what = f"'{cell}' may be thousands or have a decimal comma, as every cell with a comma"
+        raise InputError(file, place, what, POINTS)
+    return True

@@ -1,0 +1,31 @@
+"""Every analysis of the package."""
+
+from __future__ import annotations
+
+import geocontact as gc
+from geocontact.analyses.gap.benchmark.job import benchmark
+from geocontact.analyses.job import Job
+
+JOBS: tuple[Job, ...] = (
+    gc.area,
+    gc.pressure,
+    gc.centre_of_pressure,
+    gc.fit_shape,
+    gc.load_cells,
+    gc.modulus,
+    gc.mat,
+    gc.scale,
+    gc.inverse_kinematics,
+    gc.inverse_dynamics,
+    gc.virtual_markers,
+    gc.misalignment.simulate,
+    gc.misalignment.identify,
+    gc.misalignment.compare,
+    gc.misalignment.design,
+    gc.misalignment.population,
+    gc.diagnose,
+    gc.discriminability,
+    gc.inject,
+    gc.gather,
+    benchmark,
+)

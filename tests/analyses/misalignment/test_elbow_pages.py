@@ -1,0 +1,96 @@
+"""What the pages of an elbow answer first, and what they draw."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.misalignment import page as elbow_page
+from geocontact.analyses.misalignment.design import page as design_page
+from geocontact.analyses.misalignment.identify.arm_drawing import arm_drawing
+from geocontact.analyses.misalignment.population import page as population_page
+from geocontact.analyses.misalignment.simulate import page as simulate_page
+from geocontact.view.page.content import Curves, Intervals, Page, Picture
+from tests.analyses.misalignment.test_population import described, population
+from tests.analyses.misalignment.trials import KNOWN, PAPER, QUICK, STROKE, changed, locked, quietly
+
+DESIGN = {"k": 222.43, "l": gc.mm(169), "z": gc.mm(127), "range": gc.deg(0, 120), "offset": gc.mm(48, 59)}
+
+
+def written(monkeypatch: pytest.MonkeyPatch, module: object, result: gc.Result, folder: Path) -> Page:
+    """The page of a result before it becomes a file."""
+    pages: list[Page] = []
+    monkeypatch.setattr(module, "write_page", lambda page, path: pages.append(page) or 0)
+    result.write_page(folder / "page.html")
+    return pages[0]
+
+
+def test_the_arm_is_drawn_to_scale(made: Path) -> None:
+    """Lengths in the drawing are those that were identified, and each says how well it is known."""
+    fit = quietly(gc.misalignment.identify, *locked(made), **KNOWN).fit
+    plan = arm_drawing(fit, np.radians([20.0, 50.0, 80.0]))
+    drawn = {each.name: float(np.subtract(each.end, each.start) @ np.subtract(each.end, each.start)) ** 0.5
+             for each in plan.lengths}  # fmt: skip
+    assert drawn == pytest.approx({"x": PAPER["x"] * 1e3, "y": PAPER["y"] * 1e3, "l": 169.0, "z": 127.0}, rel=0.1)
+    told = {each.name: each.told for each in plan.lengths}
+    assert "(95 % " in told["x"] and told["l"] == "169 mm (given)"
+    at = {mark.name: np.array(mark.point) for mark in plan.marks}
+    way = plan.tracks[0].points - at["exoskeleton's axis"]
+    np.testing.assert_allclose(np.linalg.norm(way, axis=1), 169.0, rtol=1e-6)
+    np.testing.assert_allclose(np.degrees(np.arctan2(way[:, 1], way[:, 0])), [20.0, 50.0, 80.0], atol=1e-6)
+
+
+def test_without_a_scale_the_link_is_the_unit(made: Path) -> None:
+    plan = arm_drawing(quietly(gc.misalignment.identify, *locked(made), bootstrap=0).fit, np.radians([20.0, 80.0]))
+    link = next(each for each in plan.lengths if each.name == "l")
+    assert plan.unit == "l" and np.hypot(*np.subtract(link.end, link.start)) == pytest.approx(1.0)
+    assert link.told == "1, the unit"
+
+
+def test_both_shares_stand_side_by_side(tmp_path: Path) -> None:
+    people = described(tmp_path, k='unit = "N/m"\nuniform = { lower = 150, upper = 250 }')
+    d = population(people).drawn
+    assert d.indices is not None
+    assert population_page.answer(d)[0].startswith(f"In {d.beyond.value:.2%} of 5000 synthetic people")
+    (shares,) = (each for each in population_page._shares(d) if isinstance(each, Intervals))
+    assert shares.bars and [(one.name, one.kind) for one in shares.intervals] == [
+        ("y", "total"), ("y", "first-order"), ("k", "total"), ("k", "first-order"),
+    ]  # fmt: skip
+    assert all(one.lower <= one.value <= one.upper for one in shares.intervals)
+
+
+@pytest.mark.parametrize(("limit", "verb", "lines"), [(5.0, "exceeds", 2), (9.0, "keeps", 2), (90.0, "keeps", 0)])
+def test_a_design_opens_with_the_map_and_draws_the_limit(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limit: float, verb: str, lines: int
+) -> None:
+    """A limit that is far from the force would flatten its curve."""
+    options = DESIGN | {"stroke": gc.mm(0, 60), "limit": limit, "map": gc.mm(20)}
+    result = quietly(lambda _, **given: gc.misalignment.design(**given), **options)
+    page = written(monkeypatch, design_page, result, tmp_path)
+    assert f"the force reaches 8.64 N and {verb} the limit of {limit:g} N" in page.headline[0]
+    assert page.lead is not None and isinstance(page.sections[page.lead], Picture)
+    force = next(each for each in page.sections if isinstance(each, Curves))
+    assert [each.value for each in force.limits] == [limit, -limit][:lines]
+
+
+def test_errors_are_the_answer_of_a_comparison(tmp_path: Path, made: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The worst trial is drawn, and both errors of every trial as bars."""
+    off = changed(locked(made)[1], tmp_path, force=lambda t: t["force [N]"] + 3.0)
+    result = quietly(gc.misalignment.compare, locked(made)[0], off, simulated=locked(made)[:2])
+    page = written(monkeypatch, elbow_page, result, tmp_path)
+    first, worst = (p.trial for p in result.pairs)
+    assert page.headline[0].startswith(f"The model misses the constraint force by 0 N root mean square in {first}")
+    assert f"and by 3 N in {worst}" in page.headline[0]
+    assert isinstance(page.sections[0], Curves) and page.sections[0].title.endswith(worst)
+    bars = next(each for each in page.sections if isinstance(each, Intervals))
+    assert [one.value for one in bars.intervals] == pytest.approx([0.0, 0.0, 3.0, 3.0])
+
+
+def test_a_simulation_tells_what_it_made() -> None:
+    result = gc.misalignment.simulate(**QUICK, stroke=STROKE)
+    first, second, third = simulate_page.answer(result.trials, result.numbers)
+    assert first.startswith("3 synthetic trials with a locked joint") and "free joint" in second
+    assert "x = 48 mm, y = 59 mm" in third

@@ -1,0 +1,43 @@
+"""The page of an identification says first whether the law describes the forces, then what E* is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from geocontact.analyses.modulus.job import modulus
+from geocontact.analyses.modulus.page import modulus_page
+from geocontact.analyses.modulus.page_tables import moduli
+from geocontact.analyses.modulus.result import ModulusResult
+from geocontact.data.errors import InputWarning
+from geocontact.view.page.content import Curves, Intervals, Page
+from tests.analyses.modulus.synthetic_step import areas, forces
+from tests.identify.synthetic_contact import TRUE
+
+
+def page_of(result: ModulusResult) -> Page:
+    return modulus_page("E*", result.found, b"<svg/>", [moduli(result.found)], result.warnings)
+
+
+def test_a_law_that_holds_gives_its_modulus_and_the_interval(tmp_path: Path) -> None:
+    page = page_of(modulus(areas(tmp_path), forces(tmp_path, sides=False), radius=0.037, bootstrap=0))
+    assert page.headline[0].startswith(f"E* is {TRUE * 1e-6:g} MPa (95 %") and "R² 1.00" in page.headline[0]
+    assert page.lead is not None and isinstance(page.sections[page.lead], Intervals)
+    assert not page.plays and len(page.facts) <= 5
+
+
+def test_a_law_that_does_not_hold_is_said_before_its_modulus(tmp_path: Path) -> None:
+    """The force falls while the area grows: the best E* describes nothing."""
+    file = forces(tmp_path, sides=False)
+    table = pd.read_csv(file)
+    name = table.columns[-1]
+    table[name] = table[name].max() + table[name].min() - table[name]
+    table.to_csv(file, index=False)
+    with pytest.warns(InputWarning, match="a constant force would do better"):
+        page = page_of(modulus(areas(tmp_path), file, radius=0.037, bootstrap=0))
+    assert page.headline[0].startswith("The law does not describe the total force: R² −")
+    assert page.headline[0].endswith("a constant force would do better.")
+    assert "is only the number that fits" in page.headline[1]
+    assert page.lead is not None and isinstance(page.sections[page.lead], Curves), "the forces show why"
