@@ -1,0 +1,1 @@
+"""Shoulder exoskeleton with passive joints that a recorded arm moves through its cuff."""
