@@ -23,7 +23,7 @@ from geocontact.dynamics.equations import Equations, LawState, equations_of_moti
 from geocontact.dynamics.equilibrium import Equilibrium
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.symbols import constant
-from geocontact.dynamics.tree import Tree, tree_of
+from geocontact.dynamics.tree import Moving, Tree, tree_of
 from geocontact.shoulder_exoskeleton.arm_numbers import BODIES, COLUMN, SIZES, slices
 from geocontact.shoulder_exoskeleton.cylinder import lever
 from geocontact.shoulder_exoskeleton.device import JOINTS, Device
@@ -120,7 +120,7 @@ def _made(axes: tuple[tuple[float, ...], ...], locked: tuple[str, ...], machine_
     moving = cuff.T @ (w[3:6, :] - _speed(arm, w[:3, :]))
     lost = lost - damped.T @ moving
     power = support * tree.u[2] + sum((stops[i] * tree.u[i] for i in range(3)), SX(0)) - force.T @ w[3:6, :]
-    place = vertcat(contact.along, *(cuff.T @ (w[:3, :] - tree.point("arm", of["cuff"])))[1:].elements())
+    place = vertcat(contact.along, contact.radial[1], contact.radial[2])
     joints = [tree.bodies[name].place for name in BODIES] + [tree.point("arm", of["cuff"])]
     told = [force, cuff.T @ force, vertcat(*contact.normal), vertcat(*contact.friction), slip, place]
     told += [contact.pressing, support, vertcat(*stops), energy, power, lost, vertcat(*joints)]
@@ -159,34 +159,39 @@ def _tree(axes: tuple[tuple[float, ...], ...], of: dict[str, SX], gravity: SX) -
 
 def _contact(tree: Tree, of: dict[str, SX], w: SX) -> tuple[TubeContact, SX]:
     """Forces on the sphere in the cuff's axes, and these axes in the device's frame."""
+    from casadi import SX
+
     arm = tree.bodies["arm"]
     cuff = arm.rotation @ constant(TUBE)
     offset = cuff.T @ (w[:3, :] - tree.point("arm", of["cuff"]))
     velocity = cuff.T @ (w[3:6, :] - _speed(arm, w[:3, :]))
     law = TubeLaw(*(of["law"][i] for i in range(SIZES["law"])))
-    components = tuple(offset.elements()), tuple(velocity.elements())
-    return tube_contact(*components, (1.0, 0.0, 0.0), law), cuff
+    return tube_contact(_components(offset), _components(velocity), (SX(1), SX(0), SX(0)), law), cuff
 
 
-def _speed(body: object, place: SX) -> SX:
+def _components(vector: SX) -> tuple[SX, SX, SX]:
+    return vector[0], vector[1], vector[2]
+
+
+def _speed(body: Moving, place: SX) -> SX:
     """Velocity of the body's material point at a place of the ground's frame [m/s]."""
     from casadi import cross
 
-    return body.speed + cross(body.spin, place - body.place)  # type: ignore[attr-defined]
+    return body.speed + cross(body.spin, place - body.place)
 
 
 def _energy(tree: Tree, of: dict[str, SX]) -> SX:
     """Of motion and weight [J]."""
     from casadi import SX, cross, dot, sumsqr
 
-    total = SX(0)
+    total, gravity = SX(0), SX(3, 1) if tree.gravity is None else tree.gravity
     for name in BODIES:
         frame = tree.bodies[name]
         arm = frame.rotation @ tree.centres[name]
         spin = frame.rotation.T @ frame.spin
         total += 0.5 * tree.masses[name] * sumsqr(frame.speed + cross(frame.spin, arm))
         total += 0.5 * dot(spin, tree.inertias[name] @ spin)
-        total -= tree.masses[name] * dot(tree.gravity, frame.place + arm)
+        total -= tree.masses[name] * dot(gravity, frame.place + arm)
     return total
 
 

@@ -20,8 +20,7 @@ X = TypeVar("X", bound=Any)
 
 def piston_area(bore: X) -> X:
     """Of the full bore [m²]: the cylinder pushes."""
-    area: X = 0.25 * pi * bore * bore
-    return area
+    return 0.25 * pi * bore * bore  # type: ignore[no-any-return]
 
 
 def lever(elevation: X, a: X, b: X, phase: X) -> X:
