@@ -12,6 +12,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
 
+from geocontact.analyses.shoulder.trial_files import trial_files
+from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
+from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
 from meshes.gait import synthetic_gait
 from meshes.leg_files import leg_model, leg_swing
 from meshes.mat_files import recording_files
@@ -68,12 +71,18 @@ def mat_files() -> dict[str, bytes]:
     return files
 
 
+def overhead_files() -> dict[str, bytes]:
+    """One of the 18 trials of overhead work that `geocontact.shoulder_exoskeleton.synthetic` makes."""
+    trial = synthetic_trial(participant("P1"), task("T1"), condition("S100"))
+    return {f"overhead_{trial.name}/{name}": text.encode("ascii") for name, text in trial_files(trial).items()}
+
+
 def committed_files() -> dict[str, bytes]:
     """Every generated file that belongs to the repository."""
     files: dict[str, bytes] = {}
     for side, resolution in COMMITTED:
         files |= knee_files(side, resolution)
-    return files | simple_files() | motion_files() | mat_files()
+    return files | simple_files() | motion_files() | mat_files() | overhead_files()
 
 
 def differing(files: dict[str, bytes], folder: Path) -> list[str]:

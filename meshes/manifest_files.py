@@ -13,18 +13,26 @@ from meshes.solids import area, is_closed, smallest_angle, volume
 from meshes.stl import read_stl
 
 KINDS = {".stl": "surface", ".csv": "motion", ".mot": "motion", ".osim": "model"}
-MAT_KINDS = {"frames": "recording", "layout": "layout", "landmarks": "landmarks", "truth": "truth"}
-"""By suffix; in the folder of a mat's recording by the first word of the name."""
+FOLDER_KINDS = {
+    "frames": "recording",
+    "layout": "layout",
+    "landmarks": "landmarks",
+    "truth": "truth",
+    "markers": "markers",
+    "tool": "recording",
+}
+"""By suffix; in the folder of a mat's recording or of a trial by the first word of the name."""
 
 
 def kind(name: PurePath) -> str:
     """What a file holds, from its path in the folder of the sample data."""
-    return MAT_KINDS[name.stem.partition("_")[0]] if len(name.parts) > 1 else KINDS[name.suffix]
+    return FOLDER_KINDS[name.stem.partition("_")[0]] if len(name.parts) > 1 else KINDS[name.suffix]
 
 
 def data_files(folder: Path) -> list[Path]:
-    """The files to describe: those in the folder itself, then the mats' recordings."""
-    return sorted(p for p in folder.iterdir() if p.suffix in KINDS) + sorted(folder.glob("mat_*/*"))
+    """The files to describe: those in the folder itself, then the mats' recordings and the trials."""
+    own = sorted(p for p in folder.iterdir() if p.suffix in KINDS)
+    return [*own, *sorted(folder.glob("mat_*/*")), *sorted(folder.glob("overhead_*/*"))]
 
 
 def file_entry(path: Path, folder: Path) -> dict[str, object]:

@@ -23,11 +23,16 @@ ASKED = (
 
 def write_trc(path: Path, markers: MarkerTrajectories) -> None:
     """Cells of a marker that was not seen are empty; the rate in the head is that of the mean step."""
+    path.write_text(trc_text(path.name, markers), encoding="utf-8")
+
+
+def trc_text(name: str, markers: MarkerTrajectories, decimals: int = 6) -> str:
+    """The file's text, with so many decimals of a millimetre."""
     count, steps = len(markers.names), len(markers) - 1
     rate = steps / float(markers.time[-1] - markers.time[0]) if steps > 0 else 1.0
     told = (f"{rate:.6g}", f"{rate:.6g}", str(len(markers)), str(count), "mm", f"{rate:.6g}", "1", str(len(markers)))
     lines = [
-        f"PathFileType\t4\t(X/Y/Z)\t{path.name}",
+        f"PathFileType\t4\t(X/Y/Z)\t{name}",
         "\t".join(ASKED),
         "\t".join(told),
         "Frame#\tTime\t" + "\t\t\t".join(markers.names),
@@ -35,6 +40,6 @@ def write_trc(path: Path, markers: MarkerTrajectories) -> None:
         "",
     ]
     for k, (time, places) in enumerate(zip(markers.time, 1e3 * markers.positions, strict=True)):
-        cells = ("" if np.isnan(value) else f"{value:.6f}" for value in places.ravel())
+        cells = ("" if np.isnan(value) else f"{value:.{decimals}f}" for value in places.ravel())
         lines.append("\t".join((str(k + 1), seconds(float(time), 9), *cells)))
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return "\n".join(lines) + "\n"

@@ -17,7 +17,7 @@ class IkOptions(Options):
     Parameters
     ----------
     markers
-        Marker trajectories (.trc, .c3d).
+        Marker trajectories (.trc, .c3d, .csv).
     model
         OpenSim model (.osim) with the markers.
     tasks

@@ -17,7 +17,7 @@ class ScaleOptions(Options):
     Parameters
     ----------
     static
-        Markers while the subject stands still (.trc, .c3d).
+        Markers while the subject stands still (.trc, .c3d, .csv).
     model
         Generic OpenSim model (.osim) with markers.
     scale

@@ -1,0 +1,1 @@
+"""Shoulder exoskeleton that a recorded arm moves."""

@@ -1,0 +1,1 @@
+"""Upper arms in the device's frame, from markers."""

@@ -1,0 +1,56 @@
+"""Two points of each upper arm in the laboratory: the sphere in the cuff, and the upper marker."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.shoulder_exoskeleton.arm_motion import Side
+from geocontact.shoulder_exoskeleton.from_markers.marker_names import ELBOW, LOWER, SHOULDER, UPPER
+from geocontact.shoulder_exoskeleton.from_markers.reference import MAP
+
+SHORTEST, LONGEST = 0.05, 0.6
+"""Distance of the two points of an upper arm [m] that is believed; the longest upper arms have about 0.45 m."""
+
+
+@dataclass(frozen=True)
+class ArmPoints:
+    """Points of one upper arm in the laboratory [m], and how they came about where they were not recorded."""
+
+    shoulder: Float[np.ndarray, "t 3"]
+    interface: Float[np.ndarray, "t 3"]
+    note: str = ""
+
+
+def arm_points(markers: MarkerTrajectories, side: Side, cuff: float) -> ArmPoints | None:
+    """Points of one arm; None where the recording has no marker of it, InputError where it has one of two.
+
+    Parameters
+    ----------
+    cuff
+        Share of the way from shoulder to elbow at which the cuff holds an arm without a marker there [-].
+    """
+    own, person = (UPPER[side], LOWER[side]), (SHOULDER[side], ELBOW[side])
+    if set(own) <= set(markers.names):
+        return ArmPoints(*np.moveaxis(markers.of(own), 1, 0))
+    half = [name for name in own if name in markers.names]
+    if half:
+        missing = next(name for name in own if name not in markers.names)
+        raise InputError(markers.source, "", f"no marker {missing}, only {half[0]}", MAP)
+    if not set(person) <= set(markers.names):
+        return None
+    shoulder, elbow = np.moveaxis(markers.of(person), 1, 0)
+    note = f"{side} arm: the cuff is taken {cuff:.0%} of the way from {person[0]} to {person[1]} (invented)"
+    return ArmPoints(shoulder, shoulder + cuff * (elbow - shoulder), note)
+
+
+def require_arm_length(source: str, side: Side, points: ArmPoints) -> None:
+    """InputError where the points are farther apart than in any arm, or nearly one point."""
+    apart = float(np.nanmedian(np.linalg.norm(points.interface - points.shoulder, axis=1)))
+    if not SHORTEST <= apart <= LONGEST:
+        what = f"the markers of the {side} upper arm are {apart:.3g} m apart, not {SHORTEST:g} to {LONGEST:g} m"
+        raise InputError(source, "", what, "is the unit in the file right? are the markers named right?")
