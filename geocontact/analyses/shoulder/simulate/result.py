@@ -68,7 +68,7 @@ class SimulateResult(Result):
             elevation[f"exoskeleton, {side}"] = np.degrees(s.elevation)
             force[f"supporting, {side}"] = s.supporting
             force[f"shear, {side}"] = s.shear
-        panels = {"elevation [°]": pd.DataFrame(elevation), "interface force [N]": pd.DataFrame(force)}
+        panels = {"elevation [deg]": pd.DataFrame(elevation), "interface force [N]": pd.DataFrame(force)}
         return curves_figure(time, panels)
 
     def write_files(self, folder: Path) -> None:
