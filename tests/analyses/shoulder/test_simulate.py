@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.shoulder.simulate.result import SimulateResult
+from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.data.wrench import Wrench
 from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.text.tables import read_table
@@ -21,7 +21,7 @@ from tests.cli.calls import MESHES
 TRIAL = MESHES / "overhead_P1T1S100"
 
 
-def simulated(**options: object) -> SimulateResult:
+def simulated(**options: object) -> ShoulderSimulateResult:
     """The shipped trial, without its warnings."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
@@ -29,16 +29,16 @@ def simulated(**options: object) -> SimulateResult:
 
 
 @pytest.fixture(scope="module")
-def found() -> SimulateResult:
+def found() -> ShoulderSimulateResult:
     return simulated()
 
 
 @pytest.fixture(scope="module")
-def folder(found: SimulateResult, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(found: ShoulderSimulateResult, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return found.write(tmp_path_factory.mktemp("shoulder") / "result")
 
 
-def test_both_arms_follow_the_recorded_ones(found: SimulateResult) -> None:
+def test_both_arms_follow_the_recorded_ones(found: ShoulderSimulateResult) -> None:
     """The elevation of the exoskeleton's arm is lower than the shoulder's, as in the paper (13.8 degrees there)."""
     assert [each.side for each in found.arms] == ["right", "left"]
     for each in found.arms:
@@ -52,7 +52,7 @@ def test_both_arms_follow_the_recorded_ones(found: SimulateResult) -> None:
     assert np.abs(off).mean() < 1.5
 
 
-def test_phases_are_those_of_the_trial(found: SimulateResult) -> None:
+def test_phases_are_those_of_the_trial(found: ShoulderSimulateResult) -> None:
     """All but the edges: the truth counts the lift from the first movement on, the study from a tenth of its range."""
     truth = pd.read_csv(TRIAL / "truth.csv", comment="#")["phase [-]"].to_numpy()
     assert np.mean(found.arms[0].phase == truth) > 0.85
@@ -60,7 +60,7 @@ def test_phases_are_those_of_the_trial(found: SimulateResult) -> None:
     assert np.mean(truth[working] == 2) > 0.9
 
 
-def test_the_table_holds_what_the_reference_lists(found: SimulateResult) -> None:
+def test_the_table_holds_what_the_reference_lists(found: ShoulderSimulateResult) -> None:
     table = found.table()
     assert len(table) == 821
     force = table.filter(like="force_").to_numpy()
@@ -73,7 +73,7 @@ def test_the_table_holds_what_the_reference_lists(found: SimulateResult) -> None
     assert shown.loc["bore", "value"] == pytest.approx(25.0) and shown.loc["supply", "unit"] == "bar"
 
 
-def test_what_is_to_be_doubted_is_told(found: SimulateResult) -> None:
+def test_what_is_to_be_doubted_is_told(found: ShoulderSimulateResult) -> None:
     told = "\n".join(found.warnings)
     assert "numbers are invented" in told and "no `person`" in told
     assert re.search(r"right arm: passive_1 is at a stop for \d+% of the time, first at 0\.00 s", told)
@@ -107,7 +107,7 @@ def test_the_person_moves_cuff_and_bar(tmp_path: Path) -> None:
     assert not any("no `person`" in line for line in longer.warnings)
 
 
-def test_angles_are_read_back(folder: Path, found: SimulateResult) -> None:
+def test_angles_are_read_back(folder: Path, found: ShoulderSimulateResult) -> None:
     table = read_table(folder / "angles.sto")
     assert table.channels[:3] == ("passive_1_right", "passive_2_right", "elevation_right")
     np.testing.assert_allclose(
@@ -150,7 +150,7 @@ def still_arms(folder: Path, time: np.ndarray) -> tuple[Path, Path]:
 
 
 def test_inverse_dynamics_reads_the_forces_as_external_loads(
-    folder: Path, found: SimulateResult, tmp_path: Path
+    folder: Path, found: ShoulderSimulateResult, tmp_path: Path
 ) -> None:
     """What holds limbs without mass at the origin is the opposite of each cuff's force and of its moment there."""
     data, loads = read_external_loads(folder / "interface_forces.xml")
@@ -175,7 +175,7 @@ def test_inverse_dynamics_reads_the_forces_as_external_loads(
         np.testing.assert_allclose(turned, -wrench.moment, atol=1e-6)
 
 
-def test_lines_for_paraview_hold_points_and_forces(folder: Path, found: SimulateResult) -> None:
+def test_lines_for_paraview_hold_points_and_forces(folder: Path, found: ShoulderSimulateResult) -> None:
     pv = pytest.importorskip("pyvista")
     text = (folder / "paraview" / "device.pvd").read_text(encoding="utf-8")
     assert text.count("<DataSet") == 821

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.shoulder.compare.options import CompareOptions
+from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.text.columns import angles_of, parse_map, resolve
@@ -32,7 +32,7 @@ class Channels:
 
 
 @dataclass(frozen=True, eq=False)
-class Both:
+class ArmAndRecording:
     """A simulated arm with its phases in words, and the recording."""
 
     simulated: Channels
@@ -40,8 +40,8 @@ class Both:
     recorded: Channels
 
 
-def read(o: CompareOptions, record: Record) -> Both:
-    """Both files."""
+def read(o: ShoulderCompareOptions, record: Record) -> ArmAndRecording:
+    """ArmAndRecording files."""
     simulated, phase = _simulated(o.simulated)
     record.add_input("simulated", o.simulated, frames=len(phase))
     table = read_table(o.recorded)
@@ -59,7 +59,7 @@ def read(o: CompareOptions, record: Record) -> Both:
     if not values:
         what = f"no column elevation or force; columns are: {listed(table.channels)}"
         raise InputError(o.recorded, "", what, "name them: `map` elevation=NAME,force=NAME")
-    return Both(simulated, phase, Channels(table.time - o.delay, values))
+    return ArmAndRecording(simulated, phase, Channels(table.time - o.delay, values))
 
 
 def _simulated(path: Path) -> tuple[Channels, tuple[str, ...]]:
@@ -86,5 +86,5 @@ def _column(table: TextTable, channel: str, mapping: Mapping[str, tuple[float, s
     return None if found is None else (sign, found)
 
 
-def _force(table: TextTable, name: str, o: CompareOptions) -> Float[np.ndarray, " t"]:
+def _force(table: TextTable, name: str, o: ShoulderCompareOptions) -> Float[np.ndarray, " t"]:
     return column_in_newtons(table, name, o.unit)[0]

@@ -10,9 +10,9 @@ from jaxtyping import Bool
 
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.shoulder.compare.options import CompareOptions
-from geocontact.analyses.shoulder.compare.read import ELEVATION, Both
-from geocontact.analyses.shoulder.compare.result import Compared, CompareResult
+from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
+from geocontact.analyses.shoulder.compare.read import ELEVATION, ArmAndRecording
+from geocontact.analyses.shoulder.compare.result import ComparedChannel, ShoulderCompareResult
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement, agreement, over_stretches
 from geocontact.identify.signals.even_times import at_times, even_times
@@ -22,7 +22,7 @@ ALL, WORK = "all", "work"
 """The whole trial; from the beginning of lifting to the end of lowering, as the study of the exoskeleton takes it."""
 
 
-def run(both: Both, o: CompareOptions, record: Record) -> CompareResult:
+def run(both: ArmAndRecording, o: ShoulderCompareOptions, record: Record) -> ShoulderCompareResult:
     """Every channel that was recorded."""
     time, step = even_times(both.simulated.time)
     recorded = both.recorded
@@ -40,12 +40,12 @@ def run(both: Both, o: CompareOptions, record: Record) -> CompareResult:
         measured = at_times(recorded.time, values, time, recorded_step)
         model = both.simulated.values[channel]
         errors = {name: _agreement(model, measured, step, part) for name, part in parts.items() if part.any()}
-        found.append(Compared(channel, time, model, np.where(inside, measured, np.nan), errors))
+        found.append(ComparedChannel(channel, time, model, np.where(inside, measured, np.nan), errors))
         _say(found[-1], errors, record)
     record.results["comparison"] = plain(
         {each.channel: {name: vars(error) for name, error in each.errors.items()} for each in found}
     )
-    return CompareResult(record=record, options=o, channels=tuple(found))
+    return ShoulderCompareResult(record=record, options=o, channels=tuple(found))
 
 
 def _agreement(model: np.ndarray, measured: np.ndarray, step: float, part: Bool[np.ndarray, " t"]) -> Agreement:
@@ -55,7 +55,7 @@ def _agreement(model: np.ndarray, measured: np.ndarray, step: float, part: Bool[
     return over_stretches(model, measured, step, [(run[0], run[-1] + 1) for run in runs])
 
 
-def _say(one: Compared, errors: Mapping[str, Agreement], record: Record) -> None:
+def _say(one: ComparedChannel, errors: Mapping[str, Agreement], record: Record) -> None:
     unit, factor = ("deg", np.degrees(1.0)) if one.channel == ELEVATION else ("N", 1.0)
     for name in (ALL, WORK):
         if name in errors:

@@ -17,7 +17,7 @@ Level = Annotated[float, Typed("-", "shoulder.level:level"), Spelled(default="10
 
 
 @dataclass(frozen=True)
-class SimulateOptions(Options):
+class ShoulderSimulateOptions(Options):
     """Motion and interface forces of a shoulder exoskeleton along recorded human motion.
 
     Parameters
