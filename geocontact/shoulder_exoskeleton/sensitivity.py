@@ -8,14 +8,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.shoulder_exoskeleton.arm_numbers import PADDED
+from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
 from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Source, Wearer
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 
 SHARE, TURN, SHIFT = 0.1, np.radians(5.0), 0.01
 """Of a number; of an angle [rad] and of a length that may be 0 [m]."""
-NUMERICAL = ("rounding",)
-SHOWN_ONLY = ("belt_share", "cuff_length", "cuff_radius")
-"""Numbers on which no motion depends."""
+IDLE: dict[Cuff, tuple[str, ...]] = {
+    "point": ("rounding", "belt_share", *(name for name in PADDED if name != "delta_full")),
+    "surface": ("rounding", "belt_share", "k", "b"),
+}
+"""Numbers that no motion depends on, and one that is numerical, by how the arm is held."""
 STANDING = tuple(f"axis_{joint}_{axis}" for joint in JOINTS for axis in "xyz")
 """Directions of axes: other axes are another device, with equations of its own."""
 
@@ -44,11 +48,13 @@ class Influence:
     shear: float
 
 
-def influences(motion: ArmMotion, device: Device, wearer: Wearer, level: float) -> Iterator[Influence]:
+def influences(
+    motion: ArmMotion, device: Device, wearer: Wearer, level: float, cuff: Cuff = "point"
+) -> Iterator[Influence]:
     """One by one, in the device's order; a number with which nothing rests at the start changes all by infinity."""
-    usual = simulate_arm(motion, device, wearer, level)
+    usual = simulate_arm(motion, device, wearer, level, cuff=cuff)
     for name, number in device.numbers.items():
-        if name in (*NUMERICAL, *SHOWN_ONLY, *STANDING):
+        if name in (*IDLE[cuff], *STANDING):
             continue
         step = _step(name, number.value)
         if step == 0.0:
@@ -71,7 +77,7 @@ def _step(name: str, value: float) -> float:
 
 def _changed(usual: ArmSimulation, device: Device) -> tuple[float, float, float]:
     try:
-        other = simulate_arm(usual.motion, device, usual.wearer, usual.level)
+        other = simulate_arm(usual.motion, device, usual.wearer, usual.level, cuff=usual.cuff)
     except ArithmeticError:
         return np.inf, np.inf, np.inf
     pairs = ((usual.elevation, other.elevation), (usual.supporting, other.supporting), (usual.shear, other.shear))

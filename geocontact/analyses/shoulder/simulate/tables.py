@@ -13,6 +13,9 @@ from geocontact.shoulder_exoskeleton.sensitivity import Influence
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
+WAYS = ("distal", "medial", "raising")
+"""Axes of the cuff."""
+
 
 def arm_table(s: ArmSimulation, phase: Int[np.ndarray, " t"]) -> pd.DataFrame:
     """Angles, forces and slip over time; forces of the cuff on the arm, in the device's frame and in the cuff's."""
@@ -39,6 +42,13 @@ def arm_table(s: ArmSimulation, phase: Int[np.ndarray, " t"]) -> pd.DataFrame:
         "out of the cuff": s.out_of_cuff.astype(int),
         **{f"{joint} at a stop": column.astype(int) for joint, column in zip(JOINTS, s.at_stop.T, strict=True)},
     }
+    if s.cuff == "surface":
+        columns |= {
+            **{f"couple {way} [N m]": column for way, column in zip(WAYS, told["couple"].T, strict=True)},
+            "centre of pressure [mm]": 1e3 * told["centre"][:, 0],
+            "peak pressure [Pa]": told["peak"][:, 0],
+            "pressed share [-]": told["share"][:, 0],
+        }
     return pd.DataFrame(columns)
 
 
