@@ -32,14 +32,25 @@ def compiled(function: Function) -> Function:
 
     The library is kept in `cache_folder` and found again by the source, the compiler and its flags.
     """
-    from casadi import CodeGenerator, external
+    return loaded(function, library_of(function))
+
+
+def library_of(function: Function, beside: str = "") -> Path | None:
+    """The function's library; None where there is no compiler or it fails.
+
+    Parameters
+    ----------
+    beside
+        C source that follows the function's own and may call it by its name.
+    """
+    from casadi import CodeGenerator
 
     program = compiler()
     if program is None:
-        return function
+        return None
     generator = CodeGenerator("f.c")
     generator.add(function)
-    source = generator.dump()
+    source = generator.dump() + beside
     key = "\0".join((source, program, *FLAGS))
     folder = cache_folder()
     library = folder / f"{hashlib.sha256(key.encode()).hexdigest()}.so"
@@ -47,10 +58,19 @@ def compiled(function: Function) -> Function:
         try:
             _build(program, source, folder, library)
         except (OSError, subprocess.CalledProcessError):
-            return function
+            return None
+    return library
+
+
+def loaded(function: Function, library: Path | None) -> Function:
+    """The function out of its library; itself where there is none or it is damaged: it is built anew next time."""
+    from casadi import external
+
+    if library is None:
+        return function
     try:
         return external(function.name(), str(library))
-    except RuntimeError:  # damaged on the disk: built anew next time
+    except RuntimeError:
         library.unlink(missing_ok=True)
         return function
 

@@ -44,9 +44,10 @@ def _needed(tree: Tree, name: str) -> tuple[SX, SX]:
 
     body = next(each for each in tree.model.bodies if each.name == name)
     frame = tree.bodies[name]
-    arm = mtimes(frame.rotation, constant(body.centre))
+    arm = mtimes(frame.rotation, tree.centres.get(name, constant(body.centre)))
+    gravity = constant(tree.model.gravity) if tree.gravity is None else tree.gravity
     fast = frame.speed_rate + cross(frame.spin_rate, arm) + cross(frame.spin, cross(frame.spin, arm))
-    force = tree.masses.get(name, body.mass) * (fast - constant(tree.model.gravity))
-    inertia = mtimes(frame.rotation, mtimes(constant(body.inertia), frame.rotation.T))
+    force = tree.masses.get(name, body.mass) * (fast - gravity)
+    inertia = mtimes(frame.rotation, mtimes(tree.inertias.get(name, constant(body.inertia)), frame.rotation.T))
     spun = mtimes(inertia, frame.spin_rate) + cross(frame.spin, mtimes(inertia, frame.spin))
     return force, spun + cross(frame.place + arm, force)

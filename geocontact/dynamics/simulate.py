@@ -10,9 +10,11 @@ from jaxtyping import Float
 from scipy.interpolate import CubicHermiteSpline
 
 from geocontact.dynamics.buffered import Buffered
-from geocontact.dynamics.compiled import compiled
+from geocontact.dynamics.compiled import compiled, library_of, loaded
 from geocontact.dynamics.equations import Equations
+from geocontact.dynamics.recorded_inputs import RecordedInputs
 from geocontact.dynamics.rosenbrock import ORDER, rosenbrock_step, tangent_step
+from geocontact.dynamics.step_loop import SOURCE, TOO_SHORT, StepControl, StepLoop
 
 Vector = Float[np.ndarray, " _"]
 Inputs = Callable[[float], tuple[Vector, Vector]]
@@ -75,9 +77,12 @@ class Stepper:
     def __init__(self, equations: Equations, *, machine_code: bool = True, by_parameter: bool = False) -> None:
         self.equations = equations
         step = rosenbrock_step(equations)
-        made = compiled(step) if machine_code else step
+        library = library_of(step, SOURCE) if machine_code else None
+        made = loaded(step, library)
         self.compiled = made is not step
         self.step = Buffered(made)
+        count = len(equations.names)
+        self.loop = StepLoop(library, 2 * count + equations.z.numel(), count) if library and self.compiled else None
         self.tangent = None
         if by_parameter:
             tangent = tangent_step(step)
@@ -100,7 +105,7 @@ class Stepper:
         Parameters
         ----------
         inputs
-            Course of the equations' inputs.
+            Course of the equations' inputs; `RecordedInputs`, or none, let the whole loop run in machine code.
         tolerance
             Error allowed in each step: of a coordinate [rad, m], of a rate [rad/s, m/s] and of a memory [its unit],
             plus as much of each one's size.
@@ -111,16 +116,22 @@ class Stepper:
 
         ArithmeticError where the step would have to become shorter than a `SMALLEST` part of the span.
         """
-        at = inputs or (lambda _: (np.zeros(0), np.zeros(0)))
         p = np.zeros(0) if parameters is None else np.asarray(parameters, float)
-        if len(p) != self.equations.p.numel():
-            raise ValueError(f"{len(p)} parameters given, {self.equations.p.numel()} needed")
-        x, n = np.concatenate(start).astype(float), len(self.equations.names)
+        _check(self.equations, time, p, inputs)
+        x = np.concatenate(start).astype(float)
+        control = StepControl(tolerance, first, longest, steps, SAFE, SHRINK, GROW, SMALLEST, ORDER)
+        if self.loop and not self.tangent and (inputs is None or isinstance(inputs, RecordedInputs)):
+            return self._looped(self.loop, x, time, inputs, p, control)
+        return self._stepped(x, time, inputs or (lambda _: (np.zeros(0), np.zeros(0))), p, control)
+
+    def _stepped(
+        self, x: Vector, time: Float[np.ndarray, " t"], at: Inputs, p: Vector, control: StepControl
+    ) -> SimulatedMotion:
+        """The loop in Python: for inputs of any kind, for derivatives, and where there is no compiler."""
+        steps, n = control.steps, len(self.equations.names)
         now, end = float(time[0]), float(time[-1])
-        if len(time) < 2 or not end > now or np.any(np.diff(time) < 0.0):
-            raise ValueError("two times at least are needed, none before the one that it follows")
         span = end - now
-        h = (end - now) / steps if steps else min(first, longest, end - now)
+        h = (end - now) / steps if steps else min(control.first, control.longest, end - now)
         times, states, rates = [now], [x], []
         turn = np.zeros((len(p) if self.tangent else 0, len(x)))  # transposed: columns follow each other
         turns, turn_rates = [turn], []
@@ -131,7 +142,7 @@ class Stepper:
             there = end if steps is not None and len(times) == steps else now + h
             later = at(there)
             found, off, rate = self.step(x, np.array([h]), given, later[0], slope, p)
-            size = 0.0 if steps else _size(off, x, found, tolerance)
+            size = 0.0 if steps else _size(off, x, found, control.tolerance)
             if not np.all(np.isfinite(found)):
                 size = np.inf
             if size <= 1.0:
@@ -150,7 +161,7 @@ class Stepper:
                 refused += 1
             if steps is None:
                 allowed = SAFE * size ** (-1.0 / ORDER) if size > 0.0 else GROW
-                h = min(h * float(np.clip(allowed, SHRINK, GROW)), longest)
+                h = min(h * float(np.clip(allowed, SHRINK, GROW)), control.longest)
             if h < SMALLEST * span or (steps and size > 1.0):
                 raise ArithmeticError(f"no step is short enough at {now:g} s")
         rates.append(self.step(x, np.array([h]), given, given, slope, p)[2].copy())
@@ -163,6 +174,40 @@ class Stepper:
         else:
             by = np.zeros((len(time), len(x), 0))
         return SimulatedMotion(time, self.equations.names, q, u, z, len(times) - 1, refused, error, by)
+
+    def _looped(
+        self,
+        loop: StepLoop,
+        x: Vector,
+        time: Float[np.ndarray, " t"],
+        inputs: RecordedInputs | None,
+        p: Vector,
+        control: StepControl,
+    ) -> SimulatedMotion:
+        n = len(self.equations.names)
+        found = loop.run(x, time, inputs, p, control)
+        if found.end == TOO_SHORT:
+            raise ArithmeticError(f"no step is short enough at {found.reached:g} s")
+        q, u, z = found.states[:, :n], found.states[:, n : 2 * n], found.states[:, 2 * n :]
+        none = np.zeros((len(time), len(x), 0))
+        return SimulatedMotion(time, self.equations.names, q, u, z, found.steps, found.refused, found.error, none)
+
+
+def _check(equations: Equations, time: Vector, p: Vector, inputs: Inputs | None) -> None:
+    if len(p) != equations.p.numel():
+        raise ValueError(f"{len(p)} parameters given, {equations.p.numel()} needed")
+    if len(time) < 2 or not time[-1] > time[0] or np.any(np.diff(time) < 0.0):
+        raise ValueError("two times at least are needed, none before the one that it follows")
+    if isinstance(inputs, RecordedInputs):
+        _check_recorded(inputs, equations, float(time[0]), float(time[-1]))
+
+
+def _check_recorded(inputs: RecordedInputs, equations: Equations, start: float, end: float) -> None:
+    if inputs.count != equations.w.numel():
+        raise ValueError(f"{inputs.count} inputs given, {equations.w.numel()} needed")
+    first, last = inputs.breaks[[0, -1]]
+    if start < first - 1e-9 or end > last + 1e-9:
+        raise ValueError(f"inputs are known from {first:g} to {last:g} s, wanted from {start:g} to {end:g} s")
 
 
 def _size(off: Vector, x: Vector, found: Vector, tolerance: float) -> float:

@@ -98,6 +98,10 @@ class Tree:
         One for each joint, in the model's order.
     masses
         Symbols [kg] in place of the masses of some bodies; their inertia stays.
+    centres, inertias
+        Likewise of mass centres in the body's frame [m] and of inertias about them, in the body's axes [kg m²].
+    gravity
+        A symbol in place of the model's [m/s²], as where the ground is a body that turns.
     """
 
     model: Multibody
@@ -107,6 +111,9 @@ class Tree:
     bodies: dict[str, Moving]
     axes: tuple[JointAxis, ...]
     masses: Mapping[str, SX] = field(default_factory=dict)
+    centres: Mapping[str, SX] = field(default_factory=dict)
+    inertias: Mapping[str, SX] = field(default_factory=dict)
+    gravity: SX | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -127,16 +134,24 @@ class Tree:
 
 
 def tree_of(
-    model: Multibody, *, masses: Mapping[str, SX] | None = None, places: Mapping[str, SX] | None = None
+    model: Multibody,
+    *,
+    masses: Mapping[str, SX] | None = None,
+    centres: Mapping[str, SX] | None = None,
+    inertias: Mapping[str, SX] | None = None,
+    places: Mapping[str, SX] | None = None,
+    gravity: SX | None = None,
 ) -> Tree:
     """A model in symbols.
 
     Parameters
     ----------
-    masses
-        Of some bodies by name [kg], symbols that equations are to be functions of.
+    masses, centres, inertias
+        Of some bodies by name [kg, m, kg m²], symbols that equations are to be functions of.
     places
         Of some joints by name: their origin in the parent body [m], likewise.
+    gravity
+        Its acceleration in the ground's frame [m/s²], likewise.
     """
     from casadi import SX, mtimes
 
@@ -155,4 +170,6 @@ def tree_of(
         bodies[joint.child] = moving.carried(joint.child_offset.inv())
         rates = (mtimes(fixed.rotation, per) for per in (own.spin_per_rate, own.speed_per_rate))
         axes.append(JointAxis(moving.place, *rates))
-    return Tree(model, q, u, a, bodies, tuple(axes), dict(masses or {}))
+    return Tree(
+        model, q, u, a, bodies, tuple(axes), dict(masses or {}), dict(centres or {}), dict(inertias or {}), gravity
+    )

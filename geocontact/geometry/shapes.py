@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.geometry.off_axis import off_axis
 from geocontact.geometry.proximity import Proximity, within
 
 Vector = tuple[float, float, float]
@@ -93,7 +94,7 @@ class Tube:
         """radius - distance from the axis; on the axis itself any radial direction is as good, one is taken."""
         axis = _unit(self.direction)
         offset = points - np.asarray(self.point)
-        radial = offset - (offset @ axis)[:, None] * axis
+        radial = np.column_stack(off_axis((offset[:, 0], offset[:, 1], offset[:, 2]), tuple(axis))[1])
         spare = np.eye(3)[int(np.argmin(np.abs(axis)))]
         spare = spare - (spare @ axis) * axis
         outward = _directions(radial, spare / np.linalg.norm(spare))

@@ -1,1 +1,16 @@
-"""Shoulder exoskeleton that a recorded arm moves."""
+"""A shoulder exoskeleton driven by human motion: `gc.shoulder.simulate(...)` and more."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from geocontact.analyses.package_of_jobs import PackageOfJobs
+
+if TYPE_CHECKING:
+    from geocontact.analyses.shoulder.compare.job import compare
+    from geocontact.analyses.shoulder.simulate.job import simulate
+
+__all__ = ["compare", "simulate"]
+
+sys.modules[__name__].__class__ = PackageOfJobs

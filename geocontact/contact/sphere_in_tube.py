@@ -1,0 +1,109 @@
+"""A sphere inside a tube of the same radius: the arm in the cuff of an exoskeleton.
+
+The law of the Simscape Multibody Contact Forces Library (S. Miller) as Yao et al. (2024), Robotics 13:27, sec. 2.3, use
+it: F = k pen + b max(pen', 0) s(pen / d_full) towards the axis, friction by a table of the sliding speed. With equal
+radii the penetration is the distance |r| of the sphere's centre from the axis, whatever the radius is. The spring -k r
+needs no direction there; damping vanishes with r; friction μ k |r| has a kink on the axis, which is rounded:
+|r| becomes sqrt(r² + e²) - e in it, less by at most e, so that friction is less by at most μ k e (0.05 N for
+k = 1000 N/m and e = 0.05 mm).
+
+The sphere does not turn in the tube (the paper's Cartesian joint), so what slides is the sphere's centre against the
+tube, and the moment of friction about the centre goes back through that joint: on both bodies the force acts at the
+sphere's centre.
+
+Components in, components out: the same source runs on arrays and on CasADi symbols (numpy mode 1).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+import numpy as np
+
+from geocontact.contact.sphere_foot import friction_coefficient, normal_force
+from geocontact.geometry.off_axis import off_axis
+
+X = TypeVar("X", bound=Any)
+"""A number, an array or a symbol."""
+Vector = tuple[X, X, X]
+STILL = 1e-9
+"""m/s below which sliding has no direction; friction is proportional to the speed there."""
+
+
+@dataclass(frozen=True)
+class TubeLaw:
+    """Numbers of the law, each a number or a symbol.
+
+    Parameters
+    ----------
+    k, b, delta_full
+        Stiffness [N/m], damping [N s/m], depth from which damping acts fully [m].
+    v_th, mu_s, mu_k
+        Threshold speed of the friction table [m/s], static and kinetic coefficient.
+    rounding
+        e, over which friction's kink on the axis is rounded [m], > 0.
+    """
+
+    k: Any
+    b: Any
+    delta_full: Any
+    v_th: Any
+    mu_s: Any
+    mu_k: Any
+    rounding: Any
+
+
+@dataclass(frozen=True)
+class TubeContact:
+    """Forces of the tube on the sphere, in the tube's axes.
+
+    Parameters
+    ----------
+    along
+        Place of the centre along the axis [m].
+    radial
+        From the axis to the centre [m].
+    pressing
+        Normal force [N], >= 0.
+    normal, friction
+        Both parts of the force [N].
+    sliding
+        Velocity of the centre along the wall [m/s].
+    """
+
+    along: Any
+    radial: Vector[Any]
+    pressing: Any
+    normal: Vector[Any]
+    friction: Vector[Any]
+    sliding: Vector[Any]
+
+
+def tube_contact(offset: Vector[X], velocity: Vector[X], axis: Vector[X], law: TubeLaw) -> TubeContact:
+    """Forces at an offset of the sphere's centre from the tube's [m], and its velocity in the tube [m/s]."""
+    along, radial = off_axis(offset, axis)
+    rounded = np.sqrt(_dot(radial, radial) + law.rounding * law.rounding)
+    outwards = _times(radial, 1.0 / rounded)
+    closing = _dot(outwards, velocity)
+    depth = rounded - law.rounding
+    damping = normal_force(depth, closing, 0.0, 1.0, law.b, law.delta_full)
+    pressing = law.k * depth + damping
+    normal = _plus(_times(radial, -law.k), _times(outwards, -damping))
+    sliding = _plus(velocity, _times(outwards, -closing))
+    speed = np.sqrt(_dot(sliding, sliding) + STILL * STILL)
+    friction = _times(sliding, -friction_coefficient(speed, law.v_th, law.mu_s, law.mu_k) * pressing / speed)
+    return TubeContact(along, radial, pressing, normal, friction, sliding)
+
+
+def _dot(a: Vector[X], b: Vector[X]) -> X:
+    product: X = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return product
+
+
+def _times(a: Vector[X], by: X) -> Vector[X]:
+    return a[0] * by, a[1] * by, a[2] * by
+
+
+def _plus(a: Vector[X], b: Vector[X]) -> Vector[X]:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]

@@ -1,0 +1,137 @@
+"""One arm along a synthetic motion: error and order of the steps, energy, symmetry, what holds the arm."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from geocontact.shoulder_exoskeleton.arm_model import arm_model
+from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers, slices
+from geocontact.shoulder_exoskeleton.device import Wearer
+from geocontact.shoulder_exoskeleton.lucy import lucy
+from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, arm_inputs, at_rest, simulate_arm
+from tests.shoulder_exoskeleton.arms import GRAVITY, lifted
+
+LUCY, WEARER = lucy(), Wearer()
+
+
+@pytest.fixture(scope="module")
+def lift() -> ArmSimulation:
+    return simulate_arm(lifted(), LUCY, WEARER, 1.0)
+
+
+@pytest.mark.parametrize("level", [0.0, 0.5, 1.0])
+def test_error_of_the_usual_tolerance(level: float) -> None:
+    """Below 0.05 degrees and 0.5 N beside a tolerance of 1e-10, at every frame."""
+    usual, tight = (simulate_arm(lifted(), LUCY, WEARER, level, tolerance=t) for t in (3e-6, 1e-10))
+    assert np.degrees(np.abs(usual.angles - tight.angles)).max() < 0.05
+    assert np.linalg.norm(usual.told["force"] - tight.told["force"], axis=1).max() < 0.5
+    assert np.ptp(tight.elevation) > 1.0
+
+
+def test_steps_are_of_third_order() -> None:
+    """Even steps, before anything slides fast: errors of the angles fall with the third power."""
+    smooth = LUCY.having(v_th=0.2, b=0.0)
+    motion = lifted(seconds=4.0)
+    first = motion.time <= 1.2
+    motion = replace(
+        motion,
+        time=motion.time[first],
+        interface=motion.interface[first],
+        shoulder=motion.shoulder[first],
+        elevation=motion.elevation[first],
+    )
+    exact = simulate_arm(motion, smooth, WEARER, 0.5, tolerance=1e-11).angles[-1]
+    errors = [
+        np.abs(simulate_arm(motion, smooth, WEARER, 0.5, steps=n).angles[-1] - exact).max() for n in (300, 600, 1200)
+    ]
+    orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+    assert orders[-1] == pytest.approx(3.0, abs=0.35), (errors, orders)
+
+
+@pytest.mark.parametrize("level", [0.0, 1.0])
+def test_energy_is_what_goes_in_less_what_friction_and_damping_take(level: float) -> None:
+    found = simulate_arm(lifted(step=1e-3), LUCY, WEARER, level, tolerance=1e-8)
+    time, told = found.motion.time, found.told
+    change = told["energy"][:, 0] - told["energy"][0, 0]
+    came = np.concatenate([[0.0], np.cumsum(0.5e-3 * _pairs(told["power_in"][:, 0] - told["power_lost"][:, 0]))])
+    assert np.abs(change - came).max() < 0.01 * np.abs(change).max()
+    assert told["power_lost"].min() > -1e-9
+    assert np.trapezoid(told["power_lost"][:, 0], time) > 0.05
+
+
+def _pairs(values: np.ndarray) -> np.ndarray:
+    return values[1:] + values[:-1]
+
+
+def test_a_left_arm_is_the_mirror_image(lift: ArmSimulation) -> None:
+    left = simulate_arm(lifted(side="left"), LUCY, WEARER, 1.0)
+    np.testing.assert_array_equal(left.angles, lift.angles)
+    np.testing.assert_array_equal(left.told["force"], lift.told["force"] * [-1.0, 1.0, 1.0])
+    np.testing.assert_array_equal(left.told["in_cuff"], lift.told["in_cuff"])
+
+
+def test_both_parts_make_the_force_and_the_cuffs_axes_keep_its_size(lift: ArmSimulation) -> None:
+    told = lift.told
+    np.testing.assert_allclose(told["normal"] + told["friction"], told["in_cuff"], atol=1e-12)
+    np.testing.assert_allclose(
+        np.linalg.norm(told["force"], axis=1), np.linalg.norm(told["in_cuff"], axis=1), atol=1e-9
+    )
+    assert lift.supporting.max() > 10.0
+    assert np.all(np.diff(lift.slip) >= 0.0)
+
+
+def test_without_support_the_wearer_carries_the_arm() -> None:
+    """Held high without support, the interface force pulls the human arm down; with it, it lifts."""
+    held = 300
+    off, on = (simulate_arm(lifted(), LUCY, WEARER, level).supporting[held] for level in (0.0, 1.0))
+    assert off < -1.0 and on > 10.0
+
+
+def test_the_support_follows_its_factor_with_the_lag() -> None:
+    """Switched to half at 3 s: the cylinder's force falls as exp(-t / lag)."""
+    motion = lifted()
+    factor = np.where(motion.time < 3.0, 1.0, 0.5)
+    found = simulate_arm(motion, LUCY, WEARER, 1.0, factor=factor)
+    late = motion.time >= 3.0
+    wanted = LUCY.peak_force * (0.5 + 0.5 * np.exp(-(motion.time[late] - 3.0) / LUCY["lag"]))
+    np.testing.assert_allclose(found.cylinder[late], wanted, atol=0.5)
+    np.testing.assert_allclose(found.cylinder[~late], LUCY.peak_force, atol=1e-3)
+
+
+def test_a_held_arm_stays_where_it_rests() -> None:
+    motion = lifted()
+    still = replace(motion, interface=np.broadcast_to(motion.interface[0], motion.interface.shape).copy())
+    found = simulate_arm(still, LUCY, WEARER, 0.5)
+    assert np.ptp(found.angles, axis=0).max() < 1e-4
+    assert found.slip[-1] < 1e-5
+
+
+def test_what_holds_the_third_joint_is_friction_stops_and_damping() -> None:
+    """Rest without friction: the cuff holds two ways; the support folds the passive joints until a stop holds them."""
+    model, p = arm_model(LUCY), adjusted_numbers(LUCY, WEARER, 1.0)
+    inputs = arm_inputs(lifted())(0.0)[0]
+    q, _, z = at_rest(model, LUCY, p, inputs)
+    without = p.copy()
+    without[slices()["stop"]] = 0.0, 0.02, 0.0
+    moved = model.equilibrium.find((q, z), inputs=inputs, parameters=without, tolerance=1e-7)[0]
+    assert np.abs(moved - q).max() > 0.2
+
+
+def test_no_rest_is_told() -> None:
+    motion = lifted()
+    with pytest.raises(ArithmeticError, match=r"at the start the arm is \d+ mm from the cuff's middle"):
+        simulate_arm(replace(motion, interface=motion.interface + np.array([0.0, 0.0, 2.0])), LUCY, WEARER, 0.0)
+
+
+def test_gravity_may_turn_with_the_trunk() -> None:
+    """The same gravity frame by frame; and a trunk that leans forward changes what is carried."""
+    motion = lifted(seconds=5.0)
+    rows = np.tile(GRAVITY, (len(motion.time), 1))
+    once, each = (simulate_arm(replace(motion, gravity=g), LUCY, WEARER, 0.0) for g in (GRAVITY, rows))
+    np.testing.assert_allclose(once.angles, each.angles, atol=1e-9)
+    leaning = rows @ np.array([[1.0, 0.0, 0.0], [0.0, np.cos(0.3), np.sin(0.3)], [0.0, -np.sin(0.3), np.cos(0.3)]])
+    other = simulate_arm(replace(motion, gravity=leaning), LUCY, WEARER, 0.0)
+    assert np.abs(other.supporting - once.supporting).max() > 0.5
