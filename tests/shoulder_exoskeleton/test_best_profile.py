@@ -15,7 +15,7 @@ from geocontact.shoulder_exoskeleton.support.best_profile import (
     front,
     uniform_profile,
 )
-from geocontact.shoulder_exoskeleton.support.held_out import Judged, held_out, judged
+from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, held_out, judged
 from geocontact.shoulder_exoskeleton.support.outcome import PRESENT, TABLE_3, outcome
 from geocontact.shoulder_exoskeleton.support.phases import LIFT, LOWER, REST
 from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, SupportCase, lagged
@@ -163,11 +163,11 @@ def test_a_model_without_errors_varies_nothing(trials: list[ArmTrial]) -> None:
 
 
 @pytest.fixture(scope="module")
-def judgement(trials: list[ArmTrial]) -> dict[str, Judged]:
+def judgement(trials: list[ArmTrial]) -> dict[str, HeldOutSupport]:
     return held_out(trials, SUPPORT, best_profile, dict.fromkeys(TABLE_3, 0.16), draws=30)
 
 
-def test_a_held_out_person_takes_no_part(trials: list[ArmTrial], judgement: dict[str, Judged]) -> None:
+def test_a_held_out_person_takes_no_part(trials: list[ArmTrial], judgement: dict[str, HeldOutSupport]) -> None:
     weaker = [replace(t, lever=0.5 * t.lever) if t.person == "P2" else t for t in trials]
     again = held_out(weaker, SUPPORT, lambda cases: best_profile(cases, Limits(force=30.0)), TABLE_3, draws=2)
     same = held_out(trials, SUPPORT, lambda cases: best_profile(cases, Limits(force=30.0)), TABLE_3, draws=2)
@@ -176,7 +176,7 @@ def test_a_held_out_person_takes_no_part(trials: list[ArmTrial], judgement: dict
     assert judgement["P3"].factors == best_profile(others).factors
 
 
-def test_gains_of_held_out_persons_exceed_the_error(judgement: dict[str, Judged]) -> None:
+def test_gains_of_held_out_persons_exceed_the_error(judgement: dict[str, HeldOutSupport]) -> None:
     """Over one factor for all that pushes nobody up: 14 to 27 % more of the torque is taken away from each."""
     for person, found in judgement.items():
         low, high = found.interval
@@ -186,7 +186,9 @@ def test_gains_of_held_out_persons_exceed_the_error(judgement: dict[str, Judged]
         assert found.pushed_up[1] >= found.pushed_up[0] - 0.02
 
 
-def test_a_reserve_buys_safety_for_a_person_not_seen(trials: list[ArmTrial], judgement: dict[str, Judged]) -> None:
+def test_a_reserve_buys_safety_for_a_person_not_seen(
+    trials: list[ArmTrial], judgement: dict[str, HeldOutSupport]
+) -> None:
     careful = held_out(
         trials, SUPPORT, lambda cases: best_profile(cases, Limits(reserve=0.2)), dict.fromkeys(TABLE_3, 0.16), draws=5
     )

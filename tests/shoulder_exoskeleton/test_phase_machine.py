@@ -1,4 +1,4 @@
-"""Work phases from angle, rate and current: in their order, causal, without chatter, nearly right under noise."""
+"""ToolWork phases from angle, rate and current: in their order, causal, without chatter, nearly right under noise."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from geocontact.shoulder_exoskeleton.support.phases import LIFT, LOWER, REST, SC
 from geocontact.shoulder_exoskeleton.support.sensing import Sensing, sensed
 from geocontact.shoulder_exoskeleton.synthetic.course import minimum_jerk
 from geocontact.shoulder_exoskeleton.synthetic.design import CONDITIONS, PARTICIPANTS, TASKS
-from geocontact.shoulder_exoskeleton.synthetic.trial import SyntheticTrial, synthetic_trial
+from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
 
 ORDER = [REST, LIFT, SCREW, LIFT, LOWER, REST]
 TIME = np.arange(801) / 100.0
@@ -21,7 +21,7 @@ EXACT = Sensing(noise=0.0, step=0.0, delay=0.0, current_noise=0.0)
 
 
 @pytest.fixture(scope="module")
-def trials() -> list[SyntheticTrial]:
+def trials() -> list[OverheadTrial]:
     return [synthetic_trial(*each) for each in product(PARTICIPANTS, TASKS, CONDITIONS)]
 
 
@@ -96,7 +96,7 @@ def test_thresholds_without_hysteresis_are_refused(numbers: dict[str, float], wh
         Thresholds(**numbers)
 
 
-def checks(trials: list[SyntheticTrial], sensing: Sensing, onset: float = ONSET) -> tuple[list[PhaseCheck], float]:
+def checks(trials: list[OverheadTrial], sensing: Sensing, onset: float = ONSET) -> tuple[list[PhaseCheck], float]:
     """Beside truth; and the mean share of samples that perfect sensors would give another phase."""
     found, changed = [], []
     for trial, angles in ((each, angles) for each in trials for angles in each.courses.values()):
@@ -111,7 +111,7 @@ def checks(trials: list[SyntheticTrial], sensing: Sensing, onset: float = ONSET)
     return found, float(np.mean(changed))
 
 
-def test_noise_and_delay_cost_one_per_cent_and_no_chatter(trials: list[SyntheticTrial]) -> None:
+def test_noise_and_delay_cost_one_per_cent_and_no_chatter(trials: list[OverheadTrial]) -> None:
     """72 detections: 0.7 % of the time beside perfect sensors, 2.0 % beside truth, most as a lowering begins."""
     found, changed = checks(trials, Sensing())
     assert not any(each.chatter for each in found)
@@ -123,7 +123,7 @@ def test_noise_and_delay_cost_one_per_cent_and_no_chatter(trials: list[Synthetic
     assert 0.02 < np.mean([each.wrong for each in earlier]) < 0.028
 
 
-def test_delay_costs_what_it_lasts(trials: list[SyntheticTrial]) -> None:
+def test_delay_costs_what_it_lasts(trials: list[OverheadTrial]) -> None:
     late = Sensing(noise=0.0, step=0.0, delay=0.05, current_noise=0.0)
     (now, _), (then, changed) = checks(trials, EXACT), checks(trials, late)
     length = np.mean([trial.times.end for trial in trials])

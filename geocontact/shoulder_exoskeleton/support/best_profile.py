@@ -46,7 +46,7 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class Profile:
+class SupportProfile:
     """Factors for each task, hand and phase, and the share of the torque that they take away by the aim."""
 
     factors: Factors
@@ -55,7 +55,7 @@ class Profile:
 
 def best_profile(
     cases: Sequence[SupportCase], limits: Limits | None = None, aim: Aim = "mean", worst_share: float = 0.25
-) -> Profile:
+) -> SupportProfile:
     """The profile that is best for these cases.
 
     Parameters
@@ -85,10 +85,10 @@ def best_profile(
     )
     if found.x is None or found.fun is None:
         raise ValueError(f"no profile keeps the limits: {found.message}")
-    return Profile(dict(zip(keys, found.x[: len(keys)].tolist(), strict=True)), -float(found.fun))
+    return SupportProfile(dict(zip(keys, found.x[: len(keys)].tolist(), strict=True)), -float(found.fun))
 
 
-def uniform_profile(cases: Sequence[SupportCase], limits: Limits | None = None) -> Profile:
+def uniform_profile(cases: Sequence[SupportCase], limits: Limits | None = None) -> SupportProfile:
     """The best profile with one factor for every task, hand and phase: support without a state machine's knowledge."""
     keys = tuple(dict.fromkeys(key for case in cases for key in case.keys))
     rows, bounds = _constraints(cases, keys, limits or Limits())
@@ -96,10 +96,10 @@ def uniform_profile(cases: Sequence[SupportCase], limits: Limits | None = None) 
     rising = together > 0.0
     factor = float(np.clip(np.min(bounds[rising] / together[rising], initial=1.0), 0.0, 1.0))
     gains = np.stack([_gain(case, keys) for case in cases])
-    return Profile(dict.fromkeys(keys, factor), factor * float(_by_person(cases, gains).sum(axis=1).mean()))
+    return SupportProfile(dict.fromkeys(keys, factor), factor * float(_by_person(cases, gains).sum(axis=1).mean()))
 
 
-def front(cases: Sequence[SupportCase], limits: Sequence[Limits], aim: Aim = "mean") -> list[Profile]:
+def front(cases: Sequence[SupportCase], limits: Sequence[Limits], aim: Aim = "mean") -> list[SupportProfile]:
     """The best profile for each of several limits: a Pareto front of what they limit against what is taken away."""
     return [best_profile(cases, each, aim) for each in limits]
 

@@ -9,18 +9,18 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, ModelError, Support, support_case, varied_case
-from geocontact.shoulder_exoskeleton.support.best_profile import Profile
-from geocontact.shoulder_exoskeleton.support.outcome import Factors, Outcome, outcome
+from geocontact.shoulder_exoskeleton.support.best_profile import SupportProfile
+from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome, outcome
 from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
 
-Maker = Callable[[Sequence[SupportCase]], Profile]
+Maker = Callable[[Sequence[SupportCase]], SupportProfile]
 """How a profile is made from cases."""
 COVERED = (0.05, 0.95)
 """Quantiles of the intervals."""
 
 
 @dataclass(frozen=True)
-class Judged:
+class HeldOutSupport:
     """A profile on a person that it was not made with.
 
     Parameters
@@ -39,7 +39,7 @@ class Judged:
     """
 
     factors: Factors
-    outcomes: dict[str, Outcome]
+    outcomes: dict[str, SupportOutcome]
     reduction: float
     interval: tuple[float, float]
     gain: float
@@ -61,7 +61,7 @@ def held_out(
     error: ModelError | None = None,
     draws: int = 200,
     seed: int = 0,
-) -> dict[str, Judged]:
+) -> dict[str, HeldOutSupport]:
     """For each person the profile that the others make.
 
     Parameters
@@ -93,7 +93,7 @@ def judged(
     error: ModelError | None = None,
     draws: int = 200,
     seed: int = 0,
-) -> dict[str, Judged]:
+) -> dict[str, HeldOutSupport]:
     """For each person named in `factors` what these do to it."""
     found = {}
     for number, (person, own) in enumerate(factors.items()):
@@ -105,7 +105,7 @@ def judged(
         with_error, base_error = ([_outcomes(each, given) for each in varied] for given in (own, compared))
         reductions = np.array([_mean(each) for each in with_error])
         gains = reductions - [_mean(each) for each in base_error]
-        found[person] = Judged(
+        found[person] = HeldOutSupport(
             factors=own,
             outcomes={case.name: each for case, each in zip(nominal, exact, strict=True)},
             reduction=_mean(exact),
@@ -118,11 +118,11 @@ def judged(
     return found
 
 
-def _outcomes(cases: Sequence[SupportCase], factors: Factors) -> list[Outcome]:
+def _outcomes(cases: Sequence[SupportCase], factors: Factors) -> list[SupportOutcome]:
     return [outcome(case, factors) for case in cases]
 
 
-def _mean(outcomes: Sequence[Outcome]) -> float:
+def _mean(outcomes: Sequence[SupportOutcome]) -> float:
     return float(np.mean([each.reduction for each in outcomes]))
 
 
@@ -131,6 +131,8 @@ def _interval(values: Float[np.ndarray, " d"]) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def _worst(name: str, exact: Sequence[Outcome], with_error: Sequence[Sequence[Outcome]]) -> tuple[float, float]:
+def _worst(
+    name: str, exact: Sequence[SupportOutcome], with_error: Sequence[Sequence[SupportOutcome]]
+) -> tuple[float, float]:
     largest = [max(getattr(each, name) for each in draw) for draw in with_error]
     return max(getattr(each, name) for each in exact), float(np.quantile(largest, COVERED[1]))

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from geocontact.shoulder_exoskeleton.support.phases import PHASES, SUPPORTED
+from geocontact.shoulder_exoskeleton.support.phases import SUPPORTED
 from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, Hand, SupportCase
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 Factors = dict[FactorKey, float]
 _ROWS: tuple[tuple[str, Hand, tuple[float, float, float]], ...] = (
@@ -27,7 +28,7 @@ PRESENT = 7.8 / 12.8
 
 
 @dataclass(frozen=True)
-class Outcome:
+class SupportOutcome:
     """Of one profile in one case.
 
     Parameters
@@ -52,13 +53,13 @@ class Outcome:
     rate: float
 
 
-def outcome(case: SupportCase, factors: Factors) -> Outcome:
+def outcome(case: SupportCase, factors: Factors) -> SupportOutcome:
     """Of a profile that has a factor for each supported phase of the case."""
     support = case.support(factors)
     over = support - case.needed
     given = support > TOLERANCE
     pushed = given & (over > TOLERANCE)
-    return Outcome(
+    return SupportOutcome(
         reduction=1.0 - float(np.abs(over).mean() / np.abs(case.needed).mean()),
         pushed_up=float(pushed.mean()),
         excess=float(np.max(over[given], initial=0.0)),

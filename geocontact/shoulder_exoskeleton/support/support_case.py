@@ -16,7 +16,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.shoulder_exoskeleton.support.phases import PHASES, SUPPORTED, Phase
+from geocontact.shoulder_exoskeleton.support.phases import SUPPORTED
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 Hand = Literal["dominant", "other"]
 
@@ -27,7 +28,7 @@ class FactorKey:
 
     task: str
     hand: Hand
-    phase: Phase
+    phase: str
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,29 +9,29 @@ import numpy as np
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.human_arm.arm_track import arm_track
 from geocontact.shoulder_exoskeleton.human_arm.elevation_torque import elevation_torque
-from geocontact.shoulder_exoskeleton.human_arm.hand_load import Work, hand_load
+from geocontact.shoulder_exoskeleton.human_arm.hand_load import ToolWork, hand_load
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
 from geocontact.shoulder_exoskeleton.support.phases import SCREW
 from geocontact.shoulder_exoskeleton.support.support_case import Hand
 from geocontact.shoulder_exoskeleton.synthetic.design import CONDITIONS, PARTICIPANTS, TASKS, Condition
-from geocontact.shoulder_exoskeleton.synthetic.trial import SyntheticTrial, synthetic_trial
+from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
 
 UPRIGHT = (0.0, 0.25)
 """Span in which a synthetic wearer stands still [s]."""
 
 
-def arms_of(trial: SyntheticTrial, dominant_share: float = 1.0) -> list[ArmTrial]:
+def arms_of(trial: OverheadTrial, dominant_share: float = 1.0) -> list[ArmTrial]:
     """Both arms of one trial, the right one first, from its markers.
 
     Parameters
     ----------
     dominant_share
-        Of the push force; see `hand_load.Work`.
+        Of the push force; see `hand_load.ToolWork`.
     """
     person, task = trial.participant, trial.task
     settings = MarkerSettings(upright=UPRIGHT)
     motions = arm_motions(trial.markers, settings)
-    work = Work(task.tool, task.push * person.push, dominant_share=dominant_share)
+    work = ToolWork(task.tool, task.push * person.push, dominant_share=dominant_share)
     found = []
     for motion in motions.arms:
         track = arm_track(trial.markers, motions.frame, motion.side)
