@@ -9,8 +9,9 @@ from geocontact.analyses.package_of_jobs import PackageOfJobs
 
 if TYPE_CHECKING:
     from geocontact.analyses.shoulder.compare.job import compare
+    from geocontact.analyses.shoulder.optimise.job import optimise
     from geocontact.analyses.shoulder.simulate.job import simulate
 
-__all__ = ["compare", "simulate"]
+__all__ = ["compare", "optimise", "simulate"]
 
 sys.modules[__name__].__class__ = PackageOfJobs
