@@ -22,7 +22,7 @@ CUFF_LAW = tuple(each.name for each in fields(CuffLaw))
 
 
 @dataclass(frozen=True)
-class Held:
+class HeldArm:
     """Load on the recorded arm, in the device's frame unless said otherwise.
 
     Parameters
@@ -61,7 +61,7 @@ class Held:
     fed: SX
 
 
-def held_at_a_point(arm: Moving, axes: SX, middle: SX, of: dict[str, SX], w: SX) -> Held:
+def held_at_a_point(arm: Moving, axes: SX, middle: SX, of: dict[str, SX], w: SX) -> HeldArm:
     """A sphere in a tube of its own radius.
 
     Parameters
@@ -81,7 +81,7 @@ def held_at_a_point(arm: Moving, axes: SX, middle: SX, of: dict[str, SX], w: SX)
     normal, friction, sliding = (vertcat(*each) for each in (found.normal, found.friction, found.sliding))
     radial = vertcat(*found.radial)
     force = axes @ (normal + friction)
-    return Held(
+    return HeldArm(
         force=force,
         couple=SX(3, 1),
         normal=normal,
@@ -98,7 +98,7 @@ def held_at_a_point(arm: Moving, axes: SX, middle: SX, of: dict[str, SX], w: SX)
     )
 
 
-def held_by_a_surface(arm: Moving, axes: SX, middle: SX, of: dict[str, SX], w: SX) -> Held:
+def held_by_a_surface(arm: Moving, axes: SX, middle: SX, of: dict[str, SX], w: SX) -> HeldArm:
     """A padded cuff around the arm; recorded are also the direction of the arm's line and its rate, last in `w`."""
     from casadi import cross, vertcat
 
@@ -109,7 +109,7 @@ def held_by_a_surface(arm: Moving, axes: SX, middle: SX, of: dict[str, SX], w: S
     velocity = axes.T @ (line.speed - speed_at(arm, line.place))
     couple = found.moment - cross(line.place, found.force)
     spin = cross(line.direction, line.turning)
-    return Held(
+    return HeldArm(
         force=found.force,
         couple=couple,
         normal=axes.T @ found.normal,
