@@ -26,7 +26,7 @@ STANDING = tuple(f"axis_{joint}_{axis}" for joint in JOINTS for axis in "xyz")
 
 @dataclass(frozen=True)
 class Influence:
-    """What one number changes, at most over the trial, by plus or minus its step.
+    """What one number changes by plus or minus its step, the larger of both; root mean square over the trial.
 
     Parameters
     ----------
@@ -38,6 +38,8 @@ class Influence:
         Of the active joint [rad].
     supporting, shear
         Interface force that lifts, and friction on the arm [N].
+    most
+        Largest change of the supporting force in a frame [N]: mostly when something slips earlier or later.
     """
 
     number: str
@@ -46,6 +48,7 @@ class Influence:
     elevation: float
     supporting: float
     shear: float
+    most: float
 
 
 def influences(
@@ -75,11 +78,11 @@ def _step(name: str, value: float) -> float:
     return abs(SHARE * value)
 
 
-def _changed(usual: ArmSimulation, device: Device) -> tuple[float, float, float]:
+def _changed(usual: ArmSimulation, device: Device) -> tuple[float, ...]:
     try:
         other = simulate_arm(usual.motion, device, usual.wearer, usual.level, cuff=usual.cuff)
     except ArithmeticError:
-        return np.inf, np.inf, np.inf
+        return (np.inf,) * 4
     pairs = ((usual.elevation, other.elevation), (usual.supporting, other.supporting), (usual.shear, other.shear))
-    elevation, supporting, shear = (float(np.abs(a - b).max()) for a, b in pairs)
-    return elevation, supporting, shear
+    changes = [float(np.sqrt(np.mean((a - b) ** 2))) for a, b in pairs]
+    return (*changes, float(np.abs(usual.supporting - other.supporting).max()))

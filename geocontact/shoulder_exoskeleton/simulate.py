@@ -15,7 +15,7 @@ from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
 from geocontact.shoulder_exoskeleton.device import JOINTS, Device, Wearer
 
 TOLERANCE = 5e-7
-"""Error allowed in a step [rad, rad/s, N], plus as much of each one's size: below 0.01 degrees and 0.1 N over a trial."""
+"""Error allowed in a step [rad, rad/s, N], plus as much of each one's size: 0.01 degrees and 0.1 N over a trial."""
 FIRST = 1e-4
 """s; first step that is tried."""
 FARTHEST = 0.25

@@ -65,7 +65,7 @@ def write_simulation_page(
         Scene(directions=DIRECTIONS, up=(0.0, 0.0, 1.0), view=(-0.8, 1.0, 0.5), linkages=_lines(arms, shown)),
         *_curves(arms, shown),
         Readout([_phases(each, shown) for each in arms]),
-        *(frame_table("What each number of the device changes, at most", table) for table in changed),
+        *(frame_table("What each number of the device changes, root mean square", table) for table in changed),
         frame_table("Numbers of the device, and where they are from", tables["numbers"]),
         inputs_table(record.inputs),
         options_table(record),

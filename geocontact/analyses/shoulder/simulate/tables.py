@@ -62,11 +62,12 @@ def numbers_table(device: Device) -> pd.DataFrame:
 
 
 def sensitivity_table(side: str, found: Sequence[Influence]) -> pd.DataFrame:
-    """What each number changes at most, the largest change of the supporting force first."""
+    """What each number changes, root mean square; the largest change of the supporting force first."""
     rows = []
     for one in sorted(found, key=lambda each: -each.supporting):
         unit, factor = QUANTITIES[one.number].written
-        changed = (np.degrees(one.elevation), one.supporting, one.shear)
+        changed = (np.degrees(one.elevation), one.supporting, one.shear, one.most)
         rows.append((side, one.number, one.source, one.step * factor, unit, *changed))
     names = ["side", "number", "source", "step", "unit", "elevation [deg]", "supporting [N]", "shear [N]"]
+    names.append("supporting at most [N]")
     return pd.DataFrame(rows, columns=names)
