@@ -8,11 +8,9 @@ device (S0), at 50 % and at 100 % of its power. The paper's recordings are not p
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
+from geocontact.data.body_segments import Sex
 from geocontact.shoulder_exoskeleton.arm_motion import Side
-
-Sex = Literal["female", "male"]
 
 
 @dataclass(frozen=True)
