@@ -20,7 +20,8 @@ X = TypeVar("X", bound=Any)
 
 def piston_area(bore: X) -> X:
     """Of the full bore [m²]: the cylinder pushes."""
-    return 0.25 * pi * bore * bore  # type: ignore[no-any-return]
+    area: X = bore * bore * (0.25 * pi)
+    return area
 
 
 def lever(elevation: X, a: X, b: X, phase: X) -> X:

@@ -8,6 +8,7 @@ ranges and the course of the lever are in no source.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from math import radians
 
 from geocontact.shoulder_exoskeleton.device import JOINTS, Device, Number, Source
@@ -74,9 +75,14 @@ def lucy_new_cylinder(*, with_mass: bool = True) -> Device:
     return Device("lucy_new_cylinder" if with_mass else "lucy_new_cylinder_massless", numbers)
 
 
-BUILT_IN = {
+def lucy_new_cylinder_massless() -> Device:
+    """With the new cylinder as the paper has it: as light as the present one."""
+    return lucy_new_cylinder(with_mass=False)
+
+
+BUILT_IN: Mapping[str, Callable[[], Device]] = {
     "lucy": lucy,
     "lucy_new_cylinder": lucy_new_cylinder,
-    "lucy_new_cylinder_massless": lambda: lucy_new_cylinder(with_mass=False),
+    "lucy_new_cylinder_massless": lucy_new_cylinder_massless,
 }
 """Devices by the name that options take."""

@@ -23,6 +23,8 @@ JOBS: tuple[Job, ...] = (
     gc.misalignment.compare,
     gc.misalignment.design,
     gc.misalignment.population,
+    gc.shoulder.simulate,
+    gc.shoulder.compare,
     gc.diagnose,
     gc.discriminability,
     gc.inject,

@@ -1,0 +1,42 @@
+"""What a comparison of a simulated arm may be asked for."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated
+
+from geocontact.analyses.options import AngleUnit, Expression, ForceUnit, Options, Spelled, Typed
+from geocontact.data.ranges import DELAY
+
+Clock = Annotated[float, Typed("s", "finite", "[s]", float), Spelled(dashed=True), DELAY]
+
+
+@dataclass(frozen=True)
+class CompareOptions(Options):
+    """Errors of a simulated exoskeleton arm beside logger and pressure mat: mean absolute, root mean square, per phase.
+
+    Parameters
+    ----------
+    simulated
+        right.csv or left.csv of `geocontact shoulder simulate`.
+    recorded
+        Table over time (.csv, .mot, .sto) with the elevation of the exoskeleton's arm from its logger, the force of a
+        pressure mat in the cuff, or both.
+    map
+        Columns by what they are, where they have other names: elevation=exo_right,force=mat.
+    angles
+        Unit of the elevation where its file does not say.
+    unit
+        Unit of the force where its file does not say.
+    delay
+        How much the recording's clock is late [s].
+    """
+
+    simulated: Path
+    recorded: Path
+    _: KW_ONLY
+    map: Expression | None = None
+    angles: AngleUnit | None = None
+    unit: ForceUnit | None = None
+    delay: Clock = 0.0

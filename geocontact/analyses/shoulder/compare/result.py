@@ -1,0 +1,113 @@
+"""What a comparison finds: errors by channel and phase, figure, page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.motion.figure import curves_figure
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.result import Result
+from geocontact.analyses.shoulder.compare.options import CompareOptions
+from geocontact.analyses.shoulder.compare.read import ELEVATION
+from geocontact.identify.signals.agreement import Agreement
+from geocontact.io.text.results import write_table
+from geocontact.view.page.content import Curve, Curves, Page, Words
+from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FRAMES = 1001  # that the page shows at most
+MAT = (
+    "The simulated force is the component that lifts the arm; a pressure mat also counts what presses from the sides, "
+    "and is loaded by straps, sleeves and a push force on the tool that the simulation does not know."
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """One channel at the simulation's even times [rad or N], and errors by phase."""
+
+    channel: str
+    time: Float[np.ndarray, " t"]
+    model: Float[np.ndarray, " t"]
+    measured: Float[np.ndarray, " t"]
+    errors: Mapping[str, Agreement]
+
+    @property
+    def shown_in(self) -> tuple[str, float]:
+        """Unit of tables, and how many of it one SI unit is."""
+        return ("deg", float(np.degrees(1.0))) if self.channel == ELEVATION else ("N", 1.0)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class CompareResult(Result):
+    """A simulated arm beside a recording."""
+
+    options: CompareOptions
+    channels: tuple[Compared, ...]
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`comparison`: one row per channel and phase."""
+        rows = []
+        for one in self.channels:
+            unit, factor = one.shown_in
+            for phase, a in one.errors.items():
+                errors = {"mae": a.mae * factor, "rmsd": a.rmsd * factor, "bias": a.bias * factor}
+                told = {"r2 [-]": a.r2, "lag [s]": a.lag, "samples": a.samples}
+                rows.append({"channel": one.channel, "phase": phase, "unit": unit, **errors, **told})
+        return {"comparison": pd.DataFrame(rows)}
+
+    def figure(self) -> Figure:
+        """Each channel, recorded and simulated."""
+        panels = {}
+        for one in self.channels:
+            unit, factor = one.shown_in
+            both = {"recorded": factor * one.measured, "simulated": factor * one.model}
+            panels[f"{one.channel} [{unit.replace('deg', '°')}]"] = pd.DataFrame(both)
+        return curves_figure(self.channels[0].time, panels)
+
+    def write_files(self, folder: Path) -> None:
+        """comparison.csv, figure, page."""
+        write_table(self.table(), folder, "comparison")
+        save_both(self.figure(), folder, "comparison")
+        self.write_page(folder / "report.html")
+
+    def write_page(self, file: Path) -> None:
+        """Both curves and errors by phase."""
+        time = self.channels[0].time
+        shown = np.arange(0, len(time), -(-len(time) // FRAMES))
+        panels = []
+        for one in self.channels:
+            unit, factor = one.shown_in
+            both = (("recorded", one.measured), ("simulated", one.model))
+            curves = [Curve(name, factor * values[shown]) for name, values in both]
+            panels.append(Curves(one.channel.capitalize(), unit, curves))
+        page = Page(
+            title=f"Simulated arm beside {self.options.recorded.name}",
+            subtitle="Shoulder exoskeleton: elevation of its arm, force in its cuff",
+            time=time[shown],
+            time_label="time [s]",
+            headline=headline(self.sentences, most=2),
+            reservations=self.warnings,
+            sections=(
+                *panels,
+                frame_table("Errors by channel and phase", self.table()),
+                inputs_table(self.record.inputs),
+                options_table(self.record),
+                Words("What the numbers do not contain", [MAT, NOT_A_DEVICE]),
+            ),
+            numbers=shown + 1,
+            total=len(time),
+        )
+        write_page(page, file)

@@ -1,0 +1,63 @@
+"""Errors of a simulated arm, over the whole trial, over the work and in each phase."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import groupby
+
+import numpy as np
+from jaxtyping import Bool
+
+from geocontact.analyses.json_file import plain
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.compare.options import CompareOptions
+from geocontact.analyses.shoulder.compare.read import ELEVATION, Both
+from geocontact.analyses.shoulder.compare.result import Compared, CompareResult
+from geocontact.data.errors import InputError
+from geocontact.identify.signals.agreement import Agreement, agreement, over_stretches
+from geocontact.identify.signals.even_times import at_times, even_times
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
+
+ALL, WORK = "all", "work"
+"""The whole trial; from the beginning of lifting to the end of lowering, as the study of the exoskeleton takes it."""
+
+
+def run(both: Both, o: CompareOptions, record: Record) -> CompareResult:
+    """Every channel that was recorded."""
+    time, step = even_times(both.simulated.time)
+    recorded = both.recorded
+    inside = (time >= recorded.time[0] - 1e-9) & (time <= recorded.time[-1] + 1e-9)
+    if inside.sum() < 2:
+        ours, theirs = (f"{each.time[0]:g} to {each.time[-1]:g} s" for each in (both.simulated, recorded))
+        raise InputError(o.recorded, "", f"runs from {theirs}, the simulation from {ours}", "give `delay`")
+    if not inside.all():
+        record.warn(f"{o.recorded.name}: {inside.mean():.0%} of the simulated time was recorded")
+    phase = np.array(both.phase)
+    parts = {ALL: inside, WORK: inside & (phase != PHASES[0])} | {name: inside & (phase == name) for name in PHASES[1:]}
+    _, recorded_step = even_times(recorded.time)
+    found = []
+    for channel, values in recorded.values.items():
+        measured = at_times(recorded.time, values, time, recorded_step)
+        model = both.simulated.values[channel]
+        errors = {name: _agreement(model, measured, step, part) for name, part in parts.items() if part.any()}
+        found.append(Compared(channel, time, model, np.where(inside, measured, np.nan), errors))
+        _say(found[-1], errors, record)
+    record.results["comparison"] = plain(
+        {each.channel: {name: vars(error) for name, error in each.errors.items()} for each in found}
+    )
+    return CompareResult(record=record, options=o, channels=tuple(found))
+
+
+def _agreement(model: np.ndarray, measured: np.ndarray, step: float, part: Bool[np.ndarray, " t"]) -> Agreement:
+    if part.all():
+        return agreement(model, measured, step)
+    runs = [[i for i, _ in group] for inside, group in groupby(enumerate(part), lambda pair: bool(pair[1])) if inside]
+    return over_stretches(model, measured, step, [(run[0], run[-1] + 1) for run in runs])
+
+
+def _say(one: Compared, errors: Mapping[str, Agreement], record: Record) -> None:
+    unit, factor = ("deg", np.degrees(1.0)) if one.channel == ELEVATION else ("N", 1.0)
+    for name in (ALL, WORK):
+        if name in errors:
+            a = errors[name]
+            record.say(f"{one.channel}, {name}: MAE {factor * a.mae:.3g}, RMSD {factor * a.rmsd:.3g} {unit}")

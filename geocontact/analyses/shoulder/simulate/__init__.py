@@ -1,0 +1,1 @@
+"""An exoskeleton's arms along recorded human ones."""

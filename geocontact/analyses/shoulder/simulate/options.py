@@ -1,0 +1,85 @@
+"""What a simulation of a shoulder exoskeleton may be asked for."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal
+
+from geocontact.analyses.options import Expression, Options, Requires, TimeSpan, Typed
+from geocontact.data.errors import InputError
+from geocontact.data.plausible import Plausible
+from geocontact.data.ranges import CUTOFF, GAP
+from geocontact.data.units import Unit
+
+CURRENT = Plausible("the current of a tool", Unit("A", "A", 1.0), (0.0, 1000.0), (0.0, 100.0))
+Level = Annotated[float, Typed("-", "shoulder.level:level")]
+
+
+@dataclass(frozen=True)
+class SimulateOptions(Options):
+    """Motion and interface forces of a shoulder exoskeleton along recorded human motion.
+
+    Parameters
+    ----------
+    markers
+        Marker trajectories (.trc, .c3d, .csv), of a laboratory or of a model (`geocontact markers`): humerus_rup,
+        humerus_rdn, humerus_lup, humerus_ldn, Lucy_MC, Lucy_Mleft, T10; a person without the device by markers of
+        trunk, shoulders and elbows, to which it is attached virtually.
+
+    The device
+    ----------
+    device
+        lucy, lucy_new_cylinder (32 mm, with its mass), lucy_new_cylinder_massless, or a file (.toml) with numbers.
+    person
+        Lengths of the wearer (.toml) to which the device is adjusted: upper_arm, shoulder_width, torso.
+    level
+        Support level: share of the cylinder's force, 0 to 100%.
+    side
+        Arms that are simulated.
+    sensitivity
+        Also write what each number of the device changes.
+
+    The motion
+    ----------
+    cutoff
+        Zero-lag low-pass of the markers [Hz]; 0 leaves them as they are.
+    gap_limit
+        Longest time for which a marker may be out of sight [s].
+    upright
+        First and last time of an upright stance [s], such as 0:0.5: it fixes the inclination of T10. Without it T10 is
+        taken to lie straight below Lucy_MC.
+    tool
+        When the tool runs (.csv): a column event [-] of 0 and 1, or current [A].
+    tool_current
+        Current from which it runs [A]; 1 unless given.
+    markers_map
+        Names of recorded markers as they are called here: R_UP=humerus_rup, or a file with a pair in each line.
+    axes
+        Which of the markers' axes are x, y (upwards) and z of OpenSim's: x,z,-y where the laboratory's z is up.
+    time
+        First and last time [s]: 0.4:1.6.
+    """
+
+    over_time: ClassVar[bool] = True
+
+    markers: Path
+    _: KW_ONLY
+    device: str = "lucy"
+    person: Path | None = None
+    level: Level = 1.0
+    side: Literal["both", "right", "left"] = "both"
+    sensitivity: bool = False
+    cutoff: Annotated[float, CUTOFF] = 6.0
+    gap_limit: Annotated[float, GAP] = 0.2
+    upright: TimeSpan | None = None
+    tool: Path | None = None
+    tool_current: Annotated[float | None, Requires("tool"), CURRENT] = None
+    markers_map: str | None = None
+    axes: Expression | None = None
+    time: TimeSpan | None = None
+
+    def refuse_impossible(self) -> None:
+        """A level that no cylinder has."""
+        if not 0.0 <= self.level <= 1.0:
+            raise InputError("", "`level`", f"{100.0 * self.level:g} % is not 0 to 100 %", "give for example 50%")

@@ -1,0 +1,155 @@
+"""The page of a simulation: moving arms with the forces in their cuffs, curves, numbers of the device."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float, Int
+
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.simulate.options import SimulateOptions
+from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
+from geocontact.shoulder_exoskeleton.device import JOINTS
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
+from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Words
+from geocontact.view.page.linkage import Linkage, Tone
+from geocontact.view.page.scene import Scene
+from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
+
+FRAMES = 1001  # that the page shows at most
+METRES_PER_NEWTON = 5e-3
+"""A force of 100 N is drawn 0.5 m long."""
+JOINT, LINK, LIMB, ARROW = 0.012, 0.014, 0.03, 0.008
+"""Radius of joints, thickness of links, limbs and forces [m]."""
+DIRECTIONS = {
+    "behind (+y)": (0.0, 1.0, 0.0),
+    "front (−y)": (0.0, -1.0, 0.0),
+    "right (−x)": (-1.0, 0.0, 0.0),
+    "left (+x)": (1.0, 0.0, 0.0),
+    "above (+z)": (0.0, 0.0, 1.0),
+}
+POINT = (
+    "The cuff holds the arm at one point: a sphere in a tube of the same radius. That holds two of the three joints; "
+    "the third is held by friction, stops and damping of the joints, which are invented, and so is what of the passive "
+    "joints, of slip and shear hangs on them. Padding, skin and the area of contact are not modelled."
+)
+FRAME = (
+    "The human arm is recorded: the exoskeleton does not change its motion. The device's frame moves with the trunk; "
+    "gravity turns with it, accelerations of the trunk do not act on the exoskeleton's arms."
+)
+
+
+def write_simulation_page(
+    path: Path,
+    record: Record,
+    o: SimulateOptions,
+    arms: Sequence[SimulatedArm],
+    tables: Mapping[str, pd.DataFrame],
+) -> int:
+    """Write the self-contained page; returns its size in bytes."""
+    time = arms[0].simulation.motion.time
+    shown = np.arange(0, len(time), -(-len(time) // FRAMES))
+    changed = [tables[name] for name in ("sensitivity",) if name in tables]
+    sections: list[Section] = [
+        Scene(directions=DIRECTIONS, up=(0.0, 0.0, 1.0), view=(-0.8, 1.0, 0.5), linkages=_lines(arms, shown)),
+        *_curves(arms, shown),
+        Readout([_phases(each, shown) for each in arms]),
+        *(frame_table("What each number of the device changes, at most", table) for table in changed),
+        frame_table("Numbers of the device, and where they are from", tables["numbers"]),
+        inputs_table(record.inputs),
+        options_table(record),
+        Words("What the numbers do not contain", [POINT, FRAME, NOT_A_DEVICE]),
+    ]
+    page = Page(
+        title=f"Shoulder exoskeleton along {o.markers.name}",
+        subtitle=f"Support level {o.level:.0%}; the device's frame: x to the left, y backwards, z up",
+        time=time[shown],
+        time_label="time [s]",
+        headline=headline(record.sentences, most=2),
+        facts=[fact for each in arms for fact in _facts(each)],
+        reservations=tuple(record.warnings),
+        sections=tuple(sections),
+        numbers=shown + 1,
+        total=len(time),
+    )
+    return write_page(page, path)
+
+
+def _lines(arms: Sequence[SimulatedArm], shown: Int[np.ndarray, " k"]) -> list[Linkage]:
+    device, human, force = [], [], []
+    for each in arms:
+        s = each.simulation
+        joints = s.told["joints"].reshape(-1, 4, 3)[shown]
+        base = np.zeros((len(shown), 1, 3))
+        device.append(np.concatenate([base, joints], axis=1))
+        human.append(np.stack([s.motion.shoulder[shown], s.motion.interface[shown]], axis=1))
+        tip = s.motion.interface + METRES_PER_NEWTON * s.told["force"]
+        force.append(np.stack([s.motion.interface[shown], tip[shown]], axis=1))
+    return [
+        _linkage("exoskeleton", device, "model", JOINT, LINK),
+        _linkage("upper arms, shoulder to cuff", human, "bone", JOINT, LIMB),
+        _linkage("forces on the arms, 0.5 m for 100 N", force, "force", 0.0, ARROW),
+    ]
+
+
+def _linkage(
+    name: str, chains: Sequence[Float[np.ndarray, "t k 3"]], tone: Tone, radius: float, width: float
+) -> Linkage:
+    lines = _chains(len(chains), chains[0].shape[1])
+    return Linkage(name, np.concatenate(chains, axis=1), lines, tone, radius, width)
+
+
+def _chains(count: int, points: int) -> Int[np.ndarray, "k 2"]:
+    """Lines from point to point, chain by chain."""
+    return np.array([(i, i + 1) for c in range(count) for i in range(c * points, c * points + points - 1)], np.int64)
+
+
+def _curves(arms: Sequence[SimulatedArm], shown: Int[np.ndarray, " k"]) -> list[Curves]:
+    def panel(title: str, unit: str, curves: Sequence[tuple[str, Float[np.ndarray, " t"]]]) -> Curves:
+        return Curves(title, unit, [Curve(name, values[shown]) for name, values in curves])
+
+    found = [
+        panel(
+            "Elevation",
+            "deg",
+            [
+                pair
+                for each in arms
+                for pair in (
+                    (f"shoulder, {each.side}", np.degrees(each.simulation.motion.elevation)),
+                    (f"exoskeleton, {each.side}", np.degrees(each.simulation.elevation)),
+                )
+            ],
+        )
+    ]
+    found += [
+        panel("Interface force that lifts the arm", "N", [(e.side, e.simulation.supporting) for e in arms]),
+        panel("Shear on the arm", "N", [(e.side, e.simulation.shear) for e in arms]),
+        panel("Slip along the cuff's wall", "mm", [(e.side, 1e3 * e.simulation.slip) for e in arms]),
+        panel("Support torque", "N m", [(e.side, e.simulation.told["support"][:, 0]) for e in arms]),
+    ]
+    passive = [
+        (f"{joint}, {each.side}", np.degrees(each.simulation.angles[:, k]))
+        for each in arms
+        for k, joint in enumerate(JOINTS[:2])
+    ]
+    found.append(panel("Passive joints", "deg", passive))
+    return found
+
+
+def _phases(each: SimulatedArm, shown: Int[np.ndarray, " k"]) -> Row:
+    return Row(f"phase, {each.side}", "", [PHASES[k] for k in each.phase[shown]])
+
+
+def _facts(each: SimulatedArm) -> list[tuple[str, str]]:
+    s = each.simulation
+    return [
+        (f"Largest supporting force, {each.side}", f"{s.supporting.max():.1f} N"),
+        (f"Elevation up to, {each.side}", f"{np.degrees(s.elevation.max()):.0f}°"),
+    ]

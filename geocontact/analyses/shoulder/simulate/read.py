@@ -1,0 +1,116 @@
+"""What a simulation starts from: arms in the device's frame, the device, its wearer, when the tool runs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Bool, Float
+from scipy.spatial.transform import Rotation, Slerp
+
+from geocontact.analyses.motion.markers import markers_given
+from geocontact.analyses.quantities import named_file
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.devices import device_named, wearer_named
+from geocontact.analyses.shoulder.simulate.options import SimulateOptions
+from geocontact.analyses.shoulder.tool import tool_runs
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.identify.signals.filled import filled_and_smoothed
+from geocontact.io.mocap.marker_map import marker_map_typed, read_marker_map
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.shoulder_exoskeleton.device import Device, Wearer
+from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
+from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
+
+CURRENT = 1.0
+"""A; a tool that idles takes less."""
+
+
+@dataclass(frozen=True, eq=False)
+class Worn:
+    """A device on a person who moves.
+
+    Parameters
+    ----------
+    arms
+        Filtered, without gaps, at even times.
+    frame
+        The device in the laboratory at the same times.
+    tool
+        Whether the tool runs; None where nobody told.
+    """
+
+    arms: tuple[ArmMotion, ...]
+    frame: DeviceFrame
+    device: Device
+    wearer: Wearer
+    tool: Bool[np.ndarray, " t"] | None
+
+
+def read(o: SimulateOptions, record: Record) -> Worn:
+    """Everything the options name."""
+    device, wearer = device_named(record, o.device), wearer_named(record, o.person)
+    seen = _renamed(record, markers_given(o.markers, o.axes, o.time), o.markers_map)
+    record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
+    found = arm_motions(seen, MarkerSettings(upright=o.upright, gap_limit=o.gap_limit))
+    for note in found.notes:
+        record.warn(note)
+    wanted = tuple(arm for arm in found.arms if o.side in ("both", arm.side))
+    if not wanted:
+        have = " and ".join(arm.side for arm in found.arms)
+        raise InputError(o.markers, "`side`", f"the {o.side} arm was not recorded", f"recorded: {have}")
+    if o.side == "both" and len(wanted) == 1:
+        record.warn(f"only the {wanted[0].side} arm was recorded")
+    arms = tuple(_smoothed(arm, o) for arm in wanted)
+    time = arms[0].time
+    frame = _frame_at(wanted[0].time, found.frame, time)
+    tool = (
+        None
+        if o.tool is None
+        else tool_runs(record, o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
+    )
+    return Worn(arms, frame, device, wearer, tool)
+
+
+def _renamed(record: Record, seen: MarkerTrajectories, given: str | None) -> MarkerTrajectories:
+    if given is None:
+        return seen
+    file = named_file(given)
+    names = marker_map_typed(given, "`markers_map`") if file is None else read_marker_map(file)
+    if file is not None:
+        record.add_input("`markers_map`", file, markers=len(names))
+    lost = [name for name in names if name not in seen.names]
+    if lost:
+        what = f"{lost[0]} was not recorded"
+        raise InputError(seen.source, "`markers_map`", what, f"recorded are {', '.join(seen.names[:30])}")
+    try:
+        return seen.renamed(names)
+    except ValueError as error:
+        raise InputError(seen.source, "`markers_map`", str(error), "map that one too, or leave it out") from error
+
+
+def _smoothed(arm: ArmMotion, o: SimulateOptions) -> ArmMotion:
+    columns = np.hstack([arm.interface, arm.shoulder, arm.gravity_at_frames(), arm.elevation[:, None]])
+    cutoff = None if o.cutoff == 0.0 else o.cutoff
+    try:
+        time, values = filled_and_smoothed(arm.time, columns, cutoff=cutoff, longest_gap=o.gap_limit)
+    except ValueError as error:
+        raise InputError(o.markers, "", f"{arm.side} arm: {error}", "give another `cutoff` or `gap_limit`") from error
+    return replace(
+        arm,
+        time=time,
+        interface=values[:, :3],
+        shoulder=values[:, 3:6],
+        gravity=values[:, 6:9],
+        elevation=values[:, 9],
+    )
+
+
+def _frame_at(time: Float[np.ndarray, " t"], frame: DeviceFrame, wanted: Float[np.ndarray, " e"]) -> DeviceFrame:
+    """The device in the laboratory at other times: origin linear, turns along the shortest arcs."""
+    known = np.isfinite(frame.rotation).all(axis=(1, 2)) & np.isfinite(frame.origin).all(axis=1)
+    at = np.clip(wanted, time[known][0], time[known][-1])
+    origin = np.column_stack([np.interp(at, time[known], column) for column in frame.origin[known].T])
+    turns = Slerp(time[known], Rotation.from_matrix(frame.rotation[known]))(at)
+    return DeviceFrame(origin, turns.as_matrix())

@@ -1,0 +1,87 @@
+"""What a simulation finds: tables for each arm, files for OpenSim and ParaView, page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.motion.figure import curves_figure
+from geocontact.analyses.result import Result
+from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines
+from geocontact.analyses.shoulder.simulate.options import SimulateOptions
+from geocontact.analyses.shoulder.simulate.page import write_simulation_page
+from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
+from geocontact.analyses.shoulder.simulate.tables import arm_table, numbers_table, sensitivity_table
+from geocontact.io.text.results import write_table
+from geocontact.shoulder_exoskeleton.arm_motion import Side
+from geocontact.shoulder_exoskeleton.device import Device, Wearer
+from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
+from geocontact.shoulder_exoskeleton.sensitivity import Influence
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class SimulateResult(Result):
+    """Motion of both arms of an exoskeleton, and the forces in its cuffs.
+
+    Parameters
+    ----------
+    arms
+        Right before left.
+    frame
+        The device in the laboratory.
+    influences
+        By side, where they were asked for.
+    """
+
+    options: SimulateOptions
+    arms: tuple[SimulatedArm, ...]
+    frame: DeviceFrame
+    device: Device
+    wearer: Wearer
+    influences: Mapping[Side, tuple[Influence, ...]]
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`right` and `left` over time, `numbers` of the device, `sensitivity` where it was asked for."""
+        told: dict[str, pd.DataFrame] = {e.side: arm_table(e.simulation, e.phase) for e in self.arms}
+        told["numbers"] = numbers_table(self.device)
+        if self.influences:
+            parts = [sensitivity_table(side, each) for side, each in self.influences.items()]
+            told["sensitivity"] = pd.concat(parts, ignore_index=True)
+        return told
+
+    def figure(self) -> Figure:
+        """Elevations, supporting force and shear of both arms over time."""
+        time = self.arms[0].simulation.motion.time
+        elevation, force = {}, {}
+        for each in self.arms:
+            s, side = each.simulation, each.side
+            elevation[f"shoulder, {side}"] = np.degrees(s.motion.elevation)
+            elevation[f"exoskeleton, {side}"] = np.degrees(s.elevation)
+            force[f"supporting, {side}"] = s.supporting
+            force[f"shear, {side}"] = s.shear
+        panels = {"elevation [°]": pd.DataFrame(elevation), "interface force [N]": pd.DataFrame(force)}
+        return curves_figure(time, panels)
+
+    def write_files(self, folder: Path) -> None:
+        """Tables, angles and external loads for OpenSim, lines for ParaView, figure, page."""
+        for name, table in self.tables().items():
+            write_table(table, folder, name)
+        simulations = [each.simulation for each in self.arms]
+        write_angles(folder, simulations)
+        write_external_loads(folder, simulations, self.frame)
+        write_lines(folder / "paraview", simulations)
+        save_both(self.figure(), folder, "shoulder")
+        self.write_page(folder / "report.html")
+
+    def write_page(self, file: Path) -> None:
+        """Moving arms with the forces in their cuffs, curves, tables."""
+        write_simulation_page(file, self.record, self.options, self.arms, self.tables())

@@ -1,0 +1,24 @@
+"""One simulated arm with the phases of its work."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Int
+
+from geocontact.shoulder_exoskeleton.arm_motion import Side
+from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
+
+
+@dataclass(frozen=True, eq=False)
+class SimulatedArm:
+    """One arm and the number of the phase in each frame (`work_phases.PHASES`)."""
+
+    simulation: ArmSimulation
+    phase: Int[np.ndarray, " t"]
+
+    @property
+    def side(self) -> Side:
+        """Of the wearer."""
+        return self.simulation.motion.side

@@ -1,0 +1,15 @@
+"""`geocontact shoulder simulate`."""
+
+from __future__ import annotations
+
+from geocontact.analyses.shoulder.simulate.options import SimulateOptions
+from geocontact.cli.command import Command
+
+HELP = """Motion and interface forces of a shoulder exoskeleton along recorded human motion, by its own dynamics.
+
+Writes right.csv and left.csv, numbers.csv with the source of every number of the device, sensitivity.csv with
+`sensitivity`, angles.sto, interface_forces.mot and .xml (external loads for OpenSim and `geocontact id`), paraview,
+a figure, report.html (moving arms with forces) and run.json into OUT.
+"""
+
+simulate = Command("geocontact.analyses.shoulder.simulate.job:simulate", SimulateOptions, HELP)

@@ -1,0 +1,79 @@
+"""Which numbers of a device matter: each one changed by itself, the others held."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Source, Wearer
+from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
+
+SHARE, TURN, SHIFT = 0.1, np.radians(5.0), 0.01
+"""Of a number; of an angle [rad] and of a length that may be 0 [m]."""
+NUMERICAL = ("rounding",)
+SHOWN_ONLY = ("belt_share", "cuff_length", "cuff_radius")
+"""Numbers on which no motion depends."""
+STANDING = tuple(f"axis_{joint}_{axis}" for joint in JOINTS for axis in "xyz")
+"""Directions of axes: other axes are another device, with equations of its own."""
+
+
+@dataclass(frozen=True)
+class Influence:
+    """What one number changes, at most over the trial, by plus or minus its step.
+
+    Parameters
+    ----------
+    number, source
+        Its name, and where it is from.
+    step
+        By which it was changed, in SI.
+    elevation
+        Of the active joint [rad].
+    supporting, shear
+        Interface force that lifts, and friction on the arm [N].
+    """
+
+    number: str
+    source: Source
+    step: float
+    elevation: float
+    supporting: float
+    shear: float
+
+
+def influences(motion: ArmMotion, device: Device, wearer: Wearer, level: float) -> Iterator[Influence]:
+    """One by one, in the device's order; a number with which nothing rests at the start changes all by infinity."""
+    usual = simulate_arm(motion, device, wearer, level)
+    for name, number in device.numbers.items():
+        if name in (*NUMERICAL, *SHOWN_ONLY, *STANDING):
+            continue
+        step = _step(name, number.value)
+        if step == 0.0:
+            continue
+        lower, upper = QUANTITIES[name].lower, QUANTITIES[name].upper
+        values = [v for v in (number.value - step, number.value + step) if lower <= v <= upper]
+        changed = [_changed(usual, device.having(**{name: value})) for value in values]
+        most = np.max(changed, axis=0)
+        yield Influence(name, number.source, step, *map(float, most))
+
+
+def _step(name: str, value: float) -> float:
+    quantity = QUANTITIES[name]
+    if quantity.unit == "rad" and quantity.lower < 0.0:
+        return float(TURN)
+    if quantity.unit == "m" and quantity.lower < 0.0:
+        return SHIFT
+    return abs(SHARE * value)
+
+
+def _changed(usual: ArmSimulation, device: Device) -> tuple[float, float, float]:
+    try:
+        other = simulate_arm(usual.motion, device, usual.wearer, usual.level)
+    except ArithmeticError:
+        return np.inf, np.inf, np.inf
+    pairs = ((usual.elevation, other.elevation), (usual.supporting, other.supporting), (usual.shear, other.shear))
+    elevation, supporting, shear = (float(np.abs(a - b).max()) for a, b in pairs)
+    return elevation, supporting, shear
