@@ -1,8 +1,9 @@
-"""Synthetic measurements of a shoulder exoskeleton, by code of its own: Newton-Euler in numbers, a cuff of many cells.
+"""Synthetic measurements of a shoulder exoskeleton, by code of its own and a cuff of many cells.
 
-The package's model has one sphere in the cuff; here the arm is a cylinder that presses cell by cell (8 along, 22 around)
-against a padded tube, so that it also tilts and turns in it. The equations come from Jacobians in numbers, the steps
-from SciPy's BDF. What is withheld from the model is planted one by one: see `Withheld`. Nothing here was measured.
+The package's model has one sphere in the cuff; here the arm is a cylinder that presses cell by cell (8 along, 22
+around) against a padded tube, so that it also tilts and turns in it. The equations come from Jacobians in numbers, the
+steps from SciPy's BDF. What is withheld from the model is planted one by one: see `Withheld`. Nothing here was
+measured.
 """
 
 from __future__ import annotations
@@ -208,7 +209,7 @@ def measure(
     pushing: np.ndarray | None = None,
     factor: np.ndarray | None = None,
 ) -> Measured:
-    """What logger and mat of a right arm record along a motion; `pushing` is the tool's push force at the frames [N]."""
+    """What logger and mat of a right arm record along a motion; `pushing` is the force on the tool [N]."""
     time, rng = motion.time, np.random.default_rng(seed)
     along = motion.interface - motion.shoulder
     along = along / np.linalg.norm(along, axis=1, keepdims=True)

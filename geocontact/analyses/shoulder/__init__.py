@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from geocontact.analyses.shoulder.compare.job import compare
     from geocontact.analyses.shoulder.simulate.job import simulate
+    from geocontact.analyses.shoulder.study.job import study
 
-__all__ = ["compare", "simulate"]
+__all__ = ["compare", "simulate", "study"]
 
 
 class _Analyses(ModuleType):

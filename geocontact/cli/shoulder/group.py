@@ -10,3 +10,4 @@ shoulder = App(
 )
 shoulder.command("geocontact.cli.shoulder.simulate:simulate", name="simulate")
 shoulder.command("geocontact.cli.shoulder.compare:compare", name="compare")
+shoulder.command("geocontact.cli.shoulder.study:study", name="study")

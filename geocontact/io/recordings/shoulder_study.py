@@ -12,7 +12,7 @@ from geocontact.io.text.toml_text import toml_of
 LARGEST = 1_000_000
 """Bytes of a description."""
 NEEDED = ("name", "person", "task", "level", "side", "markers")
-FILES = ("markers", "tool", "recorded", "wearer", "without", "without_tool")
+FILES = ("tool", "recorded", "wearer", "without", "without_tool")
 SIDES = ("right", "left")
 
 
@@ -77,19 +77,22 @@ def _trial(path: Path, number: int, told: Any) -> StudyTrial:
     missing = [name for name in NEEDED if name not in told]
     if missing:
         raise InputError(path, place, f"{missing[0]} is missing", f"it needs {', '.join(NEEDED)}")
-    unknown = sorted(set(told) - set(NEEDED) - set(FILES))
+    unknown = sorted(set(told) - {*NEEDED, *FILES})
     if unknown:
-        raise InputError(path, place, f"{unknown[0]} is not known", f"known are {', '.join((*NEEDED, *FILES[1:]))}")
+        raise InputError(path, place, f"{unknown[0]} is not known", f"known are {', '.join((*NEEDED, *FILES))}")
     side = str(told["side"])
     if side not in SIDES:
         raise InputError(path, place, f"side is {side!r}", "write right or left")
-    files: dict[str, Path | None] = dict.fromkeys(FILES)
-    for name in FILES:
-        if name in told:
-            file = files[name] = path.parent / str(told[name])
-            if not file.is_file():
-                raise InputError(path, f"{place} {name}", f"there is no file {told[name]}", "give its path from here")
-    markers = files.pop("markers")
-    assert markers is not None
-    words = {name: str(told[name]) for name in ("name", "person", "task", "level")}
-    return StudyTrial(**words, side=side, markers=markers, **files)
+    name, person, task, level = (str(told[each]) for each in ("name", "person", "task", "level"))
+    markers = _file(path, f"{place} markers", str(told["markers"]))
+    tool, recorded, wearer, without, without_tool = (
+        _file(path, f"{place} {each}", str(told[each])) if each in told else None for each in FILES
+    )
+    return StudyTrial(name, person, task, level, side, markers, tool, recorded, wearer, without, without_tool)
+
+
+def _file(study: Path, place: str, named: str) -> Path:
+    file = study.parent / named
+    if not file.is_file():
+        raise InputError(study, place, f"there is no file {named}", "give its path from the study's folder")
+    return file
