@@ -21,7 +21,7 @@ JOINTS = ("passive_1", "passive_2", "elevation")
 
 
 @dataclass(frozen=True)
-class Quantity:
+class DeviceQuantity:
     """What a number of a device is.
 
     Parameters
@@ -46,24 +46,24 @@ class Quantity:
 MM, DEG, BAR, ONE = ("mm", 1e3), ("deg", 180.0 / np.pi), ("bar", 1e-5), ("-", 1.0)
 
 
-def _length(what: str, lower: float = -0.5, upper: float = 0.5) -> Quantity:
-    return Quantity("m", MM, lower, upper, what)
+def _length(what: str, lower: float = -0.5, upper: float = 0.5) -> DeviceQuantity:
+    return DeviceQuantity("m", MM, lower, upper, what)
 
 
-def _as_is(unit: str, lower: float, upper: float, what: str) -> Quantity:
-    return Quantity(unit, (unit, 1.0), lower, upper, what)
+def _as_is(unit: str, lower: float, upper: float, what: str) -> DeviceQuantity:
+    return DeviceQuantity(unit, (unit, 1.0), lower, upper, what)
 
 
-def _angle(what: str) -> Quantity:
-    return Quantity("rad", DEG, -2.0 * np.pi, 2.0 * np.pi, what)
+def _angle(what: str) -> DeviceQuantity:
+    return DeviceQuantity("rad", DEG, -2.0 * np.pi, 2.0 * np.pi, what)
 
 
-QUANTITIES: Mapping[str, Quantity] = {
-    "bar_share": Quantity("1", ONE, 0.1, 1.0, "first passive joint from the middle, over the shoulder width"),
-    "armrest_share": Quantity(
+QUANTITIES: Mapping[str, DeviceQuantity] = {
+    "bar_share": DeviceQuantity("1", ONE, 0.1, 1.0, "first passive joint from the middle, over the shoulder width"),
+    "armrest_share": DeviceQuantity(
         "1", ONE, 0.1, 1.0, "middle of the cuff from the active axis, over the upper arm's length"
     ),
-    "belt_share": Quantity("1", ONE, 0.1, 2.0, "lap belt below the shoulder bar, over the torso's length"),
+    "belt_share": DeviceQuantity("1", ONE, 0.1, 2.0, "lap belt below the shoulder bar, over the torso's length"),
     **{
         f"link_{k}_{axis}": _length(f"link {k}, from its joint to the next, along {axis}")
         for k in (1, 2)
@@ -80,7 +80,7 @@ QUANTITIES: Mapping[str, Quantity] = {
     },
     **{f"{joint}_damping": _as_is("N m s/rad", 0.0, 100.0, f"damping of {joint}") for joint in JOINTS},
     "stop_stiffness": _as_is("N m/rad", 0.0, 1e5, "stiffness of the stops"),
-    "stop_width": Quantity("rad", DEG, 1e-4, 1.0, "angle over which a stop sets in"),
+    "stop_width": DeviceQuantity("rad", DEG, 1e-4, 1.0, "angle over which a stop sets in"),
     "stop_damping": _as_is("s/rad", 0.0, 100.0, "share of a stop's torque added per rate into it"),
     "link_1_mass": _as_is("kg", 0.0, 10.0, "mass of link 1"),
     "link_2_mass": _as_is("kg", 0.0, 10.0, "mass of link 2"),
@@ -90,7 +90,7 @@ QUANTITIES: Mapping[str, Quantity] = {
     "cylinder_mass": _as_is("kg", 0.0, 10.0, "mass of the cylinder, carried by the arm link"),
     "cylinder_centre": _length("mass centre of the cylinder below the active axis", 0.0),
     "bore": _length("bore of the cylinder", 1e-3, 0.2),
-    "supply": Quantity("Pa", BAR, 1e4, 2e6, "supply pressure"),
+    "supply": DeviceQuantity("Pa", BAR, 1e4, 2e6, "supply pressure"),
     "lag": _as_is("s", 1e-3, 10.0, "time constant of the pressure"),
     "lever_a": _length("hinge of the rod on the arm from the active axis", 1e-3),
     "lever_b": _length("hinge of the cylinder on the frame from the active axis", 1e-3),
@@ -102,7 +102,7 @@ QUANTITIES: Mapping[str, Quantity] = {
     "delta_full": _length("offset from which the interface's damping acts fully", 1e-6),
     "mu_s": _as_is("1", 0.0, 5.0, "static friction of the interface"),
     "mu_k": _as_is("1", 0.0, 5.0, "kinetic friction of the interface"),
-    "v_th": Quantity("m/s", ("mm/s", 1e3), 1e-5, 1.0, "threshold speed of the friction table"),
+    "v_th": DeviceQuantity("m/s", ("mm/s", 1e3), 1e-5, 1.0, "threshold speed of the friction table"),
     "rounding": _length("over which friction's kink on the axis is rounded", 1e-7),
 }
 """All numbers of a device."""

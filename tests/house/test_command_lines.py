@@ -57,9 +57,16 @@ rows = {bone: [f"1,0,0,{k},0,1,0,{y},0,0,1,0,0,0,0,1" for k in range(3)] for bon
 for bone, lines in rows.items():
     open(f"{bone}.txt", "w").write("\\n".join(lines) + "\\n")
 """
+LOGGER = """\
+import csv
+rows = list(csv.DictReader(open("meshes/overhead_P1T1S100/truth.csv").read().splitlines()[1:]))
+lines = [f"{r['time [s]']},{r['elevation_right [deg]']},10" for r in rows]
+open("logger.csv", "w").write("time [s],exo_right [deg],mat [N]\\n" + "\\n".join(lines) + "\\n")
+"""
 MADE = {
     "docs/how-to/cop.md": PLATE,
     "docs/how-to/elbow_design.md": KNEE,
+    "docs/how-to/shoulder.md": LOGGER,
     "docs/reference/input_files.md": BONES,
 }
 """What makes files that a reader would have recorded."""

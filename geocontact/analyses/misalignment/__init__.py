@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-from importlib import import_module
-from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from geocontact.analyses.package_of_jobs import PackageOfJobs
 
 if TYPE_CHECKING:
     from geocontact.analyses.misalignment.compare.job import compare
@@ -16,14 +16,4 @@ if TYPE_CHECKING:
 
 __all__ = ["compare", "design", "identify", "population", "simulate"]
 
-
-class _Analyses(ModuleType):
-    """The package, whose attributes are the analyses and not the sub-packages that have their names."""
-
-    def __getattribute__(self, name: str) -> Any:
-        if name in __all__:  # importing a sub-package sets an attribute, which would hide its analysis
-            return getattr(import_module(f"{__name__}.{name}.job"), name)
-        return super().__getattribute__(name)
-
-
-sys.modules[__name__].__class__ = _Analyses
+sys.modules[__name__].__class__ = PackageOfJobs

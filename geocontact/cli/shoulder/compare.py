@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geocontact.analyses.shoulder.compare.options import CompareOptions
+from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
 from geocontact.cli.command import Command
 
 HELP = """Errors of a simulated exoskeleton arm beside its logger and a pressure mat, by channel and work phase.
@@ -10,4 +10,4 @@ HELP = """Errors of a simulated exoskeleton arm beside its logger and a pressure
 Writes comparison.csv, a figure, report.html and run.json into OUT.
 """
 
-compare = Command("geocontact.analyses.shoulder.compare.job:compare", CompareOptions, HELP)
+compare = Command("geocontact.analyses.shoulder.compare.job:compare", ShoulderCompareOptions, HELP)

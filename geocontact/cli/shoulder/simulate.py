@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geocontact.analyses.shoulder.simulate.options import SimulateOptions
+from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.cli.command import Command
 
 HELP = """Motion and interface forces of a shoulder exoskeleton along recorded human motion, by its own dynamics.
@@ -12,4 +12,4 @@ Writes right.csv and left.csv, numbers.csv with the source of every number of th
 a figure, report.html (moving arms with forces) and run.json into OUT.
 """
 
-simulate = Command("geocontact.analyses.shoulder.simulate.job:simulate", SimulateOptions, HELP)
+simulate = Command("geocontact.analyses.shoulder.simulate.job:simulate", ShoulderSimulateOptions, HELP)

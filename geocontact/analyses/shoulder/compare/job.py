@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from geocontact.analyses.job import Job
-from geocontact.analyses.shoulder.compare.options import CompareOptions
+from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
 from geocontact.analyses.shoulder.compare.read import read
 from geocontact.analyses.shoulder.compare.run import run
 
-compare = Job("shoulder compare", CompareOptions, read, run)
+compare = Job("shoulder compare", ShoulderCompareOptions, read, run)

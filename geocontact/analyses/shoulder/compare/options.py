@@ -13,7 +13,7 @@ Clock = Annotated[float, Typed("s", "finite", "[s]", float), Spelled(dashed=True
 
 
 @dataclass(frozen=True)
-class CompareOptions(Options):
+class ShoulderCompareOptions(Options):
     """Errors of a simulated exoskeleton arm beside logger and pressure mat: mean absolute, root mean square, per phase.
 
     Parameters

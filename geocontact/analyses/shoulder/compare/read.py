@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.shoulder.compare.options import CompareOptions
+from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
 from geocontact.analyses.shoulder.recorded_channels import ELEVATION, FORCE, Channels, recorded_channels
 from geocontact.data.errors import InputError
 from geocontact.io.text.side_table import read_side_table
@@ -19,7 +19,7 @@ SIMULATED = {ELEVATION: "elevation [rad]", FORCE: "supporting [N]"}
 
 
 @dataclass(frozen=True, eq=False)
-class Both:
+class ArmAndRecording:
     """A simulated arm with its phases in words, and the recording."""
 
     simulated: Channels
@@ -27,13 +27,13 @@ class Both:
     recorded: Channels
 
 
-def read(o: CompareOptions, record: Record) -> Both:
+def read(o: ShoulderCompareOptions, record: Record) -> ArmAndRecording:
     """Both files."""
     simulated, phase = _simulated(o.simulated)
     record.add_input("simulated", o.simulated, frames=len(phase))
     recorded = recorded_channels(o.recorded, o.map, o.angles, o.unit, o.delay)
     record.add_input("recorded", o.recorded, samples=len(recorded.time))
-    return Both(simulated, phase, recorded)
+    return ArmAndRecording(simulated, phase, recorded)
 
 
 def _simulated(path: Path) -> tuple[Channels, tuple[str, ...]]:

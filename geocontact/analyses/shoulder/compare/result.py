@@ -16,7 +16,7 @@ from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.result import Result
-from geocontact.analyses.shoulder.compare.options import CompareOptions
+from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
 from geocontact.analyses.shoulder.recorded_channels import ELEVATION
 from geocontact.identify.signals.agreement import Agreement
 from geocontact.io.text.results import write_table
@@ -35,7 +35,7 @@ MAT = (
 
 
 @dataclass(frozen=True, eq=False)
-class Compared:
+class ComparedChannel:
     """One channel at the simulation's even times [rad or N], and errors by phase."""
 
     channel: str
@@ -51,11 +51,11 @@ class Compared:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class CompareResult(Result):
+class ShoulderCompareResult(Result):
     """A simulated arm beside a recording."""
 
-    options: CompareOptions
-    channels: tuple[Compared, ...]
+    options: ShoulderCompareOptions
+    channels: tuple[ComparedChannel, ...]
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`comparison`: one row per channel and phase."""
@@ -84,7 +84,7 @@ class CompareResult(Result):
         self.write_page(folder / "report.html")
 
     def write_page(self, file: Path) -> None:
-        """Both curves and errors by phase."""
+        """ArmAndRecording curves and errors by phase."""
         time = self.channels[0].time
         shown = np.arange(0, len(time), -(-len(time) // FRAMES))
         panels = []

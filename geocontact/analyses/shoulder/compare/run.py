@@ -8,9 +8,9 @@ import numpy as np
 
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.shoulder.compare.options import CompareOptions
-from geocontact.analyses.shoulder.compare.read import Both
-from geocontact.analyses.shoulder.compare.result import Compared, CompareResult
+from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
+from geocontact.analyses.shoulder.compare.read import ArmAndRecording
+from geocontact.analyses.shoulder.compare.result import ComparedChannel, ShoulderCompareResult
 from geocontact.analyses.shoulder.phase_errors import ALL, WORK, phase_errors
 from geocontact.analyses.shoulder.recorded_channels import ELEVATION
 from geocontact.data.errors import InputError
@@ -18,7 +18,7 @@ from geocontact.identify.signals.agreement import Agreement
 from geocontact.identify.signals.even_times import at_times, even_times
 
 
-def run(both: Both, o: CompareOptions, record: Record) -> CompareResult:
+def run(both: ArmAndRecording, o: ShoulderCompareOptions, record: Record) -> ShoulderCompareResult:
     """Every channel that was recorded."""
     time, step = even_times(both.simulated.time)
     recorded = both.recorded
@@ -35,15 +35,15 @@ def run(both: Both, o: CompareOptions, record: Record) -> CompareResult:
         measured = at_times(recorded.time, values, time, recorded_step)
         model = both.simulated.values[channel]
         errors = phase_errors(model, measured, step, phase, inside)
-        found.append(Compared(channel, time, model, np.where(inside, measured, np.nan), errors))
+        found.append(ComparedChannel(channel, time, model, np.where(inside, measured, np.nan), errors))
         _say(found[-1], errors, record)
     record.results["comparison"] = plain(
         {each.channel: {name: vars(error) for name, error in each.errors.items()} for each in found}
     )
-    return CompareResult(record=record, options=o, channels=tuple(found))
+    return ShoulderCompareResult(record=record, options=o, channels=tuple(found))
 
 
-def _say(one: Compared, errors: Mapping[str, Agreement], record: Record) -> None:
+def _say(one: ComparedChannel, errors: Mapping[str, Agreement], record: Record) -> None:
     unit, factor = ("deg", np.degrees(1.0)) if one.channel == ELEVATION else ("N", 1.0)
     for name in (ALL, WORK):
         if name in errors:

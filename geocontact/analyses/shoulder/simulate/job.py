@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from geocontact.analyses.job import Job
-from geocontact.analyses.shoulder.simulate.options import SimulateOptions
+from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulate.read import read
 from geocontact.analyses.shoulder.simulate.run import run
 
-simulate = Job("shoulder simulate", SimulateOptions, read, run)
+simulate = Job("shoulder simulate", ShoulderSimulateOptions, read, run)

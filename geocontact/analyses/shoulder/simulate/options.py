@@ -6,18 +6,18 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import Expression, Options, Requires, TimeSpan, Typed
+from geocontact.analyses.options import Expression, Options, Requires, Spelled, TimeSpan, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import Plausible
 from geocontact.data.ranges import CUTOFF, GAP
 from geocontact.data.units import Unit
 
 CURRENT = Plausible("the current of a tool", Unit("A", "A", 1.0), (0.0, 1000.0), (0.0, 100.0))
-Level = Annotated[float, Typed("-", "shoulder.level:level")]
+Level = Annotated[float, Typed("-", "shoulder.level:level"), Spelled(default="100%")]
 
 
 @dataclass(frozen=True)
-class SimulateOptions(Options):
+class ShoulderSimulateOptions(Options):
     """Motion and interface forces of a shoulder exoskeleton along recorded human motion.
 
     Parameters

@@ -12,7 +12,7 @@ from jaxtyping import Float, Int
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.shoulder.simulate.options import SimulateOptions
+from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
@@ -48,7 +48,7 @@ FRAME = (
 def write_simulation_page(
     path: Path,
     record: Record,
-    o: SimulateOptions,
+    o: ShoulderSimulateOptions,
     arms: Sequence[SimulatedArm],
     tables: Mapping[str, pd.DataFrame],
 ) -> int:

@@ -12,7 +12,7 @@ from geocontact.analyses.motion.markers import markers_given
 from geocontact.analyses.quantities import named_file
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.devices import device_named, wearer_named
-from geocontact.analyses.shoulder.simulate.options import SimulateOptions
+from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.tool import tool_runs
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
@@ -48,7 +48,7 @@ class Worn:
     tool: Bool[np.ndarray, " t"] | None
 
 
-def read(o: SimulateOptions, record: Record) -> Worn:
+def read(o: ShoulderSimulateOptions, record: Record) -> Worn:
     """Everything the options name."""
     device, wearer = device_named(record, o.device), wearer_named(record, o.person)
     seen = _renamed(record, markers_given(o.markers, o.axes, o.time), o.markers_map)
@@ -90,7 +90,7 @@ def _renamed(record: Record, seen: MarkerTrajectories, given: str | None) -> Mar
         raise InputError(seen.source, "`markers_map`", str(error), "map that one too, or leave it out") from error
 
 
-def _smoothed(arm: ArmMotion, o: SimulateOptions) -> ArmMotion:
+def _smoothed(arm: ArmMotion, o: ShoulderSimulateOptions) -> ArmMotion:
     columns = np.hstack([arm.interface, arm.shoulder, arm.gravity_at_frames(), arm.elevation[:, None]])
     cutoff = None if o.cutoff == 0.0 else o.cutoff
     try:

@@ -14,7 +14,7 @@ from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.result import Result
 from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines
-from geocontact.analyses.shoulder.simulate.options import SimulateOptions
+from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulate.page import write_simulation_page
 from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
 from geocontact.analyses.shoulder.simulate.tables import arm_table, numbers_table, sensitivity_table
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class SimulateResult(Result):
+class ShoulderSimulateResult(Result):
     """Motion of both arms of an exoskeleton, and the forces in its cuffs.
 
     Parameters
@@ -42,7 +42,7 @@ class SimulateResult(Result):
         By side, where they were asked for.
     """
 
-    options: SimulateOptions
+    options: ShoulderSimulateOptions
     arms: tuple[SimulatedArm, ...]
     frame: DeviceFrame
     device: Device
@@ -68,7 +68,7 @@ class SimulateResult(Result):
             elevation[f"exoskeleton, {side}"] = np.degrees(s.elevation)
             force[f"supporting, {side}"] = s.supporting
             force[f"shear, {side}"] = s.shear
-        panels = {"elevation [°]": pd.DataFrame(elevation), "interface force [N]": pd.DataFrame(force)}
+        panels = {"elevation [deg]": pd.DataFrame(elevation), "interface force [N]": pd.DataFrame(force)}
         return curves_figure(time, panels)
 
     def write_files(self, folder: Path) -> None:

@@ -6,9 +6,9 @@ import numpy as np
 
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.shoulder.simulate.options import SimulateOptions
+from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulate.read import Worn
-from geocontact.analyses.shoulder.simulate.result import SimulateResult
+from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
 from geocontact.data.errors import InputError
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
@@ -18,7 +18,7 @@ from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 from geocontact.shoulder_exoskeleton.work_phases import PHASES, work_phases
 
 
-def run(worn: Worn, o: SimulateOptions, record: Record) -> SimulateResult:
+def run(worn: Worn, o: ShoulderSimulateOptions, record: Record) -> ShoulderSimulateResult:
     """Each arm by itself; they share the device's frame only."""
     invented = sum(number.source == "invented" for number in worn.device.numbers.values())
     record.warn(f"{worn.device.name}: {invented} of {len(worn.device.numbers)} numbers are invented, see numbers.csv")
@@ -28,7 +28,7 @@ def run(worn: Worn, o: SimulateOptions, record: Record) -> SimulateResult:
         each.side: tuple(influences(each.simulation.motion, worn.device, worn.wearer, o.level))
         for each in (arms if o.sensitivity else ())
     }
-    return SimulateResult(
+    return ShoulderSimulateResult(
         record=record,
         options=o,
         arms=arms,
@@ -39,7 +39,7 @@ def run(worn: Worn, o: SimulateOptions, record: Record) -> SimulateResult:
     )
 
 
-def _simulated(worn: Worn, arm: ArmMotion, o: SimulateOptions, record: Record) -> SimulatedArm:
+def _simulated(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, record: Record) -> SimulatedArm:
     try:
         found = simulate_arm(arm, worn.device, worn.wearer, o.level)
     except ArithmeticError as error:

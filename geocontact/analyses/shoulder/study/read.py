@@ -8,7 +8,7 @@ from pathlib import Path
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.level import level
 from geocontact.analyses.shoulder.recorded_channels import Channels, recorded_channels
-from geocontact.analyses.shoulder.simulate.options import SimulateOptions
+from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulate.read import Worn
 from geocontact.analyses.shoulder.simulate.read import read as read_worn
 from geocontact.analyses.shoulder.study.options import StudyOptions
@@ -52,7 +52,7 @@ def _trial(device: str, trial: StudyTrial, o: StudyOptions, record: Record) -> S
 def _worn(
     device: str, trial: StudyTrial, markers: Path, tool: Path | None, share: float, o: StudyOptions, record: Record
 ) -> Worn:
-    asked = SimulateOptions(
+    asked = ShoulderSimulateOptions(
         markers,
         device=device,
         person=trial.wearer,

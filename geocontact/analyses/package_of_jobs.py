@@ -1,0 +1,17 @@
+"""A package whose attributes are its analyses and not the sub-packages that have their names."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from types import ModuleType
+from typing import Any
+
+
+class PackageOfJobs(ModuleType):
+    """Class of such a package: every name in its `__all__` is found in the module `job` of its sub-package."""
+
+    def __getattribute__(self, name: str) -> Any:
+        known = super().__getattribute__
+        if name in known("__dict__").get("__all__", ()):  # importing a sub-package sets an attribute of its name
+            return getattr(import_module(f"{known('__name__')}.{name}.job"), name)
+        return known(name)

@@ -1,0 +1,88 @@
+"""Errors of a simulated arm beside recordings whose errors are known."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import geocontact as gc
+from tests.shoulder_exoskeleton.arms import raised
+
+TIME = np.arange(601) * 0.01
+PHASE = np.select([TIME < 0.8, TIME < 2.2, TIME < 4.0, TIME < 5.2], ["rest", "lift", "screw-in", "lower"], "rest")
+
+
+def simulated(folder: Path) -> Path:
+    """A simulated arm of which the comparison reads four columns."""
+    angle = np.degrees(raised(TIME))
+    columns = {"time [s]": TIME, "phase": PHASE, "elevation [deg]": angle, "supporting [N]": 0.2 * angle}
+    file = folder / "right.csv"
+    pd.DataFrame(columns).to_csv(file, index=False)
+    return file
+
+
+def recorded(folder: Path, late: float = 0.0, **columns: np.ndarray) -> Path:
+    file = folder / "recorded.csv"
+    pd.DataFrame({"time [s]": TIME + late, **columns}).to_csv(file, index=False)
+    return file
+
+
+def test_errors_are_those_that_were_put_in_phase_by_phase(tmp_path: Path) -> None:
+    """3 degrees too high while screwing, 1 else; the force 2 N too low everywhere."""
+    angle = np.degrees(raised(TIME))
+    file = recorded(
+        tmp_path,
+        **{"exo [deg]": angle + np.where(PHASE == "screw-in", 3.0, 1.0), "mat [N]": 0.2 * angle - 2.0},
+    )
+    found = gc.shoulder.compare(simulated(tmp_path), file, map="elevation=exo,force=mat")
+    table = found.table().set_index(["channel", "phase"])
+    for phase, error in (("lift", 1.0), ("screw-in", 3.0), ("lower", 1.0)):
+        assert table.loc[("elevation", phase), "mae"] == pytest.approx(error, abs=1e-9)
+        assert table.loc[("elevation", phase), "bias"] == pytest.approx(-error, abs=1e-9)
+    counts = {phase: int(np.sum(phase == PHASE)) for phase in ("lift", "screw-in", "lower")}
+    work = (counts["lift"] + counts["lower"] + 3.0 * counts["screw-in"]) / sum(counts.values())
+    assert table.loc[("elevation", "work"), "mae"] == pytest.approx(work, abs=1e-9)
+    assert table.loc[("force", "all"), "rmsd"] == pytest.approx(2.0, abs=1e-9)
+    assert table.loc[("force", "all"), "samples"] == 601
+    assert found.sentences[0].startswith("elevation, all: MAE 1.6")
+
+
+def test_a_late_clock_is_set_right(tmp_path: Path) -> None:
+    file = recorded(tmp_path, late=0.5, **{"elevation [deg]": np.degrees(raised(TIME))})
+    with pytest.warns(gc.InputWarning, match="96% of the simulated time was recorded"):
+        both = [gc.shoulder.compare(simulated(tmp_path), file, delay=delay) for delay in (0.5, 0.25)]
+    assert both[0].table()["mae"].max() < 1e-9
+    assert both[1].table()["mae"][0] > 1.0
+    assert both[1].table()["lag [s]"][0] == pytest.approx(-0.25, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("columns", "options", "words"),
+    [
+        ({"angle [deg]": TIME}, {}, "no column elevation or force; columns are: angle"),
+        ({"elevation [deg]": TIME}, {"map": "force=mat"}, "no column 'mat' for force"),
+        ({"elevation [deg]": TIME}, {"delay": 100.0}, "the simulation from 0 to 6 s; give `delay`"),
+    ],
+)
+def test_what_cannot_be_compared_is_refused(
+    tmp_path: Path, columns: dict[str, np.ndarray], options: dict[str, object], words: str
+) -> None:
+    with pytest.raises(gc.InputError) as told:
+        gc.shoulder.compare(simulated(tmp_path), recorded(tmp_path, **columns), **options)
+    assert words in str(told.value)
+
+
+def test_another_table_is_no_simulated_arm(tmp_path: Path) -> None:
+    file = recorded(tmp_path, **{"elevation [deg]": TIME})
+    with pytest.raises(gc.InputError, match=r"no column phase; give right\.csv or left\.csv"):
+        gc.shoulder.compare(file, file)
+
+
+def test_files_and_page(tmp_path: Path) -> None:
+    file = recorded(tmp_path, **{"elevation [deg]": np.degrees(raised(TIME)) + 1.0})
+    folder = gc.shoulder.compare(simulated(tmp_path), file).write(tmp_path / "result")
+    assert {"comparison.csv", "comparison.png", "report.html"} <= {each.name for each in folder.iterdir()}
+    assert "Errors by channel and phase" in (folder / "report.html").read_text(encoding="utf-8")

@@ -1,0 +1,199 @@
+"""The shipped synthetic trial through the whole path: markers, both arms, tables, files that others read, page."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
+from geocontact.data.wrench import Wrench
+from geocontact.io.opensim.external_loads import read_external_loads
+from geocontact.io.text.tables import read_table
+from geocontact.shoulder_exoskeleton.device import QUANTITIES
+from tests.cli.calls import MESHES
+
+TRIAL = MESHES / "overhead_P1T1S100"
+
+
+def simulated(**options: object) -> ShoulderSimulateResult:
+    """The shipped trial, without its warnings."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        return gc.shoulder.simulate(TRIAL / "markers.trc", tool=TRIAL / "tool.csv", upright=(0.0, 0.5), **options)
+
+
+@pytest.fixture(scope="module")
+def found() -> ShoulderSimulateResult:
+    return simulated()
+
+
+@pytest.fixture(scope="module")
+def folder(found: ShoulderSimulateResult, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return found.write(tmp_path_factory.mktemp("shoulder") / "result")
+
+
+def test_both_arms_follow_the_recorded_ones(found: ShoulderSimulateResult) -> None:
+    """The elevation of the exoskeleton's arm is lower than the shoulder's, as in the paper (13.8 degrees there)."""
+    assert [each.side for each in found.arms] == ["right", "left"]
+    for each in found.arms:
+        s = each.simulation
+        assert np.corrcoef(s.elevation, s.motion.elevation)[0, 1] > 0.99
+    told = found.record.results["arms"]
+    assert 2.0 < told["right"]["screw_in_shoulder_minus_exoskeleton_deg"] < 25.0
+    assert told["right"]["shoulder_max_deg"] > told["left"]["shoulder_max_deg"]
+    truth = pd.read_csv(TRIAL / "truth.csv", comment="#")
+    off = np.degrees(found.arms[0].simulation.motion.elevation) - truth["elevation_right [deg]"]
+    assert np.abs(off).mean() < 1.5
+
+
+def test_phases_are_those_of_the_trial(found: ShoulderSimulateResult) -> None:
+    """All but the edges: the truth counts the lift from the first movement on, the study from a tenth of its range."""
+    truth = pd.read_csv(TRIAL / "truth.csv", comment="#")["phase [-]"].to_numpy()
+    assert np.mean(found.arms[0].phase == truth) > 0.85
+    working = found.arms[0].phase == 2
+    assert np.mean(truth[working] == 2) > 0.9
+
+
+def test_the_table_holds_what_the_reference_lists(found: ShoulderSimulateResult) -> None:
+    table = found.table()
+    assert len(table) == 821
+    force = table.filter(like="force_").to_numpy()
+    parts = table[["distal [N]", "medial [N]", "supporting [N]"]].to_numpy()
+    np.testing.assert_allclose(np.linalg.norm(force, axis=1), np.linalg.norm(parts, axis=1), atol=1e-9)
+    assert set(table["phase"]) == {"rest", "lift", "screw-in", "lower"}
+    numbers = found.table("numbers")
+    assert set(numbers["number"]) == set(QUANTITIES) and set(numbers["source"]) == {"paper", "derived", "invented"}
+    shown = numbers.set_index("number")
+    assert shown.loc["bore", "value"] == pytest.approx(25.0) and shown.loc["supply", "unit"] == "bar"
+
+
+def test_what_is_to_be_doubted_is_told(found: ShoulderSimulateResult) -> None:
+    told = "\n".join(found.warnings)
+    assert "numbers are invented" in told and "no `person`" in told
+    assert re.search(r"right arm: passive_1 is at a stop for \d+% of the time, first at 0\.00 s", told)
+
+
+def test_a_short_cuff_lets_the_sphere_out(tmp_path: Path) -> None:
+    file = tmp_path / "short.toml"
+    file.write_text('name = "short"\n[numbers]\ncuff_length = { value = 40, unit = "mm" }\n', encoding="utf-8")
+    short = simulated(device=str(file), side="right")
+    assert any(
+        re.search(r"right arm: the sphere is out of the cuff for \d+% .* up to \d+ mm", w) for w in short.warnings
+    )
+    assert short.table()["out of the cuff"].sum() > 100
+    whole = simulated(side="right")
+    np.testing.assert_array_equal(short.arms[0].simulation.angles, whole.arms[0].simulation.angles)
+
+
+def test_half_the_level_is_half_the_cylinders_force() -> None:
+    half, none = simulated(level=0.5, side="right"), simulated(level=0.0, side="right")
+    cylinder = half.table()["cylinder [N]"]
+    assert cylinder.max() == pytest.approx(0.5 * half.device.peak_force, rel=1e-6)
+    assert none.table()["supporting [N]"].max() < 2.0 < half.table()["supporting [N]"].max()
+
+
+def test_the_person_moves_cuff_and_bar(tmp_path: Path) -> None:
+    file = tmp_path / "p.toml"
+    file.write_text('upper_arm = { value = 330, unit = "mm" }\n', encoding="utf-8")
+    longer, usual = simulated(person=file, side="right"), simulated(side="right")
+    shift = longer.table()["place in the cuff [mm]"] - usual.table()["place in the cuff [mm]"]
+    assert shift.mean() == pytest.approx(-0.72 * 30.0, abs=1.5)
+    assert not any("no `person`" in line for line in longer.warnings)
+
+
+def test_angles_are_read_back(folder: Path, found: ShoulderSimulateResult) -> None:
+    table = read_table(folder / "angles.sto")
+    assert table.channels[:3] == ("passive_1_right", "passive_2_right", "elevation_right")
+    np.testing.assert_allclose(
+        np.radians(table.column("elevation_left")), found.arms[1].simulation.elevation, atol=1e-8
+    )
+
+
+LIMB = """<Body name="{name}"><mass>1e-9</mass><mass_center>0 0 0</mass_center>
+<inertia>1e-9 1e-9 1e-9 0 0 0</inertia></Body>
+"""
+HELD = """<FreeJoint name="{name}_base"><socket_parent_frame>in</socket_parent_frame>
+<socket_child_frame>out</socket_child_frame><coordinates>{coordinates}</coordinates><frames>
+<PhysicalOffsetFrame name="in"><socket_parent>/ground</socket_parent></PhysicalOffsetFrame>
+<PhysicalOffsetFrame name="out"><socket_parent>/bodyset/{name}</socket_parent></PhysicalOffsetFrame>
+</frames></FreeJoint>
+"""
+
+
+def still_arms(folder: Path, time: np.ndarray) -> tuple[Path, Path]:
+    """A model of two limbs without mass that are held at the ground's origin, and coordinates that say so."""
+    names = ("humerus_r", "humerus_l")
+    own = {name: [f"{name}_{k}" for k in ("rx", "ry", "rz", "tx", "ty", "tz")] for name in names}
+    bodies = "".join(LIMB.format(name=name) for name in names)
+    joints = "".join(
+        HELD.format(name=n, coordinates="".join(f'<Coordinate name="{c}"/>' for c in own[n])) for n in names
+    )
+    text = (
+        '<?xml version="1.0"?>\n<OpenSimDocument Version="40000"><Model name="arms"><gravity>0 -9.80665 0</gravity>'
+        f'<Ground name="ground"/><BodySet><objects>{bodies}</objects></BodySet>'
+        f"<JointSet><objects>{joints}</objects></JointSet></Model></OpenSimDocument>\n"
+    )
+    model, motion = folder / "arms.osim", folder / "still.csv"
+    model.write_text(text, encoding="utf-8")
+    columns = [c for n in names for c in own[n]]
+    units = ["m" if c[-2] == "t" else "deg" for c in columns]
+    head = ",".join(["time [s]", *(f"{c} [{u}]" for c, u in zip(columns, units, strict=True))])
+    rows = "\n".join(",".join([f"{t:.6f}", *["0"] * 12]) for t in time)
+    motion.write_text(f"{head}\n{rows}\n", encoding="utf-8")
+    return model, motion
+
+
+def test_inverse_dynamics_reads_the_forces_as_external_loads(
+    folder: Path, found: ShoulderSimulateResult, tmp_path: Path
+) -> None:
+    """What holds limbs without mass at the origin is the opposite of each cuff's force and of its moment there."""
+    data, loads = read_external_loads(folder / "interface_forces.xml")
+    assert data == folder / "interface_forces.mot"
+    assert [(each.plate, each.body, each.torque) for each in loads] == [
+        ("cuff_right_force", "humerus_r", False),
+        ("cuff_left_force", "humerus_l", False),
+    ]
+    model, motion = still_arms(tmp_path, found.arms[0].simulation.motion.time)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        result = gc.inverse_dynamics(motion, model=model, loads=folder / "interface_forces.xml", cutoff=0.0)
+    values = dict(zip(result.forces.names, np.asarray(result.forces.values).T, strict=True))
+    for each, name in zip(found.arms, ("humerus_r", "humerus_l"), strict=True):
+        s, frame = each.simulation, found.frame
+        force = np.einsum("tij,ti->tj", frame.rotation, s.told["force"])
+        place = frame.origin + np.einsum("tij,ti->tj", frame.rotation, s.motion.interface)
+        wrench = Wrench(force, np.zeros_like(force), place, "ground").moved_to(np.zeros(3))
+        held = np.column_stack([values[f"{name}_t{axis}_force"] for axis in "xyz"])
+        turned = np.column_stack([values[f"{name}_r{axis}_moment"] for axis in "xyz"])
+        np.testing.assert_allclose(held, -force, atol=1e-6)
+        np.testing.assert_allclose(turned, -wrench.moment, atol=1e-6)
+
+
+def test_lines_for_paraview_hold_points_and_forces(folder: Path, found: ShoulderSimulateResult) -> None:
+    pv = pytest.importorskip("pyvista")
+    text = (folder / "paraview" / "device.pvd").read_text(encoding="utf-8")
+    assert text.count("<DataSet") == 821
+    lines = pv.read(folder / "paraview" / "frames" / "device_400.vtp")
+    s = found.arms[0].simulation
+    assert lines.n_points == 12 and lines.n_lines == 4
+    np.testing.assert_allclose(lines.points[5], s.motion.interface[400], atol=1e-6)
+    np.testing.assert_allclose(lines.point_data["force on the arm [N]"][5], s.told["force"][400], rtol=1e-5, atol=1e-5)
+
+
+def test_the_page_shows_moving_arms_and_what_is_invented(folder: Path) -> None:
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    for words in ("forces on the arms, 0.5 m for 100 N", "Numbers of the device", "numbers are invented", "at a stop"):
+        assert words in page, words
+
+
+@pytest.mark.slow
+def test_sensitivity_is_written_where_it_is_asked_for() -> None:
+    table = simulated(sensitivity=True, side="left").table("sensitivity")
+    assert table["supporting [N]"].is_monotonic_decreasing
+    assert set(table["side"]) == {"left"} and len(table) > 30

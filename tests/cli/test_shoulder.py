@@ -1,0 +1,113 @@
+"""`geocontact shoulder`: what is mistaken is told in one line, with code 2."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.calls import MESHES, call
+
+TRIAL = MESHES / "overhead_P1T1S100"
+BORE = "[numbers]\nbore = { "
+
+
+def spoilt(folder: Path, name: str, text: str) -> Path:
+    file = folder / name
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+DEVICES = {
+    "no number": (
+        '[numbers]\nbores = { value = 1, unit = "mm" }',
+        "[numbers] bores: is no number of a device; perhaps bore",
+    ),
+    "no unit": ("[numbers]\nbore = 32", "[numbers] bore: is not a value with its unit"),
+    "other unit": (BORE + 'value = 32, unit = "kg" }', "'kg' is not a unit of it; its SI unit is m"),
+    "other source": (BORE + 'value = 32, unit = "mm", source = "guess" }', "source 'guess' is not known"),
+    "metres": (BORE + 'value = 32, unit = "m" }', "32000 mm cannot be bore of the cylinder; that is 1 to 200 mm"),
+    "text": (BORE + 'value = "wide", unit = "mm" }', "'wide' is not a finite number"),
+    "no toml": ("bore: 32", "is not TOML"),
+    "other key": ("nmae = 'x'", "`nmae`: is not known here"),
+    "unknown base": ("based_on = 'lucie'", "'lucie' is not built in"),
+    "no room": (
+        '[numbers]\nelevation_lower = { value = 160, unit = "deg" }',
+        "the range of elevation from 160 to 150 degrees has no room",
+    ),
+    "no axis": (
+        '[numbers]\naxis_elevation_x = { value = 0, unit = "1" }',
+        "the axis of elevation has no length",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", DEVICES)
+def test_a_device_that_cannot_be(tmp_path: Path, name: str) -> None:
+    text, words = DEVICES[name]
+    file = spoilt(tmp_path, "device.toml", text)
+    told = call("shoulder", "simulate", TRIAL / "markers.trc", "--device", file, "--out", tmp_path / "out")
+    assert told.code == 2 and words in told.err, told.err
+    assert len(told.complaints) == 1 and not (tmp_path / "out").exists()
+
+
+OPTIONS = {
+    "level": (("--level", "120%"), "--level: 120 % is not 0 to 100 %"),
+    "per cent": (("--level", "50"), "'50' may be meant in per cent; write 50% or 0.5"),
+    "device": (("--device", "lucie"), "'lucie' is neither a file nor a built-in device"),
+    "lone current": (("--tool-current", "2"), "--tool-current: has no effect without --tool"),
+    "map": (("--markers-map", "R_UP=humerus_rup"), "R_UP was not recorded"),
+    "upright": (("--upright", "90:95"), "no frame with all reference markers from 90 to 95 s"),
+}
+
+
+@pytest.mark.parametrize("name", OPTIONS)
+def test_options_that_cannot_be(tmp_path: Path, name: str) -> None:
+    options, words = OPTIONS[name]
+    told = call("shoulder", "simulate", TRIAL / "markers.trc", *options, "--out", tmp_path / "out")
+    assert told.code == 2 and words in told.err, told.err
+    assert len(told.complaints) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("time [s],event [-]\n0,0\n1,2\n9,0\n", "event is 2 at 1 s, neither 0 nor 1"),
+        ("time [s],event [-]\n0,0\n9,0\n", "the tool never runs"),
+        ("time [s],event [-]\n0,1\n0.1,0\n9,0\n", "right arm: the tool never runs while the arm is raised"),
+        ("time [s],force [N]\n0,1\n9,0\n", "no column event or current"),
+    ],
+)
+def test_a_tool_that_cannot_be(tmp_path: Path, text: str, words: str) -> None:
+    file = spoilt(tmp_path, "tool.csv", text)
+    told = call("shoulder", "simulate", TRIAL / "markers.trc", "--tool", file, "--out", tmp_path / "out")
+    assert told.code == 2 and words in told.err, told.err
+    assert len(told.complaints) == 1
+
+
+def test_no_rest_at_the_start(tmp_path: Path) -> None:
+    """Shoulders half a metre behind: the cuff is not where the arm is."""
+    text = '[numbers]\nlink_1_y = { value = 450, unit = "mm" }\n'
+    file = spoilt(tmp_path, "device.toml", text)
+    told = call("shoulder", "simulate", TRIAL / "markers.trc", "--device", file, "--out", tmp_path / "out")
+    assert told.code == 2 and "right arm: at the start" in told.err, told.err
+    assert len(told.complaints) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("arm = 3", "none of upper_arm, shoulder_width, torso"),
+        ('upper_arm = { value = 3, unit = "m" }', "3000 mm is no length of a person; that is 100 to 1000 mm"),
+    ],
+)
+def test_a_person_that_cannot_be(tmp_path: Path, text: str, words: str) -> None:
+    file = spoilt(tmp_path, "p1.toml", text)
+    told = call("shoulder", "simulate", TRIAL / "markers.trc", "--person", file, "--out", tmp_path / "out")
+    assert told.code == 2 and words in told.err, told.err
+    assert len(told.complaints) == 1
+
+
+def test_help_lists_the_commands() -> None:
+    told = call("shoulder", "--help")
+    assert told.code == 0 and "simulate" in told.out and "compare" in told.out
