@@ -37,7 +37,7 @@ from geocontact.shoulder_exoskeleton.synthetic.trial import SCREW, SyntheticTria
 
 WORN = tuple(each for each in CONDITIONS if each.level is not None)
 (BARE,) = (each for each in CONDITIONS if each.level is None)
-TRUE = Withheld(push=0.15, strap=1e-3, seal=0.3)
+TRUE = Withheld(push=0.15, strap=4e-3, seal=0.3)
 """What happens in the study besides the model: push force, strap, seals. Sizes are invented."""
 
 

@@ -23,6 +23,8 @@ LOGGER = (0.5, 0.04, 50.0)
 """Step of the logger's angle [deg], its lag [s] and rate [Hz]; invented."""
 MAT = (0.25, 0.3)
 """Noise of the mat's force (standard deviation) and its step [N]; invented."""
+SETTLING = 0.3
+"""N m s/rad; damping of the joints while the arm comes to rest before a trial."""
 SLOW = 0.02
 """rad/s below which the seal's friction is viscous."""
 THIN = 0.02
@@ -105,6 +107,7 @@ class Truth:
             *(m / 12.0 * (v @ v * np.eye(3) - np.outer(v, v)) for m, v in zip(self.masses, self.links, strict=False)),
             np.diag([spread, spread, arm * THIN**2]),
         ]
+        self.mu = np.array([d["mu_s"], d["mu_k"]])
         self.s = (np.arange(ALONG) + 0.5) / ALONG * d["cuff_length"] - 0.5 * d["cuff_length"]
         angle = 2.0 * np.pi * (np.arange(AROUND) + 0.5) / AROUND
         self.around = np.column_stack([np.cos(angle), np.sin(angle)])  # medial, raising
@@ -179,7 +182,7 @@ class Truth:
         sliding = velocity - closing[..., None] * outwards
         speed = np.sqrt(np.einsum("abx,abx->ab", sliding, sliding)) + 1e-12
         node = speed / d["v_th"]
-        mu = np.interp(node, [0.0, 1.0, 1.5, 3.0], [0.0, d["mu_s"], d["mu_s"], d["mu_k"]])
+        mu = np.interp(node, [0.0, 1.0, 1.5, 3.0], [0.0, self.mu[0], self.mu[0], self.mu[1]])
         force = -pressing[..., None] * (outwards + (mu / speed)[..., None] * sliding)
         return force, at, pressing
 
@@ -254,10 +257,10 @@ def _at_rest(truth: Truth, w: dict[str, np.ndarray]) -> np.ndarray:
     still = w | {"rate": np.zeros(3), "along_rate": np.zeros(3)}
     to = w["place"] - truth.base - truth.links.sum(axis=0)
     start = np.concatenate([[0.0, 0.0, np.arctan2(-to[1], -to[2])], np.zeros(3), [truth.push * w["factor"]]])
-    held = truth.damping
-    truth.damping = held + 0.5
-    settled = solve_ivp(lambda _, x: truth.rates(x, still), (0.0, 3.0), start, "BDF", rtol=1e-5, atol=1e-6)
-    truth.damping = held
+    own = truth.damping, truth.mu
+    truth.damping, truth.mu = np.full(3, SETTLING), np.zeros(2)
+    settled = solve_ivp(lambda _, x: truth.rates(x, still), (0.0, 12.0), start, "BDF", rtol=1e-6, atol=1e-7)
+    truth.damping, truth.mu = own
     state = settled.y[:, -1]
     state[3:6] = 0.0
     return np.asarray(state)
