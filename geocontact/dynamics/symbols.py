@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.multibody.joint_function import Affine, JointFunction
+from geocontact.data.multibody.joint_function import Affine, JointFunction, SineProduct
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -50,10 +50,16 @@ def _cross_matrix(v: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "3 3"]:
 
 def value_of(function: JointFunction, q: SX) -> SX:
     """A joint's function of coordinates, k values in a column."""
-    from casadi import SX, dot, pw_const
+    from casadi import SX, dot, pw_const, sin
 
     if isinstance(function, Affine):
         return dot(constant(function.slopes), q) + function.offset if len(function.slopes) else SX(function.offset)
+
+    if isinstance(function, SineProduct):
+        product = SX(function.factor)
+        for k, phase in enumerate(function.phases):
+            product = product * sin(q[k] + phase)
+        return product
 
     def piece(of: Float[np.ndarray, " p"]) -> SX:
         return SX(of[0]) if np.all(of == of[0]) else pw_const(q, function.knots, of)

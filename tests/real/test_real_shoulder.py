@@ -1,14 +1,23 @@
-"""Arms of a person who walks, in the frame of a shoulder exoskeleton attached virtually: no truth, but bounds."""
+"""Arms of real people in the frame of a shoulder exoskeleton that is attached virtually: no truth, but bounds.
+
+One person walks; another one raises an arm, whose recorded angles move the virtual markers of an OpenSim model.
+"""
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from geocontact.data.errors import InputWarning
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
 from geocontact.io.mocap.markers import read_markers
+from geocontact.io.opensim.coordinates import motion_of
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.text.tables import read_table
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import ArmMotions, arm_motions
 
 NAMES = {f"{side}.{theirs}": f"{side}{own}" for side in "RL" for theirs, own in (("Shoulder", "SHO"), ("Elbow", "ELB"))}
@@ -51,3 +60,58 @@ def test_elevation_is_that_of_the_laboratory_but_for_the_trunk(walk: MarkerTraje
         gravity = arm.gravity_at_frames() / 9.80665
         inclined = np.arccos(-gravity[:, 2])
         assert np.all(np.abs(arm.elevation - np.arccos(-along[:, 1])) <= inclined + 1e-9)
+
+
+TRUNK = {"c7": "C7", "t8": "T8", "ij": "CLAV", "px": "STRN", "gu": "RSHO", "centelbow": "RELB"}
+RAISED = ("FLX01", "FLX02", "ABD01", "ABD02", "ABD03")
+CLAVICLE, SCAPULA = (-0.0378874, 0.018924, 0.135987), (-0.0118287, 0.000106018, -0.0145474)
+"""The acromioclavicular joint in the frames of both bones, a constraint of the model [m]."""
+
+
+@pytest.fixture(scope="module")
+def thoracoscapular(data_dir: Path) -> Multibody:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)  # the constraint that couples clavicle and scapula
+        return read_multibody(data_dir / "rmr_shoulder" / "TSM_subject_CMC_noWeight.osim")
+
+
+def recorded(data_dir: Path, model: Multibody, name: str) -> tuple[np.ndarray, np.ndarray]:
+    table = read_table(data_dir / "rmr_shoulder" / f"{name}.mot")
+    return table.time, motion_of(table, model)
+
+
+@pytest.mark.parametrize("name", [*RAISED, "SHRUG01"])
+def test_clavicle_and_scapula_meet_as_opensim_had_them(data_dir: Path, thoracoscapular: Multibody, name: str) -> None:
+    """OpenSim's inverse kinematics kept both ends together; along its angles they are within 2 µm."""
+    _, values = recorded(data_dir, thoracoscapular, name)
+    poses = thoracoscapular.poses(values)
+    apart = poses["clavicle"].apply(CLAVICLE) - poses["scapula"].apply(SCAPULA)
+    assert np.linalg.norm(apart, axis=1).max() < 2e-6
+
+
+def arm_of(data_dir: Path, model: Multibody, name: str) -> ArmMotions:
+    time, values = recorded(data_dir, model, name)
+    markers = MarkerTrajectories(time, model.marker_places(values), tuple(m.name for m in model.markers))
+    return arm_motions(markers.renamed(TRUNK))
+
+
+@pytest.mark.parametrize("name", RAISED)
+def test_a_recorded_arm_is_raised_overhead(data_dir: Path, thoracoscapular: Multibody, name: str) -> None:
+    """From 10 to 151 degrees and back, in front of the bar; the trunk stays within 5 degrees of upright."""
+    found = arm_of(data_dir, thoracoscapular, name)
+    (arm,) = found.arms
+    assert arm.side == "right" and "attached virtually to CLAV, C7, STRN, T8" in found.notes[0]
+    elevation = np.degrees(arm.elevation)
+    assert elevation.min() == pytest.approx(11.0, abs=1.5) and elevation.max() == pytest.approx(151.5, abs=1.5)
+    assert elevation[0] < 20.0 and elevation[-1] < 25.0
+    assert np.degrees(np.arccos(-arm.gravity_at_frames()[:, 2] / 9.80665)).max() < 5.0
+    np.testing.assert_allclose(np.linalg.norm(arm.interface - arm.shoulder, axis=1), 0.148, atol=1e-3)
+    up = arm.interface[elevation.argmax()] - arm.shoulder[elevation.argmax()]
+    assert up[1] < 0.0 and up[0] < 0.0 and up[2] > 0.12, "up, to the front and to the right"
+
+
+def test_the_same_movement_again_is_alike(data_dir: Path, thoracoscapular: Multibody) -> None:
+    """Peaks of three abductions and two flexions lie within 2 degrees; a shrug raises the arm by less than 8."""
+    peaks = [np.degrees(arm_of(data_dir, thoracoscapular, name).arms[0].elevation.max()) for name in RAISED]
+    assert np.ptp(peaks) < 2.0
+    assert np.degrees(np.ptp(arm_of(data_dir, thoracoscapular, "SHRUG01").arms[0].elevation)) < 8.0

@@ -17,13 +17,13 @@ from geocontact.shoulder_exoskeleton.from_markers.arm_motions import ArmMotions,
 from geocontact.shoulder_exoskeleton.from_markers.gaps import longest_gap
 from geocontact.shoulder_exoskeleton.from_markers.virtual_device import Attachment
 from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
-from geocontact.shoulder_exoskeleton.synthetic.trial import SyntheticTrial, synthetic_trial
+from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
 
 SETTINGS = MarkerSettings(upright=(0.0, 0.25))
 
 
 @pytest.fixture(scope="module")
-def trial() -> SyntheticTrial:
+def trial() -> OverheadTrial:
     return synthetic_trial(participant("P2"), task("T1"), condition("S100"))
 
 
@@ -51,7 +51,7 @@ def worn_by_a_person(markers: MarkerTrajectories) -> MarkerTrajectories:
     return MarkerTrajectories(markers.time, np.stack(places, axis=1), (*trunk, *arms))
 
 
-def test_truth_of_a_synthetic_trial_comes_back(trial: SyntheticTrial) -> None:
+def test_truth_of_a_synthetic_trial_comes_back(trial: OverheadTrial) -> None:
     found = arm_motions(trial.markers, SETTINGS)
     assert [arm.side for arm in found.arms] == ["right", "left"] and found.notes == ()
     for arm in found.arms:
@@ -64,7 +64,7 @@ def test_truth_of_a_synthetic_trial_comes_back(trial: SyntheticTrial) -> None:
     np.testing.assert_allclose(found.of("left").gravity_at_frames()[0], [0.0, 0.0, -9.80665], atol=1e-12)
 
 
-def test_a_laboratory_that_is_moved_changes_nothing(trial: SyntheticTrial) -> None:
+def test_a_laboratory_that_is_moved_changes_nothing(trial: OverheadTrial) -> None:
     turn, shift = Rotation.from_rotvec([1.0, -0.7, 2.0]), np.array([5.0, -3.0, 1.0])
     elsewhere = replace(trial.markers.turned(turn), positions=trial.markers.turned(turn).positions + shift)
     gravity = tuple(turn.apply(SETTINGS.gravity))
@@ -74,7 +74,7 @@ def test_a_laboratory_that_is_moved_changes_nothing(trial: SyntheticTrial) -> No
             np.testing.assert_allclose(getattr(two, name), getattr(one, name), atol=1e-12)
 
 
-def test_a_device_that_was_not_worn_is_attached_to_the_trunk(trial: SyntheticTrial) -> None:
+def test_a_device_that_was_not_worn_is_attached_to_the_trunk(trial: OverheadTrial) -> None:
     """Where the invented distances are the true ones the motion is that of the device's own markers."""
     own = arm_motions(trial.markers)
     attached = arm_motions(worn_by_a_person(trial.markers), MarkerSettings(attachment=Attachment(cuff=0.6)))
@@ -89,7 +89,7 @@ def test_a_device_that_was_not_worn_is_attached_to_the_trunk(trial: SyntheticTri
     )
 
 
-def test_one_arm_is_enough(trial: SyntheticTrial) -> None:
+def test_one_arm_is_enough(trial: OverheadTrial) -> None:
     alone = without(trial.markers, "humerus_lup", "humerus_ldn", "LELB")
     (arm,) = arm_motions(alone, SETTINGS).arms
     assert arm.side == "right"
@@ -97,12 +97,12 @@ def test_one_arm_is_enough(trial: SyntheticTrial) -> None:
         arm_motions(alone, SETTINGS).of("left")
 
 
-def test_without_an_upright_stance_that_is_reported(trial: SyntheticTrial) -> None:
+def test_without_an_upright_stance_that_is_reported(trial: OverheadTrial) -> None:
     found = arm_motions(trial.markers)
     assert found.pitch == 0.0 and "T10 is taken to lie straight below Lucy_MC" in found.notes[0]
 
 
-def test_ends_without_markers_are_cut_and_short_gaps_stay(trial: SyntheticTrial) -> None:
+def test_ends_without_markers_are_cut_and_short_gaps_stay(trial: OverheadTrial) -> None:
     places = trial.markers.of(("humerus_rdn",))[:, 0].copy()
     places[:20] = places[-30:] = places[300:310] = np.nan
     found: ArmMotions = arm_motions(moved(trial.markers, "humerus_rdn", places))
@@ -122,7 +122,7 @@ def test_length_of_gaps() -> None:
 
 
 @pytest.mark.parametrize("ending", [".trc", ".csv"])
-def test_files_give_the_same(trial: SyntheticTrial, tmp_path: Path, ending: str) -> None:
+def test_files_give_the_same(trial: OverheadTrial, tmp_path: Path, ending: str) -> None:
     file = tmp_path / f"trial{ending}"
     seen = trial.markers
     if ending == ".trc":
@@ -188,13 +188,13 @@ def spoilt(markers: MarkerTrajectories, how: str) -> MarkerTrajectories:
         ("never", "Lucy_MC, Lucy_Mleft and T10 are never seen together; fill their gaps"),
     ],
 )
-def test_what_cannot_be_right_is_refused_in_one_line(trial: SyntheticTrial, how: str, what: str) -> None:
+def test_what_cannot_be_right_is_refused_in_one_line(trial: OverheadTrial, how: str, what: str) -> None:
     with pytest.raises(InputError) as error:
         arm_motions(spoilt(trial.markers, how))
     assert what in str(error.value) and "\n" not in str(error.value)
 
 
-def test_a_stance_outside_the_recording_is_refused(trial: SyntheticTrial) -> None:
+def test_a_stance_outside_the_recording_is_refused(trial: OverheadTrial) -> None:
     with pytest.raises(
         InputError, match="no frame with all reference markers from 20 to 21 s; the recording is from 0"
     ):

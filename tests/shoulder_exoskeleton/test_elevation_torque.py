@@ -18,9 +18,9 @@ from geocontact.dynamics.tree import tree_of
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.human_arm.arm_track import ArmTrack, arm_track
 from geocontact.shoulder_exoskeleton.human_arm.elevation_torque import elevation_torque
-from geocontact.shoulder_exoskeleton.human_arm.hand_load import HandLoad, Work, hand_load
+from geocontact.shoulder_exoskeleton.human_arm.hand_load import HandLoad, ToolWork, hand_load
 from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
-from geocontact.shoulder_exoskeleton.synthetic.trial import SyntheticTrial, synthetic_trial
+from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
 
 G = np.array([0.0, -9.80665, 0.0])
 DOWN = np.array([0.0, -1.0, 0.0])
@@ -117,11 +117,11 @@ def test_a_moving_arm_is_that_of_the_tree() -> None:
 
 
 @pytest.fixture(scope="module")
-def trial() -> SyntheticTrial:
+def trial() -> OverheadTrial:
     return synthetic_trial(participant("P3"), task("T2"), condition("S0"))
 
 
-def of_trial(trial: SyntheticTrial, side: str, work: Work, turn: Rotation | None = None) -> np.ndarray:
+def of_trial(trial: OverheadTrial, side: str, work: ToolWork, turn: Rotation | None = None) -> np.ndarray:
     turn = turn or Rotation.identity()
     markers, gravity = trial.markers.turned(turn), turn.apply(G)
     frame = arm_motions(markers, MarkerSettings(gravity=tuple(gravity), upright=(0.0, 0.25))).frame
@@ -130,17 +130,17 @@ def of_trial(trial: SyntheticTrial, side: str, work: Work, turn: Rotation | None
     return elevation_torque(track, load, mass=61.0, sex="female", gravity=gravity).total
 
 
-def test_the_laboratory_does_not_matter(trial: SyntheticTrial) -> None:
+def test_the_laboratory_does_not_matter(trial: OverheadTrial) -> None:
     turn = Rotation.from_rotvec([0.3, -1.0, 2.0])
-    moved = Work(1.3, 50.0, tuple(turn.apply([0.0, 1.0, 0.0])))
+    moved = ToolWork(1.3, 50.0, tuple(turn.apply([0.0, 1.0, 0.0])))
     there = of_trial(trial, "left", moved, turn)
-    np.testing.assert_allclose(there, of_trial(trial, "left", Work(1.3, 50.0)), atol=1e-9)
+    np.testing.assert_allclose(there, of_trial(trial, "left", ToolWork(1.3, 50.0)), atol=1e-9)
 
 
-def test_the_push_is_split_between_both_hands(trial: SyntheticTrial) -> None:
+def test_the_push_is_split_between_both_hands(trial: OverheadTrial) -> None:
     """What one hand takes off the other has; only the dominant one holds the tool, and only while it runs they push."""
     none, alone, both = (
-        Work(1.3, push, dominant_share=share) for push, share in ((0.0, 1.0), (50.0, 1.0), (50.0, 0.6))
+        ToolWork(1.3, push, dominant_share=share) for push, share in ((0.0, 1.0), (50.0, 1.0), (50.0, 0.6))
     )
     screwing = trial.phase == 2
     left = [of_trial(trial, "left", each) for each in (none, alone, both)]
@@ -149,14 +149,14 @@ def test_the_push_is_split_between_both_hands(trial: SyntheticTrial) -> None:
     np.testing.assert_allclose(right[1], right[0], atol=1e-9)
     assert (right[2] - right[0])[screwing].min() > 3.0
     np.testing.assert_allclose((left[1] - left[0])[~screwing], 0.0, atol=1e-9)
-    assert left[0].mean() - of_trial(trial, "left", Work(0.0, 0.0)).mean() > 3.0
+    assert left[0].mean() - of_trial(trial, "left", ToolWork(0.0, 0.0)).mean() > 3.0
 
 
 def test_a_hanging_arm_has_no_axis_and_no_torque() -> None:
     np.testing.assert_allclose(torque(still_arm(0.0, 0.0), empty()), 0.0, atol=1e-6)
 
 
-def test_what_is_missing_is_named(trial: SyntheticTrial) -> None:
+def test_what_is_missing_is_named(trial: OverheadTrial) -> None:
     frame = arm_motions(trial.markers).frame
     names = tuple("?" if name == "LWRI" else name for name in trial.markers.names)
     with pytest.raises(InputError, match="no marker LWRI, which the weight of the left arm needs; name them"):
@@ -167,6 +167,6 @@ def test_what_is_missing_is_named(trial: SyntheticTrial) -> None:
     with pytest.raises(InputError, match="RELB is not seen in all frames; fill the gaps first"):
         arm_track(gap, frame, "right")
     with pytest.raises(ValueError, match="cannot exert 120% of the push"):
-        Work(1.0, 10.0, dominant_share=1.2)
+        ToolWork(1.0, 10.0, dominant_share=1.2)
     with pytest.raises(ValueError, match="must not be negative"):
-        Work(-1.0, 10.0)
+        ToolWork(-1.0, 10.0)

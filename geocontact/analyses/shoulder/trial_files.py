@@ -7,15 +7,14 @@ from collections.abc import Iterable
 import numpy as np
 
 from geocontact.io.mocap.trc_writer import trc_text
-from geocontact.shoulder_exoskeleton.synthetic.trial import SyntheticTrial
+from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
-PHASES = ("rest", "lift", "screw-in", "lower")
-"""By the numbers of `SyntheticTrial.phase`."""
 DECIMALS = 2
 """Of a millimetre: finer than cameras see, and small."""
 
 
-def trial_files(trial: SyntheticTrial) -> dict[str, str]:
+def trial_files(trial: OverheadTrial) -> dict[str, str]:
     """Text of `markers.trc` [mm], `tool.csv` and `truth.csv` by name."""
     time = [f"{t:.2f}" for t in trial.markers.time]
     current = [f"{value:.2f}" for value in trial.current]

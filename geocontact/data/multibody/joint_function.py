@@ -1,4 +1,4 @@
-"""Functions of coordinates that move the axes of a joint, as numbers: affine, or polynomial piece by piece."""
+"""Functions of coordinates that move the axes of a joint: affine, polynomial piece by piece, products of sines."""
 
 from __future__ import annotations
 
@@ -54,4 +54,20 @@ class Piecewise:
         return Piecewise(self.knots, self.origins, factor * self.coefficients)
 
 
-JointFunction = Affine | Piecewise
+@dataclass(frozen=True)
+class SineProduct:
+    """`factor · Π sin(q_k + phases_k)`, as points of an ellipsoid have it."""
+
+    factor: float
+    phases: tuple[float, ...]
+
+    def __call__(self, q: Float[np.ndarray, "t k"]) -> Float[np.ndarray, " t"]:
+        """Value in every frame."""
+        return np.asarray(self.factor * np.prod(np.sin(q + np.array(self.phases)), axis=1))
+
+    def scaled(self, factor: float) -> SineProduct:
+        """The function times a number."""
+        return SineProduct(factor * self.factor, self.phases)
+
+
+JointFunction = Affine | Piecewise | SineProduct

@@ -20,7 +20,18 @@ import numba
 F = TypeVar("F", bound=Callable[..., object])
 
 HERE = Path(__file__).parent
-ROOMS = ("contact", "loads", "dynamics", "identify", "chain", "systems", "effects", "gap")
+ROOMS = (
+    "contact",
+    "loads",
+    "dynamics",
+    "identify",
+    "chain",
+    "axis_misalignment",
+    "shoulder_exoskeleton",
+    "systems",
+    "effects",
+    "gap",
+)
 """Rooms above geometry whose files may hold kernels or laws that kernels call."""
 
 

@@ -15,6 +15,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.joint import Coordinate, JointModel, Kind, TransformAxis
+from geocontact.io.opensim import osim_scapula
 from geocontact.io.opensim.osim_functions import constant, linear, read_function
 from geocontact.io.opensim.osim_meshes import mesh_placement, mesh_placements
 from geocontact.io.opensim.osim_xml import Frames, is_true, label, numbers_of, offset, read_model, socket_of, text_of
@@ -49,7 +50,26 @@ def read_joint(path: str | PathLike[str], joint_name: str) -> JointModel:
 
 def joints_of(file: str, model: Element, frames: Frames) -> tuple[JointModel, ...]:
     """All joints of a model, in the file's order."""
-    return tuple(_joint(file, model, frames, element, owner) for element, owner in _joint_elements(model))
+    return tuple(each for found in _joint_elements(model) for each in _joints(file, model, frames, *found))
+
+
+def _joints(file: str, model: Element, frames: Frames, element: Element, owner: Element) -> tuple[JointModel, ...]:
+    """The joints that one element of the file stands for: one, or two by way of a body without mass."""
+    if element.tag != osim_scapula.TAG:
+        return (_joint(file, model, frames, element, owner),)
+    coordinates = tuple(
+        _coordinate(file, e.get("name", ""), e, "rotational") for e in element.findall("coordinates/Coordinate")
+    )
+    if len(coordinates) != 4:
+        raise InputError(
+            file, label(element), f"{len(coordinates)} coordinates, not 4", "save the model with OpenSim 4"
+        )
+    name, place = element.get("name", ""), _place_by_sockets(file, element, frames, model)
+    joint = JointModel(name, place[0], place[1], coordinates, (), place[2], place[3], False, file)
+    radii = numbers_of(file, element, "thoracic_ellipsoid_radii_x_y_z", 3)
+    origin = numbers_of(file, element, "scapula_winging_axis_origin", 2, (0.0, 0.0))
+    direction = numbers_of(file, element, "scapula_winging_axis_direction", 1, (0.0,))
+    return osim_scapula.scapulothoracic(joint, radii, origin, float(direction[0]))
 
 
 def _joint(file: str, model: Element, frames: Frames, element: Element, owner: Element) -> JointModel:

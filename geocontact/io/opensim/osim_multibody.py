@@ -13,6 +13,7 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.model import GROUND, Body, Marker, Multibody, outwards
 from geocontact.io.opensim.osim import joints_of
+from geocontact.io.opensim.osim_scapula import between
 from geocontact.io.opensim.osim_xml import (
     Frames,
     is_true,
@@ -39,6 +40,7 @@ def read_multibody(path: str | PathLike[str]) -> Multibody:
     frames = Frames(file, model)
     bodies = tuple(_body(file, e) for e in model.findall("BodySet/objects/Body") if e.get("name") != GROUND)
     joints, lost = outwards(joints_of(file, model, frames))
+    bodies += tuple(_without_mass(joint.child) for joint in joints if joint.child == between(joint.name))
     if lost:
         raise InputError(file, f"joint {lost[0].name}", "closes a loop or hangs on nothing", "bodies must form a tree")
     loose = {body.name for body in bodies} - {joint.child for joint in joints}
@@ -81,6 +83,10 @@ def _body(file: str, element: Element) -> Body:
         raise InputError(file, f"{label(element)} <mass>", f"{mass:g} kg is negative", "correct the model")
     centre = numbers_of(file, element, "mass_center", 3, (0.0, 0.0, 0.0))
     return Body(element.get("name", ""), mass, centre, _inertia(file, element))
+
+
+def _without_mass(name: str) -> Body:
+    return Body(name, 0.0, np.zeros(3), np.zeros((3, 3)))
 
 
 def _inertia(file: str, element: Element) -> Float[np.ndarray, "3 3"]:

@@ -27,7 +27,7 @@ class HandLoad:
 
 
 @dataclass(frozen=True)
-class Work:
+class ToolWork:
     """A tool and how it is pushed.
 
     Parameters
@@ -55,7 +55,7 @@ class Work:
             raise ValueError("tool and push must not be negative")
 
 
-def hand_load(work: Work, side: Side, dominant: Side, running: Bool[np.ndarray, " t"]) -> HandLoad:
+def hand_load(work: ToolWork, side: Side, dominant: Side, running: Bool[np.ndarray, " t"]) -> HandLoad:
     """Load of one hand while the tool runs or not, frame by frame."""
     leads = side == dominant
     share = work.dominant_share if leads else 1.0 - work.dominant_share

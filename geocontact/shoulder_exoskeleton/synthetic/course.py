@@ -14,8 +14,8 @@ from geocontact.shoulder_exoskeleton.synthetic.design import (
     REST,
     TREMOR,
     Condition,
+    OverheadTask,
     Participant,
-    Task,
 )
 
 HANGING, HANGING_FLEXION = 0.16, 0.35
@@ -51,7 +51,7 @@ class ArmCourse:
     flexion: Float[np.ndarray, " t"]
 
 
-def times_of(person: Participant, task: Task) -> Times:
+def times_of(person: Participant, task: OverheadTask) -> Times:
     """Phases one after the other, at the person's pace."""
     lengths = person.pace * np.array([REST, task.lift, PAUSE, task.screw, PAUSE, task.lower, REST])
     return Times(*(float(t) for t in np.round(np.cumsum(lengths), 2)))
@@ -63,7 +63,7 @@ def time_of(times: Times) -> Float[np.ndarray, " t"]:
 
 
 def arm_course(
-    person: Participant, task: Task, condition: Condition, side: Side, rng: np.random.Generator
+    person: Participant, task: OverheadTask, condition: Condition, side: Side, rng: np.random.Generator
 ) -> ArmCourse:
     """Minimum jerk from hanging to overhead and back (Flash & Hogan 1985, J. Neurosci. 5:1688), with tremor."""
     times = times_of(person, task)

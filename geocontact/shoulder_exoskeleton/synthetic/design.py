@@ -50,7 +50,7 @@ class Participant:
 
 
 @dataclass(frozen=True)
-class Task:
+class OverheadTask:
     """An overhead task: lift the arms, screw in, lower them.
 
     Parameters
@@ -103,8 +103,8 @@ PARTICIPANTS = (
     Participant("P3", "female", "left", 61.0, 1.69, 0.268, 0.257, 0.076, 0.330, -0.05, 1.10, 1.15),
 )
 TASKS = (
-    Task("T1", (1.92, 1.66), 1.05, 0.87, 1.5, 3.4, 1.4, 1.3, 35.0),
-    Task("T2", (2.09, 2.01), 1.22, 0.70, 1.7, 3.0, 1.5, 1.3, 55.0),
+    OverheadTask("T1", (1.92, 1.66), 1.05, 0.87, 1.5, 3.4, 1.4, 1.3, 35.0),
+    OverheadTask("T2", (2.09, 2.01), 1.22, 0.70, 1.7, 3.0, 1.5, 1.3, 55.0),
 )
 CONDITIONS = (Condition("S0", None, 0.0), Condition("S50", 0.5, 0.10), Condition("S100", 1.0, 0.17))
 REST, PAUSE = 0.6, 0.35
@@ -124,7 +124,7 @@ def participant(name: str) -> Participant:
     return {each.name: each for each in PARTICIPANTS}[name]
 
 
-def task(name: str) -> Task:
+def task(name: str) -> OverheadTask:
     """Of that name; KeyError where there is none."""
     return {each.name: each for each in TASKS}[name]
 

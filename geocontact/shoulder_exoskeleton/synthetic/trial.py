@@ -25,6 +25,7 @@ from geocontact.shoulder_exoskeleton.from_markers.marker_names import (
     UPPER,
     WRIST,
 )
+from geocontact.shoulder_exoskeleton.support import phases as phase_numbers
 from geocontact.shoulder_exoskeleton.synthetic.course import (
     ArmCourse,
     Times,
@@ -34,7 +35,7 @@ from geocontact.shoulder_exoskeleton.synthetic.course import (
     times_of,
     tremor,
 )
-from geocontact.shoulder_exoskeleton.synthetic.design import CURRENT, SWAY, Condition, Participant, Task
+from geocontact.shoulder_exoskeleton.synthetic.design import CURRENT, SWAY, Condition, OverheadTask, Participant
 
 Places = Float[np.ndarray, "t 3"]
 R_G0 = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]])
@@ -50,12 +51,10 @@ GIRDLE = (0.015, 0.04)
 """How far raising an arm takes its shoulder joint inward and up: the shoulder girdle moves."""
 STEP = 0.02
 """Amplitude of the trunk's shifts."""
-REST, LIFT, SCREW, LOWER_ARMS = range(4)
-"""Work phases."""
 
 
 @dataclass(frozen=True)
-class SyntheticTrial:
+class OverheadTrial:
     """A trial made by formula.
 
     Parameters
@@ -76,7 +75,7 @@ class SyntheticTrial:
 
     name: str
     participant: Participant
-    task: Task
+    task: OverheadTask
     condition: Condition
     markers: MarkerTrajectories
     current: Float[np.ndarray, " t"]
@@ -85,7 +84,7 @@ class SyntheticTrial:
     courses: dict[Side, ArmCourse]
 
 
-def synthetic_trial(person: Participant, task: Task, condition: Condition) -> SyntheticTrial:
+def synthetic_trial(person: Participant, task: OverheadTask, condition: Condition) -> OverheadTrial:
     """One trial; the same numbers every time for the same person, task and condition."""
     name = f"{person.name}{task.name}{condition.name}"
     rng = np.random.default_rng(crc32(name.encode()))
@@ -102,15 +101,15 @@ def synthetic_trial(person: Participant, task: Task, condition: Condition) -> Sy
     running = (time >= times.screw) & (time < times.screwed)
     current = np.where(running, CURRENT[1], CURRENT[0]) + rng.normal(0.0, CURRENT[2], len(time))
     markers = MarkerTrajectories(time, places, tuple(in_device), f"synthetic {name}")
-    return SyntheticTrial(name, person, task, condition, markers, current, times, phases(time, times), courses)
+    return OverheadTrial(name, person, task, condition, markers, current, times, phases(time, times), courses)
 
 
 def phases(time: Float[np.ndarray, " t"], times: Times) -> Int[np.ndarray, " t"]:
-    """Work phase of every frame: arms that are held up before and after screwing count as raised."""
-    found = np.full(len(time), REST)
-    found[(time >= times.lift) & (time < times.lower)] = LIFT
-    found[(time >= times.screw) & (time < times.screwed)] = SCREW
-    found[(time >= times.lower) & (time < times.lowered)] = LOWER_ARMS
+    """ToolWork phase of every frame: arms that are held up before and after screwing count as raised."""
+    found = np.full(len(time), phase_numbers.REST)
+    found[(time >= times.lift) & (time < times.lower)] = phase_numbers.LIFT
+    found[(time >= times.screw) & (time < times.screwed)] = phase_numbers.SCREW
+    found[(time >= times.lower) & (time < times.lowered)] = phase_numbers.LOWER
     return found
 
 

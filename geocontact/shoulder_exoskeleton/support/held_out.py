@@ -1,0 +1,138 @@
+"""Profiles made on all persons but one, judged on that one, with what the model does not know of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, ModelError, Support, support_case, varied_case
+from geocontact.shoulder_exoskeleton.support.best_profile import SupportProfile
+from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome, outcome
+from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
+
+Maker = Callable[[Sequence[SupportCase]], SupportProfile]
+"""How a profile is made from cases."""
+COVERED = (0.05, 0.95)
+"""Quantiles of the intervals."""
+
+
+@dataclass(frozen=True)
+class HeldOutSupport:
+    """A profile on a person that it was not made with.
+
+    Parameters
+    ----------
+    outcomes
+        In the person's cases by name, as the model has them.
+    reduction
+        In the mean over these cases.
+    interval
+        Of that mean under the model's errors.
+    gain
+        Reduction more than that of the profile it is compared with, and its interval, draw by draw.
+    pushed_up, excess
+        Largest share of the time in which the arm is pushed up in a case, and largest excess [N m]; then the same with
+        which 95 % of the draws get by.
+    """
+
+    factors: Factors
+    outcomes: dict[str, SupportOutcome]
+    reduction: float
+    interval: tuple[float, float]
+    gain: float
+    gain_interval: tuple[float, float]
+    pushed_up: tuple[float, float]
+    excess: tuple[float, float]
+
+    @property
+    def gain_is_beyond_the_error(self) -> bool:
+        """Whether the interval of the gain lies on one side of 0."""
+        return self.gain_interval[0] > 0.0 or self.gain_interval[1] < 0.0
+
+
+def held_out(
+    trials: Sequence[ArmTrial],
+    support: Support,
+    make: Maker,
+    compared: Factors,
+    error: ModelError | None = None,
+    draws: int = 200,
+    seed: int = 0,
+) -> dict[str, HeldOutSupport]:
+    """For each person the profile that the others make.
+
+    Parameters
+    ----------
+    make
+        A profile from cases, such as `lambda cases: best_profile(cases, limits)`.
+    compared
+        Factors of the profile that gains are counted from.
+    draws
+        Of the model's errors for each person.
+
+    ValueError where there is one person only.
+    """
+    persons = list(dict.fromkeys(trial.person for trial in trials))
+    if len(persons) < 2:
+        raise ValueError("one person alone cannot be held out")
+    made = {
+        person: make([support_case(trial, support) for trial in trials if trial.person != person]).factors
+        for person in persons
+    }
+    return judged(trials, support, made, compared, error, draws, seed)
+
+
+def judged(
+    trials: Sequence[ArmTrial],
+    support: Support,
+    factors: Mapping[str, Factors],
+    compared: Factors,
+    error: ModelError | None = None,
+    draws: int = 200,
+    seed: int = 0,
+) -> dict[str, HeldOutSupport]:
+    """For each person named in `factors` what these do to it."""
+    found = {}
+    for number, (person, own) in enumerate(factors.items()):
+        rng = np.random.default_rng([seed, number])
+        theirs = [trial for trial in trials if trial.person == person]
+        nominal = [support_case(trial, support) for trial in theirs]
+        varied = [[varied_case(trial, support, error or ModelError(), rng) for trial in theirs] for _ in range(draws)]
+        exact, base = _outcomes(nominal, own), _outcomes(nominal, compared)
+        with_error, base_error = ([_outcomes(each, given) for each in varied] for given in (own, compared))
+        reductions = np.array([_mean(each) for each in with_error])
+        gains = reductions - [_mean(each) for each in base_error]
+        found[person] = HeldOutSupport(
+            factors=own,
+            outcomes={case.name: each for case, each in zip(nominal, exact, strict=True)},
+            reduction=_mean(exact),
+            interval=_interval(reductions),
+            gain=_mean(exact) - _mean(base),
+            gain_interval=_interval(gains),
+            pushed_up=_worst("pushed_up", exact, with_error),
+            excess=_worst("excess", exact, with_error),
+        )
+    return found
+
+
+def _outcomes(cases: Sequence[SupportCase], factors: Factors) -> list[SupportOutcome]:
+    return [outcome(case, factors) for case in cases]
+
+
+def _mean(outcomes: Sequence[SupportOutcome]) -> float:
+    return float(np.mean([each.reduction for each in outcomes]))
+
+
+def _interval(values: Float[np.ndarray, " d"]) -> tuple[float, float]:
+    low, high = np.quantile(values, COVERED)
+    return float(low), float(high)
+
+
+def _worst(
+    name: str, exact: Sequence[SupportOutcome], with_error: Sequence[Sequence[SupportOutcome]]
+) -> tuple[float, float]:
+    largest = [max(getattr(each, name) for each in draw) for draw in with_error]
+    return max(getattr(each, name) for each in exact), float(np.quantile(largest, COVERED[1]))

@@ -1,0 +1,72 @@
+"""What a support profile does in a case: how much of the shoulder's torque it takes over, and what it must not do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from geocontact.shoulder_exoskeleton.support.phases import SUPPORTED
+from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, Hand, SupportCase
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
+
+Factors = dict[FactorKey, float]
+_ROWS: tuple[tuple[str, Hand, tuple[float, float, float]], ...] = (
+    ("T1", "dominant", (0.6, 1.0, 0.3)),
+    ("T1", "other", (0.6, 0.6, 0.3)),
+    ("T2", "dominant", (0.7, 1.0, 0.5)),
+    ("T2", "other", (0.7, 1.0, 0.5)),
+)
+TABLE_3: Factors = {
+    FactorKey(task, hand, PHASES[phase]): factor
+    for task, hand, factors in _ROWS
+    for phase, factor in zip(SUPPORTED, factors, strict=True)
+}
+"""Factors that the paper found by tuning, for its new cylinder of 12.8 N m."""
+PRESENT = 7.8 / 12.8
+"""Factor of the paper's present cylinder over the new one, in every phase."""
+
+
+@dataclass(frozen=True)
+class SupportOutcome:
+    """Of one profile in one case.
+
+    Parameters
+    ----------
+    reduction
+        Share of the mean magnitude of the shoulder's torque that the support takes away: 1 - mean |needed - support| /
+        mean |needed|.
+    pushed_up
+        Share of the time in which the support exceeds what is needed: the arm has to be held down.
+    excess
+        Largest excess [N m].
+    force
+        Largest force at the interface [N].
+    rate
+        Largest rate of the support torque [N m/s].
+    """
+
+    reduction: float
+    pushed_up: float
+    excess: float
+    force: float
+    rate: float
+
+
+def outcome(case: SupportCase, factors: Factors) -> SupportOutcome:
+    """Of a profile that has a factor for each supported phase of the case."""
+    support = case.support(factors)
+    over = support - case.needed
+    given = support > TOLERANCE
+    pushed = given & (over > TOLERANCE)
+    return SupportOutcome(
+        reduction=1.0 - float(np.abs(over).mean() / np.abs(case.needed).mean()),
+        pushed_up=float(pushed.mean()),
+        excess=float(np.max(over[given], initial=0.0)),
+        force=float(np.abs(support).max() / case.lever),
+        rate=float(np.abs(np.diff(support) / np.diff(case.time)).max()),
+    )
+
+
+TOLERANCE = 1e-6
+"""N m below which a torque counts as none: what the solver leaves of its bounds."""
