@@ -30,10 +30,10 @@ from geocontact.shoulder_exoskeleton.synthetic.design import (
     PARTICIPANTS,
     TASKS,
     Condition,
+    OverheadTask,
     Participant,
-    Task,
 )
-from geocontact.shoulder_exoskeleton.synthetic.trial import SCREW, SyntheticTrial, synthetic_trial
+from geocontact.shoulder_exoskeleton.synthetic.trial import SCREW, OverheadTrial, synthetic_trial
 
 WORN = tuple(each for each in CONDITIONS if each.level is not None)
 (BARE,) = (each for each in CONDITIONS if each.level is None)
@@ -46,13 +46,13 @@ def wearer_of(person: Participant) -> Wearer:
     return Wearer(upper_arm=person.upper_arm, shoulder_width=person.shoulders)
 
 
-def dominant_arm(trial: SyntheticTrial) -> ArmMotion:
+def dominant_arm(trial: OverheadTrial) -> ArmMotion:
     """The arm that logger and mat are on, as a right one."""
     found = next(arm for arm in arm_motions(trial.markers).arms if arm.side == trial.participant.dominant)
     return mirrored_arm(found)
 
 
-def measured(trial: SyntheticTrial, withheld: Withheld = NOTHING) -> Measured:
+def measured(trial: OverheadTrial, withheld: Withheld = NOTHING) -> Measured:
     """Logger and mat of a trial with the device."""
     level = trial.condition.level
     if level is None:
@@ -62,7 +62,7 @@ def measured(trial: SyntheticTrial, withheld: Withheld = NOTHING) -> Measured:
     return measure(truth, dominant_arm(trial), crc32(trial.name.encode()), pushing)
 
 
-def write_trial(folder: Path, made: tuple[Participant, Task, Condition]) -> str:
+def write_trial(folder: Path, made: tuple[Participant, OverheadTask, Condition]) -> str:
     """Markers, tool and, where the device is worn, what was recorded; the trial's part of study.toml."""
     person, task, condition = made
     trial = synthetic_trial(*made)
@@ -93,7 +93,10 @@ def write_trial(folder: Path, made: tuple[Participant, Task, Condition]) -> str:
 
 
 def write_study(
-    folder: Path, persons: tuple[Participant, ...] = PARTICIPANTS, tasks: tuple[Task, ...] = TASKS, workers: int = 2
+    folder: Path,
+    persons: tuple[Participant, ...] = PARTICIPANTS,
+    tasks: tuple[OverheadTask, ...] = TASKS,
+    workers: int = 2,
 ) -> Path:
     """Everything; the file that describes it."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -111,7 +114,7 @@ def write_study(
     return file
 
 
-def shortened(trial: SyntheticTrial, frames: int) -> SyntheticTrial:
+def shortened(trial: OverheadTrial, frames: int) -> OverheadTrial:
     """The first frames of a trial."""
     markers = replace(trial.markers, time=trial.markers.time[:frames], position=trial.markers.position[:frames])
     return replace(trial, markers=markers, current=trial.current[:frames], phase=trial.phase[:frames])
