@@ -50,6 +50,10 @@ class MarkerErrors:
         largest = float(poses.distances[frame, which])
         return cls(rms, largest, poses.markers[int(which)], float(poses.time[frame]))
 
+    def within(self, limits: MarkerLimits) -> bool:
+        """Whether they are good enough."""
+        return self.rms <= limits.rms and self.largest <= limits.largest
+
     def words(self, limits: MarkerLimits) -> str:
         """The numbers in one clause."""
         return (
@@ -59,7 +63,7 @@ class MarkerErrors:
 
     def warn(self, record: Record, limits: MarkerLimits, why: str = "") -> None:
         """One line where they are beyond the limits; `why` is the cause that was found."""
-        if self.rms <= limits.rms and self.largest <= limits.largest:
+        if self.within(limits):
             return
         check = f"check where {self.marker} is on the model and in the recording, the scaling, and exchanged markers"
         if self.rms > FAR:

@@ -42,7 +42,8 @@ def run(seen: Seen, o: IkOptions, record: Record) -> IkResult:
     errors = MarkerErrors.of(found)
     exchanged = exchanged_markers(tree, seen.markers, seen.tasks, found)
     errors.warn(record, MOVING, "" if exchanged is None else exchanged.words)
-    warn_of_tilt(record, seen.model, found.values, o.axes)
+    if exchanged is None:
+        warn_of_tilt(record, seen.model, found.values, o.axes)
     _warn(record, found)
     told = "" if (free := _never(found)) <= UNTOLD * len(found.names) else f"{free} of {len(found.names)} coordinates "
     told = told and f"{told}are not determined; "
