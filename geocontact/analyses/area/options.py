@@ -124,7 +124,7 @@ class AreaOptions(Options):
     How area is counted
     -------------------
     threshold
-        Largest distance that counts, or several: 0.1,0.5,1,4
+        Largest distance that counts, or several: 0.1,0.5,1,4. 0 counts what is inside the other body.
     assume_closed
         Treat a surface as closed although its edges do not show it.
     rule
