@@ -57,7 +57,7 @@ def exchanged_markers(tree: Tree, seen: MarkerTrajectories, tasks: MarkerTasks, 
     exchanged: Pairs = ()
     sides = _sides(poses.markers)
     for _ in range(MOST):
-        tried = [(pair,) for pair in dict.fromkeys((*sides, *_gaining(tree, part, poses)))]
+        tried: list[Pairs] = [(pair,) for pair in dict.fromkeys((*sides, *_gaining(tree, part, poses)))]
         tried += [sides] if not exchanged and len(sides) > 1 else []
         if MarkerErrors.of(poses).within(MOVING) or not tried:
             break

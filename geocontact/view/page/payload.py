@@ -213,7 +213,11 @@ def _curves(panel: Curves) -> dict[str, object]:
 
 
 def _track(track: Track) -> dict[str, object]:
-    points = {"name": track.name, "x": _numbers(track.points[:, 0]), "y": _numbers(track.points[:, 1])}
+    points: dict[str, object] = {
+        "name": track.name,
+        "x": _numbers(track.points[:, 0]),
+        "y": _numbers(track.points[:, 1]),
+    }
     return {**points, "told": list(track.told)} if track.told else points
 
 
