@@ -25,6 +25,7 @@ from geocontact.shoulder_exoskeleton.device import Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import arm_motions
 from geocontact.shoulder_exoskeleton.lucy import lucy
 from geocontact.shoulder_exoskeleton.simulate import mirrored_arm
+from geocontact.shoulder_exoskeleton.support.phases import SCREW
 from geocontact.shoulder_exoskeleton.synthetic.design import (
     CONDITIONS,
     PARTICIPANTS,
@@ -33,7 +34,7 @@ from geocontact.shoulder_exoskeleton.synthetic.design import (
     OverheadTask,
     Participant,
 )
-from geocontact.shoulder_exoskeleton.synthetic.trial import SCREW, OverheadTrial, synthetic_trial
+from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
 
 WORN = tuple(each for each in CONDITIONS if each.level is not None)
 (BARE,) = (each for each in CONDITIONS if each.level is None)
