@@ -2,9 +2,10 @@
 
 Finer 3-D code makes logger and mat of four trials of one synthetic participant with one effect, or none; the package's
 3-D model is projected on its plane (`shoulder simulate` writes the files), `gap gather` makes the case, and the base
-model `shoulder` is diagnosed. Then what was named is added to the full 3-D model, fitted to the calibration trials and judged
-on the held-out ones. Cells lie on one ring, so that the cuff does not clamp; friction is a tenth of the paper's: with
-more, passive joints stick and no planar model follows. Answers go to benchmarks/results/shoulder_gap.json.
+model `shoulder` is diagnosed. Then what was named is added to the full 3-D model, fitted to the calibration trials and
+judged on the held-out ones. Cells lie on one ring, so that the cuff does not clamp, and the cuff is long enough that no
+arm leaves it; friction is a tenth of the paper's: with more, passive joints stick and no planar model follows. Answers
+go to benchmarks/results/shoulder_gap.json.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ PLANTED: dict[str, tuple[Withheld, tuple[str, ...]]] = {
     "jump at lowering": (Withheld(seal=0.8), ("dry_friction",)),
 }
 """What the finer code withholds, and the names that would be right."""
-DEVICE = lucy().having(mu_s=0.1, mu_k=0.08, passive_1_damping=0.5, passive_2_damping=0.5)
+DEVICE = lucy().having(cuff_length=0.25, mu_s=0.1, mu_k=0.08, passive_1_damping=0.5, passive_2_damping=0.5)
 SLOW = 0.05
 """rad/s; the direction of a movement is u over its size above this."""
 
