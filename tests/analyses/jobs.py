@@ -26,6 +26,7 @@ JOBS: tuple[Job, ...] = (
     gc.shoulder.simulate,
     gc.shoulder.compare,
     gc.shoulder.optimise,
+    gc.shoulder.study,
     gc.diagnose,
     gc.discriminability,
     gc.inject,
