@@ -60,6 +60,12 @@ class System:
     dynamic
         Whether the base has a motion of its own, so that outputs feel what inputs did before; otherwise they answer to
         values and rates of the moment.
+    lengths
+        Constants that are lengths of the device, or of how it is placed [m].
+    extent
+        Largest length of the device where no constant tells it [m]; 0 where the model does not know.
+    quotients
+        Outputs that are a moment over another output, by name of that one: {"cop_x": "force_y"}.
     """
 
     name: str
@@ -78,6 +84,9 @@ class System:
     bias: Mapping[str, float] = field(default_factory=dict)
     places: tuple[str, ...] = ()
     dynamic: bool = False
+    lengths: tuple[str, ...] = ()
+    extent: float = 0.0
+    quotients: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def inputs(self) -> tuple[str, ...]:

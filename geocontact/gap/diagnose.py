@@ -129,8 +129,9 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
         version=version,
         faults=_faults(found),
         remarks=(
-            *(f"{each.words} in {each.channel}" if each.channel else each.words for each in found.odd),
+            *(f"{each.words} in {each.channel}" for each in (*found.odd, *found.recorder)),
             *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
+            *objection(found),
             *(nearest(found) if said.verdict == "unknown" else ()),
         ),
         next_experiment=then,
@@ -153,6 +154,13 @@ def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ran
         probability = probabilities.get(one.names[0], 0.0) if first else None
         rows.append(Ranked(one.label, " + ".join(one.names), gain, calibration, probability))
     return tuple(sorted(rows, key=lambda row: -row.gain))
+
+
+def objection(found: Attribution) -> tuple[str, ...]:
+    """In words why the model that gains most is not named, where it gains surely."""
+    best = max(found.contenders, key=lambda one: one.nats, default=found.base)
+    why, gain = found.objections.get(best.label, ""), best.nats - found.base.nats
+    return (f"{best.label} gains {gain:.0f} nats and is not named: {why}",) if why and gain > SURE else ()
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:

@@ -27,7 +27,7 @@ from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import judged
 from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, singles
 from geocontact.gap.selection.model_discrepancy import discrepancy_basis
-from geocontact.gap.selection.residual_anomalies import residual_anomalies
+from geocontact.gap.selection.residual_anomalies import recorder_remarks, residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
 from geocontact.systems.catalogue import system_of
 
@@ -150,7 +150,8 @@ def odd(change: Change | None, after: Change | None = None, duration: float = 24
         if after:
             trial.signals.values[:, 1] = after(trial.name, trial.time, trial.signals.values[:, 1])
     problem = problem_of(case, system_of(case))
-    return {each.words: each.nats for each in residual_anomalies(problem, base_contender(problem).judged)}
+    base = base_contender(problem).judged
+    return {each.words: each.nats for check in (residual_anomalies, recorder_remarks) for each in check(problem, base)}
 
 
 def paired() -> tuple[list[tuple[str, ...]], list[float]]:

@@ -166,7 +166,7 @@ def proposed(effects: Mapping[str, float] | None, times: float = TELLS) -> NextE
         said = Answer("explained", ("time_shift",), {}, ("time_shift", "filter_lag"), competitors[0])
     else:
         competitors, said = [], Answer("no_gap", (), {}, (), base)
-    found = Attribution(problem, None, problem, base, tuple(competitors), {}, (), (), said)
+    found = Attribution(problem, None, problem, base, tuple(competitors), {}, (), (), {}, (), said)
     names = [each.name for each in non_identifiable(problem, known, ())]
     with patch("geocontact.gap.experiment.proposal.TELLS", times):
         return next_experiment(found, first_of(known, names))

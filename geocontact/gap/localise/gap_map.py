@@ -130,10 +130,8 @@ def _deviations_off(problem: Problem, base: Judged) -> list[Float[np.ndarray, "_
     from geocontact.identify.noise.trial_variation import Products, deviations
 
     left = []
-    for whitener, residual, jacobian in zip(
-        base.noise.whiteners, base.model.residuals, base.model.jacobian, strict=True
-    ):
-        design = jacobian[..., : len(problem.usual)]
+    varied = problem.varied(base.model.jacobian)
+    for whitener, residual, design in zip(base.noise.whiteners, base.model.residuals, varied, strict=True):
         products = Products.of(whitener(residual[..., None])[:, 0], whitener(design))
         left.append(residual - design @ deviations(products, base.noise.varies))
     return left

@@ -16,7 +16,7 @@ from geocontact.gap.case.refit import refit
 from geocontact.gap.data_errors.correction import put_back
 from geocontact.gap.data_errors.gross import DataError
 from geocontact.gap.inputs.denoise import changed, drawn
-from geocontact.gap.inputs.spectrum import switches
+from geocontact.gap.inputs.spectrum import measured_inputs
 from geocontact.gap.selection.evidence import Judged, prior_spread
 
 IMPLIED = 0.3  # trials that the fitted noise levels count as
@@ -104,7 +104,7 @@ def passed_on(
     trials, rng = problem.recorded.trials[len(problem.calibration.trials) :], np.random.default_rng(SEED)
     held_out = replace(problem.recorded, trials=trials, outputs=problem.evaluation.outputs)
     levels = dict(zip(problem.system.inputs, answer.noise.levels.inputs, strict=True))
-    noisy = [name for name in levels if not switches(problem.recorded.trials, name)]
+    noisy = measured_inputs(problem.recorded.trials, list(levels))
 
     def change(name: str, even: Float[np.ndarray, " n"], step: float) -> Float[np.ndarray, " n"]:
         return drawn(rng, len(even), step, levels[name], problem.passed[name])
@@ -161,18 +161,18 @@ def _implied(
     found = []
     raw = clean.recorded.residuals(after.model.system.as_measured(), after.model.values)
     everything = zip(
-        clean.layouts, after.model.jacobian, clean.recorded.present, after.model.residuals, raw, strict=True
+        clean.layouts,
+        clean.varied(after.model.jacobian),
+        clean.recorded.present,
+        after.model.residuals,
+        raw,
+        strict=True,
     )
-    for trial, (layout, jacobian, there, smooth, rough) in zip(clean.recorded.trials, everything, strict=True):
-        own = noise_variance(layout, after.noise.levels) + _varied(jacobian, varies) + (smooth - rough) ** 2
+    for trial, (layout, varied, there, smooth, rough) in zip(clean.recorded.trials, everything, strict=True):
+        own = noise_variance(layout, after.noise.levels) + ((varied * varies) ** 2).sum(axis=-1) + (smooth - rough) ** 2
         own = put_back(data_error, trial.name, clean.system.outputs, np.sqrt(own)) ** 2
         found.append(np.where(there, own, 0.0).sum(axis=0) / np.maximum(there.sum(axis=0), 1))
     return found
-
-
-def _varied(jacobian: Float[np.ndarray, "t c p"], varies: Float[np.ndarray, " q"]) -> Float[np.ndarray, "t c"]:
-    """Variance that trial-to-trial variation brings to each sample."""
-    return np.asarray(((jacobian[..., : len(varies)] * varies) ** 2).sum(axis=-1))
 
 
 def misjudged(derivatives: Float[np.ndarray, "t p"], posterior: Float[np.ndarray, "p p"]) -> float:
@@ -202,6 +202,7 @@ def _left(
             each.append(float(np.mean(residual[own, c] ** 2)) + more[-1])
     floor = float(np.mean([f[c] for f in implied[count:]]))
     weight = len(each) + IMPLIED
-    left = max((sum(each) + IMPLIED * floor) / weight, NOTHING)
+    seen = sum(each) / len(each) if each else floor
+    left = max((sum(each) + IMPLIED * min(floor, seen)) / weight, NOTHING)
     scatter = float(np.var(each, ddof=1)) if len(each) > 1 else left**2
     return left, float(np.sqrt(scatter / weight + np.mean(more) ** 2)) if more else left

@@ -31,7 +31,7 @@ def discrepancy_basis(
     1.
     """
     everything = [*problem.calibration.trials, *problem.evaluation.trials]
-    floor, base = problem.floor, len(problem.usual)
+    floor, base = problem.floor, problem.fitted
     jacobian = np.concatenate([(j[..., :base] / floor[:, None]).reshape(-1, base) for j in model.jacobian])
     monomials = _monomials(problem)
     made: list[list[np.ndarray]] = [[] for _ in everything]

@@ -36,7 +36,10 @@ CURVED = 0.2  # of what was expected, curvature along a step that a secant is be
 
 @dataclass(frozen=True)
 class ResidualBlock:
-    """One block of a trial: its residual, and the covariance that variation from trial to trial makes."""
+    """One block of a trial: its residual, and the covariance that variation from trial to trial makes.
+
+    Both of rows divided by the block's `spread`.
+    """
 
     block: NoiseBlock
     residual: Float[np.ndarray, " n"]
@@ -78,8 +81,8 @@ class CostSurface:
         for layout, residual, moved in zip(layouts, residuals, jitter, strict=True):
             flat = moved.reshape(residual.size, moved.shape[-1])
             for block in layout.blocks:
-                own = flat[block.rows]
-                pieces.append(ResidualBlock(block, residual.ravel()[block.rows], own @ own.T))
+                own = flat[block.rows] / block.spread[:, None]
+                pieces.append(ResidualBlock(block, residual.ravel()[block.rows] / block.spread, own @ own.T))
         return cls(tuple(pieces), beliefs)
 
     def at(self, x: Float[np.ndarray, " h"]) -> SearchPoint:

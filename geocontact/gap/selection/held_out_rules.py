@@ -1,0 +1,267 @@
+"""Rules on held-out trials that no evidence overrides.
+
+An effect is named only if it predicts held-out trials better, and worsens none of their channels. With b the residual
+of the base model and m what the effect changes of its prediction, in units of the floor and with what trials differ by
+themselves weighed down, the squared error falls by
+
+    sum b² - sum (b - m)² = (2 a - 1) sum m²,   a = sum b m / sum m²,
+
+so it falls where the amplitude a of the change, as the held-out trials have it, is above one half; 1 where the
+change is what is missing. Its standard error is from blocks of the trials, whatever the noise within and between
+neighbouring blocks is (Newey & West 1987, Econometrica 55:703), no less than that of independent samples: few blocks
+that hold the change tell little, however many samples they have. The change must exceed what the calibration of a
+channel varies by, and no verdict hangs on a few samples or on one trial.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.gap.case.problem import Noise, Plain, Problem
+from geocontact.gap.case.refit import refit
+from geocontact.gap.case.whitening import Whitening
+from geocontact.gap.selection.evidence import Judged, prior_spread
+from geocontact.gap.selection.model_comparison import Contender
+from geocontact.gap.selection.surrogate import Surrogate
+
+BLOCKS = 16  # per trial
+SURE = 0.975  # one-sided
+HALF = 0.5  # amplitude below which a change makes the error larger
+NOTHING = 1e-12  # of the squared residual, below which a prediction is not changed
+HARM = 0.02  # of a channel's squared error, that it may grow by without being called worse; within its floor by more
+SMALL = 0.01  # of a channel's signal, that a gap must exceed: about what its calibration varies by
+FEW = 0.02  # of the samples, that no verdict may hang on
+ENOUGH = 6.0  # nats that the others must gain
+TOO_SMALL = f"the change is below {SMALL:.0%} of the signal in every channel"
+
+
+@dataclass(frozen=True)
+class Amplitude:
+    """How much of a change the held-out trials have: 1 all of it, 0 nothing.
+
+    Parameters
+    ----------
+    value, low, high
+        With its interval of 95 %.
+    grown
+        What the change adds to the squared error, as a share of it; negative where the error falls.
+    """
+
+    value: float
+    low: float
+    high: float
+    grown: float
+
+    @property
+    def better(self) -> bool:
+        """Whether the error surely falls."""
+        return self.low > HALF
+
+    @property
+    def words(self) -> str:
+        """With its interval."""
+        return f"amplitude there {self.value:.2f} [{self.low:.2f}, {self.high:.2f}], 1 where the change is right"
+
+    @property
+    def worse(self) -> bool:
+        """Whether the error surely grows, by more than what makes no difference."""
+        return self.high < HALF and self.grown > HARM
+
+
+def amplitude(
+    before: Sequence[Float[np.ndarray, "_ c"]], change: Sequence[Float[np.ndarray, "_ c"]]
+) -> Amplitude | None:
+    """Of a change of a prediction in trials with the residuals `before`, both weighed; None where there is none."""
+    from scipy.stats import t
+
+    works, powers, squares = [], [], 0.0
+    for own, moved in zip(before, change, strict=True):
+        edges = np.linspace(0, len(own), BLOCKS + 1).astype(int)[:-1]
+        works.append(np.add.reduceat((own * moved).sum(axis=1), edges))
+        powers.append(np.add.reduceat((moved**2).sum(axis=1), edges))
+        squares += float((own**2).sum())
+    power, work = float(np.sum(powers)), float(np.sum(works))
+    if not NOTHING * squares < power < np.inf:
+        return None
+    value = work / power
+    off = [w - value * p for w, p in zip(works, powers, strict=True)]
+    pairs = zip(before, change, strict=True)
+    alone = sum(float(((moved * (own - value * moved)).sum(axis=1) ** 2).sum()) for own, moved in pairs)
+    spread = max(sum(float(each @ each) + float(each[1:] @ each[:-1]) for each in off), alone)
+    count = power**2 / float(np.sum(np.square(powers)))
+    freedom = max(count - 1.0, 0.5)
+    error = float(np.sqrt(spread * (count / freedom))) / power
+    reach = float(t.ppf(SURE, freedom)) * error
+    return Amplitude(value, value - reach, value + reach, (power - 2.0 * work) / max(squares, 1e-300))
+
+
+@dataclass(frozen=True)
+class TrialWeight:
+    """What a residual of one trial weighs: (I + B Q Bᵀ)^(-1/2) D⁻¹, D the floor, B Q Bᵀ what trials differ by."""
+
+    present: Bool[np.ndarray, "t c"]
+    whitening: Whitening
+
+    @classmethod
+    def of(
+        cls, present: Bool[np.ndarray, "t c"], floor: Float[np.ndarray, " c"], varied: Float[np.ndarray, "t c q"]
+    ) -> TrialWeight:
+        """From derivatives with respect to what varies, times its standard deviation."""
+        return cls(present, Whitening.of(Plain(present, floor), varied))
+
+    def __call__(self, values: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t c"]:
+        """Weighed; 0 where nothing was measured."""
+        out = np.zeros(values.shape)
+        out[self.present] = self.whitening(values[..., None])[:, 0]
+        return out
+
+
+@dataclass(frozen=True)
+class HeldOutRules:
+    """The base model on the held-out trials, and what a model with an effect must do there to be named.
+
+    Parameters
+    ----------
+    problem
+        The case.
+    base
+        The base model as it was judged.
+    before
+        Its residuals on the held-out trials, refitted to the calibration trials, inputs as they were measured.
+    signal
+        Root mean square of each measured channel on the held-out trials.
+    weights
+        Of all trials.
+    """
+
+    problem: Problem
+    base: Judged
+    before: list[Float[np.ndarray, "_ c"]]
+    signal: Float[np.ndarray, " c"]
+    weights: tuple[TrialWeight, ...]
+
+    @classmethod
+    def of(cls, problem: Problem, base: Judged) -> HeldOutRules:
+        """The base model refitted by plain least squares, every channel divided by its floor."""
+        count, whole = len(problem.calibration.trials), problem.recorded
+        first = replace(whole, trials=whole.trials[:count], outputs=whole.outputs[:count])
+        system = problem.system.as_measured()
+        whiten = [Plain(there, problem.floor) for there in first.present]
+        model = refit(system, first, whiten, [problem.plain.values], 20)
+        before = whole.residuals(system, model.values)[count:]
+        signal = np.sqrt(mean_squares(whole.outputs[count:], whole.present[count:]))
+        varies = base.noise.varies
+        weights = tuple(
+            TrialWeight.of(there, problem.floor, varied * varies)
+            for there, varied in zip(whole.present, problem.varied(base.model.jacobian), strict=True)
+        )
+        return cls(problem, base, before, signal, weights)
+
+    @property
+    def present(self) -> tuple[Bool[np.ndarray, "_ c"], ...]:
+        """Which samples of the held-out trials were measured."""
+        return self.problem.recorded.present[len(self.problem.calibration.trials) :]
+
+    def objection(self, one: Contender) -> str:
+        """Why a model may not be named, in words; "" where nothing speaks against it.
+
+        Mistakes in the data are not judged: trials that have them are not predicted.
+        """
+        if any(each.somewhere is not None for each in one.candidates):
+            return ""
+        model, count = one.judged.model, len(self.problem.calibration.trials)
+        after = self.problem.recorded.residuals(model.system.as_measured(), model.values)[count:]
+        return self._of_prediction(one.judged, after) or self._of_few(one.judged)
+
+    def _of_prediction(self, one: Judged, after: list[Float[np.ndarray, "_ c"]]) -> str:
+        before, rest = (left_out_residuals(self.problem, each, one.noise) for each in (self.base, one))
+        change = self._weighed([b - a for b, a in zip(before, rest, strict=True)])
+        before = self._weighed(before)
+        whole = amplitude(before, change)
+        if whole is None or not whole.better:
+            return f"trials left out are not surely predicted better{'' if whole is None else f' ({whole.words})'}"
+        old, new = (mean_squares(parts, self.present) for parts in (self.before, after))
+        floor = self.problem.floor**2
+        if (new / floor).sum() >= (old / floor).sum():
+            return "the error on held-out trials grows"
+        for c, name in enumerate(self.problem.system.outputs):
+            own = amplitude([b[:, c : c + 1] for b in before], [m[:, c : c + 1] for m in change])
+            grown = new[c] > max((1.0 + HARM) * old[c], floor[c])
+            if grown or (own is not None and own.worse):
+                words = "" if own is None else f" ({own.words})"
+                return f"{name} is predicted worse{words}"
+        return "" if self.large([b - a for b, a in zip(self.before, after, strict=True)]) else TOO_SMALL
+
+    def _weighed(self, parts: Sequence[Float[np.ndarray, "_ c"]]) -> list[Float[np.ndarray, "_ c"]]:
+        return [weight(part) for weight, part in zip(self.weights, parts, strict=True)]
+
+    def _of_few(self, one: Judged) -> str:
+        without, with_it = (_innovations(self.problem, each, one.noise) for each in (self.base, one))
+        by_trial = [0.5 * float(b @ b - a @ a) for b, a in zip(without, with_it, strict=True)]
+        if sum(by_trial) - max(by_trial) <= 0.0:
+            return "without one trial nothing speaks for it"
+        gains = 0.5 * (np.concatenate(without) ** 2 - np.concatenate(with_it) ** 2)
+        if trimmed(gains) <= ENOUGH:
+            return f"without {FEW:.0%} of the samples nothing speaks for it"
+        return ""
+
+    def large(self, change: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
+        """Whether a change of the prediction of the held-out trials is worth speaking of in some channel."""
+        return bool((np.sqrt(mean_squares(change, self.present)) > SMALL * self.signal).any())
+
+    def unnamed(self, found: Surrogate, before: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
+        """Whether something without a name predicts held-out trials better, as the calibration trials tell it.
+
+        `before` are the residuals that the surrogate was fitted to, all trials.
+        """
+        count = len(self.problem.calibration.trials)
+        change = found.by_calibration[count:]
+        pairs = zip(self.weights[count:], before[count:], change, strict=True)
+        both = [(weight(b), weight(m)) for weight, b, m in pairs]
+        whole = amplitude([b for b, _ in both], [m for _, m in both])
+        return whole is not None and whole.better and self.large(change)
+
+
+def left_out_residuals(problem: Problem, one: Judged, noise: Noise) -> list[Float[np.ndarray, "_ c"]]:
+    """Of every trial, predicted from all others: one Gauss-Newton step without it (`gap.reduction.leave_one_out`)."""
+    whitenings = problem.whitenings(noise, one.model)
+    spread = prior_spread(one.model.system, one.model.values)
+    both = [
+        whiten(np.concatenate([residual[..., None], jacobian * spread], axis=-1))
+        for whiten, residual, jacobian in zip(whitenings, one.model.residuals, one.model.jacobian, strict=True)
+    ]
+    grams = [each[:, 1:].T @ each[:, 1:] for each in both]
+    pulls = [each[:, 1:].T @ each[:, 0] for each in both]
+    found = []
+    for residual, jacobian, gram, pull in zip(one.model.residuals, one.model.jacobian, grams, pulls, strict=True):
+        others = np.eye(len(spread)) + sum(grams) - gram
+        found.append(residual - jacobian @ (spread * np.linalg.solve(others, sum(pulls) - pull)))
+    return found
+
+
+def mean_squares(
+    values: Sequence[Float[np.ndarray, "_ c"]], present: Sequence[Bool[np.ndarray, "_ c"]]
+) -> Float[np.ndarray, " c"]:
+    """Of each channel where it was measured; 0 where it never was."""
+    squares = sum(np.where(there, v**2, 0.0).sum(axis=0) for v, there in zip(values, present, strict=True))
+    return np.asarray(squares / np.maximum(sum(there.sum(axis=0) for there in present), 1))
+
+
+def trimmed(gains: Float[np.ndarray, " n"]) -> float:
+    """Sum of what samples gain, `FEW` of them left out at either end."""
+    ends = int(np.ceil(FEW * len(gains)))
+    return float(np.sort(gains)[ends : len(gains) - ends].sum())
+
+
+def _innovations(problem: Problem, one: Judged, noise: Noise) -> list[Float[np.ndarray, " _"]]:
+    """Whitened residuals of each trial under a noise, parameters where all trials put them to first order."""
+    whitenings = problem.whitenings(noise, one.model)
+    spread = prior_spread(one.model.system, one.model.values)
+    model = one.model.weighed(whitenings)
+    scaled = model.whitened_jacobian * spread
+    shift = np.linalg.solve(np.eye(len(spread)) + scaled.T @ scaled, scaled.T @ model.whitened)
+    return np.split(model.whitened - scaled @ shift, np.cumsum([len(w.directions) for w in whitenings])[:-1])
