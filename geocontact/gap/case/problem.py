@@ -26,7 +26,6 @@ from geocontact.identify.noise.trial_variation import Products, variation
 REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own
 USUALLY, BARELY = 4.0, 1.0  # trials that the usual variation of a parameter counts as; where the trials are to speak
-HARDLY = 0.5  # trials that the usual placement counts as: how exact it was differs from laboratory to laboratory
 MEMORY = 2.0  # times its usual correlation time that low noise may remember
 TAKEN_OFF = 1.25  # times what is believed of an input's noise, that is taken off it at the most
 SEED = 0  # of the noise that is added to inputs
@@ -146,12 +145,11 @@ class Problem:
         return tuple(layout.whitener(levels) for layout in self.layouts)
 
     def _variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
-        found = variation(self._products(self.calibration_layouts, model, levels), self.usual, self._believed(USUALLY))
+        """Of parameters around their fitted values; of what is not fitted around its mean over the trials."""
+        kinds = [self.fitted, len(self.usual) - self.fitted]
+        weight, spent = np.repeat([USUALLY, BARELY], kinds), np.repeat([0.0, 1.0], kinds)
+        found = variation(self._products(self.calibration_layouts, model, levels), self.usual, weight, spent)
         return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
-
-    def _believed(self, parameters: float) -> Float[np.ndarray, " q"]:
-        """Trials that usual sizes count as: of the parameters, and of what differs beside them."""
-        return np.array([parameters] * self.fitted + [HARDLY] * (len(self.usual) - self.fitted))
 
     def _products(self, layouts: Sequence[Layout], model: Refit, levels: NoiseLevels) -> list[Products]:
         products = []
@@ -162,7 +160,7 @@ class Problem:
 
     def seen_variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
         """How much all trials do differ, little believed beforehand, around parameters that were fitted to all."""
-        found = variation(self._products(self.layouts, model, levels), self.usual, self._believed(BARELY), spent=1.0)
+        found = variation(self._products(self.layouts, model, levels), self.usual, BARELY, spent=1.0)
         return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
     def fitting(self, noise: Noise, model: Refit) -> list[Whitening]:

@@ -90,7 +90,7 @@ def error_reduction_of(
     heard = np.zeros(len(problem.system.outputs))
     if named and data_error is None:  # beside a mistake in the data noise of the inputs is nothing
         base = (problem.system.as_measured(), errors.values, errors.before[count:])
-        own = (after.model.system.as_measured(), after.model.values, errors.after[count:])
+        own = (after.model.system.as_measured(), errors.fitted, errors.after[count:])
         heard = passed_on(problem, after, [base, own])
     found = {}
     for c, name in enumerate(problem.system.outputs):

@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
+from geocontact.gap.case.measured_fit import measured_fit
 from geocontact.gap.case.problem import Plain, Problem, differences, noise_variance
 from geocontact.gap.case.refit import refit
 from geocontact.gap.data_errors.correction import put_back
@@ -33,7 +34,7 @@ class RawInputErrors:
     before
         Base model refitted to the calibration trials by plain least squares, every channel divided by its floor.
     after
-        The answer at its values, fitted to the calibration trials.
+        The answer, fitted to the calibration trials likewise, as it was judged (`gap.case.measured_fit`).
     best
         The answer where all trials together put it (to first order), its effects bent as they may be otherwise than
         their candidates (`gap.selection.model_discrepancy`): nearest to the truth, not to be reported as an error on
@@ -48,8 +49,8 @@ class RawInputErrors:
         Mean square that stays on a fresh trial, and its standard deviation, per channel; the squared floor.
     told_by
         How many trials tell that.
-    values
-        Of the base model's parameters.
+    values, fitted
+        Parameters of the base model, and of the answer.
     """
 
     before: list[Float[np.ndarray, "_ c"]]
@@ -61,6 +62,7 @@ class RawInputErrors:
     left: tuple[tuple[float, float], ...]
     told_by: int
     values: dict[str, float]
+    fitted: dict[str, float]
 
 
 def raw_input_errors(problem: Problem, clean: Problem, answer: Judged, data_error: DataError | None) -> RawInputErrors:
@@ -74,10 +76,12 @@ def raw_input_errors(problem: Problem, clean: Problem, answer: Judged, data_erro
     derivatives = [put_back(data_error, n, outputs, d) for n, d in zip(names, directions(answer), strict=True)]
     model = answer.model
     predicted = clean.recorded.residuals(model.system.as_measured(), model.values)
+    at_best = [put_back(data_error, name, outputs, each) for name, each in zip(names, predicted, strict=True)]
+    fitted, predicted = measured_fit(clean, model, clean.floor)
     after = [put_back(data_error, name, outputs, each) for name, each in zip(names, predicted, strict=True)]
     varies = observed_variation(clean, answer)
     shift, known = from_all_trials(clean, answer, varies)
-    best = [r - j @ shift for r, j in zip(after, derivatives, strict=True)]
+    best = [r - j @ shift for r, j in zip(at_best, derivatives, strict=True)]
     implied = _implied(clean, answer, varies, data_error)
     sound = [data_error is None or name not in data_error.trials for name in names[:count]]
     used = [*(sound if any(sound) else [True] * count), *(True for _ in names[count:])]
@@ -87,7 +91,7 @@ def raw_input_errors(problem: Problem, clean: Problem, answer: Judged, data_erro
     base = problem.system.as_measured()
     values = refit(base, first, whiten, [problem.plain.values], 20).values
     before = whole.residuals(base, values)
-    return RawInputErrors(before, after, best, derivatives, known, implied, left, sum(used), values)
+    return RawInputErrors(before, after, best, derivatives, known, implied, left, sum(used), values, fitted)
 
 
 def passed_on(

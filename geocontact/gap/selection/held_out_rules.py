@@ -1,28 +1,29 @@
 """Rules on held-out trials that no evidence overrides.
 
-An effect is named only if it predicts held-out trials better, and worsens none of their channels. With b the residual
-of the base model and m what the effect changes of its prediction, in units of the floor and with what trials differ by
-themselves weighed down, the squared error falls by
+An effect is named only if it predicts trials that are left out better, and worsens no channel of the held-out ones.
+With b the residual of the base model and m what the effect changes of its prediction, the squared error falls by
 
     sum b² - sum (b - m)² = (2 a - 1) sum m²,   a = sum b m / sum m²,
 
-so it falls where the amplitude a of the change, as the held-out trials have it, is above one half; 1 where the
-change is what is missing. Its standard error is from blocks of the trials, whatever the noise within and between
-neighbouring blocks is (Newey & West 1987, Econometrica 55:703), no less than that of independent samples: few blocks
-that hold the change tell little, however many samples they have. The change must exceed what the calibration of a
-channel varies by, and no verdict hangs on a few samples or on one trial.
+so it falls where the amplitude a of the change, as those trials have it, is above one half; 1 where the change is what
+is missing. Whether it is there is asked of residuals that are whitened by noise and by what trials differ by, which
+tell most; whether it does harm of residuals in units of the floor, inputs as they were measured. The standard error is
+from blocks of the trials, whatever the noise within and between neighbouring blocks is (Newey & West 1987,
+Econometrica 55:703), no less than that of independent samples: few blocks that hold the change tell little, however
+many samples they have. The change must exceed what the calibration of a channel varies by, and no verdict hangs on a
+few samples or on one trial.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
 
+from geocontact.gap.case.measured_fit import measured_fit
 from geocontact.gap.case.problem import Noise, Plain, Problem
-from geocontact.gap.case.refit import refit
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender
@@ -32,11 +33,11 @@ BLOCKS = 16  # per trial
 SURE = 0.975  # one-sided
 HALF = 0.5  # amplitude below which a change makes the error larger
 NOTHING = 1e-12  # of the squared residual, below which a prediction is not changed
-HARM = 0.02  # of a channel's squared error, that it may grow by without being called worse; within its floor by more
-SMALL = 0.01  # of a channel's signal, that a gap must exceed: about what its calibration varies by
+HARM = 0.02  # of a squared error, that it may grow by without being called worse
+SMALL = 0.005  # of a channel's signal, that a gap must exceed: half of what its calibration varies by
 FEW = 0.02  # of the samples, that no verdict may hang on
 ENOUGH = 6.0  # nats that the others must gain
-TOO_SMALL = f"the change is below {SMALL:.0%} of the signal in every channel"
+TOO_SMALL = f"the change is below {SMALL:.1%} of the signal in every channel"
 
 
 @dataclass(frozen=True)
@@ -148,11 +149,7 @@ class HeldOutRules:
     def of(cls, problem: Problem, base: Judged) -> HeldOutRules:
         """The base model refitted by plain least squares, every channel divided by its floor."""
         count, whole = len(problem.calibration.trials), problem.recorded
-        first = replace(whole, trials=whole.trials[:count], outputs=whole.outputs[:count])
-        system = problem.system.as_measured()
-        whiten = [Plain(there, problem.floor) for there in first.present]
-        model = refit(system, first, whiten, [problem.plain.values], 20)
-        before = whole.residuals(system, model.values)[count:]
+        before = measured_fit(problem, problem.plain, problem.floor)[1][count:]
         signal = np.sqrt(mean_squares(whole.outputs[count:], whole.present[count:]))
         varies = base.noise.varies
         weights = tuple(
@@ -173,31 +170,30 @@ class HeldOutRules:
         """
         if any(each.somewhere is not None for each in one.candidates):
             return ""
-        model, count = one.judged.model, len(self.problem.calibration.trials)
-        after = self.problem.recorded.residuals(model.system.as_measured(), model.values)[count:]
-        return self._of_prediction(one.judged, after) or self._of_few(one.judged)
+        return self._of_change(one.judged) or self._of_harm(one.judged) or self._of_few(one.judged)
 
-    def _of_prediction(self, one: Judged, after: list[Float[np.ndarray, "_ c"]]) -> str:
+    def _of_change(self, one: Judged) -> str:
         before, rest = (left_out_residuals(self.problem, each, one.noise) for each in (self.base, one))
-        change = self._weighed([b - a for b, a in zip(before, rest, strict=True)])
-        before = self._weighed(before)
-        whole = amplitude(before, change)
+        whitenings = self.problem.whitenings(one.noise, self.base.model)
+        change = [b - a for b, a in zip(before, rest, strict=True)]
+        whole = amplitude(*(whitened_samples(whitenings, one.noise, parts) for parts in (before, change)))
         if whole is None or not whole.better:
             return f"trials left out are not surely predicted better{'' if whole is None else f' ({whole.words})'}"
-        old, new = (mean_squares(parts, self.present) for parts in (self.before, after))
-        floor = self.problem.floor**2
-        if (new / floor).sum() >= (old / floor).sum():
-            return "the error on held-out trials grows"
-        for c, name in enumerate(self.problem.system.outputs):
-            own = amplitude([b[:, c : c + 1] for b in before], [m[:, c : c + 1] for m in change])
-            grown = new[c] > max((1.0 + HARM) * old[c], floor[c])
-            if grown or (own is not None and own.worse):
-                words = "" if own is None else f" ({own.words})"
-                return f"{name} is predicted worse{words}"
-        return "" if self.large([b - a for b, a in zip(self.before, after, strict=True)]) else TOO_SMALL
+        return ""
 
-    def _weighed(self, parts: Sequence[Float[np.ndarray, "_ c"]]) -> list[Float[np.ndarray, "_ c"]]:
-        return [weight(part) for weight, part in zip(self.weights, parts, strict=True)]
+    def _of_harm(self, one: Judged) -> str:
+        count = len(self.problem.calibration.trials)
+        after = measured_fit(self.problem, one.model, self.problem.floor)[1][count:]
+        change = [b - a for b, a in zip(self.before, after, strict=True)]
+        old, new = ([part / self.problem.floor for part in parts] for parts in (self.before, change))
+        together = amplitude(old, new)
+        if together is not None and together.worse:
+            return f"the error on held-out trials grows ({together.words})"
+        for c, name in enumerate(self.problem.system.outputs):
+            own = amplitude([b[:, c : c + 1] for b in old], [m[:, c : c + 1] for m in new])
+            if own is not None and own.worse:
+                return f"{name} is predicted worse ({own.words})"
+        return "" if self.large(change) else TOO_SMALL
 
     def _of_few(self, one: Judged) -> str:
         without, with_it = (_innovations(self.problem, each, one.noise) for each in (self.base, one))
@@ -224,6 +220,18 @@ class HeldOutRules:
         both = [(weight(b), weight(m)) for weight, b, m in pairs]
         whole = amplitude([b for b, _ in both], [m for _, m in both])
         return whole is not None and whole.better and self.large(change)
+
+
+def whitened_samples(
+    whitenings: Sequence[Whitening], noise: Noise, parts: Sequence[Float[np.ndarray, "_ c"]]
+) -> list[Float[np.ndarray, "_ c"]]:
+    """Whitened values where they were measured, in their place in time; 0 elsewhere."""
+    found = []
+    for whitening, whitener, part in zip(whitenings, noise.whiteners, parts, strict=True):
+        flat = np.zeros(part.size)
+        flat[np.concatenate(whitener.rows)] = whitening(part[..., None])[:, 0]
+        found.append(flat.reshape(part.shape))
+    return found
 
 
 def left_out_residuals(problem: Problem, one: Judged, noise: Noise) -> list[Float[np.ndarray, "_ c"]]:

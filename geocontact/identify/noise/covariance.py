@@ -114,8 +114,8 @@ class Layout:
         """
         count = max(1, round(present.sum() / BLOCK_ROWS))
         edges = [round(each) for each in np.linspace(0, len(time), count + 1)]
-        blocks = [_block(time, present, heard, spread, a, b) for a, b in pairwise(edges)]
-        return cls(present.shape, tuple(block for block in blocks if len(block.rows)))
+        measured = [(a, b) for a, b in pairwise(edges) if present[a:b].any()]
+        return cls(present.shape, tuple(_block(time, present, heard, spread, a, b) for a, b in measured))
 
     def whitener(self, levels: NoiseLevels) -> Whitener:
         """What turns noise of these levels into independent numbers of unit variance."""

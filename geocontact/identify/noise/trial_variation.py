@@ -39,21 +39,21 @@ def variation(
     trials: Sequence[Products],
     prior_sd: Float[np.ndarray, " q"],
     weight: float | Float[np.ndarray, " q"] = 4.0,
-    spent: float = 0.0,
+    spent: float | Float[np.ndarray, " q"] = 0.0,
     rounds: int = 50,
 ) -> Float[np.ndarray, " q"]:
     """Most likely standard deviation of each varying parameter.
 
-    The prior is worth `weight` trials of `prior_sd`, of all alike or of each its own.
-
-    `spent` trials count as used up, 1 where the parameters' means were fitted to the same trials, as far as the trials
-    tell of a parameter's deviations at all.
+    The prior is worth `weight` trials of `prior_sd`. `spent` is 1 where deviations are taken from their mean over the
+    trials, which uses up one of them as far as the trials tell of the deviations at all: what all trials have alike is
+    no variation.
     """
     sd = prior_sd.copy()
     for _ in range(rounds):
         pairs = [_conditional(trial, sd) for trial in trials]
         unsure = sum(np.diag(cov) for _, cov in pairs)
-        squares = unsure + sum(mean**2 for mean, _ in pairs)
+        means = np.array([mean for mean, _ in pairs])
+        squares = unsure + ((means - spent * means.mean(axis=0)) ** 2).sum(axis=0)
         identified = 1.0 - unsure / np.maximum(len(trials) * sd**2, 1e-300)
         new = np.sqrt((weight * prior_sd**2 + squares) / (weight + len(trials) - spent * identified))
         new = np.minimum(new, LARGEST * prior_sd)
