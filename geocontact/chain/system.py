@@ -108,6 +108,15 @@ class System:
         """Values that need not be given: constants and fixed parameters."""
         return {**self.constants, **{p.name: p.start for p in self.parameters if p.fixed}}
 
+    @property
+    def length(self) -> float:
+        """Largest length of the device [m]: what the model says, its lengths; else the half-range of its inputs."""
+        lengths = [self.known[name] for name in self.lengths if name in self.known]
+        lengths += [p.start for p in self.parameters if p.unit == "m" and "." not in p.name]
+        found = max([self.extent, *map(abs, lengths)])
+        moved = [self.scale.span.get(name, 0.0) for name in self.inputs if self.unit(name) == "m"]
+        return found if found > 0.0 else max(moved, default=0.0)
+
     @cached_property
     def start(self) -> dict[str, float]:
         """Starting value of every free parameter."""

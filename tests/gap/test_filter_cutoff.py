@@ -69,11 +69,11 @@ def test_recordings_too_short_for_a_spectrum_beside_one_that_is_quicker_say_noth
     )
     made[-1] = Trial(made[-1].name, quick)
     passed = filters_of(made, ("u",))["u"]
-    assert passed.corner == USUAL and likely_noise(made, "u", passed) == 0.0
+    assert passed.corner == pytest.approx(USUAL / STEP) and likely_noise(made, "u", passed) == 0.0
 
 
 def test_without_noise_no_high_corner_is_made_up() -> None:
-    assert filters_of(trials(6.0, 0.0), ("u",))["u"].corner < 1.4 * USUAL
+    assert filters_of(trials(6.0, 0.0), ("u",))["u"].corner < 1.4 * USUAL / STEP
 
 
 def beside(first: list[Trial], second: list[Trial]) -> list[Trial]:
@@ -110,7 +110,7 @@ def test_an_input_that_noise_drowns_is_no_witness(level: float) -> None:
 def test_together_inputs_tell_sooner_that_nobody_filtered_them() -> None:
     """Each alone is too faint a witness."""
     alone = filters_of(trials(NYQUIST, FAINT), ("u",))["u"]
-    assert alone.corner < 2.0 * USUAL
+    assert alone.corner < 2.0 * USUAL / STEP
     both = filters_of(beside(trials(NYQUIST, FAINT), trials(NYQUIST, FAINT)), ("u", "v"))
     assert both["u"] == both["v"] == LowPass.none(both["u"].step)
 
@@ -128,9 +128,9 @@ def test_an_input_that_goes_on_and_off_says_nothing() -> None:
 @pytest.mark.parametrize("still", [0.0, 1.0])
 def test_an_input_that_stands_still_or_is_too_short_says_nothing(still: float) -> None:
     quiet = [Trial(t.name, Signals(t.time, np.full((len(t), 1), still), ("u",), ("rad",))) for t in trials(9.0, 0.003)]
-    assert filters_of(quiet, ("u",))["u"].corner == USUAL
+    assert filters_of(quiet, ("u",))["u"].corner == pytest.approx(USUAL / STEP)
     short = [Trial(t.name, Signals(t.time[:20], t.signals.values[:20], ("u",), ("rad",))) for t in trials(9.0, 0.003)]
-    assert filters_of(short, ("u",))["u"].corner == USUAL
+    assert filters_of(short, ("u",))["u"].corner == pytest.approx(USUAL / STEP)
 
 
 @pytest.mark.parametrize("noise", [0.003, 0.03])

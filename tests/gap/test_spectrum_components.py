@@ -51,7 +51,7 @@ def test_the_filter_that_noise_came_through_is_likeliest() -> None:
 
 def tail(height: float) -> Float[np.ndarray, " f"]:
     """Power of a movement in pieces."""
-    return np.asarray(height / (1.0 + (FREQUENCY / TAIL) ** 4) ** 2)
+    return np.asarray(height / (1.0 + (FREQUENCY * STEP / TAIL) ** 4) ** 2)
 
 
 def spread(height: float) -> Float[np.ndarray, " f"]:

@@ -33,17 +33,8 @@ LAST = 1e6  # rank of a shifted zero: after everything that is wrong with the mo
 def varies_by(system: System, parameter: Parameter, value: float) -> float:
     """Standard deviation that a base parameter usually has from trial to trial."""
     if parameter.unit == "m":
-        return LENGTH * largest_length(system)
+        return LENGTH * system.length
     return ANGLE if parameter.unit == "rad" else SHARE * abs(value)
-
-
-def largest_length(system: System) -> float:
-    """Of the device [m]: what the model says, its lengths; the half-range of its inputs where it has none."""
-    lengths = [system.known[name] for name in system.lengths if name in system.known]
-    lengths += [p.start for p in system.parameters if p.unit == "m"]
-    found = max([system.extent, *map(abs, lengths)])
-    moved = [system.scale.span.get(name, 0.0) for name in system.inputs if system.unit(name) == "m"]
-    return found if found > 0.0 else max(moved, default=0.0)
 
 
 def placement(
@@ -61,7 +52,7 @@ def _of_trial(
     system: System, trial: Trial, values: Mapping[str, float], movable: Sequence[str]
 ) -> Float[np.ndarray, "t c k"]:
     columns = []
-    length = LENGTH * largest_length(system)
+    length = LENGTH * system.length
     for name in system.lengths:
         if name in system.known:
             at = system.known[name]
@@ -86,7 +77,7 @@ def zero_of_input(system: System, name: str) -> float:
     """Standard deviation of the zero of an input from trial to trial."""
     unit = system.unit(name)
     if unit == "m":
-        return LENGTH * largest_length(system)
+        return LENGTH * system.length
     return ANGLE if unit == "rad" else SPAN * system.scale.span.get(name, 1.0)
 
 

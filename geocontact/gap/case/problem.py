@@ -23,7 +23,7 @@ from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_search import most_likely
 from geocontact.identify.noise.trial_variation import Products, variation
 
-REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
+REACHES = (14.0, 10.0, 7.0, 5.0, 3.5, 2.5)  # samples to either side, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own
 USUALLY, BARELY = 4.0, 1.0  # trials that the usual variation of a parameter counts as; where the trials are to speak
 MEMORY = 2.0  # times its usual correlation time that low noise may remember
@@ -203,6 +203,7 @@ class Plain:
 
 def problem_of(case: GapCase, system: System) -> Problem:
     """A case made ready; the base model is fitted from several starts."""
+    system = system.reaching(REACHES[-1] * typical_step(case))
     stated = with_rounding(case)
     rough = rough_noise(system, case)
     calibration = Measured.of(system, case.calibration, rough)
@@ -278,7 +279,7 @@ def _rates(
 
     That is a local best, searched from the middle of `REACHES` uphill. How far rates have to be smoothed depends on the
     noise of the inputs, which is not known. Where the base does not
-    depend on rates the usual smoothing stays.
+    depend on rates, least is smoothed.
     """
     plain = _plain_fit(system, measured, rough, base_starts(system), rounds=40)
     system = system.scaled(measured.trials, plain.values)
@@ -297,7 +298,7 @@ def _rates(
         varied = [j[..., : len(usual)] * usual for j in model.jacobian]
         return most_likely(layouts, model.residuals, varied, beliefs, beliefs.middle, rounds=15)[2]
 
-    return system.reaching(best_of(likelihood, REACHES))
+    return system.reaching(best_of(likelihood, [each * system.scale.step for each in REACHES]))
 
 
 def best_of(likelihood: Callable[[float], float], points: Sequence[float]) -> float:
@@ -355,6 +356,11 @@ def rounding(case: GapCase, name: str) -> float:
     """Standard deviation of the noise that rounding makes of a channel."""
     columns = [trial.column(name) for trial in (*case.calibration, *case.evaluation)]
     return resolution([x[np.isfinite(x)] for x in columns]) / float(np.sqrt(12.0))
+
+
+def typical_step(case: GapCase) -> float:
+    """Time between two samples of the calibration trials [s]."""
+    return float(np.median(np.concatenate([np.diff(trial.time) for trial in case.calibration])))
 
 
 def rough_noise(system: System, case: GapCase) -> Float[np.ndarray, " c"]:

@@ -29,9 +29,10 @@ QUIETEST = 0.1  # of `INPUT_NOISE`, that an input's limit is at the least: resol
 Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 """Of power that is left, by frequency [Hz]."""
 
-SLOW, SLOW_TIME = 0.4, 0.7  # s, that slow noise usually remembers, and standard deviation of the logarithm
+SLOW, SLOW_TIME = 30.0, 0.7  # samples, that slow noise usually remembers, and standard deviation of the logarithm
+QUICK = 2.0  # samples, that quick noise usually remembers
 SLOW_SHARE, SLOW_LEVEL = 0.3, 0.8  # of the quick noise, that it usually is, and of the logarithm of its level
-BUMP = 1e-4  # of an input's half-range
+BUMP, RATE = 1e-4, 0.06  # of an input's half-range; and per sample
 LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
 
 
@@ -104,7 +105,7 @@ def sensitivity(
 ) -> Instant:
     """How the outputs answer to each input's value and rate, sample by sample, by central differences."""
     answers = []
-    for kind, per_second in (("position", 1.0), ("rate", 6.0)):
+    for kind, per_second in (("position", 1.0), ("rate", RATE / system.scale.step)):
         columns = []
         for row, name in enumerate(system.inputs):
             step = BUMP * per_second * system.scale.span.get(name, 1.0)
@@ -135,7 +136,7 @@ def usual_levels(
     """What is believed of the noise before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
-    stands in and is believed less. Quick noise remembers a few samples, slow noise some tenths of a second. Inputs are
+    stands in and is believed less. Quick noise remembers a few samples, slow noise some tens. Inputs are
     known as well as their spectra show (`seen`), 0.2 % of their half-range at the least unless `most` is less, and
     those of one unit about equally well, since they come from the same markers; what is stated of one is believed. A
     sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than `LOUDER` times what is believed,
@@ -155,7 +156,7 @@ def usual_levels(
     factor = np.zeros((len(widths) + len(units),) * 2)
     factor[: len(widths), : len(widths)] = np.diag(widths)
     factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
-    memory = np.array([2.0 * system.scale.step * sure, SLOW * sure])
+    memory = system.scale.step * np.array([QUICK * sure, SLOW * sure])
     sensors = SENSOR_LOUDER * np.array([stated.get(name, np.inf) for name in system.outputs])
     highest_noise = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
     highest_noise = np.maximum(

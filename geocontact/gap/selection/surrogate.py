@@ -201,7 +201,7 @@ def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ 
     """Name and features of every family: one array per trial, calibration first, channels with weights of their own."""
     trials = problem.calibration.trials + problem.evaluation.trials
     system, scale = problem.system, problem.floor_of_noise
-    movements = [recorded(trial.signals, system.inputs) for trial in trials]
+    movements = [recorded(trial.signals, system.inputs, system.motion.reach) for trial in trials]
     for row, name in enumerate(system.inputs):
         position = [m.position[row] for m in movements]
         rate = [m.rate[row] for m in movements]
