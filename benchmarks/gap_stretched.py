@@ -90,8 +90,10 @@ class Stretch:
 
     def trial(self, one: Trial) -> Trial:
         """What would have been recorded."""
-        factors = np.array([self.by(EXPONENTS[unit]) for unit in one.signals.units])
-        signals = replace(one.signals, time=self.time * one.signals.time, values=factors * one.signals.values)
+        recorded = one.signals
+        factors = np.array([self.by(EXPONENTS[unit]) for unit in recorded.units])
+        columns = np.stack([recorded.column(name) for name in recorded.channels], axis=1)
+        signals = replace(recorded, time=self.time * recorded.time, values=columns * factors)
         return replace(one, signals=signals, covariates=self.numbers(one.covariates))
 
 
