@@ -133,6 +133,7 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
             *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
             *objection(found),
             *(nearest(found) if said.verdict == "unknown" else ()),
+            *(on_bounds(found) if said.effects else ()),
         ),
         next_experiment=then,
     )
@@ -161,6 +162,25 @@ def objection(found: Attribution) -> tuple[str, ...]:
     best = max(found.contenders, key=lambda one: one.nats, default=found.base)
     why, gain = found.objections.get(best.label, ""), best.nats - found.base.nats
     return (f"{best.label} gains {gain:.0f} nats and is not named: {why}",) if why and gain > SURE else ()
+
+
+def on_bounds(found: Attribution) -> tuple[str, ...]:
+    """In words which shapes of the named effects, and which base parameters beside them, end on a bound."""
+    system, values = found.answer.chosen.judged.model.system, found.answer.chosen.judged.model.values
+    ended = prior_spread(system, values) == 0.0
+    stays = prior_spread(found.base.judged.model.system, found.base.judged.model.values) == 0.0
+    shapes = {p.name for one in found.answer.chosen.candidates for p in one.parameters[1:]}
+    base = {p.name for p, on_it in zip(free(found.base.judged.model.system), stays, strict=True) if not on_it}
+    names = " + ".join(found.answer.effects)
+    told = []
+    for p, on_it in zip(free(system), ended, strict=True):
+        if on_it and p.name in shapes:
+            told.append(
+                f"the shape {p.name} ends on its bound, {values[p.name]:.3g} {p.unit}: these data do not tell it"
+            )
+        elif on_it and p.name in base:
+            told.append(f"with {names} the base parameter {p.name} ends on its bound, {values[p.name]:.3g} {p.unit}")
+    return tuple(told)
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:

@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
 from geocontact.gap.case.measured_fit import measured_fit
 from geocontact.gap.case.problem import Noise, Plain, Problem
@@ -73,6 +73,11 @@ class Amplitude:
         return self.high < HALF and self.grown > HARM
 
 
+def block_edges(count: int) -> Int[np.ndarray, " b"]:
+    """Where the blocks of a trial of so many rows begin; a short trial has fewer."""
+    return np.unique(np.linspace(0, count, BLOCKS + 1).astype(int)[:-1])
+
+
 def amplitude(
     before: Sequence[Float[np.ndarray, "_ c"]], change: Sequence[Float[np.ndarray, "_ c"]]
 ) -> Amplitude | None:
@@ -81,7 +86,7 @@ def amplitude(
 
     works, powers, squares = [], [], 0.0
     for own, moved in zip(before, change, strict=True):
-        edges = np.linspace(0, len(own), BLOCKS + 1).astype(int)[:-1]
+        edges = block_edges(len(own))
         works.append(np.add.reduceat((own * moved).sum(axis=1), edges))
         powers.append(np.add.reduceat((moved**2).sum(axis=1), edges))
         squares += float((own**2).sum())
@@ -197,12 +202,14 @@ class HeldOutRules:
 
     def _of_few(self, one: Judged) -> str:
         without, with_it = (_innovations(self.problem, each, one.noise) for each in (self.base, one))
-        by_trial = [0.5 * float(b @ b - a @ a) for b, a in zip(without, with_it, strict=True)]
+        by_sample = [0.5 * (b**2 - a**2) for b, a in zip(without, with_it, strict=True)]
+        by_trial = [float(each.sum()) for each in by_sample]
         if sum(by_trial) - max(by_trial) <= 0.0:
             return "without one trial nothing speaks for it"
-        gains = 0.5 * (np.concatenate(without) ** 2 - np.concatenate(with_it) ** 2)
-        if trimmed(gains) <= ENOUGH:
+        if trimmed(np.concatenate(by_sample)) <= ENOUGH:
             return f"without {FEW:.0%} of the samples nothing speaks for it"
+        if trimmed(np.concatenate([np.add.reduceat(each, block_edges(len(each))) for each in by_sample])) <= 0.0:
+            return f"without {FEW:.0%} of the blocks nothing speaks for it"
         return ""
 
     def large(self, change: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
