@@ -29,7 +29,7 @@ from geocontact.gap.reduction.held_out import held_out
 from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.reduction.raw_input_errors import raw_input_errors
 from geocontact.gap.selection.evidence import Judged, prior_spread
-from geocontact.gap.selection.model_comparison import base_contender
+from geocontact.gap.selection.model_comparison import Contender, base_contender
 from geocontact.gap.selection.verdict import SURE
 
 Z95 = 1.959964
@@ -133,7 +133,7 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
             *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
             *objection(found),
             *(nearest(found) if said.verdict == "unknown" else ()),
-            *(on_bounds(found) if said.effects else ()),
+            *(on_bounds(said.chosen, found.base) if said.effects else ()),
         ),
         next_experiment=then,
     )
@@ -164,21 +164,18 @@ def objection(found: Attribution) -> tuple[str, ...]:
     return (f"{best.label} gains {gain:.0f} nats and is not named: {why}",) if why and gain > SURE else ()
 
 
-def on_bounds(found: Attribution) -> tuple[str, ...]:
-    """In words which shapes of the named effects, and which base parameters beside them, end on a bound."""
-    system, values = found.answer.chosen.judged.model.system, found.answer.chosen.judged.model.values
-    ended = prior_spread(system, values) == 0.0
-    stays = prior_spread(found.base.judged.model.system, found.base.judged.model.values) == 0.0
-    shapes = {p.name for one in found.answer.chosen.candidates for p in one.parameters[1:]}
-    base = {p.name for p, on_it in zip(free(found.base.judged.model.system), stays, strict=True) if not on_it}
-    names = " + ".join(found.answer.effects)
+def on_bounds(chosen: Contender, base: Contender) -> tuple[str, ...]:
+    """In words which shapes of named effects, and which base parameters only beside them, end on a bound."""
+    system, values, alone = chosen.judged.model.system, chosen.judged.model.values, base.judged.model
+    ended, stays = prior_spread(system, values) == 0.0, prior_spread(alone.system, alone.values) == 0.0
+    shapes = {p.name for one in chosen.candidates for p in one.parameters[1:]}
+    driven = {p.name for p, on_it in zip(free(alone.system), stays, strict=True) if not on_it}
+    names = " + ".join(chosen.names)
     told = []
     for p, on_it in zip(free(system), ended, strict=True):
         if on_it and p.name in shapes:
-            told.append(
-                f"the shape {p.name} ends on its bound, {values[p.name]:.3g} {p.unit}: these data do not tell it"
-            )
-        elif on_it and p.name in base:
+            told.append(f"the shape {p.name} ends on its bound, {values[p.name]:.3g} {p.unit}")
+        elif on_it and p.name in driven:
             told.append(f"with {names} the base parameter {p.name} ends on its bound, {values[p.name]:.3g} {p.unit}")
     return tuple(told)
 
