@@ -131,6 +131,7 @@ def _attributed(
     rules = HeldOutRules.of(clean, base.judged)
     gaining = [c for c in contenders if c.nats > base.nats]
     objections = {c.label: why for c in gaining if (why := rules.objection(c))}
+    objections |= rules.outdone([c for c in gaining if c.label not in objections])
     free = [c for c in contenders if c.label not in objections]
     held = ranking(base, free, shares, Counter(one.name for one in entered))
     odd = tuple(each for each in residual_anomalies(clean, held.leader.judged) if each.nats > ODD)
@@ -139,7 +140,8 @@ def _attributed(
     best = held.best
     at("what is left over")
     rest = surrogate(clean, best.judged)
-    said = answer(held, _believed(rules, base, remaining["none"]), strange, _believed(rules, best, rest) + strange)
+    left = _believed(rules, best, rest) if best is base or rules.adds(rest, best) else 0.0
+    said = answer(held, _believed(rules, base, remaining["none"]), strange, left + strange)
     remaining |= {best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)

@@ -19,10 +19,7 @@ from geocontact.gap.inputs.spectrum import spectrum
 from geocontact.gap.inputs.spectrum_components import split
 from geocontact.identify.signals.low_pass import LowPass
 
-USUAL, USUALLY = (
-    0.08,
-    0.9,
-)  # per sample, and the standard deviation of its logarithm: 6 Hz at 20 to 200 Hz
+USUAL, USUALLY = 0.08, 0.9  # per sample, and the standard deviation of its logarithm: 6 Hz at 75 (Winter 2009)
 LOWEST, HIGHEST, CORNERS = 0.0125, 0.44, 21  # per sample, that are compared, and how many
 UNFILTERED, MIXED = 4.0, 12.0  # nats that must speak for no filter: of any input, of some and not of others
 

@@ -17,7 +17,7 @@ few samples or on one trial.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -25,6 +25,7 @@ from jaxtyping import Bool, Float, Int
 from geocontact.gap.case.measured_fit import measured_fit
 from geocontact.gap.case.problem import Noise, Plain, Problem
 from geocontact.gap.case.whitening import Whitening
+from geocontact.gap.selection.calibration_share import changes
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.gap.selection.surrogate import Surrogate
@@ -37,6 +38,7 @@ HARM = 0.02  # of a squared error, that it may grow by without being called wors
 SMALL = 0.005  # of a channel's signal, that a gap must exceed: half of what its calibration varies by
 FEW = 0.02  # of the samples, that no verdict may hang on
 ENOUGH = 6.0  # nats that the others must gain
+LEFT_OVER = 0.2  # of what a named effect changes, in squares, that may be left over
 TOO_SMALL = f"the change is below {SMALL:.1%} of the signal in every channel"
 
 
@@ -142,6 +144,8 @@ class HeldOutRules:
         Root mean square of each measured channel on the held-out trials.
     weights
         Of all trials.
+    fitted
+        Residuals of models on the held-out trials, by label, once somebody asked for them.
     """
 
     problem: Problem
@@ -149,6 +153,7 @@ class HeldOutRules:
     before: list[Float[np.ndarray, "_ c"]]
     signal: Float[np.ndarray, " c"]
     weights: tuple[TrialWeight, ...]
+    fitted: dict[str, list[Float[np.ndarray, "_ c"]]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, problem: Problem, base: Judged) -> HeldOutRules:
@@ -175,7 +180,33 @@ class HeldOutRules:
         """
         if any(each.somewhere is not None for each in one.candidates):
             return ""
-        return self._of_change(one.judged) or self._of_harm(one.judged) or self._of_few(one.judged)
+        return self._of_change(one.judged) or self._of_harm(one) or self._of_few(one.judged)
+
+    def outdone(self, free: Sequence[Contender]) -> dict[str, str]:
+        """Objections to models that another with as many effects outdoes: it surely predicts held-out trials better."""
+        found = {}
+        for many in (1, 2):
+            alike = [one for one in free if len(one.candidates) == many and one.candidates[0].somewhere is None]
+            scaled = {one.label: [part / self.problem.floor for part in self._after(one)] for one in alike}
+            if not scaled:
+                continue
+            best = min(scaled, key=lambda label: sum(float((part**2).sum()) for part in scaled[label]))
+            for label, own in scaled.items():
+                change = [a - b for a, b in zip(own, scaled[best], strict=True)]
+                whole = amplitude(own, change)
+                if whole is not None and whole.better:
+                    found[label] = f"{best} predicts held-out trials better"
+        return found
+
+    def adds(self, found: Surrogate, one: Contender) -> bool:
+        """Whether a surrogate on top of a model changes enough on held-out trials, beside what the model's effects do.
+
+        In squares, in units of the floor.
+        """
+        count, floor = len(self.problem.calibration.trials), self.problem.floor
+        whole = changes(self.problem, replace(one, judged=self.base), one)[count:]
+        own, more = (sum(float(((p / floor) ** 2).sum()) for p in parts) for parts in (whole, found.predicted[count:]))
+        return more > LEFT_OVER * own
 
     def _of_change(self, one: Judged) -> str:
         before, rest = (left_out_residuals(self.problem, each, one.noise) for each in (self.base, one))
@@ -186,10 +217,15 @@ class HeldOutRules:
             return f"trials left out are not surely predicted better{'' if whole is None else f' ({whole.words})'}"
         return ""
 
-    def _of_harm(self, one: Judged) -> str:
-        count = len(self.problem.calibration.trials)
-        after = measured_fit(self.problem, one.model, self.problem.floor)[1][count:]
-        change = [b - a for b, a in zip(self.before, after, strict=True)]
+    def _after(self, one: Contender) -> list[Float[np.ndarray, "_ c"]]:
+        """Residuals of a model on the held-out trials; fitted once."""
+        if one.label not in self.fitted:
+            count = len(self.problem.calibration.trials)
+            self.fitted[one.label] = measured_fit(self.problem, one.judged.model, self.problem.floor)[1][count:]
+        return self.fitted[one.label]
+
+    def _of_harm(self, one: Contender) -> str:
+        change = [b - a for b, a in zip(self.before, self._after(one), strict=True)]
         old, new = ([part / self.problem.floor for part in parts] for parts in (self.before, change))
         together = amplitude(old, new)
         if together is not None and together.worse:
