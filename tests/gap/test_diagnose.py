@@ -14,12 +14,9 @@ from geocontact.chain.system import System
 from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.parameter import Parameter
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import Noise, problem_of
-from geocontact.gap.case.refit import Refit
+from geocontact.gap.case.problem import problem_of
 from geocontact.gap.diagnose import diagnose, estimates, on_bounds
-from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.model_comparison import Contender
-from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import (
@@ -31,6 +28,7 @@ from tests.gap.cases import (
     diagnosis_of_reversed,
     diagnosis_that_names_nothing,
     elbow_case,
+    judged_as,
 )
 
 pytestmark = pytest.mark.slow
@@ -168,13 +166,6 @@ def test_linear_algebra_keeps_to_one_core_meanwhile(monkeypatch: pytest.MonkeyPa
             diagnose(case, system_of(case))
         assert threads() == {2}
     assert seen == [{1}]
-
-
-def judged_as(model: Refit) -> Judged:
-    """A model that nobody judged."""
-    one, n = np.ones(1), len(model.whitened)
-    noise = Noise(NoiseLevels(one, one[None], one[None], one), one, 0.0, ())
-    return Judged(model, noise, 0.0, 0.0, n, [], np.zeros((n, 0)))
 
 
 def test_a_number_on_its_bound_has_the_whole_range_for_an_interval() -> None:

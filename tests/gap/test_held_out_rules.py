@@ -5,7 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.gap.selection.held_out_rules import FEW, TrialWeight, amplitude, trimmed
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.case.problem import evaluated, problem_of
+from geocontact.gap.selection.held_out_rules import FEW, HeldOutRules, TrialWeight, amplitude, trimmed
+from geocontact.gap.selection.model_comparison import Contender
+from geocontact.systems.catalogue import system_of
+from tests.gap.cases import elbow_case, judged_as
 
 RNG = np.random.default_rng(5)
 TRIALS, SAMPLES = 3, 400
@@ -74,6 +79,42 @@ def test_what_trials_differ_by_weighs_little():
     assert bare.better
     held = [sum(float((each**2).sum()) for each in parts) for parts in ([weight(m) for m in change], change)]
     assert held[0] < 0.01 * held[1] / floor[0] ** 2
+
+
+@pytest.fixture(scope="module")
+def rules() -> HeldOutRules:
+    """Of a short elbow, with what two models leave on its held-out trials told beforehand."""
+    case = elbow_case(duration=3.0)
+    problem = problem_of(case, system_of(case))
+    found = HeldOutRules.of(problem, judged_as(evaluated(problem, problem.plain)))
+    left = [0.5 * problem.floor * RNG.standard_normal(part.shape) for part in found.before]
+    found.fitted["preload"] = left
+    found.fitted["damping"] = [part + 2.0 * problem.floor for part in left]
+    return found
+
+
+def contenders(rules: HeldOutRules) -> list[Contender]:
+    offered = [one for one in candidates(rules.problem.system) if one.label in ("preload", "damping")]
+    return [Contender((one,), rules.base) for one in offered]
+
+
+@pytest.mark.slow
+def test_who_is_surely_outdone_on_held_out_trials_is_told(rules: HeldOutRules) -> None:
+    assert rules.outdone(contenders(rules)) == {"damping": "preload predicts held-out trials better"}
+    pair = Contender((*contenders(rules)[0].candidates, *contenders(rules)[1].candidates), rules.base)
+    rules.fitted[pair.label] = [0.0 * part for part in rules.before]
+    assert rules.outdone([*contenders(rules), pair]).keys() == {"damping"}, "two effects do not outdo one"
+
+
+@pytest.mark.slow
+def test_a_larger_error_on_held_out_trials_is_harm(rules: HeldOutRules) -> None:
+    one = contenders(rules)[0]
+    rules.fitted[one.label] = [3.0 * part for part in rules.before]
+    assert "grows" in rules._of_harm(one)
+    rules.fitted[one.label] = [0.2 * part for part in rules.before]
+    assert rules._of_harm(one) == ""
+    rules.fitted[one.label] = [(1.0 - 1e-3) * part for part in rules.before]
+    assert "below" in rules._of_harm(one), "of a change that is nothing"
 
 
 def test_few_samples_count_for_nothing():
