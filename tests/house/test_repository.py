@@ -103,3 +103,12 @@ def test_version_is_one() -> None:
     import geocontact
 
     assert geocontact.__version__ == PROJECT["project"]["version"]
+
+
+def test_a_class_name_stands_for_one_thing() -> None:
+    """`gc.chain.Motion` is a link of a model of one's own, `gc.Motion` poses over time: both names are public."""
+    found: dict[str, list[str]] = {}
+    for file in sorted(ROOT.glob("geocontact/**/*.py")):
+        for name in re.findall(r"^class (\w+)", file.read_text(encoding="utf-8"), re.MULTILINE):
+            found.setdefault(name, []).append(named(file))
+    assert {name: files for name, files in found.items() if len(files) > 1}.keys() <= {"Motion"}

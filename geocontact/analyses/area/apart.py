@@ -65,6 +65,13 @@ def warn_of_overlap(record: Record, e: AreaEvolution, motion: Motion, name: str)
         )
 
 
+def least_distance(e: AreaEvolution, motion: Motion, name: str) -> str:
+    """How near the bodies come, in which frame, and what the sign of a distance says."""
+    sign = "unsigned: overlap cannot be told" if e.signed == "none" else "signed: negative is overlap"
+    least = round(float(e.min_distance.min()) * 1e3, 3) + 0.0  # no -0
+    return f"{_of(name)}least distance {least:g} mm in {_nearest(e, motion)} ({sign})"
+
+
 def _of(name: str) -> str:
     return f"{name}: " if name else ""
 

@@ -29,7 +29,7 @@ from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.surface import Surface
-from geocontact.view.page.content import Choice, Choices, Page, Readout, Section, Table, Words
+from geocontact.view.page.content import Choices, Page, PageChoice, Readout, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 FRAMES = 201  # frames that the page animates at most; longer motions are thinned out, and the page says so
@@ -148,11 +148,11 @@ def contact_page(
     )
 
 
-def _choice(told: Told, k: int, own: Sequence[Section], other: Sequence[Section]) -> Choice:
+def _choice(told: Told, k: int, own: Sequence[Section], other: Sequence[Section]) -> PageChoice:
     """The page about another threshold."""
     instead = {n: new for n, (old, new) in enumerate(zip(own, other, strict=True)) if not _same(old, new)}
     name, level = in_mm(told.evolution, k), told.evolution.thresholds[k]
-    return Choice(name, headline(told, k), facts(told, k), instead, level)
+    return PageChoice(name, headline(told, k), facts(told, k), instead, level)
 
 
 def _same(one: Section, other: Section) -> bool:

@@ -16,7 +16,7 @@ from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.contact_area.rules import CLIP, REFINED
 from geocontact.geometry.surface import Surface
-from geocontact.view.page.content import Body, Curve, Curves, Points, Row, Scene, Strip, Table
+from geocontact.view.page.content import Curve, Curves, Points, Row, Scene, SceneBody, Strip, Table
 from geocontact.view.surfaces.directions import camera_directions
 
 READ = (
@@ -84,14 +84,14 @@ def scene(told: Told) -> Scene:
     signed = {"fixed": e.signed in ("both", "fixed"), "moving": e.signed in ("both", "moving")}
     return Scene(
         bodies=(
-            Body(
+            SceneBody(
                 told.fixed.name,
                 told.fixed.vertices,
                 told.fixed.faces,
                 signed=signed["fixed"],
                 distance=_counted(told.maps.fixed[kept], told.fixed, told.settings.fixed_faces),
             ),
-            Body(
+            SceneBody(
                 told.moving.name,
                 told.moving.vertices,
                 told.moving.faces,

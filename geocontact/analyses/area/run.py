@@ -5,7 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.area.apart import refuse_strangers, warn_of_lift_off, warn_of_no_contact, warn_of_overlap
+from geocontact.analyses.area.apart import (
+    least_distance,
+    refuse_strangers,
+    warn_of_lift_off,
+    warn_of_no_contact,
+    warn_of_overlap,
+)
 from geocontact.analyses.area.motion_result import MotionResult
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.page import FRAMES
@@ -60,6 +66,7 @@ def _evaluated(
     warn_of_overlap(record, evolution, motion, name)
     _warn_of_doubts(record, evolution, bodies.settings, o.bounds is not None)
     _summarise(record, evolution, name)
+    record.say(least_distance(evolution, motion, name))
     return evolution, maps
 
 

@@ -12,11 +12,11 @@ from geocontact.analyses.loadcells.cycles import Cut, stacked
 from geocontact.analyses.loadcells.page_cycles import beside_their_mean
 from geocontact.analyses.loadcells.page_samples import Samples, samples
 from geocontact.analyses.loadcells.page_tray import tray_plan
-from geocontact.analyses.loadcells.recorded import Recorded
+from geocontact.analyses.loadcells.recorded import RecordedCells
 from geocontact.analyses.page_words import NOT_A_DEVICE, counted
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.seconds import seconds
-from geocontact.view.page.content import Choice, Choices, Curve, Curves, Page, Picture, Section, Table, Words
+from geocontact.view.page.content import Choices, Curve, Curves, Page, PageChoice, Picture, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 CELLS = (
@@ -31,7 +31,7 @@ ENSEMBLE = (
 
 
 @dataclass(frozen=True)
-class Unit:
+class ForceUnit:
     """What forces are shown in: newtons, or per cent of body weight."""
 
     name: str
@@ -42,21 +42,21 @@ class Unit:
         return f"{force * self.per_newton:.0f} {self.name}"
 
 
-NEWTON = Unit("N", 1.0)
+NEWTON = ForceUnit("N", 1.0)
 
 
-def body_weight(weight: float) -> Unit:
+def body_weight(weight: float) -> ForceUnit:
     """Per cent of a body weight [N]."""
-    return Unit("% of body weight", 100.0 / weight)
+    return ForceUnit("% of body weight", 100.0 / weight)
 
 
-Drawn = Callable[[Unit], bytes | None]
+Drawn = Callable[[ForceUnit], bytes | None]
 """The figure of the mean over the cycle (SVG) in a unit; None where there is none."""
 
 
 def write_loadcell_report(
     path: Path,
-    recorded: Recorded,
+    recorded: RecordedCells,
     regression: CellRegression,
     cuts: list[Cut],
     ensemble: Drawn,
@@ -85,7 +85,7 @@ def write_loadcell_report(
 
 
 def loadcell_page(
-    recorded: Recorded,
+    recorded: RecordedCells,
     regression: CellRegression,
     cuts: list[Cut],
     ensemble: Drawn,
@@ -99,7 +99,7 @@ def loadcell_page(
     cells = {name: shown.of(values) for name, values in recorded.by_cell(regression).items()}
     tray = tray_plan(cells)
 
-    def sections(unit: Unit) -> list[Section]:
+    def sections(unit: ForceUnit) -> list[Section]:
         drawn = ensemble(unit)
         forces_over_time, *others = _curves(recorded, shown, cells, cuts, unit)
         return [
@@ -113,7 +113,7 @@ def loadcell_page(
     if weight is not None:
         unit = body_weight(weight)
         instead = {k: other for k, other in enumerate(sections(unit)) if other is not tray}
-        other = Choice(unit.name, _headline(recorded, cuts, unit), _facts(recorded, unit), instead)
+        other = PageChoice(unit.name, _headline(recorded, cuts, unit), _facts(recorded, unit), instead)
         choices = Choices("forces in", NEWTON.name, [other])
     if len(shown.kept) < len(forces.time):
         warnings = [*warnings, f"the page shows {len(shown.kept)} of {len(forces.time)} samples; forces.csv has all"]
@@ -142,7 +142,7 @@ def loadcell_page(
 
 
 def _curves(
-    recorded: Recorded, shown: Samples, cells: dict[str, np.ndarray], cuts: list[Cut], unit: Unit
+    recorded: RecordedCells, shown: Samples, cells: dict[str, np.ndarray], cuts: list[Cut], unit: ForceUnit
 ) -> list[Curves]:
     """Compartments, cells, and the total beside the mean of its cycles; broken where samples are missing."""
     per = unit.per_newton
@@ -162,7 +162,7 @@ def _times(curve: Curve, per: float) -> Curve:
     return Curve(curve.name, curve.values * per, lower, upper)
 
 
-def _headline(recorded: Recorded, cuts: list[Cut], unit: Unit) -> list[str]:
+def _headline(recorded: RecordedCells, cuts: list[Cut], unit: ForceUnit) -> list[str]:
     """The largest total force and how it is shared; what the cycles have in common."""
     f = recorded.forces
     k = int(np.argmax(f.total))
@@ -177,11 +177,11 @@ def _headline(recorded: Recorded, cuts: list[Cut], unit: Unit) -> list[str]:
     return lines[:3]
 
 
-def _when(recorded: Recorded, k: int) -> str:
+def _when(recorded: RecordedCells, k: int) -> str:
     return f"{seconds(round(float(recorded.forces.time[k]), 3))} s"
 
 
-def _facts(recorded: Recorded, unit: Unit) -> list[tuple[str, str]]:
+def _facts(recorded: RecordedCells, unit: ForceUnit) -> list[tuple[str, str]]:
     f = recorded.forces
     lines = []
     for name, values in f.curves.items():

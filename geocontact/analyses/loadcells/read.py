@@ -21,7 +21,7 @@ GivenCycle = tuple[str, Path, Span]
 
 
 @dataclass(frozen=True)
-class Inputs:
+class LoadCellInputs:
     """Recordings by file, weights of their cells, and the cycles whose times are given; None where none are."""
 
     regression: CellRegression
@@ -29,7 +29,7 @@ class Inputs:
     cycles: list[GivenCycle] | None
 
 
-def read(o: LoadcellOptions, record: Record) -> Inputs:
+def read(o: LoadcellOptions, record: Record) -> LoadCellInputs:
     """Everything the options name."""
     regression = PUBLISHED
     if o.matrix is not None:
@@ -40,7 +40,7 @@ def read(o: LoadcellOptions, record: Record) -> Inputs:
     for path, folder in o.folders.items():
         r = recordings[path]
         record.add_input("recording", path, unit=r.unit, frames=len(r.time), folder=folder or ".")
-    return Inputs(regression, recordings, _given_cycles(record, o))
+    return LoadCellInputs(regression, recordings, _given_cycles(record, o))
 
 
 def _given_cycles(record: Record, o: LoadcellOptions) -> list[GivenCycle] | None:

@@ -14,7 +14,7 @@ from geocontact.loads.loadcells import CompartmentForces
 
 
 @dataclass(frozen=True)
-class Recorded:
+class RecordedCells:
     """A recording with the forces of its cells and of the compartments [N].
 
     Parameters

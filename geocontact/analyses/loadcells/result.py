@@ -12,8 +12,8 @@ from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.loadcells.cycles import SIDES, Cut, stacked
 from geocontact.analyses.loadcells.figure import ensemble_figure, loadcell_figure
 from geocontact.analyses.loadcells.options import LoadcellOptions
-from geocontact.analyses.loadcells.page import CYCLES, NEWTON, STYLES, Unit, write_loadcell_report
-from geocontact.analyses.loadcells.recorded import Recorded
+from geocontact.analyses.loadcells.page import CYCLES, NEWTON, STYLES, ForceUnit, write_loadcell_report
+from geocontact.analyses.loadcells.recorded import RecordedCells
 from geocontact.analyses.loadcells.tables import cycle_table, ensemble_table, style_table
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.plain_page import write_plain_page
@@ -43,7 +43,7 @@ class LoadcellResult(Result):
 
     options: LoadcellOptions
     regression: CellRegression
-    recordings: tuple[Recorded, ...]
+    recordings: tuple[RecordedCells, ...]
     cuts: list[Cut]
 
     @property
@@ -87,7 +87,7 @@ class LoadcellResult(Result):
         found = {"cycles": cycle_table(self.cuts), "ensemble": ensemble_table(self.cuts)}
         return {**found, "styles": style_table(self.cuts)} if len(stacked(self.cuts, SIDES[0])) > 1 else found
 
-    def _ensemble(self, unit: Unit = NEWTON) -> Figure | None:
+    def _ensemble(self, unit: ForceUnit = NEWTON) -> Figure | None:
         """Mean over the cycle; None without cycles, and where there are more styles than a figure tells apart."""
         sides = {side: stacked(self.cuts, side) for side in SIDES[:2]}
         if not 0 < len(sides[SIDES[0]]) <= SERIES:
@@ -96,15 +96,15 @@ class LoadcellResult(Result):
         along = "cycle" if part is None else f"first {100.0 * part:g}% of the cycle"
         return ensemble_figure(sides, along, unit.name, unit.per_newton)
 
-    def _drawn(self, unit: Unit) -> bytes | None:
+    def _drawn(self, unit: ForceUnit) -> bytes | None:
         figure = self._ensemble(unit)
         return None if figure is None else drawing(figure)
 
-    def _over_time(self, each: Recorded) -> Figure:
+    def _over_time(self, each: RecordedCells) -> Figure:
         mine = tuple(cut.span for cut in self.cuts if cut.recording == each.file.stem)
         return loadcell_figure(each.forces.time, each.by_cell(self.regression), each.forces.curves, mine)
 
-    def _write_report(self, file: Path, each: Recorded) -> None:
+    def _write_report(self, file: Path, each: RecordedCells) -> None:
         found, titles = self._over_cycles(), {"cycles": CYCLES, "styles": STYLES}
         shown = [frame_table(title, found[name], 5) for name, title in titles.items() if name in found]
         own = each.folder or "."

@@ -6,8 +6,8 @@ import numpy as np
 
 from geocontact.analyses.loadcells.cycles import Cut, cuts_asked_for, stacked
 from geocontact.analyses.loadcells.options import LoadcellOptions
-from geocontact.analyses.loadcells.read import Inputs
-from geocontact.analyses.loadcells.recorded import Recorded
+from geocontact.analyses.loadcells.read import LoadCellInputs
+from geocontact.analyses.loadcells.recorded import RecordedCells
 from geocontact.analyses.loadcells.result import LoadcellResult
 from geocontact.analyses.loadcells.tables import style_table
 from geocontact.analyses.run_record import Record
@@ -23,11 +23,11 @@ SHOWN = 3  # gaps that are named
 WHOLE = 1e-6  # how far the two weights of a cell may be from 1 together
 
 
-def run(given: Inputs, o: LoadcellOptions, record: Record) -> LoadcellResult:
+def run(given: LoadCellInputs, o: LoadcellOptions, record: Record) -> LoadcellResult:
     """Forces of every recording, and the cycles of all of them."""
     _describe(record, given.regression)
     recorded = {
-        path: Recorded(path, o.folders[path], r.forces, compartment_forces(r.time, r.forces, given.regression))
+        path: RecordedCells(path, o.folders[path], r.forces, compartment_forces(r.time, r.forces, given.regression))
         for path, r in given.recordings.items()
     }
     for each in recorded.values():
@@ -54,7 +54,7 @@ def _describe(record: Record, regression: CellRegression) -> None:
     }
 
 
-def _summarise(record: Record, r: Recorded, regression: CellRegression) -> None:
+def _summarise(record: Record, r: RecordedCells, regression: CellRegression) -> None:
     f = r.forces
     peaks = {side: float(values.max()) for side, values in f.curves.items()}
     least = -SLIGHT * peaks["total"]

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.mat.placed import Placed, mat_and_marks
+from geocontact.analyses.mat.placed import PlacedMat, mat_and_marks
 from geocontact.analyses.run_record import Record
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.cells import Drape
@@ -48,7 +48,7 @@ class ClosestPoint:
         return np.where(self.drape.covered, self.drape.distortion, -1.0)
 
 
-def closest_point(record: Record, p: Placed, frames: PressureFrames, o: MatOptions) -> ClosestPoint | None:
+def closest_point(record: Record, p: PlacedMat, frames: PressureFrames, o: MatOptions) -> ClosestPoint | None:
     """The same marks and pressures on a mat that is pushed down flat; how it differs goes to the record.
 
     None where the mat is laid that way, or where it cannot be: two marks do not place a flat mat.
@@ -68,7 +68,7 @@ def closest_point(record: Record, p: Placed, frames: PressureFrames, o: MatOptio
     return found
 
 
-def _load(p: Placed, cells: MatMap, frames: PressureFrames, o: MatOptions) -> MatLoad:
+def _load(p: PlacedMat, cells: MatMap, frames: PressureFrames, o: MatOptions) -> MatLoad:
     """In the frame of the scan, about its origin: differences are the same in any frame."""
     return mat_load(cells, cells.of(frames.pressure), np.zeros(3), p.surface.name, o.gate)
 

@@ -10,9 +10,9 @@ from jaxtyping import Float
 
 from geocontact.analyses.mat.motion import Travel
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.mat.placed import Placed, mat_and_marks
+from geocontact.analyses.mat.placed import PlacedMat, mat_and_marks
 from geocontact.analyses.mat.read import MatInputs
-from geocontact.analyses.mat.recording import Recording
+from geocontact.analyses.mat.recording import PreparedFrames
 from geocontact.analyses.mat.segments import cells_of
 from geocontact.analyses.mat.uncertainty import stated_errors
 from geocontact.analyses.run_record import Record
@@ -23,7 +23,7 @@ from geocontact.loads.mat.load import MatLoad, mat_load, segment_loads
 
 
 @dataclass(frozen=True, eq=False)
-class Loads:
+class MatLoads:
     """Loads on the body, frame by frame.
 
     Parameters
@@ -48,7 +48,9 @@ class Loads:
     home: str
 
 
-def loads(record: Record, given: MatInputs, p: Placed, seen: Recording, travel: Travel | None, o: MatOptions) -> Loads:
+def loads(
+    record: Record, given: MatInputs, p: PlacedMat, seen: PreparedFrames, travel: Travel | None, o: MatOptions
+) -> MatLoads:
     """Loads about the point that was asked for; carried along where the segment moves."""
     whose = o.surface if p.registration is None else o.body or o.body_landmarks or o.surface
     home = o.frame or f"of {whose.name}"
@@ -63,12 +65,12 @@ def loads(record: Record, given: MatInputs, p: Placed, seen: Recording, travel: 
     spread += filling_covariance(p.cells, pressure, whole.wrench, seen.gaps)
     if travel is not None:
         whole, parts, spread = travel.carried(whole, parts, spread, given.point)
-    found = Loads(pressure, whole, parts, spread, errors, home)
+    found = MatLoads(pressure, whole, parts, spread, errors, home)
     _tell(record, found, seen.frames.time, given.point)
     return found
 
 
-def _tell(record: Record, found: Loads, time: Float[np.ndarray, " t"], point: Float[np.ndarray, " 3"]) -> None:
+def _tell(record: Record, found: MatLoads, time: Float[np.ndarray, " t"], point: Float[np.ndarray, " 3"]) -> None:
     whole = found.whole
     heaviest = int(np.argmax(whole.pressing))
     round_about = np.isnan(whole.normal[0])  # a belt looks to no side

@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.body_motion import read_body_motion
 from geocontact.analyses.mat.options import MatOptions
-from geocontact.analyses.mat.recording import Recording
+from geocontact.analyses.mat.recording import PreparedFrames
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
@@ -57,7 +57,9 @@ def read_segment_motion(record: Record, o: MatOptions) -> Motion | None:
     return motion
 
 
-def followed(record: Record, seen: Recording, motion: Motion | None, o: MatOptions) -> tuple[Recording, Travel | None]:
+def followed(
+    record: Record, seen: PreparedFrames, motion: Motion | None, o: MatOptions
+) -> tuple[PreparedFrames, Travel | None]:
     """The frames for which there is a pose, and the poses; all frames and None where nothing moves."""
     if motion is None:
         return seen, None

@@ -14,7 +14,6 @@ from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.geometry.drape.cells import Drape
 from geocontact.view.page.content import (
-    Body,
     Curve,
     Curves,
     FaceMap,
@@ -23,6 +22,7 @@ from geocontact.view.page.content import (
     Readout,
     Row,
     Scene,
+    SceneBody,
     Section,
     Table,
     Words,
@@ -92,7 +92,7 @@ def mat_page(r: MatFindings, shown: Int[np.ndarray, " k"], drawing: bytes) -> Pa
 def _scene(r: MatFindings, shown: Int[np.ndarray, " k"]) -> Scene:
     values = r.cells.face_pressure(r.pressure[shown], r.surface.face_area) * KPA
     return Scene(
-        bodies=(Body(r.surface.name, r.surface.vertices, r.surface.faces),),
+        bodies=(SceneBody(r.surface.name, r.surface.vertices, r.surface.faces),),
         thresholds=(NEAR,),
         span=(0.0, NEAR),
         value_name="",

@@ -34,7 +34,7 @@ SHRUNK = 0.05  # of a cell's area
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class PlacedMat:
     """A mat on its surface, in the frame of the scan or of the body that it is registered to."""
 
     surface: Surface
@@ -44,7 +44,7 @@ class Placed:
     registration: Registration | None
 
 
-def placed(record: Record, given: MatInputs, frames: PressureFrames, o: MatOptions) -> Placed:
+def placed(record: Record, given: MatInputs, frames: PressureFrames, o: MatOptions) -> PlacedMat:
     """The mat where landmarks or the second scan show it."""
     scan = outwards(given.scan, o)
     _guard(scan, frames, o)
@@ -55,7 +55,7 @@ def placed(record: Record, given: MatInputs, frames: PressureFrames, o: MatOptio
         raise InputError("", "`landmarks`", "is missing: nothing says where the mat lies", "give `landmarks`")
     surface, marks, registration = registered(record, scan, marks, given.body, o)
     laid = _laid(record, surface, frames, marks, o)
-    return Placed(surface, laid, _mapped(surface, laid, frames), marks, registration)
+    return PlacedMat(surface, laid, _mapped(surface, laid, frames), marks, registration)
 
 
 def mat_and_marks(frames: PressureFrames, landmarks: MatLandmarks, o: MatOptions) -> tuple[Mat, Marks]:

@@ -24,7 +24,7 @@ RESTING = 0.05  # of the largest force; a mat that never reads less has an offse
 
 
 @dataclass(frozen=True, eq=False)
-class Recording:
+class PreparedFrames:
     """Frames as they are used, and what was done to them.
 
     Parameters
@@ -70,7 +70,9 @@ def read_recording(record: Record, o: MatOptions) -> tuple[PressureFrames, tuple
     return read, layout.dead if layout else ()
 
 
-def made_ready(record: Record, read: PressureFrames, listed: tuple[tuple[int, int], ...], o: MatOptions) -> Recording:
+def made_ready(
+    record: Record, read: PressureFrames, listed: tuple[tuple[int, int], ...], o: MatOptions
+) -> PreparedFrames:
     """Frames without offset and dead cells, smoothed; `listed` are the cells that the layout lists as dead."""
     pressure = np.where(read.valid, read.pressure, 0.0)
     if o.unloaded is not None:
@@ -78,7 +80,7 @@ def made_ready(record: Record, read: PressureFrames, listed: tuple[tuple[int, in
     sound = treated(record, read, pressure, listed, o.dead, o.touched)
     pressure, valid = _smooth(read, sound.pressure, o), sound.valid
     frames = replace(read, pressure=np.where(valid, pressure, np.nan), valid=valid)
-    found = Recording(frames, read, sound.gaps)
+    found = PreparedFrames(frames, read, sound.gaps)
     _say_what_is_odd(record, found, o)
     return found
 
@@ -122,7 +124,7 @@ def _smooth(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOp
         raise InputError("", "`cutoff`", str(error), "give a lower one, or 0 for none") from error
 
 
-def _say_what_is_odd(record: Record, seen: Recording, o: MatOptions) -> None:
+def _say_what_is_odd(record: Record, seen: PreparedFrames, o: MatOptions) -> None:
     frames, clipping = seen.frames, seen.saturated
     if clipping.any():
         cells, share = int(clipping.any(axis=0).sum()), clipping.any(axis=(1, 2)).mean()

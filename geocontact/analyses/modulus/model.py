@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.modulus.options import ModulusOptions
-from geocontact.analyses.modulus.read import BOTH, HALVES, Inputs
+from geocontact.analyses.modulus.read import BOTH, HALVES, ModulusInputs
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
 from geocontact.elastic_modulus.area_force import LAG, AreaForce
@@ -33,7 +33,7 @@ def threshold_given(o: ModulusOptions, table: AreaTable) -> float:
 
 
 def model_of(
-    i: Inputs, side: str, threshold: float, others: tuple[Parameter, ...]
+    i: ModulusInputs, side: str, threshold: float, others: tuple[Parameter, ...]
 ) -> tuple[AreaForce, Float[np.ndarray, " n"]]:
     """The law of one side on the frames that area and force share at every lag that is allowed, and the force there."""
     if side == BOTH:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.modulus.read import BOTH, HALVES, Inputs, OtherTrial
+from geocontact.analyses.modulus.read import BOTH, HALVES, ModulusInputs, OtherTrial
 from geocontact.data.errors import InputError
 from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, THRESHOLD, ThresholdAreas
 from geocontact.elastic_modulus.identify import Identification, agreement
@@ -41,7 +41,7 @@ class Prediction:
         return agreement(self.measured[there], self.predicted[there])
 
 
-def predictions(inputs: Inputs, sides: Mapping[str, Identification]) -> list[Prediction]:
+def predictions(inputs: ModulusInputs, sides: Mapping[str, Identification]) -> list[Prediction]:
     """Of every side that the other trial's areas have; threshold, radius and lag as identified or given."""
     if inputs.other is None:
         return []

@@ -38,7 +38,7 @@ class OtherTrial:
 
 
 @dataclass(frozen=True, eq=False)
-class Inputs:
+class ModulusInputs:
     """Everything read; `evolutions` by side, as far as areas and forces have it; `lag` as given [s].
 
     `sides` are those to be identified: every evolution, or both halves at once.
@@ -54,7 +54,7 @@ class Inputs:
     other: OtherTrial | None
 
 
-def read(o: ModulusOptions, record: Record) -> Inputs:
+def read(o: ModulusOptions, record: Record) -> ModulusInputs:
     """Everything the options name."""
     mapping = {} if o.map is None else parse_map(o.map, (*SIDES, FLEXION))
     if FLEXION in mapping and o.flexion is None:
@@ -66,7 +66,7 @@ def read(o: ModulusOptions, record: Record) -> Inputs:
     sides = (BOTH,) if at_once else tuple(evolutions)
     measured = _measured_areas(record, o, table)
     lag = 0.0 if o.lag is None else o.lag
-    return Inputs(table, forces, evolutions, reading, lag, sides, measured, _other(record, o, mapping))
+    return ModulusInputs(table, forces, evolutions, reading, lag, sides, measured, _other(record, o, mapping))
 
 
 def _areas(record: Record, role: str, paths: tuple[Path, ...]) -> AreaTable:

@@ -9,7 +9,7 @@ from geocontact.analyses.modulus.model import model_of, threshold_given
 from geocontact.analyses.modulus.numbers import describe
 from geocontact.analyses.modulus.options import ModulusOptions
 from geocontact.analyses.modulus.prediction import predictions
-from geocontact.analyses.modulus.read import Inputs
+from geocontact.analyses.modulus.read import ModulusInputs
 from geocontact.analyses.modulus.result import ModulusResult
 from geocontact.analyses.modulus.sensitivity import sensitivity
 from geocontact.analyses.modulus.unknowns import unknowns
@@ -26,7 +26,7 @@ FEW_BLOCKS = 5
 STRAYED = 0.3  # rms of the calibration's relative differences beyond which the table is not met
 
 
-def run(inputs: Inputs, o: ModulusOptions, record: Record) -> ModulusResult:
+def run(inputs: ModulusInputs, o: ModulusOptions, record: Record) -> ModulusResult:
     """E* of every side, with what it depends on, and the forces of a trial that was not used."""
     calibration = _calibrated(record, inputs, o.calibrate)
     threshold = threshold_given(o, inputs.table) if calibration is None else calibration.threshold
@@ -40,7 +40,7 @@ def run(inputs: Inputs, o: ModulusOptions, record: Record) -> ModulusResult:
 
 
 def _identified(
-    record: Record, inputs: Inputs, side: str, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
+    record: Record, inputs: ModulusInputs, side: str, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
 ) -> Identification:
     model, measured = model_of(inputs, side, threshold, others)
     if not model.per_modulus({}).any():
@@ -58,7 +58,7 @@ def _identified(
 
 
 def _sides(
-    record: Record, inputs: Inputs, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
+    record: Record, inputs: ModulusInputs, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
 ) -> dict[str, Identification]:
     """Every side that tells something; the others are told. InputError where none does."""
     found, untold = {}, []
@@ -74,7 +74,7 @@ def _sides(
     return found
 
 
-def _doubt(record: Record, inputs: Inputs) -> None:
+def _doubt(record: Record, inputs: ModulusInputs) -> None:
     """What is odd about the inputs before anything is fitted."""
     for each in gaps(inputs.forces.time):
         span = f"{seconds(each.start)} to {seconds(each.end)} s"
@@ -84,7 +84,7 @@ def _doubt(record: Record, inputs: Inputs) -> None:
         record.warn(f"{inputs.table.file}: areas are the same at every threshold: nothing depends on it here")
 
 
-def _calibrated(record: Record, inputs: Inputs, path: Path | None) -> Calibration | None:
+def _calibrated(record: Record, inputs: ModulusInputs, path: Path | None) -> Calibration | None:
     """Threshold with which the areas of the whole are those of the table at the same force."""
     if path is None or inputs.measured_areas is None:
         return None

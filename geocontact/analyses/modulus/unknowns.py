@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.analyses.modulus.options import ModulusOptions
-from geocontact.analyses.modulus.read import Inputs
+from geocontact.analyses.modulus.read import ModulusInputs
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
 from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, SLOPE, THRESHOLD
@@ -18,7 +18,7 @@ BENDS = 0.5  # share by which R may change at the largest flexion, unless told
 STRAIGHT = np.radians(1.0)  # a motion that flexes by less tells nothing of a radius that follows flexion
 
 
-def unknowns(o: ModulusOptions, inputs: Inputs, threshold: float) -> tuple[Parameter, ...]:
+def unknowns(o: ModulusOptions, inputs: ModulusInputs, threshold: float) -> tuple[Parameter, ...]:
     """Free parameters besides E*, with their bounds."""
     makers = {
         THRESHOLD: lambda bounds: _threshold(bounds, inputs.table, threshold),
@@ -61,7 +61,7 @@ def _adduction(bounds: Bounds, table: AreaTable) -> Parameter:
     return Parameter(ADDUCTION, "rad", float(np.clip(0.0, low, high)), low, high)
 
 
-def _slope(bounds: Bounds, inputs: Inputs) -> Parameter:
+def _slope(bounds: Bounds, inputs: ModulusInputs) -> Parameter:
     flexion = next(iter(inputs.evolutions.values())).flexion
     if flexion is None:
         raise InputError("", "`free`", "slope needs `flexion`", "give the motion of the areas")

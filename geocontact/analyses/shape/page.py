@@ -13,7 +13,7 @@ from geocontact.analyses.shape.colours import colour_end, outlying
 from geocontact.analyses.shape.fitting import Fitting
 from geocontact.geometry.fit.directions import across
 from geocontact.geometry.fit.found import ShapeFit
-from geocontact.view.page.content import Body, Page, Picture, Scene, Section, Table, Words
+from geocontact.view.page.content import Page, Picture, Scene, SceneBody, Section, Table, Words
 from geocontact.view.page.write import write_page
 
 MM = 1e3
@@ -113,7 +113,7 @@ def _scene(fitted: Fitting) -> Scene:
     residual = fitted.residual
     distance = np.where(np.isnan(residual), np.inf, np.abs(residual))
     bodies = [
-        Body(
+        SceneBody(
             fitted.patch.surface.name,
             fitted.patch.surface.vertices,
             fitted.patch.surface.faces,
@@ -121,7 +121,7 @@ def _scene(fitted: Fitting) -> Scene:
         )
     ]
     vertices, faces = drawn(fitted)
-    bodies.append(Body(SHAPE.format(shape), vertices, faces, opacity=0.2))
+    bodies.append(SceneBody(SHAPE.format(shape), vertices, faces, opacity=0.2))
     return Scene(
         bodies=bodies,
         thresholds=(outlying(fitted.whole),),

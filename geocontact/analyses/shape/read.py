@@ -24,14 +24,14 @@ from geocontact.view.surfaces.vtp_series import require_pyvista
 
 
 @dataclass(frozen=True, eq=False)
-class Inputs:
+class ShapeInputs:
     """A patch, and the axis as given."""
 
     patch: Patch
     axis: Axis | None
 
 
-def read(o: ShapeOptions, record: Record) -> Inputs:
+def read(o: ShapeOptions, record: Record) -> ShapeInputs:
     """Everything the options name."""
     if o.paraview:
         require_pyvista()
@@ -43,11 +43,11 @@ def read(o: ShapeOptions, record: Record) -> Inputs:
         faces = chosen_faces(record, "`region`", o.region, surface, o.unit, _names(record, surface, axis, o))
     counted = np.ones(len(surface.faces), bool) if faces is None else faces
     if o.split is None:
-        return Inputs(Patch(surface, counted, o.points == "vertices", None, 0), axis)
+        return ShapeInputs(Patch(surface, counted, o.points == "vertices", None, 0), axis)
     plane, side = quantities.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
     refuse_other_axes(surface.space, surface.name, o.side, o.medial)
     record.say(f"medial is {side.words} of {surface.name}")
-    return Inputs(Patch(surface, counted, o.points == "vertices", plane, side.sign), axis)
+    return ShapeInputs(Patch(surface, counted, o.points == "vertices", plane, side.sign), axis)
 
 
 def sagittal_about(axis: Axis, o: ShapeOptions) -> Sagittal:

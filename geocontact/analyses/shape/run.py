@@ -12,7 +12,7 @@ from geocontact.analyses.shape.fitting import Fitting
 from geocontact.analyses.shape.numbers import describe
 from geocontact.analyses.shape.options import ShapeOptions
 from geocontact.analyses.shape.patch import Patch
-from geocontact.analyses.shape.read import Inputs, sagittal_about
+from geocontact.analyses.shape.read import ShapeInputs, sagittal_about
 from geocontact.analyses.shape.result import ShapeResult
 from geocontact.data.errors import InputError
 from geocontact.geometry.fit.catalogue import SHAPES
@@ -27,7 +27,7 @@ WINDOW = np.radians(30.0)
 POOR = 0.1  # of the radius, that the rms of the points may be
 
 
-def run(given: Inputs, o: ShapeOptions, record: Record) -> ShapeResult:
+def run(given: ShapeInputs, o: ShapeOptions, record: Record) -> ShapeResult:
     """Fit the whole, then each side along the axis of the whole."""
     patch = given.patch
     along = np.asarray(given.axis.direction, float) if given.axis is not None and o.hold_axis else None

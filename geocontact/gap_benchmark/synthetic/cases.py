@@ -23,14 +23,14 @@ from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, Synthet
 from geocontact.gap_benchmark.synthetic.laboratories.catalogue import LABORATORIES
 from geocontact.gap_benchmark.synthetic.magnitudes import magnitudes_of
 from geocontact.gap_benchmark.synthetic.outside.catalogue import unknown_effects
-from geocontact.gap_benchmark.synthetic.plan import Draw, NotFoundError, Plan, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, NotFoundError, SyntheticMagnitudes
 from geocontact.gap_benchmark.synthetic.reach import Reach, reach
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.scenes import SCENES
 from geocontact.gap_benchmark.synthetic.systems.interface import NotConvergedError
 from geocontact.gap_benchmark.synthetic.trials import (
     NO_DATA_ERROR,
-    DataError,
+    SyntheticDataError,
     SyntheticTrial,
     as_measured,
     fine_enough,
@@ -60,7 +60,7 @@ class Stage:
     floor: Float[np.ndarray, " c"]
     scale: SyntheticMagnitudes
 
-    def sight(self, hooks: Hooks, data_errors: Sequence[DataError] = ()) -> Sight:
+    def sight(self, hooks: Hooks, data_errors: Sequence[SyntheticDataError] = ()) -> Sight:
         """Visibility of what is hooked in and of mistakes in the data, by calibration trial."""
         planted: list[Outputs] = []
         trials = list(self.trials)
@@ -87,7 +87,7 @@ class DrawnCase:
     words: str = "nothing is left out"
     hooks: Hooks = BASE
     sights: Mapping[str, Sight] | None = None
-    data_error: DataError = NO_DATA_ERROR
+    data_error: SyntheticDataError = NO_DATA_ERROR
     faulty: frozenset[int] = frozenset()
     details: Mapping[str, str | float] | None = None
 
@@ -207,7 +207,7 @@ def single(rng: Rng, stage: Stage, effect: str | None, nats: float | None) -> Dr
     return chosen(stage, plan, plan.drawn(rng, stage.scale), target, least=FAINTEST if nats is None else 0.7 * nats)
 
 
-def chosen(stage: Stage, plan: Plan, draw: Draw, target: float, least: float) -> DrawnCase:
+def chosen(stage: Stage, plan: InjectionPlan, draw: Draw, target: float, least: float) -> DrawnCase:
     """The amplitude that is as visible as `target`."""
     size, seen = amplitude(stage, draw, target)
     if seen.nats < least:

@@ -25,9 +25,9 @@ from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import REL
 from geocontact.gap_benchmark.synthetic.effects.mechanical.series_compliance import SERIES_COMPLIANCE
 from geocontact.gap_benchmark.synthetic.effects.mechanical.slip import SLIP
 from geocontact.gap_benchmark.synthetic.effects.mechanical.stiffening import STIFFENING
-from geocontact.gap_benchmark.synthetic.plan import Plan
+from geocontact.gap_benchmark.synthetic.plan import InjectionPlan
 
-PLANS: tuple[Plan, ...] = (
+PLANS: tuple[InjectionPlan, ...] = (
     TIME_SHIFT,
     FILTER_LAG,
     MOTION_OFFSET,
@@ -74,6 +74,6 @@ NO_GAP = {"elbow": CONFOUNDED["elbow"], "sit_to_stand": ("sensor_gain",)}
 """Those that leave no visible gap of their own kind at all: never planted as a single one or in a pair."""
 
 
-def plans(system: str) -> tuple[Plan, ...]:
+def plans(system: str) -> tuple[InjectionPlan, ...]:
     """Those that apply to a system."""
     return tuple(one for one in PLANS if system in one.systems)

@@ -28,7 +28,7 @@ SILENT = 1e-7
 
 
 @runtime_checkable
-class Noise(Protocol):
+class SensorNoise(Protocol):
     """Of a sensor: its whole standard deviation, a realisation, and the covariance of `count` samples in a row."""
 
     @property
@@ -80,7 +80,7 @@ class Coloured:
 
 
 @dataclass(frozen=True)
-class LowPass:
+class NoiseFilter:
     """Zero-lag Butterworth: corner [Hz], Nyquist's frequency or more where nobody filtered; order of either pass."""
 
     corner: float
@@ -96,13 +96,13 @@ def corner_of(rng: np.random.Generator, step: float) -> float:
     return float(other if which < NOBODY + OTHERS else USUAL)
 
 
-def unfiltered(step: float, passed: LowPass) -> bool:
+def unfiltered(step: float, passed: NoiseFilter) -> bool:
     """Whether noise stayed white."""
     return passed.corner >= 0.5 / step
 
 
 def smooth_noise(
-    rng: np.random.Generator, sd: float, count: int, step: float, passed: LowPass
+    rng: np.random.Generator, sd: float, count: int, step: float, passed: NoiseFilter
 ) -> Float[np.ndarray, " s"]:
     """White noise through a zero-lag Butterworth low-pass, as motion data come; `sd` is that of the outcome."""
     if unfiltered(step, passed):
@@ -113,7 +113,7 @@ def smooth_noise(
     return np.asarray(raw * sd / np.sqrt(spectrum(step, passed)[1].sum()))
 
 
-def spectrum(step: float, passed: LowPass) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
+def spectrum(step: float, passed: NoiseFilter) -> tuple[Float[np.ndarray, " f"], Float[np.ndarray, " f"]]:
     """Angular frequencies [rad/s] and the power at each of unit white noise after the filter."""
     grid = (np.arange(LONG) + 0.5) * np.pi / LONG
     if unfiltered(step, passed):
@@ -123,14 +123,14 @@ def spectrum(step: float, passed: LowPass) -> tuple[Float[np.ndarray, " f"], Flo
     return grid / step, np.abs(response) ** 4 / LONG
 
 
-def smooth_covariance(sd: float, count: int, step: float, passed: LowPass) -> tuple[Float[np.ndarray, "s s"], ...]:
+def smooth_covariance(sd: float, count: int, step: float, passed: NoiseFilter) -> tuple[Float[np.ndarray, "s s"], ...]:
     """Covariance of such noise with itself, of the noise with its rate, and of the rate with itself."""
     place, cross, rate = unit_covariance(count, step, passed)
     return sd * sd * place, sd * sd * cross, sd * sd * rate
 
 
 @functools.lru_cache(maxsize=16)
-def unit_covariance(count: int, step: float, passed: LowPass) -> tuple[Float[np.ndarray, "s s"], ...]:
+def unit_covariance(count: int, step: float, passed: NoiseFilter) -> tuple[Float[np.ndarray, "s s"], ...]:
     """The same for a standard deviation of 1; rates are those of a cubic spline through the samples.
 
     A sine of the angular frequency w then has 3 sin(w h)/(h (2 + cos(w h))) for w, h the time between two samples.

@@ -63,7 +63,7 @@ class Draw:
 
 
 @dataclass(frozen=True)
-class Plan:
+class InjectionPlan:
     """An injected effect: name of the vocabulary, the equation planted, the candidate's, and how to draw one.
 
     Of several interfaces one that is `placed` sits at one, or, where it may stand `together`, now and then at all.

@@ -14,7 +14,7 @@ from geocontact.gap_benchmark.synthetic.body import SyntheticSystem
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
 from geocontact.gap_benchmark.synthetic.equipment.laboratory import HOME, Laboratory
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Values
-from geocontact.gap_benchmark.synthetic.noise import Coloured, LowPass, Noise
+from geocontact.gap_benchmark.synthetic.noise import Coloured, NoiseFilter, SensorNoise
 
 Rng = np.random.Generator
 
@@ -52,10 +52,10 @@ class SyntheticScene:
     tables: Mapping[str, pd.DataFrame]
     theta: Float[np.ndarray, " p"]
     spread: Float[np.ndarray, "p p"]
-    noise: tuple[Noise, ...]
+    noise: tuple[SensorNoise, ...]
     input_noise: Float[np.ndarray, " i"]
     step: float
-    filters: tuple[LowPass, ...]
+    filters: tuple[NoiseFilter, ...]
     path: Callable[[Rng, int], Path]
     later: Callable[[Rng, int], Path]
     body: SyntheticSystem

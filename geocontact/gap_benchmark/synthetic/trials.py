@@ -21,7 +21,7 @@ AGREE, AT_MOST = 0.03, 0.25
 
 
 @dataclass(frozen=True)
-class DataError:
+class SyntheticDataError:
     """A mistake in the data: factor on a column of inputs or outputs, or two outputs exchanged."""
 
     effect: str
@@ -53,7 +53,7 @@ class DataError:
         return out
 
 
-NO_DATA_ERROR = DataError("", "")
+NO_DATA_ERROR = SyntheticDataError("", "")
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class SyntheticTrial:
     outputs: Float[np.ndarray, "c s"]
     duration: float
     phase: float
-    data_error: DataError = field(default=NO_DATA_ERROR)
+    data_error: SyntheticDataError = field(default=NO_DATA_ERROR)
     setting: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -133,7 +133,7 @@ def record(
     path: Path,
     rng: Rng,
     hooks: Hooks = BASE,
-    data_error: DataError = NO_DATA_ERROR,
+    data_error: SyntheticDataError = NO_DATA_ERROR,
     fine: int | None = None,
     gaps: Callable[[Rng, int], Int[np.ndarray, " s"]] | None = None,
 ) -> SyntheticTrial:

@@ -13,7 +13,7 @@ from geocontact.gap_benchmark.synthetic.base_fit import Model, jacobian, refit
 from geocontact.gap_benchmark.synthetic.body import Numbers
 from geocontact.gap_benchmark.synthetic.course import InputCourse, Path
 from geocontact.gap_benchmark.synthetic.hooks import Outputs, Values
-from geocontact.gap_benchmark.synthetic.noise import LowPass, smooth_covariance
+from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, smooth_covariance
 from geocontact.gap_benchmark.synthetic.scene import SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import samples
 
@@ -105,12 +105,12 @@ def add_sensor_noise(total: Float[np.ndarray, "n n"], scene: SyntheticScene, out
         total[part, part] += step * step / ROUNDED
 
 
-def input_noises(scene: SyntheticScene) -> Iterator[tuple[int, float, LowPass]]:
+def input_noises(scene: SyntheticScene) -> Iterator[tuple[int, float, NoiseFilter]]:
     """Row, standard deviation and filter of every noise of an input: the sensor's, and that of rounding."""
     for i, (sd, filtered) in enumerate(zip(scene.input_noise, scene.filters, strict=True)):
         yield i, float(sd), filtered
     for i, step in scene.laboratory.recorder.input_steps.items():
-        yield i, float(step / np.sqrt(ROUNDED)), LowPass(0.5 / scene.step)
+        yield i, float(step / np.sqrt(ROUNDED)), NoiseFilter(0.5 / scene.step)
 
 
 def placed(scene: SyntheticScene, course: InputCourse) -> Float[np.ndarray, "c s q"]:
@@ -131,7 +131,7 @@ def passed_on(
     course: InputCourse,
     i: int,
     sd: float,
-    filtered: LowPass,
+    filtered: NoiseFilter,
     respond: Callable[[InputCourse, Numbers, int, Values], Values],
 ) -> Float[np.ndarray, "n q"]:
     """What the base model makes of the noise of input i where it remembers: each column times a number from N(0, 1)."""

@@ -18,7 +18,7 @@ CELLS, FRAMES = "cells.csv", "frames_cells.csv"
 
 
 @dataclass(frozen=True, eq=False)
-class MatResult:
+class MatFolder:
     """A mat on its surface.
 
     Parameters
@@ -44,7 +44,7 @@ class MatResult:
         return np.asarray(self.pressure @ self.area)
 
 
-def read_mat_result(folder: Path) -> MatResult:
+def read_mat_result(folder: Path) -> MatFolder:
     """Cells and frames in the folder that `geocontact mat` named."""
     for name in (CELLS, FRAMES):
         if not (folder / name).is_file():
@@ -59,4 +59,4 @@ def read_mat_result(folder: Path) -> MatResult:
     pressure = np.column_stack([frames.signals.column(name) for name in ids])
     cells = tuple(zip(map(str, table["row"]), map(str, table["column"]), strict=True))
     place, area = table[list(PLACE)].to_numpy(float), table[AREA].to_numpy(float)
-    return MatResult(folder, cells, place, area, frames.signals.time, pressure)
+    return MatFolder(folder, cells, place, area, frames.signals.time, pressure)

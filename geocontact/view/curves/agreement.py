@@ -27,7 +27,7 @@ Interval = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class Agreement:
+class LimitsOfAgreement:
     """Bias and 95 % limits of agreement with their 95 % confidence intervals, in the unit of the differences."""
 
     count: int
@@ -49,7 +49,7 @@ class Trend:
     slope_interval: Interval
 
 
-def limits_of_agreement(difference: Float[np.ndarray, " n"]) -> Agreement:
+def limits_of_agreement(difference: Float[np.ndarray, " n"]) -> LimitsOfAgreement:
     """Bias and limits of agreement of independent differences; one pair per subject.
 
     Several pairs per subject need the variance between and within subjects (Bland and Altman 1999, sec. 5), which
@@ -61,7 +61,7 @@ def limits_of_agreement(difference: Float[np.ndarray, " n"]) -> Agreement:
     of_bias = t * sd / np.sqrt(n)
     of_limit = t * sd * np.sqrt(1.0 / n + Z**2 / (2.0 * (n - 1)))
     lower, upper = bias - Z * sd, bias + Z * sd
-    return Agreement(
+    return LimitsOfAgreement(
         n,
         bias,
         sd,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.view.curves.agreement import Agreement, limits_of_agreement, proportional_bias
+from geocontact.view.curves.agreement import LimitsOfAgreement, limits_of_agreement, proportional_bias
 from geocontact.view.curves.given import array
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.style import BLACK, GREY, PALETTE, SMALL, in_style, legend, on
@@ -76,7 +76,7 @@ def bland_altman(
     return figure
 
 
-def _lines(axes: Axes, found: Agreement) -> list[tuple[Artist | tuple[Artist, ...], str]]:
+def _lines(axes: Axes, found: LimitsOfAgreement) -> list[tuple[Artist | tuple[Artist, ...], str]]:
     rows = (
         (found.bias, found.bias_interval, "-", PALETTE[2]),
         (found.lower, found.lower_interval, "--", BLACK),
@@ -89,7 +89,7 @@ def _lines(axes: Axes, found: Agreement) -> list[tuple[Artist | tuple[Artist, ..
     return [(drawn[0], "bias, 95 % CI"), (drawn[1], "bias ± 1.96 SD, 95 % CI")]
 
 
-def _notes(axes: Axes, found: Agreement) -> None:
+def _notes(axes: Axes, found: LimitsOfAgreement) -> None:
     """Numbers in the right margin, moved apart where the lines are close."""
     low, high = axes.get_ylim()
     least = APART * (high - low)

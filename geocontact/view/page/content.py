@@ -10,27 +10,26 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.view.page.intervals import Interval, Intervals
+from geocontact.view.page.intervals import IntervalRow, Intervals
 from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.plan import Length, Mark, Plan, Track
-from geocontact.view.page.scene import Body, FaceMap, Scene
+from geocontact.view.page.scene import FaceMap, Scene, SceneBody
 
 DRAWN_IN = 12  # colours of a line drawing at most; more are those of a scale
 
 __all__ = [
-    "Body",
-    "Choice",
     "Choices",
     "Curve",
     "Curves",
     "FaceMap",
-    "Interval",
+    "IntervalRow",
     "Intervals",
     "Length",
     "Limit",
     "Linkage",
     "Mark",
     "Page",
+    "PageChoice",
     "Picture",
     "Plan",
     "Points",
@@ -38,6 +37,7 @@ __all__ = [
     "Row",
     "Scale",
     "Scene",
+    "SceneBody",
     "Section",
     "Strip",
     "Table",
@@ -182,7 +182,7 @@ Section = Scene | Curves | Strip | Plan | Intervals | Readout | Picture | Table 
 
 
 @dataclass(frozen=True, eq=False)
-class Choice:
+class PageChoice:
     """What a page says when its reader chooses so, such as another threshold.
 
     Parameters
@@ -210,7 +210,7 @@ class Choices:
 
     label: str
     own: str
-    others: Sequence[Choice]
+    others: Sequence[PageChoice]
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Interval:
+class IntervalRow:
     """A number and the interval that it is known to; NaN where there is none.
 
     `kind` tells numbers of the same name apart, by a colour of its own.
@@ -34,6 +34,6 @@ class Intervals:
 
     title: str
     unit: str
-    intervals: Sequence[Interval]
+    intervals: Sequence[IntervalRow]
     bars: bool = False
     words: str = ""

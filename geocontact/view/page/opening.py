@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.view.page.content import Body, Scene
+from geocontact.view.page.content import Scene, SceneBody
 
 SEE_THROUGH = 0.25
 TILT = np.radians(30.0)
@@ -39,7 +39,7 @@ def opening_view(scene: Scene, frame: int) -> Float[np.ndarray, " 3"]:
     return np.asarray(np.cos(TILT) * normal + np.sin(TILT) * sideways)
 
 
-def patch_normal(body: Body, frame: int, threshold: float) -> Float[np.ndarray, " 3"] | None:
+def patch_normal(body: SceneBody, frame: int, threshold: float) -> Float[np.ndarray, " 3"] | None:
     """Mean outward direction in S of the faces with all corners within `threshold` [m]; None without such faces."""
     if body.distance is None:
         return None

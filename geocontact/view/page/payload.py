@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.seconds import seconds
-from geocontact.view.page.content import Body, Curves, FaceMap, Intervals, Page, Plan, Readout, Scene, Strip
+from geocontact.view.page.content import Curves, FaceMap, Intervals, Page, Plan, Readout, Scene, SceneBody, Strip
 from geocontact.view.page.levels import AmountLevels, Levels, across
 from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.opening import opacities, opening_view
@@ -143,7 +143,7 @@ def _middle(scene: Scene, frame: int) -> Float[np.ndarray, " 3"]:
 
 
 def _body(
-    body: Body, k: int, opacity: float, middle: Float[np.ndarray, " 3"], levels: Levels, blocks: list[Block]
+    body: SceneBody, k: int, opacity: float, middle: Float[np.ndarray, " 3"], levels: Levels, blocks: list[Block]
 ) -> dict[str, object]:
     grid = Grid.around(body.vertices)
     centre = grid.corner + 0.5 * grid.size
@@ -166,14 +166,14 @@ def _body(
     return described
 
 
-def _outward(body: Body, centre: Float[np.ndarray, " 3"]) -> np.ndarray:
+def _outward(body: SceneBody, centre: Float[np.ndarray, " 3"]) -> np.ndarray:
     """Faces turned so that the body's volume is positive: a section shows its inside as inside."""
     a, b, c = (body.vertices[body.faces[:, corner]] - centre for corner in range(3))
     volume = np.einsum("ij,ij->", a, np.cross(b, c))
     return body.faces if volume >= 0.0 else body.faces[:, ::-1]
 
 
-def _poses(body: Body, centre: Float[np.ndarray, " 3"], middle: Float[np.ndarray, " 3"]) -> np.ndarray:
+def _poses(body: SceneBody, centre: Float[np.ndarray, " 3"], middle: Float[np.ndarray, " 3"]) -> np.ndarray:
     """Rotation (row-major) and shift [mm] of the centred body about the scene's middle, (t, 12); (1, 12) if fixed."""
     if body.poses is None:
         rotation, shift = np.eye(3)[None], (centre - middle)[None]

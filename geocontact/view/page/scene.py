@@ -13,7 +13,7 @@ from geocontact.view.page.linkage import Linkage
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class SceneBody:
     """A triangle surface, possibly moving, possibly coloured.
 
     Parameters
@@ -67,7 +67,7 @@ class FaceMap:
         largest = float(self.values.max(initial=0.0))
         return largest if largest > 0.0 else 1.0
 
-    def check(self, bodies: Sequence[Body]) -> None:
+    def check(self, bodies: Sequence[SceneBody]) -> None:
         """Refuse a map of a body or of faces that are not there."""
         if not 0 <= self.body < len(bodies):
             raise ValueError(f"{self.name}: there is no body {self.body}")
@@ -100,7 +100,7 @@ class Scene:
         Points and lines. Without bodies there is no distance: thresholds, span and value_name mean nothing.
     """
 
-    bodies: Sequence[Body] = ()
+    bodies: Sequence[SceneBody] = ()
     thresholds: Sequence[float] = ()
     span: tuple[float, float] = (0.0, 1.0)
     value_name: str = ""

@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from geocontact.view.page.content import (
-    Choice,
     Curves,
     Intervals,
     Page,
+    PageChoice,
     Picture,
     Plan,
     Readout,
@@ -60,7 +60,7 @@ PANELS = ("curves", "strip", "plan", "intervals", "readout")
 
 
 @dataclass(frozen=True)
-class Placed:
+class PlacedSection:
     """A section on the page, the choice it belongs to ("": any), and whether it shows the answer."""
 
     name: str
@@ -80,7 +80,7 @@ def page_html(page: Page) -> str:
     script, style = bundled("page.js"), bundled("style.css")
     packed = payload(page)
     placed = [
-        Placed(name, KINDS[type(section)], section, "" if choice is None else str(choice), k == page.lead)
+        PlacedSection(name, KINDS[type(section)], section, "" if choice is None else str(choice), k == page.lead)
         for name, k, choice, section in page.placed()
     ]
     shown_here = [each for each in placed if not each.empty]
@@ -102,11 +102,11 @@ def page_html(page: Page) -> str:
     )
 
 
-def _readings(page: Page) -> list[Choice]:
+def _readings(page: Page) -> list[PageChoice]:
     """What the head of the page says in each choice, its own first."""
     if page.choices is None:
-        return [Choice("", page.headline, page.facts, {})]
-    return [Choice(page.choices.own, page.headline, page.facts, {}), *page.choices.others]
+        return [PageChoice("", page.headline, page.facts, {})]
+    return [PageChoice(page.choices.own, page.headline, page.facts, {}), *page.choices.others]
 
 
 def policy(script: str, style: str) -> str:

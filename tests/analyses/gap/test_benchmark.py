@@ -17,7 +17,7 @@ from geocontact.analyses.gap.benchmark.case import ANSWERERS, Task, Worked, alik
 from geocontact.analyses.gap.benchmark.content import constants_of_all
 from geocontact.analyses.gap.benchmark.job import benchmark
 from geocontact.analyses.gap.benchmark.lines import page_lines
-from geocontact.analyses.gap.benchmark.outcome import Outcome
+from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome
 from geocontact.analyses.gap.benchmark.run import mixed
 from geocontact.analyses.json_file import plain
 from geocontact.gap_benchmark.drawing import ABROAD, KINDS, SHARES, Lot, drawn, lots, shares
@@ -160,7 +160,7 @@ def test_claims_of_cases_that_lack_nothing_have_a_row_by_system_and_laboratory()
         return Worked(lot, f"{system} {laboratory}", label, dict.fromkeys(ANSWERERS, said), 1.0, 1.0)
 
     cases = (one("knee", "recorder", sure), one("knee", "inputs", quiet), one("elbow", "inputs", quiet))
-    outcome = Outcome(SEED, ("knee", "elbow"), cases)
+    outcome = BenchmarkOutcome(SEED, ("knee", "elbow"), cases)
     found = {
         (row.system, row.laboratory): (row.claimed.hits, row.sure.hits, row.claimed.count) for row in alarms(outcome)
     }

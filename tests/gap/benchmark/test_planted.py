@@ -18,7 +18,7 @@ from geocontact.gap_benchmark.synthetic.course import through
 from geocontact.gap_benchmark.synthetic.effects.mechanical.contact_loss import seated
 from geocontact.gap_benchmark.synthetic.effects.mechanical.slip import crept
 from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks
-from geocontact.gap_benchmark.synthetic.noise import Coloured, LowPass, smooth_covariance, smooth_noise
+from geocontact.gap_benchmark.synthetic.noise import Coloured, NoiseFilter, smooth_covariance, smooth_noise
 from geocontact.gap_benchmark.synthetic.outside.catalogue import unknown_effects
 from geocontact.gap_benchmark.synthetic.reach import shortest
 from geocontact.gap_benchmark.synthetic.scenes import SCENES
@@ -29,7 +29,14 @@ from geocontact.gap_benchmark.synthetic.systems.shoulder.model import shoulder
 from geocontact.gap_benchmark.synthetic.systems.sit_to_stand.model import inputs as inputs_of
 from geocontact.gap_benchmark.synthetic.systems.sit_to_stand.model import sit_to_stand
 from geocontact.gap_benchmark.synthetic.systems.swing import at_rest
-from geocontact.gap_benchmark.synthetic.trials import DataError, as_measured, fine_enough, record, samples, truth
+from geocontact.gap_benchmark.synthetic.trials import (
+    SyntheticDataError,
+    as_measured,
+    fine_enough,
+    record,
+    samples,
+    truth,
+)
 from geocontact.systems.catalogue import system_of
 
 pytestmark = pytest.mark.slow
@@ -178,7 +185,9 @@ def test_noise_has_the_covariance_that_it_states():
     np.testing.assert_allclose(np.cov(drawn.T), noise.covariance(30, 0.04), atol=0.4)
 
 
-@pytest.mark.parametrize("passed", [LowPass(4.0), LowPass(6.0), LowPass(10.0), LowPass(6.0, 4), LowPass(5.0, 3)])
+@pytest.mark.parametrize(
+    "passed", [NoiseFilter(4.0), NoiseFilter(6.0), NoiseFilter(10.0), NoiseFilter(6.0, 4), NoiseFilter(5.0, 3)]
+)
 def test_noise_of_inputs_has_the_covariance_that_it_states(passed):
     rng = np.random.default_rng(0)
     drawn = np.array([smooth_noise(rng, 1.0, 40, 0.005, passed) for _ in range(12000)])
@@ -191,8 +200,8 @@ def test_noise_of_inputs_has_the_covariance_that_it_states(passed):
 
 def test_rates_of_noise_that_nobody_filtered_are_those_of_a_spline():
     rng = np.random.default_rng(0)
-    drawn = np.array([smooth_noise(rng, 2.0, 40, 0.005, LowPass(100.0)) for _ in range(3000)])
-    place, cross, rate = smooth_covariance(2.0, 40, 0.005, LowPass(100.0))
+    drawn = np.array([smooth_noise(rng, 2.0, 40, 0.005, NoiseFilter(100.0)) for _ in range(3000)])
+    place, cross, rate = smooth_covariance(2.0, 40, 0.005, NoiseFilter(100.0))
     slope = CubicSpline(0.005 * np.arange(40), drawn, axis=1)(0.1, 1)
     np.testing.assert_allclose(place, 4.0 * np.eye(40), atol=0.02)
     assert np.var(drawn) == pytest.approx(4.0, rel=0.02)
@@ -277,10 +286,10 @@ def test_an_attachment_creeps_slower_and_slower_and_stays_where_it_is():
 def test_mistakes_are_exact_and_can_be_corrected(stages):
     scene = stages["foot"].scene
     inputs, outputs = np.random.default_rng(0).normal(size=(2, 3, 5))
-    degrees = DataError("unit_error", "pitch", np.degrees(1.0))
+    degrees = SyntheticDataError("unit_error", "pitch", np.degrees(1.0))
     np.testing.assert_allclose(degrees.corrected(scene, degrees.inputs(scene, inputs)), inputs)
     np.testing.assert_array_equal(degrees.outputs(scene, outputs), outputs)
-    swapped = DataError("side_swap", "", 1.0, (0, 1)).outputs(scene, outputs)
+    swapped = SyntheticDataError("side_swap", "", 1.0, (0, 1)).outputs(scene, outputs)
     np.testing.assert_array_equal(swapped, outputs[[1, 0, 2]])
 
 

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
-from geocontact.view.curves.diagnosis.detectability import Seen, detectability_figure
+from geocontact.view.curves.diagnosis.detectability import EffectVisibility, detectability_figure
 from geocontact.view.curves.save import save
 
 Specimen = Callable[[str], Figure]
@@ -55,8 +55,8 @@ def test_no_text_is_clipped_or_covers_another(
 def test_small_letters_of_many_effects_stay_on_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Letters of six points are drawn wider at the resolution of the file than on the screen."""
     shares = [1e-6 * 10.0**k for k in range(5)] * 6
-    effects = [Seen("contact_loss.negative", share, "1.61e−05 m/(N s)") for share in shares]
-    figure = detectability_figure([*effects, Seen("end_stop.lower.buffer", None, "not to be seen")])
+    effects = [EffectVisibility("contact_loss.negative", share, "1.61e−05 m/(N s)") for share in shares]
+    figure = detectability_figure([*effects, EffectVisibility("end_stop.lower.buffer", None, "not to be seen")])
     drawn = saved_texts(figure, tmp_path / "a.png", monkeypatch)
     assert len(drawn) > 60
     for text, box in drawn:

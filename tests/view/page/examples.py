@@ -8,7 +8,6 @@ import numpy as np
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.view.page.content import (
-    Body,
     Curve,
     Curves,
     Length,
@@ -17,6 +16,7 @@ from geocontact.view.page.content import (
     Readout,
     Row,
     Scene,
+    SceneBody,
     Strip,
     Table,
     Track,
@@ -90,8 +90,8 @@ def small_page(frames: int = 9, name: str = "ball") -> Page:
         sections=[
             Scene(
                 [
-                    Body("plate", plate_vertices, plate_faces, distance=on_plate),
-                    Body(name, ball_vertices, ball_faces, RigidTransform.from_translation(centres), on_ball),
+                    SceneBody("plate", plate_vertices, plate_faces, distance=on_plate),
+                    SceneBody(name, ball_vertices, ball_faces, RigidTransform.from_translation(centres), on_ball),
                 ],
                 thresholds=[1e-3, 4e-3],
                 span=(-1e-3, 6e-3),

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from geocontact.view.page.content import (
-    Choice,
     Choices,
     Curves,
     Limit,
     Mark,
     Page,
+    PageChoice,
     Plan,
     Points,
     Readout,
@@ -103,5 +103,5 @@ def hostile_page(page: Page, names: list[str]) -> Page:
         facts=facts,
         reservations=names,
         sections=sections,  # type: ignore[arg-type]
-        choices=Choices(names[0], names[1], [Choice(names[2], names, facts, {1: sections[1]})]),  # type: ignore[dict-item]
+        choices=Choices(names[0], names[1], [PageChoice(names[2], names, facts, {1: sections[1]})]),  # type: ignore[dict-item]
     )

@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 
 from geocontact.view.page.content import (
-    Choice,
     Choices,
     Curve,
     Curves,
-    Interval,
+    IntervalRow,
     Intervals,
     Length,
     Limit,
     Page,
+    PageChoice,
     Picture,
     Plan,
     Points,
@@ -190,7 +190,11 @@ def test_a_plan_has_one_scale(opened: Open) -> None:
 @DEVICES
 @pytest.mark.parametrize("bars", [False, True])
 def test_intervals_lie_where_their_axis_says(opened: Open, device: dict[str, Any], bars: bool) -> None:
-    rows = [Interval("E*, total", 6.8, 6.2, 7.6), Interval("E*, medial", 5.0), Interval("missing", float("nan"))]
+    rows = [
+        IntervalRow("E*, total", 6.8, 6.2, 7.6),
+        IntervalRow("E*, medial", 5.0),
+        IntervalRow("missing", float("nan")),
+    ]
     page = Page("a", "", np.zeros(1), "", sections=[Intervals("Modulus", "MPa", rows, bars, "95 %")])
     here = opened(page, device=device)
     plot = "#section-0 .plot"
@@ -213,7 +217,7 @@ def test_intervals_lie_where_their_axis_says(opened: Open, device: dict[str, Any
 
 
 def test_numbers_of_two_kinds_have_two_colours_and_a_key(opened: Open) -> None:
-    rows = [Interval("x", 0.5, kind="total"), Interval("x", 0.3, kind="first-order")]
+    rows = [IntervalRow("x", 0.5, kind="total"), IntervalRow("x", 0.3, kind="first-order")]
     here = opened(Page("a", "", np.zeros(1), "", sections=[Intervals("Shares", "share", rows, bars=True)]))
     fills = "[...document.querySelectorAll('#section-0 .plot rect.bar')].map(e => getComputedStyle(e).fill)"
     assert len(set(here.tab.evaluate(fills))) == 2
@@ -257,7 +261,7 @@ def test_another_threshold_changes_answer_numbers_curves_and_contour(opened: Ope
         1: Readout([Row("area within 1 mm", "mm²", ["7"] * 9)], "This frame, 1 mm"),
         5: Words("Of 1 mm", ["less"]),
     }
-    other = Choice("1 mm", ["Little."], [("largest area", "7 mm²")], instead, 1e-3)
+    other = PageChoice("1 mm", ["Little."], [("largest area", "7 mm²")], instead, 1e-3)
     here = opened(replace(page, choices=Choices("threshold", "4 mm", [other])))
     before = here.picture()
     assert here.tab.locator("#legend text.main").first.text_content() == "4"

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.view.page.content import Body, Curve, Curves, Page, Readout, Row, Scene, Words
+from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Scene, SceneBody, Words
 from geocontact.view.page.opening import opening_view
 from geocontact.view.page.payload import minus, payload, shown
 from geocontact.view.page.write import page_html, write_page
@@ -122,8 +122,8 @@ def test_a_large_page_stays_below_five_megabytes(tmp_path: Path) -> None:
     on_ball = np.array([ball_vertices[:, 1] + s[1] for s in shift])
     scene = Scene(
         [
-            Body("plate", plate_vertices, plate_faces, distance=on_plate),
-            Body("ball", ball_vertices, ball_faces, RigidTransform.from_translation(shift), on_ball),
+            SceneBody("plate", plate_vertices, plate_faces, distance=on_plate),
+            SceneBody("ball", ball_vertices, ball_faces, RigidTransform.from_translation(shift), on_ball),
         ],
         [4e-3],
         (-1e-3, 4e-3),
@@ -160,8 +160,8 @@ def test_what_does_not_fit_is_refused(what: str, change: dict[str, object]) -> N
     [
         ("does not hold the threshold", {"thresholds": [7e-3]}),
         ("a threshold is missing", {"thresholds": []}),
-        ("finite vertices", {"bodies": [Body("a", np.full((3, 3), np.nan), np.array([[0, 1, 2]]))]}),
-        ("not there", {"bodies": [Body("a", np.zeros((3, 3)), np.array([[0, 1, 3]]))]}),
+        ("finite vertices", {"bodies": [SceneBody("a", np.full((3, 3), np.nan), np.array([[0, 1, 2]]))]}),
+        ("not there", {"bodies": [SceneBody("a", np.zeros((3, 3)), np.array([[0, 1, 3]]))]}),
     ],
 )
 def test_a_scene_that_cannot_be_drawn_is_refused(what: str, change: dict[str, object]) -> None:
@@ -234,7 +234,7 @@ def test_an_inside_out_body_is_turned() -> None:
     assert min(outward) > 0.0
 
 
-def _volume(body: Body, found: object) -> float:
+def _volume(body: SceneBody, found: object) -> float:
     from geocontact.view.page.pack import unpacked
 
     faces = unpacked(next(b for b in found.blocks if b.name == "body-1-faces"))  # type: ignore[attr-defined]

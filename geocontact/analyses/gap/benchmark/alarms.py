@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from geocontact.analyses.gap.benchmark.outcome import Outcome
+from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome
 from geocontact.gap_benchmark.harm import SURE, certainty, harmful
 from geocontact.gap_benchmark.rates import Rate
 
@@ -23,7 +23,7 @@ class Alarms:
     harmful: Rate
 
 
-def alarms(outcome: Outcome) -> Iterator[Alarms]:
+def alarms(outcome: BenchmarkOutcome) -> Iterator[Alarms]:
     """A row per system and laboratory, then one per laboratory over all systems, where there are several."""
     none = [one for one in outcome.cases if one.label is not None and one.lot.kind == "none"]
     places = list(dict.fromkeys(one.lot.laboratory for one in none))
@@ -42,7 +42,7 @@ def alarms(outcome: Outcome) -> Iterator[Alarms]:
             )
 
 
-def alarm_lines(outcome: Outcome) -> Iterator[str]:
+def alarm_lines(outcome: BenchmarkOutcome) -> Iterator[str]:
     """The rows as a table."""
     yield f"| system | laboratory | false alarms | with p ≥ {SURE:g} | named, held out worse |"
     yield "|---|---|---|---|---|"

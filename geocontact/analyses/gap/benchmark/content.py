@@ -12,7 +12,7 @@ from typing import Any
 
 import geocontact.gap
 from geocontact.analyses.gap.benchmark.alarms import alarms
-from geocontact.analyses.gap.benchmark.outcome import Outcome
+from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome
 from geocontact.analyses.gap.benchmark.tables import mean
 from geocontact.analyses.run_record import Record
 from geocontact.gap import attribute
@@ -24,7 +24,7 @@ from geocontact.gap_benchmark.score import figures
 from geocontact.gap_benchmark.table import OPPONENTS, ROWS, error_interval, lead, scores
 
 
-def content(record: Record, outcome: Outcome, when: str) -> dict[str, Any]:
+def content(record: Record, outcome: BenchmarkOutcome, when: str) -> dict[str, Any]:
     """benchmark.json."""
     return {
         "date": when,
@@ -94,7 +94,7 @@ def _rate(rate: Rate) -> dict[str, Any]:
     return {"hits": rate.hits, "count": rate.count, "ci95": list(rate.interval())}
 
 
-def _verdicts(one: Outcome) -> dict[str, dict[str, int]]:
+def _verdicts(one: BenchmarkOutcome) -> dict[str, dict[str, int]]:
     said = one.given["diagnosis"]
     return {
         kind: dict(Counter(said[name]["verdict"] for name, label in one.labels.items() if label["kind"] == kind))

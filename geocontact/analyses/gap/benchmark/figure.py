@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geocontact.analyses.gap.benchmark.outcome import Outcome
+from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome
 from geocontact.gap_benchmark.rates import Rate
 from geocontact.gap_benchmark.score import reliability
 from geocontact.view.curves.diagnosis.reliability import Stated, reliability_figure
@@ -18,12 +18,12 @@ DRAWN = {"diagnosis": "diagnosis", "regression_aware": "residual regression"}
 """Whose reliability is drawn."""
 
 
-def stated_figure(outcome: Outcome) -> Figure:
+def stated_figure(outcome: BenchmarkOutcome) -> Figure:
     """Of the diagnosis and of the better opponent."""
     return reliability_figure({words: _stated(outcome, who) for who, words in DRAWN.items()})
 
 
-def _stated(outcome: Outcome, who: str) -> Stated:
+def _stated(outcome: BenchmarkOutcome, who: str) -> Stated:
     bins, _ = reliability([(label, outcome.given[who][name]) for name, label in outcome.labels.items()])
     spans = [Rate(round(one.came_true * one.count), one.count).interval() for one in bins]
     return Stated(

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from geocontact.analyses.gap.benchmark.alarms import alarm_lines
-from geocontact.analyses.gap.benchmark.outcome import SLOW, Outcome
+from geocontact.analyses.gap.benchmark.outcome import SLOW, BenchmarkOutcome
 from geocontact.gap_benchmark.table import markdown
 
 
-def page_lines(outcome: Outcome, when: str) -> Iterator[str]:
+def page_lines(outcome: BenchmarkOutcome, when: str) -> Iterator[str]:
     """benchmark.md: a table per scope."""
     yield "# Gap benchmark"
     yield ""
@@ -33,7 +33,7 @@ def page_lines(outcome: Outcome, when: str) -> Iterator[str]:
         yield f"{len(broken)} broke down and count as wrong: " + "; ".join(broken)
 
 
-def _extra(one: Outcome) -> Iterator[tuple[str, str, str]]:
+def _extra(one: BenchmarkOutcome) -> Iterator[tuple[str, str, str]]:
     """Figures that only the diagnosis has."""
     if one.cpu:
         most = max(one.cpu)

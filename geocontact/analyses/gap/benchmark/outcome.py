@@ -21,7 +21,7 @@ SLOW = 10.0
 
 
 @dataclass(frozen=True)
-class Outcome:
+class BenchmarkOutcome:
     """Every case of a benchmark, worked."""
 
     seed: int
@@ -40,9 +40,12 @@ class Outcome:
         return {who: {one.name: one.answers[who] for one in self.cases if one.label is not None} for who in whose}
 
     @cached_property
-    def scopes(self) -> dict[str, Outcome]:
+    def scopes(self) -> dict[str, BenchmarkOutcome]:
         """All cases, and those of each system where there are several."""
-        each = {s: Outcome(self.seed, (s,), tuple(c for c in self.cases if c.lot.system == s)) for s in self.systems}
+        each = {
+            s: BenchmarkOutcome(self.seed, (s,), tuple(c for c in self.cases if c.lot.system == s))
+            for s in self.systems
+        }
         found = {"pooled": self, **each} if len(each) > 1 else each
         return {name: one for name, one in found.items() if one.labels}
 

@@ -13,7 +13,7 @@ from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.gap.benchmark.content import content
 from geocontact.analyses.gap.benchmark.figure import stated_figure
 from geocontact.analyses.gap.benchmark.options import BenchmarkOptions
-from geocontact.analyses.gap.benchmark.outcome import Outcome
+from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome
 from geocontact.analyses.gap.benchmark.tables import cases_table
 from geocontact.analyses.json_file import write_json
 from geocontact.analyses.plain_page import write_plain_page
@@ -40,7 +40,7 @@ class BenchmarkResult(Result):
     """
 
     options: BenchmarkOptions
-    outcome: Outcome
+    outcome: BenchmarkOutcome
     when: str
     scratch: Scratch
 

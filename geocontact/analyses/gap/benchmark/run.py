@@ -10,7 +10,7 @@ from pathlib import Path
 from geocontact.analyses.gap.benchmark.case import Task, Worked, lost, worked
 from geocontact.analyses.gap.benchmark.lines import page_lines
 from geocontact.analyses.gap.benchmark.options import BenchmarkOptions
-from geocontact.analyses.gap.benchmark.outcome import Outcome
+from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome
 from geocontact.analyses.gap.benchmark.read import Work
 from geocontact.analyses.gap.benchmark.result import BenchmarkResult
 from geocontact.analyses.results_folder import Scratch
@@ -26,7 +26,7 @@ def run(work: Work, o: BenchmarkOptions, record: Record) -> BenchmarkResult:
     for one in done:
         for line in one.trouble:
             record.warn(line)
-    outcome = Outcome(work.seed, work.systems, tuple(done))
+    outcome = BenchmarkOutcome(work.seed, work.systems, tuple(done))
     if not outcome.labels:
         raise RuntimeError("no case could be drawn; see the warnings")
     record.results["cases"] = outcome.kinds

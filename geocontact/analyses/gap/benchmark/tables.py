@@ -8,12 +8,12 @@ import numpy as np
 import pandas as pd
 
 from geocontact.analyses.gap.benchmark.case import Worked
-from geocontact.analyses.gap.benchmark.outcome import Outcome
+from geocontact.analyses.gap.benchmark.outcome import BenchmarkOutcome
 from geocontact.gap_benchmark.harm import harmful, worse_channels
 from geocontact.gap_benchmark.score import GAPS, answers, brier, confidently_wrong, reduction_errors
 
 
-def cases_table(outcome: Outcome) -> pd.DataFrame:
+def cases_table(outcome: BenchmarkOutcome) -> pd.DataFrame:
     """A row per case: the truth, what was said of it, and what that scores."""
     return pd.DataFrame([dict(_row(one)) for one in outcome.cases if one.label is not None])
 

@@ -9,7 +9,7 @@ from geocontact.gap.identifiability.detectability import Detectability
 from geocontact.gap.identifiability.discriminability import Discriminability
 from geocontact.gap.identifiability.separability import table
 from geocontact.gap.identifiability.signatures import reach_of, rest_of
-from geocontact.view.curves.diagnosis.detectability import Seen, detectability_figure
+from geocontact.view.curves.diagnosis.detectability import EffectVisibility, detectability_figure
 from geocontact.view.curves.diagnosis.separability import separability_figure
 
 if TYPE_CHECKING:
@@ -30,9 +30,9 @@ def matrix_figure(found: Discriminability) -> Figure:
     return separability_figure(labels, ["none", *labels], matrix)
 
 
-def _seen(one: Detectability) -> Seen:
+def _seen(one: Detectability) -> EffectVisibility:
     if one.smallest is None:
-        return Seen(one.candidate.label, None, "not to be seen")
+        return EffectVisibility(one.candidate.label, None, "not to be seen")
     rest = rest_of(one.candidate)
     share = abs((one.smallest - rest) / reach_of(one.candidate, one.candidate.starts[0]))
-    return Seen(one.candidate.label, share, size_words(one))
+    return EffectVisibility(one.candidate.label, share, size_words(one))

@@ -10,12 +10,12 @@ import numpy as np
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.gap.cell_channels import CellChannels, CellTrial
-from geocontact.io.recordings.mat_results import CELLS, MatResult
+from geocontact.io.recordings.mat_results import CELLS, MatFolder
 
 ELSEWHERE = 0.01  # m, that a cell may lie away from where it lies on average without a word
 
 
-def alike_mats(record: Record, site: str, mats: Mapping[str, MatResult]) -> dict[str, MatResult]:
+def alike_mats(record: Record, site: str, mats: Mapping[str, MatFolder]) -> dict[str, MatFolder]:
     """The mats with the cells that every trial has, in one order: force and cells are of the same ones everywhere."""
     first, *others = mats.values()
     common = tuple(cell for cell in first.cells if all(cell in other.cells for other in others))
@@ -34,7 +34,7 @@ def alike_mats(record: Record, site: str, mats: Mapping[str, MatResult]) -> dict
     return found
 
 
-def cell_channels(record: Record, site: str, mats: Mapping[str, MatResult]) -> CellChannels:
+def cell_channels(record: Record, site: str, mats: Mapping[str, MatFolder]) -> CellChannels:
     """Cells that every trial has, where they lie on average."""
     places = np.array([own.place for own in mats.values()])
     area = np.mean([own.area for own in mats.values()], axis=0)

@@ -15,7 +15,7 @@ from geocontact.io.cases.trial_table import TrialTable
 from geocontact.io.mocap.force_plates import LOADED, ForcePlate
 from geocontact.io.recordings.area_table import AreaTable
 from geocontact.io.recordings.force_curves import ForceCurves
-from geocontact.io.recordings.mat_results import MatResult
+from geocontact.io.recordings.mat_results import MatFolder
 from geocontact.io.text.csv_text import Column
 from geocontact.loads.centre_in_foot import centre_in_foot
 
@@ -26,7 +26,7 @@ SIDES = ("medial", "lateral")
 
 
 @dataclass(frozen=True)
-class Recorded:
+class RecordedChannels:
     """Channels of one recording by name, with their unit and their values at a trial's times."""
 
     what: str
@@ -34,10 +34,10 @@ class Recorded:
     channels: Mapping[str, tuple[str, Float[np.ndarray, " t"]]]
 
 
-def with_mat(table: TrialTable, site: str, mat: MatResult) -> TrialTable:
+def with_mat(table: TrialTable, site: str, mat: MatFolder) -> TrialTable:
     """The trial with the mat's force."""
     force = np.interp(table.signals.time, mat.time, mat.force, np.nan, np.nan)
-    return _widened(table, Recorded(f"the mat in {mat.folder.name}", mat.time, {f"{site}_force": ("N", force)}))
+    return _widened(table, RecordedChannels(f"the mat in {mat.folder.name}", mat.time, {f"{site}_force": ("N", force)}))
 
 
 def with_outputs(table: TrialTable, outputs: TrialTable) -> TrialTable:
@@ -48,7 +48,7 @@ def with_outputs(table: TrialTable, outputs: TrialTable) -> TrialTable:
         name: (unit, np.interp(at, time, signals.column(name), np.nan, np.nan))
         for name, unit in zip(signals.channels, signals.units, strict=True)
     }
-    widened = _widened(table, Recorded(Path(outputs.file).name, time, channels))
+    widened = _widened(table, RecordedChannels(Path(outputs.file).name, time, channels))
     return replace(widened, columns=(*table.columns, *outputs.columns))
 
 
@@ -67,7 +67,7 @@ def with_plate(table: TrialTable, plate: ForcePlate, source: PlateSource) -> Tri
     values = table.signals.values.copy()
     values[:, table.signals.channels.index("x")] += source.belt * time
     run = replace(table, signals=replace(table.signals, values=values))
-    return _widened(run, Recorded(f"{plate.name} in {source.file.name}", plate.time, channels))
+    return _widened(run, RecordedChannels(f"{plate.name} in {source.file.name}", plate.time, channels))
 
 
 def with_sides(table: TrialTable, areas: AreaTable | None, forces: ForceCurves, threshold: float | None) -> TrialTable:
@@ -93,7 +93,7 @@ def _with_both(
             raise InputError(file, "", f"has no {name} of the {side} side", "a knee's case needs both sides apart")
     at = table.signals.time
     channels = {f"{name}_{side}": (unit, np.interp(at, time, curves[side], np.nan, np.nan)) for side in SIDES}
-    return _widened(table, Recorded(Path(file).name, time, channels))
+    return _widened(table, RecordedChannels(Path(file).name, time, channels))
 
 
 def _threshold(areas: AreaTable, wanted: float | None) -> int:
@@ -120,7 +120,7 @@ def _require_pose(table: TrialTable, source: PlateSource, plate: ForcePlate) -> 
         raise InputError(source.file, plate.name, f"its normal is ({normal})", "give a file with y up, x forward")
 
 
-def _widened(table: TrialTable, found: Recorded) -> TrialTable:
+def _widened(table: TrialTable, found: RecordedChannels) -> TrialTable:
     """The trial with these channels besides, nothing where they were not recorded."""
     signals = table.signals
     for name in found.channels:

@@ -18,12 +18,12 @@ from geocontact.io.cases.trial_table import TrialTable, read_trial
 from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
 from geocontact.io.recordings.area_table import AreaTable, read_area_table
 from geocontact.io.recordings.force_curves import ForceCurves, read_force_curves
-from geocontact.io.recordings.mat_results import FRAMES, MatResult, read_mat_result
+from geocontact.io.recordings.mat_results import FRAMES, MatFolder, read_mat_result
 from geocontact.io.text.side_table import read_side_table
 
 
 @dataclass(frozen=True)
-class Recording:
+class GatheredTrial:
     """One trial: its inputs, and what was measured beside them."""
 
     source: Source
@@ -39,8 +39,8 @@ class Recordings:
     """All trials by id, mats by site and trial, and the tables that settings name."""
 
     plan: Gathering
-    trials: Mapping[str, Recording]
-    mats: Mapping[str, Mapping[str, MatResult]]
+    trials: Mapping[str, GatheredTrial]
+    mats: Mapping[str, Mapping[str, MatFolder]]
     tables: Mapping[str, pd.DataFrame]
 
 
@@ -57,7 +57,7 @@ def read(o: GatherOptions, record: Record) -> Recordings:
     return Recordings(plan, trials, mats, tables)
 
 
-def _mats(record: Record, path: Path, plan: Gathering, site: str) -> dict[str, MatResult]:
+def _mats(record: Record, path: Path, plan: Gathering, site: str) -> dict[str, MatFolder]:
     """Of one site, by trial."""
     found = {}
     for name, source in plan.sources.items():
@@ -68,7 +68,7 @@ def _mats(record: Record, path: Path, plan: Gathering, site: str) -> dict[str, M
     return found
 
 
-def _recording(record: Record, plan: Gathering, name: str, source: Source) -> Recording:
+def _recording(record: Record, plan: Gathering, name: str, source: Source) -> GatheredTrial:
     inputs, outputs = _inputs_and_outputs(record, plan, name, source)
     plate = areas = forces = None
     if source.plate is not None:
@@ -81,7 +81,7 @@ def _recording(record: Record, plan: Gathering, name: str, source: Source) -> Re
             record.add_input(f"{name} areas", source.sides.areas)
         forces = read_force_curves(source.sides.forces, source.sides.unit, {})
         record.add_input(f"{name} forces", source.sides.forces, unit=forces.unit)
-    return Recording(source, inputs, outputs, plate, areas, forces)
+    return GatheredTrial(source, inputs, outputs, plate, areas, forces)
 
 
 def _inputs_and_outputs(

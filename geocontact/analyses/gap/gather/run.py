@@ -7,7 +7,7 @@ from dataclasses import replace
 from geocontact.analyses.gap.gather.cells import alike_mats, cell_channels
 from geocontact.analyses.gap.gather.channels import with_mat, with_outputs, with_plate, with_sides
 from geocontact.analyses.gap.gather.options import GatherOptions
-from geocontact.analyses.gap.gather.read import Recording, Recordings
+from geocontact.analyses.gap.gather.read import GatheredTrial, Recordings
 from geocontact.analyses.gap.gather.result import GatherResult
 from geocontact.analyses.results_folder import Scratch
 from geocontact.analyses.run_record import Record
@@ -44,7 +44,7 @@ def _case(recordings: Recordings, o: GatherOptions, record: Record) -> GapCase:
     return replace(case, cells={site: cell_channels(record, site, own) for site, own in mats.items()})
 
 
-def _with_loads(table: TrialTable, one: Recording) -> TrialTable:
+def _with_loads(table: TrialTable, one: GatheredTrial) -> TrialTable:
     """The trial with generalised forces, the reaction of a plate, and loads of the sides of a knee."""
     if one.outputs is not None:
         table = with_outputs(table, one.outputs)

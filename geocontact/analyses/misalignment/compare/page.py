@@ -12,7 +12,7 @@ from geocontact.analyses.run_record import Record
 from geocontact.view.page.content import (
     Curve,
     Curves,
-    Interval,
+    IntervalRow,
     Intervals,
     Picture,
     Readout,
@@ -74,7 +74,7 @@ def _errors(pairs: Sequence[Pair]) -> list[Section]:
     for mine in _by_channel(pairs):
         q = QUANTITIES[mine[0].channel]
         rows = [
-            Interval(p.trial, q.per_si * size, kind=kind)
+            IntervalRow(p.trial, q.per_si * size, kind=kind)
             for p in mine
             for kind, size in (("root mean square", p.agreement.rmsd), ("mean absolute", p.agreement.mae))
         ]

@@ -19,7 +19,7 @@ from geocontact.data.errors import InputError
 
 
 @dataclass(frozen=True)
-class Law:
+class ComparedLaw:
     """Numbers of the law in SI units, and the cuff pressure that they are counted from [Pa]."""
 
     numbers: Mapping[str, float]
@@ -31,7 +31,7 @@ class Both:
     """Measured recordings, and what they are compared with: as many simulated ones, or a law."""
 
     measured: Sequence[ElbowRecording]
-    model: Sequence[ElbowRecording] | Law
+    model: Sequence[ElbowRecording] | ComparedLaw
 
 
 def read(o: CompareOptions, record: Record) -> Both:
@@ -44,7 +44,7 @@ def read(o: CompareOptions, record: Record) -> Both:
     return Both(measured, law)
 
 
-def _law(file: Path) -> Law:
+def _law(file: Path) -> ComparedLaw:
     """The law in an elbow.json."""
     try:
         content = json.loads(file.read_text(encoding="utf-8"))
@@ -54,4 +54,4 @@ def _law(file: Path) -> Law:
             raise ValueError("a number is not finite")
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InputError(file, "", f"holds no law of an elbow ({error})", "give elbow.json of elbow fit") from error
-    return Law(numbers, float(centre) * MMHG)
+    return ComparedLaw(numbers, float(centre) * MMHG)

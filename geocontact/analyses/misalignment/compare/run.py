@@ -10,7 +10,7 @@ import numpy as np
 
 from geocontact.analyses.misalignment.compare.options import CompareOptions
 from geocontact.analyses.misalignment.compare.pair import QUANTITIES, Pair
-from geocontact.analyses.misalignment.compare.read import Both, Law
+from geocontact.analyses.misalignment.compare.read import Both, ComparedLaw
 from geocontact.analyses.misalignment.compare.result import CompareResult
 from geocontact.analyses.run_record import Record
 from geocontact.axis_misalignment.synthetic import ideal
@@ -26,7 +26,7 @@ SAME_MOTION = float(np.radians(2.0))
 def run(both: Both, o: CompareOptions, record: Record) -> CompareResult:
     """Errors of every channel that a recording and its model have."""
     measured = both.measured
-    models = _simulated(both.model, o, measured) if isinstance(both.model, Law) else both.model
+    models = _simulated(both.model, o, measured) if isinstance(both.model, ComparedLaw) else both.model
     each = zip(o.recordings, measured, models, strict=True)
     found = tuple(pair for path, r, model in each for pair in _pairs(path, r, model))
     record.results["comparison"] = [{"trial": p.trial, "channel": p.channel, **asdict(p.agreement)} for p in found]
@@ -39,7 +39,7 @@ def run(both: Both, o: CompareOptions, record: Record) -> CompareResult:
     return CompareResult(record=record, options=o, pairs=found)
 
 
-def _simulated(law: Law, o: CompareOptions, measured: Sequence[ElbowRecording]) -> list[ElbowRecording]:
+def _simulated(law: ComparedLaw, o: CompareOptions, measured: Sequence[ElbowRecording]) -> list[ElbowRecording]:
     """The identified law along each recording's angle and cuff pressure."""
     found = []
     for path, r in zip(o.recordings, measured, strict=True):

@@ -11,7 +11,7 @@ import numpy as np
 from geocontact.analyses.json_file import finite
 from geocontact.analyses.misalignment.identify.fitted import Fitted
 from geocontact.analyses.misalignment.identify.free_joint import Free, stroke_stiffness
-from geocontact.analyses.misalignment.identify.intervals import Interval
+from geocontact.analyses.misalignment.identify.intervals import ShownInterval
 from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
 from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.end_stop import EndStop
@@ -55,7 +55,7 @@ def ratios(numbers: dict[str, float]) -> dict[str, float]:
     return {"k_times_l_N": numbers["k"] * numbers["l"], **lengths}
 
 
-def _interval(one: Interval) -> dict[str, Any]:
+def _interval(one: ShownInterval) -> dict[str, Any]:
     return {
         "unit": one.unit,
         "value": one.value,

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.misalignment.identify.held_out import Held, each_left_out, predicted
-from geocontact.analyses.misalignment.identify.intervals import Interval, intervals
+from geocontact.analyses.misalignment.identify.intervals import ShownInterval, intervals
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
 from geocontact.axis_misalignment.explicit import require_no_pole, require_reach
@@ -88,7 +88,7 @@ class Fitted:
     data: Binned
     boxes: Binned
     estimate: ElbowFit
-    intervals: tuple[Interval, ...]
+    intervals: tuple[ShownInterval, ...]
     stretches: int
     all_directions: Direction
     free_directions: Direction | None

@@ -19,7 +19,7 @@ TAILS = (2.5, 97.5)
 
 
 @dataclass(frozen=True, eq=False)
-class Interval:
+class ShownInterval:
     """One number or ratio in the unit shown, with its 95 %.
 
     Parameters
@@ -92,7 +92,7 @@ class Interval:
         return f"{' '.join(filter(None, (f'{self.value:.4g}', self.unit)))} (95 % {self.ends})"
 
 
-def intervals(data: Binned, e: ElbowFit, replicates: int) -> tuple[Interval, ...]:
+def intervals(data: Binned, e: ElbowFit, replicates: int) -> tuple[ShownInterval, ...]:
     """Of each free number; where nothing sets the scale, of k l, x/l, y/l, z/l in place of k and the lengths.
 
     `replicates` of the bootstrap are drawn, none for 0.
@@ -120,15 +120,15 @@ def _drawn(data: Binned, e: ElbowFit, replicates: int) -> dict[str, tuple[float,
     return {name: (float(low[k]), float(high[k])) for k, name in enumerate(e.problem.names)}
 
 
-def _ratio(name: str, p: Profile, link: float, drawn: tuple[float, float] | None) -> Interval:
+def _ratio(name: str, p: Profile, link: float, drawn: tuple[float, float] | None) -> ShownInterval:
     per = 1.0 / link if name in LENGTHS else link
     ends = None if drawn is None else (drawn[0] * per, drawn[1] * per)
     if name in LENGTHS:
-        return Interval(f"{name}_over_l", f"{name}/l", "", per, p, ends)
-    return Interval(f"{name}_times_l", f"{name} l", TIMES_LINK[name], per, p, ends)
+        return ShownInterval(f"{name}_over_l", f"{name}/l", "", per, p, ends)
+    return ShownInterval(f"{name}_times_l", f"{name} l", TIMES_LINK[name], per, p, ends)
 
 
-def _number(name: str, p: Profile, drawn: tuple[float, float] | None) -> Interval:
+def _number(name: str, p: Profile, drawn: tuple[float, float] | None) -> ShownInterval:
     per = PER_SI[name]
     ends = None if drawn is None else (drawn[0] * per, drawn[1] * per)
-    return Interval(name, name, WRITTEN[name], per, p, ends)
+    return ShownInterval(name, name, WRITTEN[name], per, p, ends)

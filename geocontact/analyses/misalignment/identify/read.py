@@ -23,7 +23,7 @@ SAME_PRESSURE = MMHG  # Pa; pressures that differ by less are one
 
 
 @dataclass(frozen=True, eq=False)
-class Recorded:
+class IdentifyInputs:
     """Numbers of the law as far as they are known, and recordings: joint locked, held out, joint free."""
 
     parameters: tuple[Parameter, ...]
@@ -32,7 +32,7 @@ class Recorded:
     unlocked: Sequence[ElbowRecording]
 
 
-def read(o: IdentifyOptions, record: Record) -> Recorded:
+def read(o: IdentifyOptions, record: Record) -> IdentifyInputs:
     """Everything the options name."""
     parameters = unknowns(o.known or {}, o.prior or {}, o.bounds or {}, o.start or {}, o.free or ())
     locked = _recordings(record, "locked", o.recordings, o)
@@ -43,7 +43,7 @@ def read(o: IdentifyOptions, record: Record) -> Recorded:
     _require_locked(o.held_out or (), apart)
     free = _recordings(record, "unlocked", o.unlocked or (), o, (FORCE, DISPLACEMENT))
     _require_free(o.unlocked or (), free)
-    return Recorded(parameters, locked, apart, free)
+    return IdentifyInputs(parameters, locked, apart, free)
 
 
 def _recordings(

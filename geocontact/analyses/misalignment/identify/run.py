@@ -9,7 +9,7 @@ from geocontact.analyses.misalignment.identify.fitted import fitted
 from geocontact.analyses.misalignment.identify.free_joint import Free, free_joint
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.identify.reached_bins import require_bins
-from geocontact.analyses.misalignment.identify.read import Recorded
+from geocontact.analyses.misalignment.identify.read import IdentifyInputs
 from geocontact.analyses.misalignment.identify.reservations import reserve
 from geocontact.analyses.misalignment.identify.result import IdentifyResult
 from geocontact.analyses.misalignment.identify.sentences import say
@@ -18,7 +18,7 @@ from geocontact.axis_misalignment.bins import binned
 from geocontact.axis_misalignment.least_squares import ElbowProblem, Prior, estimated, problem_of
 
 
-def run(recorded: Recorded, o: IdentifyOptions, record: Record) -> IdentifyResult:
+def run(recorded: IdentifyInputs, o: IdentifyOptions, record: Record) -> IdentifyResult:
     """The best numbers, their intervals, and what the recordings do not tell."""
     data = binned(recorded.locked, o.bin)
     require_bins(record, o.recordings, data)

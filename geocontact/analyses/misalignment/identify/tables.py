@@ -11,7 +11,7 @@ import pandas as pd
 
 from geocontact.analyses.misalignment.identify.fitted import Fitted
 from geocontact.analyses.misalignment.identify.free_joint import Free
-from geocontact.analyses.misalignment.identify.intervals import Interval
+from geocontact.analyses.misalignment.identify.intervals import ShownInterval
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.end_stop import bin_means
@@ -81,7 +81,7 @@ def interval_table(found: Fitted) -> pd.DataFrame:
     return pd.DataFrame(rows + [_row(each.words, each.unit, "recordings", each.value, each) for each in told.values()])
 
 
-def _row(name: str, unit: str, source: str, value: float, told: Interval | None) -> dict[str, Any]:
+def _row(name: str, unit: str, source: str, value: float, told: ShownInterval | None) -> dict[str, Any]:
     row: dict[str, Any] = {
         "number": name,
         "unit": unit,

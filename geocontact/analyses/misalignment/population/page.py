@@ -16,7 +16,7 @@ from geocontact.identify.intervals.sobol_indices import Indices
 from geocontact.view.page.content import (
     Curve,
     Curves,
-    Interval,
+    IntervalRow,
     Intervals,
     Page,
     Picture,
@@ -92,7 +92,7 @@ def _shares(d: Drawn) -> list[Section]:
         "first-order": (d.indices.first, d.indices.first_interval),
     }
     rows = [
-        Interval(_factor(d, k), float(share[k]), float(ends[k][0]), float(ends[k][1]), kind)
+        IntervalRow(_factor(d, k), float(share[k]), float(ends[k][0]), float(ends[k][1]), kind)
         for k in _ordered(d.indices)
         for kind, (share, ends) in kinds.items()
     ]

@@ -18,7 +18,7 @@ from geocontact.io.opensim.osim_multibody import read_multibody
 
 
 @dataclass(frozen=True)
-class Seen:
+class KinematicsInputs:
     """A model, its markers as seen, what each counts, knees whose clinical angles are wanted, heel strikes."""
 
     model: Multibody
@@ -28,7 +28,7 @@ class Seen:
     strikes: Strikes
 
 
-def read(o: IkOptions, record: Record) -> Seen:
+def read(o: IkOptions, record: Record) -> KinematicsInputs:
     """Everything the options name."""
     model = read_multibody(o.model)
     record.add_input("`model`", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
@@ -37,4 +37,4 @@ def read(o: IkOptions, record: Record) -> Seen:
     seen = renamed(record, markers_given(o.markers, o.axes, o.time), model, o.markers_map)
     record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     strikes = strikes_typed(o.events) or strikes_marked(o.markers)
-    return Seen(model, seen, marker_tasks(record, model, seen, o.tasks, o.weight, o.hold), knees, strikes)
+    return KinematicsInputs(model, seen, marker_tasks(record, model, seen, o.tasks, o.weight, o.hold), knees, strikes)

@@ -14,7 +14,7 @@ from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.page import write_kinematics_report
-from geocontact.analyses.motion.inverse_kinematics.read import Seen
+from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs
 from geocontact.analyses.motion.printed import printed
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.result import Result
@@ -44,7 +44,7 @@ class IkResult(Result):
     """
 
     options: IkOptions
-    seen: Seen
+    seen: KinematicsInputs
     poses: Poses
     cycles: GaitCycles
     summary: dict[str, Any]

@@ -9,7 +9,7 @@ import numpy as np
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
-from geocontact.analyses.motion.inverse_kinematics.read import Seen
+from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs
 from geocontact.analyses.motion.inverse_kinematics.result import IkResult
 from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
 from geocontact.analyses.motion.printed import printed
@@ -22,7 +22,7 @@ from geocontact.io.text.tables import listed
 UNTOLD = 1.0 / 3.0  # share of the coordinates beyond which the rest means little
 
 
-def run(seen: Seen, o: IkOptions, record: Record) -> IkResult:
+def run(seen: KinematicsInputs, o: IkOptions, record: Record) -> IkResult:
     """Coordinates of every frame, how far the markers are from the model, and what sums them up."""
     tree = tree_of(seen.model)
     began = time.perf_counter()
@@ -51,7 +51,7 @@ def _never(found: Poses) -> int:
     return int((~found.determined.any(axis=0)).sum())
 
 
-def _cycles(seen: Seen, found: Poses) -> GaitCycles:
+def _cycles(seen: KinematicsInputs, found: Poses) -> GaitCycles:
     coordinates = seen.model.coordinates
     units = ["deg" if c.kind == "rotational" else "m" for c in coordinates]
     return gait_cycles(found.time, found.names, units, printed(coordinates, found.values), seen.strikes)

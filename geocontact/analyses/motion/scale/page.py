@@ -15,7 +15,7 @@ from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.analyses.run_record import Record
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
-from geocontact.view.page.content import Interval, Intervals, Page, Section, Words
+from geocontact.view.page.content import IntervalRow, Intervals, Page, Section, Words
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
 
@@ -46,10 +46,10 @@ def write_scaling_page(
     known = [int(k) for k in np.argsort(-off) if np.isfinite(off[k])]
     sections: list[Section] = [scene_of(model, [*bones, *markers_beside(seen, modelled)])]
     if factors:
-        rows = [Interval(name, by) for name, by in factors.items()]
+        rows = [IntervalRow(name, by) for name, by in factors.items()]
         sections.append(Intervals("Scale factors", "times", rows, bars=True, words=FACTORS))
     sections += [
-        Intervals("Distance of markers", "mm", [Interval(pose.markers[k], off[k]) for k in known], bars=True),
+        Intervals("Distance of markers", "mm", [IntervalRow(pose.markers[k], off[k]) for k in known], bars=True),
         inputs_table(record.inputs),
         options_table(record),
         Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),

@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import another_device, sampled
 from geocontact.gap_benchmark.synthetic.laboratories.paced import Pace, Speed, paced
-from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, LOWEST, USUAL, LowPass, smooth_covariance
+from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, LOWEST, USUAL, NoiseFilter, smooth_covariance
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 
 HIGHEST = 11.0
@@ -66,17 +66,17 @@ def starts(rng: Rng, duration: float, edge: float) -> Speed:
     return speed
 
 
-def other_filters(rng: Rng, sort: str, count: int, step: float) -> tuple[LowPass, ...]:
+def other_filters(rng: Rng, sort: str, count: int, step: float) -> tuple[NoiseFilter, ...]:
     """Of every input."""
     if sort == "raw":
-        return (LowPass(0.5 / step),) * count
+        return (NoiseFilter(0.5 / step),) * count
     if sort == "six":
-        return (LowPass(min(USUAL, FAR_FROM_NYQUIST / step)),) * count
+        return (NoiseFilter(min(USUAL, FAR_FROM_NYQUIST / step)),) * count
     corners = np.exp(rng.uniform(np.log(LOWEST), np.log(FAR_FROM_NYQUIST / step), count))
-    return tuple(LowPass(float(corner), int(rng.integers(1, 5))) for corner in corners)
+    return tuple(NoiseFilter(float(corner), int(rng.integers(1, 5))) for corner in corners)
 
 
-def quieter(step: float, before: LowPass, after: LowPass) -> float:
+def quieter(step: float, before: NoiseFilter, after: NoiseFilter) -> float:
     """Factor on the noise that is left: who filters less has better sensors, half-way to an equal noise of the rate."""
     slow, quick = (smooth_covariance(1.0, 2, step, one)[2][0, 0] for one in (before, after))
     return float(min((slow / quick) ** 0.25, 1.0))

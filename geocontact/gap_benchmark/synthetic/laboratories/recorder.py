@@ -11,7 +11,7 @@ from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
 from geocontact.gap_benchmark.synthetic.equipment.recorder import Quotient, Recorder
 from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import Sizes, another_device, sampled, sizes
 from geocontact.gap_benchmark.synthetic.laboratories.paced import Pace, paced
-from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, USUAL, LowPass
+from geocontact.gap_benchmark.synthetic.noise import FAR_FROM_NYQUIST, USUAL, NoiseFilter
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 
 SLOWEST, FASTEST = 25.0, 1000.0
@@ -61,7 +61,7 @@ def at_another_rate(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
     highest = FAR_FROM_NYQUIST * rate
     white = 0.5 / scene.step
     filters = tuple(
-        LowPass(min(USUAL if one.corner >= white else one.corner, highest), one.order) for one in scene.filters
+        NoiseFilter(min(USUAL if one.corner >= white else one.corner, highest), one.order) for one in scene.filters
     )
     return replace(scene, step=1.0 / rate, filters=filters)
 

@@ -12,9 +12,9 @@ from geocontact.gap_benchmark.synthetic.outside.quantisation import QUANTISATION
 from geocontact.gap_benchmark.synthetic.outside.ringing import RINGING
 from geocontact.gap_benchmark.synthetic.outside.swelling import SWELLING
 from geocontact.gap_benchmark.synthetic.outside.tremor import TREMOR
-from geocontact.gap_benchmark.synthetic.plan import Plan
+from geocontact.gap_benchmark.synthetic.plan import InjectionPlan
 
-OUTSIDERS: tuple[Plan, ...] = (
+OUTSIDERS: tuple[InjectionPlan, ...] = (
     TREMOR,
     HELD_SAMPLES,
     BURST,
@@ -28,6 +28,6 @@ OUTSIDERS: tuple[Plan, ...] = (
 )
 
 
-def unknown_effects(system: str) -> tuple[Plan, ...]:
+def unknown_effects(system: str) -> tuple[InjectionPlan, ...]:
     """Those that a system may have."""
     return tuple(one for one in OUTSIDERS if system in one.systems)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Swing, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 LEVER = 0.25
 """Between the hinge and where it is loaded [m]."""
@@ -26,4 +26,4 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-3 * scale.force, 0.6 * scale.force, hooks, lambda a: f"{words} {a * LEVER:.3g} N m")
 
 
-CATCH = Plan("catch", ("shoulder",), "hinge drawn to an angle", "", draw)
+CATCH = InjectionPlan("catch", ("shoulder",), "hinge drawn to an angle", "", draw)

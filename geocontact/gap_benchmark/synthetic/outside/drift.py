@@ -6,7 +6,7 @@ import numpy as np
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -28,4 +28,4 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4 * most, 0.2 * most, hooks, lambda a: f"{names[row]} wanders up and down by {a:.3g}")
 
 
-WANDER = Plan("wander", ALL, "up and down, other in every trial", "", draw)
+WANDER = InjectionPlan("wander", ALL, "up and down, other in every trial", "", draw)

@@ -6,7 +6,7 @@ import numpy as np
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -28,4 +28,4 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(0.002, 0.12, hooks, lambda s: f"{count} stretches of {s:.2%} of a trial in which values are repeated")
 
 
-HELD_SAMPLES = Plan("held_samples", ALL, "held samples", "", draw)
+HELD_SAMPLES = InjectionPlan("held_samples", ALL, "held samples", "", draw)

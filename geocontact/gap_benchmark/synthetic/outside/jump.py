@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -23,4 +23,4 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-3, 0.5, hooks, lambda s: f"the stiffness changes by {sign * s:.2%} at {at:.2g} s")
 
 
-JUMP = Plan("jump", ALL, "stiffness changes mid trial", "", draw, placed=True)
+JUMP = InjectionPlan("jump", ALL, "stiffness changes mid trial", "", draw, placed=True)

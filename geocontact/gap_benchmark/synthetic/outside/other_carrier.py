@@ -10,7 +10,7 @@ import numpy as np
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -56,4 +56,4 @@ def popping(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4 * scale.force, 0.4 * scale.force, hooks, lambda a: f"a plica pops over, {a:.3g} N {words}")
 
 
-OTHER_CARRIER = Plan("other_carrier", ("elbow", "foot", "knee"), "load carried elsewhere", "", draw)
+OTHER_CARRIER = InjectionPlan("other_carrier", ("elbow", "foot", "knee"), "load carried elsewhere", "", draw)

@@ -6,7 +6,7 @@ import numpy as np
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -26,4 +26,4 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4 * scale.force, 0.4 * scale.force, hooks, lambda a: f"ringing of {a:.3g} N at {pitch:.0f} Hz")
 
 
-RINGING = Plan("ringing", ("foot",), "decaying oscillation", "", draw)
+RINGING = InjectionPlan("ringing", ("foot",), "decaying oscillation", "", draw)

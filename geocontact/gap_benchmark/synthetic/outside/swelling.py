@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -28,4 +28,4 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4 * scale.stroke, 0.5 * scale.stroke, hooks, words)
 
 
-SWELLING = Plan("swelling", ("sit_to_stand",), "bulge while a muscle works", "", draw, placed=True)
+SWELLING = InjectionPlan("swelling", ("sit_to_stand",), "bulge while a muscle works", "", draw, placed=True)

@@ -20,7 +20,7 @@ WORDS = 0.3  # of the width of the longest bar, for the words beside it
 
 
 @dataclass(frozen=True)
-class Seen:
+class EffectVisibility:
     """One effect: its label, the share of the plausible range from which it is seen (None: never), words beside it."""
 
     label: str
@@ -29,7 +29,7 @@ class Seen:
 
 
 @in_style
-def detectability_figure(effects: Sequence[Seen]) -> Figure:
+def detectability_figure(effects: Sequence[EffectVisibility]) -> Figure:
     """Draw a bar per effect up to the smallest amplitude that is seen, the most easily seen on top."""
     if not effects:
         raise ValueError("detectability: no effect to draw")

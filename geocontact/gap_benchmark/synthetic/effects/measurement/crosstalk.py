@@ -12,7 +12,7 @@ import numpy as np
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import settled
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 LAG = {"foot": (0.02, 0.04), "knee": (0.05, 0.08), "sit_to_stand": (0.04, 0.07)}
 """Range of the time of the slow part [s]."""
@@ -44,7 +44,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4, 0.3, hooks, lambda x: f"{sign * x:.2%} of {words[0]} shows in {words[1]}", variant)
 
 
-CROSSTALK = Plan(
+CROSSTALK = InjectionPlan(
     "crosstalk",
     ("foot", "knee", "sit_to_stand"),
     "frequency-dependent coupling",

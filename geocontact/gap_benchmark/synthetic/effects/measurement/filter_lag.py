@@ -13,7 +13,7 @@ from jaxtyping import Float
 from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 @loop
@@ -61,7 +61,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(0.001, longest, hooks, lambda t: f"low-pass with a lag of {t:.3g} s, uneven by {uneven:.0%}")
 
 
-FILTER_LAG = Plan(
+FILTER_LAG = InjectionPlan(
     "filter_lag",
     ALL,
     "direction-dependent first order, then Butterworth",

@@ -12,7 +12,7 @@ import numpy as np
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import settled
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Values
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 LAG = {
     "elbow": (0.05, 0.12),
@@ -59,7 +59,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(0.002, 0.6, hooks, words, names[row])
 
 
-SATURATION = Plan(
+SATURATION = InjectionPlan(
     "saturation",
     ALL,
     "soft knee, uneven rails, slow recovery",

@@ -11,7 +11,7 @@ import numpy as np
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 BEND = {
     "elbow": (0.6,),
@@ -46,7 +46,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4, 0.4, hooks, lambda g: f"{which} read {sign * g:+.2%}", "forces" if len(rows) > 1 else which)
 
 
-SENSOR_GAIN = Plan(
+SENSOR_GAIN = InjectionPlan(
     "sensor_gain",
     ALL,
     "gain that changes with load",

@@ -10,7 +10,7 @@ import numpy as np
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 WANDER = {"sit_to_stand": (0.05, 0.08)}
 """Range of e where base parameters take most of a plain offset away."""
@@ -37,7 +37,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4 * most, top * most, hooks, lambda o: f"{names[row]} reads {sign * o:.3g} too much", names[row])
 
 
-SENSOR_OFFSET = Plan(
+SENSOR_OFFSET = InjectionPlan(
     "sensor_offset",
     ALL,
     "offset that wanders",

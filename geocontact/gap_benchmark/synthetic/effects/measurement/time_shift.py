@@ -11,7 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -33,7 +33,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(0.0005, longest, hooks, lambda d: f"outputs recorded {d:.3g} s late by an unsteady clock")
 
 
-TIME_SHIFT = Plan(
+TIME_SHIFT = InjectionPlan(
     "time_shift",
     ALL,
     "delay that wanders by a quarter through a trial",

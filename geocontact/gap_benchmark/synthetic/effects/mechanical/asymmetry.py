@@ -12,7 +12,7 @@ import numpy as np
 
 from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import settled
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -52,7 +52,7 @@ def directions(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(2e-4, 0.35, hooks, lambda a: f"{a:.2%} stiffer while loading, softer while unloading, with a memory")
 
 
-ASYMMETRY = Plan(
+ASYMMETRY = InjectionPlan(
     "asymmetry",
     ("foot", "knee"),
     "blend with memory; sides that differ more under load",

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 RADIUS, LEVER = 0.037, 0.1
 """A knee's radius; largest change of a lever [m]."""
@@ -42,7 +42,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(most / 3000.0, most, hooks, lambda a: f"{letter} moves by {sign * a:.3g} m per rad")
 
 
-AXIS_MIGRATION = Plan(
+AXIS_MIGRATION = InjectionPlan(
     "axis_migration",
     ("elbow", "shoulder", "knee", "sit_to_stand"),
     "path that levels off and ripples",

@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, NotFoundError, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, NotFoundError, Rng, SyntheticMagnitudes
 
 LIFTED = 0.3
 """Of the largest deflection, how far the other way an interface may be moved that cannot pull: further, and the arm of
@@ -60,6 +60,6 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(0.8 * least, most, hooks, lambda g: f"the pad opens strip by strip, by {g:.3g} m in the mean", variant)
 
 
-CONTACT_LOSS = Plan(
+CONTACT_LOSS = InjectionPlan(
     "contact_loss", ("shoulder", "sit_to_stand"), "strips, closer once pressed", "rounded corner", draw, placed=True
 )

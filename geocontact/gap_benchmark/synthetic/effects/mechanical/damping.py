@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 THINNING = {"elbow": (4.0, 8.0), "foot": (1.2, 2.5), "shoulder": (1.5, 3.0), "sit_to_stand": (2.5, 4.5)}
 """Range of v1 in units of the rms rate."""
@@ -43,7 +43,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4 * most, most, hooks, lambda b: f"viscous damping of {b:.3g} N s/m that thins with rate")
 
 
-DAMPING = Plan(
+DAMPING = InjectionPlan(
     "damping",
     ("elbow", "foot", "shoulder", "sit_to_stand"),
     "rate-thinning, deflection-dependent, uneven",

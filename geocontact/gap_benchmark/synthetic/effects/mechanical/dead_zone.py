@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -37,6 +37,6 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(least, most, hooks, lambda w: f"play of {w:.3g} m with soft edges")
 
 
-DEAD_ZONE = Plan(
+DEAD_ZONE = InjectionPlan(
     "dead_zone", ("elbow", "shoulder", "sit_to_stand"), "softplus edges", "piecewise linear", draw, placed=True
 )

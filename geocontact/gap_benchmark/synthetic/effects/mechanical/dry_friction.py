@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Swing, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 @loop
@@ -61,7 +61,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4 * scale.force, 0.4 * scale.force, hooks, words)
 
 
-DRY_FRICTION = Plan(
+DRY_FRICTION = InjectionPlan(
     "dry_friction",
     ("elbow", "shoulder", "sit_to_stand"),
     "Bouc-Wen, limit grows with deflection",

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -40,7 +40,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-3 * scale.force, 1.2 * scale.force, hooks, words, "upper" if side > 0.0 else "lower")
 
 
-END_STOP = Plan(
+END_STOP = InjectionPlan(
     "end_stop",
     ("elbow", "shoulder", "sit_to_stand"),
     "soft corner, hardening, lossy",

@@ -15,7 +15,7 @@ from jaxtyping import Float
 from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 SCREW = 2.0
 """Time that a screw takes [s]."""
@@ -61,6 +61,6 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     )
 
 
-EVENT_LOAD = Plan(
+EVENT_LOAD = InjectionPlan(
     "event_load", ("shoulder",), "push that grows with time and angle, uneven lags", "push behind one lag", draw
 )

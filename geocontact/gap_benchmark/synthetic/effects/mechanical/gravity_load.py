@@ -13,7 +13,7 @@ import numpy as np
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Swing, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 LEVER = 0.25
 """Of what hangs on the exoskeleton's arm [m]."""
@@ -45,4 +45,4 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-3 * scale.force, 0.5 * scale.force, hooks, lambda w: f"{words} {sign * w:.3g} N", variant)
 
 
-GRAVITY_LOAD = Plan("gravity_load", ("elbow", "shoulder"), "two masses, one swings", "sine of the angle", draw)
+GRAVITY_LOAD = InjectionPlan("gravity_load", ("elbow", "shoulder"), "two masses, one swings", "sine of the angle", draw)

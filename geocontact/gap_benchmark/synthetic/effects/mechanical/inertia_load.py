@@ -16,7 +16,7 @@ import numpy as np
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.effects.mechanical.relaxation import settled
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Outputs, Swing, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 LEVER = {"elbow": "l_ex", "shoulder": "L_h"}
 """Where the mass at the sensor sits."""
@@ -65,4 +65,6 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-3, most, hooks, lambda m: f"unmodelled mass{where} of {m:.3g} kg", variant)
 
 
-INERTIA_LOAD = Plan("inertia_load", ("elbow", "foot", "shoulder"), "extended body, softly coupled", "point mass", draw)
+INERTIA_LOAD = InjectionPlan(
+    "inertia_load", ("elbow", "foot", "shoulder"), "extended body, softly coupled", "point mass", draw
+)

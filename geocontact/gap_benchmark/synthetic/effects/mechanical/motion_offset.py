@@ -13,7 +13,7 @@ import numpy as np
 
 from geocontact.gap_benchmark.synthetic.course import InputCourse
 from geocontact.gap_benchmark.synthetic.hooks import Hooks
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4 * one.most, one.most, hooks, words, one.name)
 
 
-MOTION_OFFSET = Plan(
+MOTION_OFFSET = InjectionPlan(
     "motion_offset",
     ALL,
     "bias that varies with the angle",

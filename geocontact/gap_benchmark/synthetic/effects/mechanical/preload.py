@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -30,7 +30,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-3 * scale.force, 0.5 * scale.force, hooks, lambda t: f"strap tension of {sign * t:.3g} N at rest")
 
 
-PRELOAD = Plan(
+PRELOAD = InjectionPlan(
     "preload",
     ("elbow", "shoulder", "sit_to_stand"),
     "relaxing, deflection-dependent tension",

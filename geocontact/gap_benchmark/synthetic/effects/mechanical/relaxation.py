@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Pull, Values
-from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import ALL, Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 QUICK = {
     "elbow": (0.1, 0.5),
@@ -68,7 +68,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4, 1.2, hooks, words)
 
 
-RELAXATION = Plan(
+RELAXATION = InjectionPlan(
     "relaxation",
     ALL,
     "two Prony branches",

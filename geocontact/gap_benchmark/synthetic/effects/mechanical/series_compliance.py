@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -35,7 +35,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4 * most, most, hooks, lambda c: f"a spring in series gives way by {c:.3g} {unit} at first")
 
 
-SERIES_COMPLIANCE = Plan(
+SERIES_COMPLIANCE = InjectionPlan(
     "series_compliance",
     ("elbow", "foot", "shoulder", "sit_to_stand"),
     "two springs, one bottoms out",

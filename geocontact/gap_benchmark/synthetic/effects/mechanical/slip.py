@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from geocontact.gap_benchmark.synthetic.compile import loop
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 @loop
@@ -61,7 +61,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(1e-4 * most, most, hooks, lambda c: f"the cuff creeps by {c:.3g} m/s under the largest load at first")
 
 
-SLIP = Plan(
+SLIP = InjectionPlan(
     "slip",
     ("elbow", "shoulder", "sit_to_stand"),
     "primary creep",

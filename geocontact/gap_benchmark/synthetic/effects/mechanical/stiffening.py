@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.gap_benchmark.synthetic.hooks import Hooks, Values
-from geocontact.gap_benchmark.synthetic.plan import Draw, Plan, Rng, SyntheticMagnitudes
+from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, Rng, SyntheticMagnitudes
 
 
 def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
@@ -34,7 +34,7 @@ def draw(rng: Rng, scale: SyntheticMagnitudes) -> Draw:
     return Draw(0.001, 3.0, hooks, lambda a: f"stiffens with deflection, by {a:.3g} times or so at the largest")
 
 
-STIFFENING = Plan(
+STIFFENING = InjectionPlan(
     "stiffening",
     ("elbow", "foot", "shoulder", "sit_to_stand"),
     "exponential with hysteresis; or levelling off",

@@ -6,7 +6,7 @@ import numpy as np
 
 from geocontact.data.parameter import Parameter
 from geocontact.gap_benchmark.synthetic.motions import ElbowStyle, elbow_path
-from geocontact.gap_benchmark.synthetic.noise import LowPass, corner_of
+from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, corner_of
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
 from geocontact.gap_benchmark.synthetic.systems.elbow import model as elbow
 
@@ -54,7 +54,7 @@ def elbow_scene(rng: Rng, *, shifted: bool) -> SyntheticScene:
         (colour(rng, sd),),
         np.array([rng.uniform(0.0005, 0.002)]),
         step,
-        (LowPass(corner_of(rng, step)),) * len(elbow.INPUTS),
+        (NoiseFilter(corner_of(rng, step)),) * len(elbow.INPUTS),
         lambda r, _: elbow_path(r, style),
         lambda r, _: elbow_path(r, later),
         elbow.ELBOW,

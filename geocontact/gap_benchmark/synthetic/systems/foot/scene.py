@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap_benchmark.synthetic.noise import LowPass, corner_of
+from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, corner_of
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
 from geocontact.gap_benchmark.synthetic.systems.foot import model as foot
 from geocontact.gap_benchmark.synthetic.systems.foot.motions import FootStyle, foot_path
@@ -119,7 +119,7 @@ def foot_scene(rng: Rng, *, shifted: bool) -> SyntheticScene:
         tuple(colour(rng, sd * level) for sd in (3.0, 6.0, 0.001)),
         np.array([5.5e-5, 3e-5, 4e-4]) * rng.uniform(0.6, 1.2),
         style.step,
-        (LowPass(corner_of(rng, style.step)),) * len(foot.INPUTS),
+        (NoiseFilter(corner_of(rng, style.step)),) * len(foot.INPUTS),
         lambda r, _: foot_path(r, style, sole),
         lambda r, _: foot_path(r, later, sole),
         foot.foot(sole),

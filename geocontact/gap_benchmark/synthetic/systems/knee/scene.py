@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap_benchmark.synthetic.noise import LowPass, corner_of
+from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, corner_of
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
 from geocontact.gap_benchmark.synthetic.systems.knee import model as knee
 from geocontact.gap_benchmark.synthetic.systems.knee.motions import KneeStyle, knee_path
@@ -49,7 +49,7 @@ def knee_scene(rng: Rng, *, shifted: bool) -> SyntheticScene:
         (colour(rng, sd), colour(rng, sd)),
         np.array([1.5e-3, 6e-4, area_sd, area_sd]) * rng.uniform(0.7, 1.2),
         step,
-        (LowPass(corner_of(rng, step)),) * len(knee.INPUTS),
+        (NoiseFilter(corner_of(rng, step)),) * len(knee.INPUTS),
         lambda r, _: knee_path(r, style),
         lambda r, _: knee_path(r, later),
         knee.KNEE,

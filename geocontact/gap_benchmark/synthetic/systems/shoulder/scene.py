@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap_benchmark.synthetic.noise import LowPass, corner_of
+from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, corner_of
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
 from geocontact.gap_benchmark.synthetic.systems.shoulder import model as shoulder
 from geocontact.gap_benchmark.synthetic.systems.shoulder.motions import ShoulderStyle, shoulder_path
@@ -54,7 +54,7 @@ def shoulder_scene(rng: Rng, *, shifted: bool) -> SyntheticScene:
         (colour(rng, angle), colour(rng, force)),
         np.array([min(rng.uniform(0.6, 1.2) * RATE / (2.0 * np.pi * corner), STILL), 0.0]),
         style.step,
-        (LowPass(corner), LowPass(corner)),
+        (NoiseFilter(corner), NoiseFilter(corner)),
         lambda r, i: shoulder_path(r, style, i),
         lambda r, i: shoulder_path(r, later, i),
         shoulder.shoulder(table),

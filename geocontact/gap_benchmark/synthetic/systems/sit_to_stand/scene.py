@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.parameter import Parameter
-from geocontact.gap_benchmark.synthetic.noise import LowPass, corner_of
+from geocontact.gap_benchmark.synthetic.noise import NoiseFilter, corner_of
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene, colour
 from geocontact.gap_benchmark.synthetic.systems.sit_to_stand import model as sit_to_stand
 from geocontact.gap_benchmark.synthetic.systems.sit_to_stand.motions import (
@@ -56,7 +56,7 @@ def sit_to_stand_scene(rng: Rng, *, shifted: bool) -> SyntheticScene:
         tuple(colour(rng, sd) for _ in sites),
         np.tile([6e-5, 8e-5, 8e-4], len(sites)) * rng.uniform(0.6, 1.2),
         style.step,
-        (LowPass(corner_of(rng, style.step)),) * len(sit_to_stand.inputs(sites)),
+        (NoiseFilter(corner_of(rng, style.step)),) * len(sit_to_stand.inputs(sites)),
         lambda r, _: sit_to_stand_path(r, style),
         lambda r, _: sit_to_stand_path(r, later),
         sit_to_stand.sit_to_stand(sites),
