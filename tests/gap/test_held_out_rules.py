@@ -101,6 +101,9 @@ def contenders(rules: HeldOutRules) -> list[Contender]:
 @pytest.mark.slow
 def test_who_is_surely_outdone_on_held_out_trials_is_told(rules: HeldOutRules) -> None:
     assert rules.outdone(contenders(rules)) == {"damping": "preload predicts held-out trials better"}
+    rules.fitted["damping"] = [1.05 * part for part in rules.fitted["preload"]]
+    assert rules.outdone(contenders(rules)) == {}, "about the same error does not tell them apart"
+    rules.fitted["damping"] = [part + 2.0 * rules.problem.floor for part in rules.fitted["preload"]]
     pair = Contender((*contenders(rules)[0].candidates, *contenders(rules)[1].candidates), rules.base)
     rules.fitted[pair.label] = [0.0 * part for part in rules.before]
     assert rules.outdone([*contenders(rules), pair]).keys() == {"damping"}, "two effects do not outdo one"

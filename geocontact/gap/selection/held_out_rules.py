@@ -38,7 +38,7 @@ HARM = 0.02  # of a squared error, that it may grow by without being called wors
 SMALL = 0.005  # of a channel's signal, that a gap must exceed: half of what its calibration varies by
 FEW = 0.02  # of the samples, that no verdict may hang on
 ENOUGH = 6.0  # nats that the others must gain
-LEFT_OVER = 0.2  # of what a named effect changes, in squares, that may be left over
+LEFT_OVER = 0.2  # of what a named effect changes, or of an error, in squares, that may be left over
 TOO_SMALL = f"the change is below {SMALL:.1%} of the signal in every channel"
 
 
@@ -183,7 +183,10 @@ class HeldOutRules:
         return self._of_change(one.judged) or self._of_harm(one) or self._of_few(one.judged)
 
     def outdone(self, free: Sequence[Contender]) -> dict[str, str]:
-        """Objections to models that another with as many effects outdoes: it surely predicts held-out trials better."""
+        """Objections to models that another with as many effects outdoes: it surely leaves a fifth less on held-out trials.
+
+        In squares, by `LEFT_OVER`; models that predict about the same cannot be told apart by it.
+        """
         found = {}
         for many in (1, 2):
             alike = [one for one in free if len(one.candidates) == many and one.candidates[0].somewhere is None]
@@ -194,7 +197,7 @@ class HeldOutRules:
             for label, own in scaled.items():
                 change = [a - b for a, b in zip(own, scaled[best], strict=True)]
                 whole = amplitude(own, change)
-                if whole is not None and whole.better:
+                if whole is not None and whole.better and whole.grown < -LEFT_OVER:
                     found[label] = f"{best} predicts held-out trials better"
         return found
 
