@@ -183,9 +183,10 @@ class HeldOutRules:
         return self._of_change(one.judged) or self._of_harm(one) or self._of_few(one.judged)
 
     def outdone(self, free: Sequence[Contender]) -> dict[str, str]:
-        """Objections to models that another with as many effects outdoes: it surely leaves a fifth less on held-out trials.
+        """Objections to models that another with as many effects outdoes, by label.
 
-        In squares, by `LEFT_OVER`; models that predict about the same cannot be told apart by it.
+        It surely leaves less of the squared error on held-out trials, by `LEFT_OVER`: models that predict about the
+        same are not told apart by it.
         """
         found = {}
         for many in (1, 2):
@@ -231,7 +232,7 @@ class HeldOutRules:
         change = [b - a for b, a in zip(self.before, self._after(one), strict=True)]
         old, new = ([part / self.problem.floor for part in parts] for parts in (self.before, change))
         together = amplitude(old, new)
-        if together is not None and together.worse:
+        if together is not None and together.grown > HARM:
             return f"the error on held-out trials grows ({together.words})"
         for c, name in enumerate(self.problem.system.outputs):
             own = amplitude([b[:, c : c + 1] for b in old], [m[:, c : c + 1] for m in new])
