@@ -127,7 +127,7 @@ def _without(
 
 
 @dataclass(frozen=True)
-class Told:
+class FittedWeights:
     """Weights of chosen columns as some trials tell them.
 
     `shift` is how the fitted parameters move to make room, in units of their prior spread.
@@ -142,8 +142,8 @@ class Choice:
     """Columns of a family that are worth their price, their weights by all trials or few, and what they gain."""
 
     columns: list[int]
-    by_all: Told
-    by_calibration: Told
+    by_all: FittedWeights
+    by_calibration: FittedWeights
     gain: float
     calibration: float
     price: float
@@ -182,17 +182,17 @@ def chosen(
         shared = free.T @ direction
         power, along = np.maximum(power - shared**2, 0.0), along - shared * (direction @ left)
     if not taken:
-        none = Told(np.zeros(0), np.zeros(known.shape[1]))
+        none = FittedWeights(np.zeros(0), np.zeros(known.shape[1]))
         return Choice([], none, none, 0.0, 0.0, price)
     design = free[:, taken]
     gain = log_evidence(left, design, spread) + 0.5 * float(left @ left)
     part = log_evidence(left[:rows], design[:rows], spread) + 0.5 * float(left[:rows] @ left[:rows])
 
-    def told(by: slice) -> Told:
+    def told(by: slice) -> FittedWeights:
         weights = _posterior(left[by], design[by], spread)
         ridge = RIDGE * np.eye(known.shape[1])
         apart = np.concatenate([residual[by] - columns[by][:, taken] @ weights, np.zeros(known.shape[1])])
-        return Told(weights, np.linalg.lstsq(np.concatenate([known[by], ridge]), apart, rcond=None)[0])
+        return FittedWeights(weights, np.linalg.lstsq(np.concatenate([known[by], ridge]), apart, rcond=None)[0])
 
     return Choice(taken, told(slice(None)), told(slice(rows)), gain, part, price + each * len(taken))
 
