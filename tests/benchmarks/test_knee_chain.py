@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+import geocontact as gc
 from benchmarks import knee_alike, knee_chain, knee_truth
 from benchmarks.knee_truth import Bodies, Course, Withheld
-import geocontact as gc
 from geocontact.analyses.run_record import Record
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
