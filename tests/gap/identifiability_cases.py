@@ -128,7 +128,7 @@ def powers() -> list[tuple[float, float]]:
     ground, known = stood(elbow_case(seed=1))
     ground = replace(ground, fitted_rows=len(ground.slopes))  # nothing held out that would have to bear it out
     found = []
-    for nats in (2.0, 6.0, 9.0, 14.0, 20.0):
+    for nats in (2.0, 6.0, 9.0, 14.0, 24.0):
         one = at_nats(ground, known["time_shift"], nats)
         moved = ground.moved(one.candidate.apply(ground.system), {**ground.values, **one.values})
         slope = ground.left(own_slopes(ground, one.candidate, one.values, moved)[:, 0])
