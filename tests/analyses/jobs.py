@@ -26,6 +26,7 @@ JOBS: tuple[Job, ...] = (
     gc.shoulder.simulate,
     gc.shoulder.compare,
     gc.shoulder.study,
+    gc.shoulder.optimise,
     gc.diagnose,
     gc.discriminability,
     gc.inject,

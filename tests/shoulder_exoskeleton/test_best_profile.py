@@ -31,6 +31,8 @@ def lucy_like(elevation: np.ndarray) -> np.ndarray:
 
 
 SUPPORT = Support(lucy_like, 0.1)
+ONE_FACTOR = 0.44
+"""About the largest that pushes nobody up in every task, hand and phase."""
 
 
 @pytest.fixture(scope="module")
@@ -129,23 +131,25 @@ def test_aims_differ_where_persons_pull_in_two_directions() -> None:
 
 
 def test_a_front_rises_with_its_limit(cases: list[SupportCase]) -> None:
-    found = [each.value for each in front(cases, [Limits(force=force) for force in (10.0, 20.0, 40.0, 80.0)])]
-    assert np.all(np.diff(found) > 0.0) and np.all(np.diff(found, 2) < 0.0), "concave, as of a linear program"
+    forces = np.array([10.0, 20.0, 35.0, 50.0, 65.0])
+    found = [each.value for each in front(cases, [Limits(force=force) for force in forces])]
+    slopes = np.diff(found) / np.diff(forces)
+    assert np.all(slopes > 0.0) and np.all(np.diff(slopes) < 1e-9), "concave, as of a linear program"
 
 
-def test_phases_double_what_one_factor_gives(cases: list[SupportCase]) -> None:
+def test_phases_give_a_quarter_more_than_one_factor(cases: list[SupportCase]) -> None:
     one = uniform_profile(cases)
     (factor,) = set(one.factors.values())
     assert max(outcome(case, one.factors).pushed_up for case in cases) == 0.0
     more = dict.fromkeys(one.factors, 1.01 * factor)
     assert max(outcome(case, more).pushed_up for case in cases) > 0.0
-    assert best_profile(cases).value > 1.8 * one.value > 0.2
+    assert best_profile(cases).value > 1.25 * one.value > 0.4
 
 
 def test_the_paper_s_profile_pushes_light_arms_up(cases: list[SupportCase]) -> None:
     """Table 3 gives both hands 1 in T2, where the paper saw the push on the dominant side only (sec. 5.3)."""
     light = [outcome(case, TABLE_3) for case in cases if (case.person, case.task, case.hand) == ("P3", "T2", "other")]
-    assert light[0].pushed_up > 0.5 and light[0].excess > 5.0
+    assert light[0].pushed_up > 0.5 and light[0].excess > 4.0
 
 
 def test_a_model_without_errors_varies_nothing(trials: list[ArmTrial]) -> None:
@@ -164,7 +168,7 @@ def test_a_model_without_errors_varies_nothing(trials: list[ArmTrial]) -> None:
 
 @pytest.fixture(scope="module")
 def judgement(trials: list[ArmTrial]) -> dict[str, HeldOutSupport]:
-    return held_out(trials, SUPPORT, best_profile, dict.fromkeys(TABLE_3, 0.16), draws=30)
+    return held_out(trials, SUPPORT, best_profile, dict.fromkeys(TABLE_3, ONE_FACTOR), draws=30)
 
 
 def test_a_held_out_person_takes_no_part(trials: list[ArmTrial], judgement: dict[str, HeldOutSupport]) -> None:
@@ -177,23 +181,26 @@ def test_a_held_out_person_takes_no_part(trials: list[ArmTrial], judgement: dict
 
 
 def test_gains_of_held_out_persons_exceed_the_error(judgement: dict[str, HeldOutSupport]) -> None:
-    """Over one factor for all that pushes nobody up: 14 to 27 % more of the torque is taken away from each."""
+    """Over one factor for all that pushes nobody up: 10 to 12 % more of the torque is taken away from each."""
     for person, found in judgement.items():
         low, high = found.interval
         assert low < found.reduction < high, person
-        assert found.gain_interval[0] > 0.1 and found.gain_is_beyond_the_error, person
-        assert found.pushed_up[0] < 0.07 and found.excess[0] < 3.0, "made for others, it is not quite safe"
-        assert found.pushed_up[1] >= found.pushed_up[0] - 0.02
+        assert found.gain_interval[0] > 0.01 and found.gain_is_beyond_the_error, person
+        assert 0.08 < found.gain < 0.14, person
+        assert found.pushed_up[1] > found.pushed_up[0] and found.excess[1] > found.excess[0]
+    assert judgement["P1"].pushed_up[0] == 0.0 and judgement["P2"].pushed_up[0] < 0.05
+    assert judgement["P3"].pushed_up[0] > 0.5, "made for heavier arms, it pushes the lightest one up"
 
 
 def test_a_reserve_buys_safety_for_a_person_not_seen(
     trials: list[ArmTrial], judgement: dict[str, HeldOutSupport]
 ) -> None:
     careful = held_out(
-        trials, SUPPORT, lambda cases: best_profile(cases, Limits(reserve=0.2)), dict.fromkeys(TABLE_3, 0.16), draws=5
+        trials, SUPPORT, lambda cases: best_profile(cases, Limits(reserve=0.3)), dict.fromkeys(TABLE_3, 0.4), draws=5
     )
     for person, found in careful.items():
-        assert found.pushed_up[0] < judgement[person].pushed_up[0] and found.reduction < judgement[person].reduction
+        assert found.pushed_up[0] < 0.002 and found.excess[0] < 0.1, "of the lightest person, 64 % without a reserve"
+        assert found.reduction < judgement[person].reduction - 0.05
 
 
 def test_a_profile_gains_nothing_over_itself(trials: list[ArmTrial]) -> None:

@@ -112,11 +112,11 @@ def checks(trials: list[OverheadTrial], sensing: Sensing, onset: float = ONSET) 
 
 
 def test_noise_and_delay_cost_one_per_cent_and_no_chatter(trials: list[OverheadTrial]) -> None:
-    """72 detections: 0.7 % of the time beside perfect sensors, 2.0 % beside truth, most as a lowering begins."""
+    """72 detections: 0.7 % of the time beside perfect sensors, 1.8 % beside truth, most as a lowering begins."""
     found, changed = checks(trials, Sensing())
     assert not any(each.chatter for each in found)
     assert changed < 0.01
-    assert np.mean([each.wrong for each in found]) < 0.0205
+    assert np.mean([each.wrong for each in found]) < 0.02
     latencies = np.median([each.latencies for each in found], axis=0)
     assert latencies.argmax() == 3 and latencies[3] < 0.12, "that a lowering has begun is hardest to tell from tremor"
     earlier, _ = checks(trials, Sensing(), onset=0.05)

@@ -9,9 +9,10 @@ from geocontact.analyses.package_of_jobs import PackageOfJobs
 
 if TYPE_CHECKING:
     from geocontact.analyses.shoulder.compare.job import compare
+    from geocontact.analyses.shoulder.optimise.job import optimise
     from geocontact.analyses.shoulder.simulate.job import simulate
     from geocontact.analyses.shoulder.study.job import study
 
-__all__ = ["compare", "simulate", "study"]
+__all__ = ["compare", "optimise", "simulate", "study"]
 
 sys.modules[__name__].__class__ = PackageOfJobs

@@ -59,7 +59,7 @@ def read_device_file(path: Path, units: Mapping[str, str], sources: tuple[str, .
         if name not in units:
             near = near_names([name], list(units))
             raise InputError(path, f"[numbers] {name}", "is no number of a device", _perhaps(near, units))
-        found[name] = _number(path, name, told, units[name], sources)
+        found[name] = stated_number(path, name, told, units[name], sources)
     return DeviceFile(str(content.get("name", path.stem)), str(content.get("based_on", "lucy")), found)
 
 
@@ -69,7 +69,7 @@ def read_person_file(path: Path, names: tuple[str, ...]) -> dict[str, float]:
     found = {}
     for name in names:
         if name in content:
-            found[name] = _number(path, name, content[name], "m", ()).value
+            found[name] = stated_number(path, name, content[name], "m", ()).value
     if not found:
         raise InputError(path, "", f"none of {', '.join(names)}", 'write upper_arm = { value = 300, unit = "mm" }')
     return found
@@ -79,7 +79,8 @@ def _perhaps(near: Mapping[str, str], units: Mapping[str, str]) -> str:
     return f"perhaps {next(iter(near.values()))}" if near else f"numbers are {', '.join(units)}"
 
 
-def _number(path: Path, name: str, told: Any, si: str, sources: tuple[str, ...]) -> StatedNumber:
+def stated_number(path: Path, name: str, told: Any, si: str, sources: tuple[str, ...]) -> StatedNumber:
+    """A number with its unit, `{ value = 32, unit = "mm" }`, in SI; with `sources` also where it is from."""
     place = f"[numbers] {name}" if sources else name
     if not isinstance(told, dict) or not {"value", "unit"} <= set(told) <= set(KEYS):
         raise InputError(path, place, "is not a value with its unit", f"write {name} = {ENTRY}")

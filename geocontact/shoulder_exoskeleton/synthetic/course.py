@@ -21,7 +21,7 @@ from geocontact.shoulder_exoskeleton.synthetic.design import (
 HANGING, HANGING_FLEXION = 0.16, 0.35
 """Elevation and elbow flexion at rest [rad]; invented."""
 SINES = 4
-LOWEST, HIGHEST = 0.4, 3.0
+LOWEST, HIGHEST = 0.3, 1.5
 """Frequencies of tremor and sway [Hz]; invented."""
 
 

@@ -1,0 +1,1 @@
+"""Support profiles of a shoulder exoskeleton."""

@@ -1,0 +1,92 @@
+"""What a support profile may be asked for."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from geocontact.analyses.options import Options, Spelled, Typed
+from geocontact.data.errors import InputError
+from geocontact.data.plausible import PLAIN, Plausible
+from geocontact.data.ranges import CUTOFF, GAP, LIMIT
+
+TORQUE_RATE = Plausible("a rate of torque in N m/s", PLAIN, (1e-3, 1e5), (1.0, 1000.0))
+Share = Annotated[float, Typed("-", "shoulder.level:level")]
+FEWEST_DRAWS = 20
+
+
+@dataclass(frozen=True)
+class ShoulderOptimiseOptions(Options):
+    """Support for each work phase, hand and task that unloads the shoulder most and never pushes the arm up.
+
+    Parameters
+    ----------
+    study
+        Tasks, persons and trials (.toml, with marker files and currents of the tool); without it the synthetic
+        participants at work without the device.
+    device
+        lucy, lucy_new_cylinder (32 mm, 12.8 N m), lucy_new_cylinder_massless, or a file (.toml) with numbers.
+
+    What is best
+    ------------
+    aim
+        Share of the shoulder's torque that support takes away: its mean over persons, that of the worst person, or the
+        mean over the worst cases (conditional value at risk).
+    worst_share
+        Share of all cases that are the worst; 25% unless given.
+    force_limit
+        Largest force at the interface [N]; none unless given.
+    rate_limit
+        Largest rate of the support torque [N m/s]; none unless given.
+    reserve
+        Share of the torque that is left to the shoulder at every moment, such as 10%: room for persons not seen.
+    dominant_share
+        Part of the push on the tool that the dominant hand exerts, where the study does not say: 100% unless given.
+
+    How it is judged
+    ----------------
+    draws
+        Draws of the model's errors for each person that is held out.
+    seed
+        Of these draws.
+
+    The motion
+    ----------
+    cutoff
+        Zero-lag low-pass of the markers [Hz].
+    gap_limit
+        Longest time for which a marker may be out of sight [s].
+    """
+
+    study: Annotated[Path | None, Spelled(keyword=True)] = None
+    _: KW_ONLY
+    device: str = "lucy_new_cylinder"
+    aim: Literal["mean", "worst", "cvar"] = "mean"
+    worst_share: Share | None = None
+    force_limit: Annotated[float | None, LIMIT] = None
+    rate_limit: Annotated[float | None, TORQUE_RATE] = None
+    reserve: Annotated[Share, Spelled(default="0%")] = 0.0
+    dominant_share: Annotated[Share, Spelled(default="100%")] = 1.0
+    draws: int = 200
+    seed: int = 0
+    cutoff: Annotated[float, CUTOFF] = 6.0
+    gap_limit: Annotated[float, GAP] = 0.2
+
+    def refuse_impossible(self) -> None:
+        """Shares that are none, too few draws for an interval, a share that has no effect."""
+        for name in ("reserve", "dominant_share"):
+            value = getattr(self, name)
+            if not 0.0 <= value <= 1.0:
+                raise InputError("", f"`{name}`", f"{100.0 * value:g} % is not 0 to 100 %", "give for example 10%")
+        if self.reserve >= 1.0:
+            raise InputError("", "`reserve`", "100 % leaves no support", "give less")
+        if self.worst_share is not None and self.aim != "cvar":
+            raise InputError("", "`worst_share`", f"has no effect with `aim` {self.aim}", "give `aim` cvar")
+        if self.worst_share is not None and not 0.0 < self.worst_share <= 1.0:
+            raise InputError("", "`worst_share`", "is not more than 0 and at most 100 %", "give for example 25%")
+        if self.draws < FEWEST_DRAWS:
+            what = f"{self.draws} draws are too few for an interval"
+            raise InputError("", "`draws`", what, f"give {FEWEST_DRAWS} or more")
+        if self.cutoff == 0.0:
+            raise InputError("", "`cutoff`", "0 leaves noise in accelerations", "give for example 6")

@@ -1,0 +1,63 @@
+"""The page of support profiles: torques, factors, what they do, persons held out, fronts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from geocontact.analyses.figure_files import drawing
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.run_record import Record
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
+from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FIGURE = (
+    "Dashed the torque that the shoulder needs without support, solid the support torque, dotted the elevation of the "
+    "arm; the grey span is the phase screw-in as the controller detects it."
+)
+MODEL = (
+    "Support is the torque of the cylinder at the elevation of the human arm: the device's own weight, its passive "
+    "joints and the slip in the cuff have no part in this choice. The person moves as without the device."
+)
+
+
+def write_profile_page(
+    path: Path, record: Record, figure: Figure, tables: Mapping[str, pd.DataFrame], sentences: Sequence[str]
+) -> int:
+    """Write the self-contained page; returns its size in bytes."""
+    front = tables["front"]
+    limits, reserves, taken = (front[name].to_numpy(float) for name in front.columns)
+    curves = [
+        Curve(f"reserve {100.0 * reserve:g} %", 100.0 * taken[reserves == reserve]) for reserve in np.unique(reserves)
+    ]
+    held = tables["held_out"]
+    sections: list[Section] = [
+        Picture("Torque needed and support", FIGURE, drawing(figure)),
+        frame_table("Factors of support", tables["factors"], 2),
+        *([frame_table("Made for the others, judged on this person", held, 3)] if len(held) else []),
+        frame_table("What each profile does", tables["outcomes"], 3),
+        Curves("Taken away over the limit of interface force", "%", curves),
+        inputs_table(record.inputs),
+        options_table(record),
+        Words("What the numbers do not contain", [MODEL, NOT_A_DEVICE]),
+    ]
+    page = Page(
+        title="Support profile of a shoulder exoskeleton",
+        subtitle="Factors by work phase, hand and task that never push the arm up",
+        time=np.unique(limits),
+        time_label="force limit [N]",
+        headline=headline(sentences),
+        reservations=tuple(record.warnings),
+        sections=tuple(sections),
+        plays=False,
+    )
+    return write_page(page, path)

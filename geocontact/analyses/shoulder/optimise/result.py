@@ -1,0 +1,153 @@
+"""What the choice of a support profile finds: factors, what they do, fronts, held-out persons."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.result import Result
+from geocontact.analyses.shoulder.optimise.figure import profile_figure
+from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
+from geocontact.analyses.shoulder.optimise.page import write_profile_page
+from geocontact.io.text.results import write_table
+from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport
+from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome
+from geocontact.shoulder_exoskeleton.support.phases import SUPPORTED
+from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, SupportCase
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+WORKING = tuple(PHASES[k] for k in SUPPORTED)
+
+
+@dataclass(frozen=True)
+class NamedProfile:
+    """Factors, and whose they are."""
+
+    name: str
+    factors: Factors
+
+
+@dataclass(frozen=True)
+class FrontPoint:
+    """Share of the torque that is taken away under a limit of interface force [N] and with a reserve."""
+
+    force: float
+    reserve: float
+    value: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class ShoulderOptimiseResult(Result):
+    """Support profiles.
+
+    Parameters
+    ----------
+    cases
+        One arm in one trial each.
+    elevations
+        Of the arms by the cases' names [rad].
+    profiles
+        The group's first.
+    outcomes
+        By profile and case.
+    held_out
+        By person; empty where there is one only.
+    front
+        Reserve by reserve.
+    """
+
+    options: ShoulderOptimiseOptions
+    cases: tuple[SupportCase, ...]
+    elevations: Mapping[str, Float[np.ndarray, " t"]]
+    profiles: tuple[NamedProfile, ...]
+    outcomes: Mapping[str, Mapping[str, SupportOutcome]]
+    held_out: Mapping[str, HeldOutSupport]
+    front: tuple[FrontPoint, ...]
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`factors`, `outcomes`, `held_out`, `front`."""
+        return {
+            "factors": self._factors(),
+            "outcomes": self._outcomes(),
+            "held_out": self._held_out(),
+            "front": pd.DataFrame(
+                [{"force limit [N]": p.force, "reserve [-]": p.reserve, "taken away [-]": p.value} for p in self.front]
+            ),
+        }
+
+    def figure(self) -> Figure:
+        """Torque that the shoulder needs and torque of the support, as the paper's fig. 14."""
+        return profile_figure(self.cases, self.elevations, self.profiles[0].factors)
+
+    def write_files(self, folder: Path) -> None:
+        """Tables, figure, page."""
+        for name, rows in self.tables().items():
+            if len(rows):
+                write_table(rows, folder, name)
+        save_both(self.figure(), folder, "profile")
+        self.write_page(folder / "report.html")
+
+    def write_page(self, file: Path) -> None:
+        """Torques, factors, what they do, held-out persons, fronts."""
+        write_profile_page(file, self.record, self.figure(), self.tables(), list(self.sentences))
+
+    def _factors(self) -> pd.DataFrame:
+        rows = []
+        for profile in self.profiles:
+            for task, hand in dict.fromkeys((key.task, key.hand) for key in profile.factors):
+                own = {phase: profile.factors[FactorKey(task, hand, phase)] for phase in WORKING}
+                rows.append({"profile": profile.name, "task": task, "hand": hand, **own})
+        return pd.DataFrame(rows)
+
+    def _outcomes(self) -> pd.DataFrame:
+        rows = []
+        for profile, found in self.outcomes.items():
+            for case in self.cases:
+                if case.name in found:
+                    told = {"profile": profile, "person": case.person, "task": case.task, "hand": case.hand}
+                    rows.append(told | _told(found[case.name]))
+        return pd.DataFrame(rows)
+
+    def _held_out(self) -> pd.DataFrame:
+        rows = []
+        for person, found in self.held_out.items():
+            numbers = {
+                "taken away [-]": found.reduction,
+                "taken away, lower [-]": found.interval[0],
+                "taken away, upper [-]": found.interval[1],
+                "gain over one factor [-]": found.gain,
+                "gain, lower [-]": found.gain_interval[0],
+                "gain, upper [-]": found.gain_interval[1],
+                "pushed up [-]": found.pushed_up[0],
+                "pushed up, 95 % of draws [-]": found.pushed_up[1],
+            }
+            rows.append(
+                {
+                    "person": person,
+                    **numbers,
+                    "excess [N m]": found.excess[0],
+                    "excess, 95 % of draws [N m]": found.excess[1],
+                    "gain beyond the model's error": found.gain_is_beyond_the_error,
+                }
+            )
+        return pd.DataFrame(rows)
+
+
+def _told(found: SupportOutcome) -> dict[str, float]:
+    return {
+        "taken away [-]": found.reduction,
+        "pushed up [-]": found.pushed_up,
+        "excess [N m]": found.excess,
+        "force [N]": found.force,
+        "rate [N m/s]": found.rate,
+    }
