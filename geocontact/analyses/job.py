@@ -9,8 +9,10 @@ from inspect import Parameter, Signature
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+from geocontact.analyses.arguments import require_arguments
 from geocontact.analyses.listener import Listener
 from geocontact.analyses.options import Declared, Options, declared
+from geocontact.analyses.python_help import python_help
 from geocontact.analyses.result import Result
 from geocontact.analyses.results_folder import written_whole
 from geocontact.analyses.run_record import Record, as_python
@@ -46,7 +48,7 @@ class Job(Generic[I, R]):
         run: Callable[[I, Any, Record], R],
     ) -> None:
         self.command, self.options, self.read, self.run = command, options, read, run
-        self.__doc__ = options.__doc__
+        self.__doc__ = python_help(options)
         self.__name__ = command.replace(" ", "_")
 
     @property
@@ -56,7 +58,9 @@ class Job(Generic[I, R]):
 
     def __call__(self, *inputs: Any, **options: Any) -> R:
         """Read and compute; nothing is written. Arguments are those of `__signature__`; paths may be text."""
+        require_arguments(self.command, self.options, inputs, options)
         asked = self.options(*inputs, **options)
+        asked.refuse_missing_files()
         record = Record(self.command, asked.in_si(), asked.in_si())
         with record.catching_warnings():
             tell_doubts(asked, record)
@@ -109,7 +113,7 @@ class Call:
 def execute(job: Job[Any, R], options: Options, out: Path, call: Call) -> tuple[R, list[str]]:
     """Evaluate and write into `out`, whole or not at all; the result and the names of the files."""
     record = Record(
-        job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell, forms=call.forms
+        job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell, forms=call.forms, out=out
     )
     with record.catching_warnings(), written_whole(out, call.overwrite) as draft:
         tell_doubts(options, record)

@@ -30,6 +30,8 @@ class Typed:
     ----------
     si
         SI unit, "-" for none.
+    python
+        A value as Python writes it, for the help of the call.
     read
         Function of `analyses.quantities` that takes the text and the option's name and gives the value in SI; as
         "misalignment.parameters:numbers" of another module of the analyses.
@@ -41,6 +43,7 @@ class Typed:
 
     si: str
     read: str
+    python: str
     hint: str = ""
     kind: Any = str
 
@@ -102,16 +105,25 @@ class Needs:
     remedy: str = ""
 
 
+@dataclass(frozen=True)
+class Missing:
+    """What is said of a path that leads nowhere, and the remedy; nothing is said where there is no `what`."""
+
+    what: str = "there is no such file"
+    remedy: str = "check the path"
+
+
 MeshUnit = Literal["m", "cm", "mm", "in"]
 ForceUnit = Literal["lbf", "N", "kN", "mN", "kgf"]
 AngleUnit = Literal["deg", "rad"]
-Length = Annotated[float, Typed("m", "length", "mm unless a unit is written")]
-Lengths = Annotated[tuple[float, ...], Typed("m", "lengths", "mm unless a unit is written")]
-Millimetres = Annotated[float, Typed("m", "millimetres", "[mm]", float)]
-Degrees = Annotated[float, Typed("rad", "degrees", "[deg]", float)]
-Fraction = Annotated[float, Typed("-", "fraction")]
-Pressure = Annotated[float, Typed("Pa", "pressure")]
-TimeSpan = Annotated[tuple[float, float], Typed("s", "time_span"), Spelled(dashed=True)]
+CaseFolder = Annotated[Path, Missing("there is no such folder", "name the folder that holds case.toml")]
+Length = Annotated[float, Typed("m", "length", "gc.mm(4)", "mm unless a unit is written")]
+Lengths = Annotated[tuple[float, ...], Typed("m", "lengths", "gc.mm(1, 4)", "mm unless a unit is written")]
+Millimetres = Annotated[float, Typed("m", "millimetres", "gc.mm(30)", "[mm]", float)]
+Degrees = Annotated[float, Typed("rad", "degrees", "gc.deg(5)", "[deg]", float)]
+Fraction = Annotated[float, Typed("-", "fraction", "0.02")]
+Pressure = Annotated[float, Typed("Pa", "pressure", "gc.MPa(0.5)")]
+TimeSpan = Annotated[tuple[float, float], Typed("s", "time_span", "(0.4, 1.6)"), Spelled(dashed=True)]
 Expression = Annotated[str, Spelled(dashed=True)]
 Texts = Annotated[tuple[str, ...], Spelled(dashed=True, each=True)]
 
@@ -128,6 +140,8 @@ class Declared:
         Whether it may be None.
     range
         What its values can be.
+    missing
+        What is said where it is a path that leads nowhere.
     words
         What the docstring of the options says of it.
     section
@@ -145,6 +159,7 @@ class Declared:
     spelled: Spelled
     rules: tuple[Requires | Excludes | Needs, ...]
     range: Range | None
+    missing: Missing
     words: str
     section: str = ""
     settable: bool = True
@@ -219,6 +234,20 @@ class Options:
             for name, known, value in numbers_in(one.range, getattr(self, one.name)):
                 yield f"`{one.name}` {name}".rstrip(), known, value
 
+    def refuse_missing_files(self) -> None:
+        """InputError for the first path that leads nowhere: said before anything heavy is imported or read."""
+        for path, missing in self.paths():
+            if missing.what and leads_nowhere(path):
+                raise InputError(path, "", missing.what, missing.remedy)
+
+    def paths(self) -> Iterator[tuple[Path, Missing]]:
+        """Every path that the options name, and what is said where it leads nowhere."""
+        for one in declared(type(self)):
+            value = getattr(self, one.name)
+            for each in value if isinstance(value, tuple) else (value,):
+                if isinstance(each, Path):
+                    yield each, one.missing
+
     def refuse_impossible(self) -> None:
         """InputError for values that cannot be; for an analysis to fill."""
 
@@ -242,6 +271,17 @@ class Options:
             for name in (one.name for one in declared(type(self)))
             if getattr(self, name) is not None
         }
+
+
+def leads_nowhere(path: Path) -> bool:
+    """Whether there is neither a file nor a folder; names that no file can have are left to who opens them."""
+    try:
+        path.stat()
+    except FileNotFoundError:
+        return True
+    except (OSError, ValueError):
+        pass
+    return False
 
 
 def _others(rule: Requires | Excludes | Needs) -> tuple[str, ...]:
@@ -299,6 +339,7 @@ def _declared(each: Field[Any], hint: Any, told: Documented) -> Declared:
         next((mark for mark in marks if isinstance(mark, Spelled)), Spelled()),
         tuple(mark for mark in marks if isinstance(mark, (Requires, Excludes, Needs))),
         next((mark for mark in marks if isinstance(mark, (Plausible, ByPlace, ByName))), None),
+        next((mark for mark in marks if isinstance(mark, Missing)), Missing()),
         told.words,
         told.section,
         each.init,

@@ -7,16 +7,17 @@ import math
 import re
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Literal
-
-import numpy as np
-from scipy.spatial.transform import Rotation
+from typing import TYPE_CHECKING, Literal
 
 from geocontact.data.errors import InputError
-from geocontact.geometry.plane import Plane
-from geocontact.geometry.sagittal import Vector
-from geocontact.geometry.sweep import Axis
 from geocontact.io.text.units import ANGLE, DIMENSIONS, LENGTH, si_unit
+
+if TYPE_CHECKING:  # numbers are read before anything heavy is imported
+    from scipy.spatial.transform import Rotation
+
+    from geocontact.geometry.plane import Plane
+    from geocontact.geometry.sagittal import Vector
+    from geocontact.geometry.sweep import Axis
 
 _NUMBER_AND_UNIT = re.compile(r"(?P<number>[-+0-9.eE]+?)\s*(?P<unit>[a-zA-Z][a-zA-Z/^0-9]*)")
 
@@ -128,6 +129,8 @@ def fraction(text: str, option: str) -> float:
 
 def splitting_plane(text: str, unit: str) -> Plane:
     """ "z" or "z=1.5": the plane z = 0 or z = 1.5 (in the mesh unit)."""
+    from geocontact.geometry.plane import Plane
+
     axis, _, at = text.partition("=")
     if axis.strip() not in ("x", "y", "z"):
         raise InputError("", "`split`", f"{text!r} is not an axis", "write x, y or z, or for example z=1.5")
@@ -243,6 +246,8 @@ def _three(values: list[float]) -> Vector:
 
 
 def _checked(point: tuple[float, float, float], direction: tuple[float, float, float], text: str) -> Axis:
+    from geocontact.geometry.sweep import Axis
+
     try:
         return Axis(point, direction)
     except ValueError as error:
@@ -275,6 +280,9 @@ def time_span(text: str, option: str) -> tuple[float, float]:
 
 def turned_axes(text: str, option: str) -> Rotation:
     """`x,z,-y`: which of the file's axes are our x, y and z. Mirrored or repeated axes are refused."""
+    import numpy as np
+    from scipy.spatial.transform import Rotation
+
     parts = [part.strip().lower() for part in text.split(",")]
     matrix = np.zeros((3, 3))
     for row, part in enumerate(parts[:3]):

@@ -100,6 +100,7 @@ class Command:
     ) -> tuple[Result, list[str]]:
         """Run it with options in SI, by their names in Python; `told` is what `run.json` says of them."""
         options = self.options(**given)
+        options.refuse_missing_files()
         place, _, name = (self.job if isinstance(self.job, str) else self.job(options)).partition(":")
         call = Call(told, Terminal(), self.spell, forms, overwrite)
         return execute(getattr(import_module(place), name), options, folder, call)

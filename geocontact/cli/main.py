@@ -70,7 +70,7 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
     except MissingArgumentError as error:
         name = str(error.argument.name) if error.argument else "an argument"
         unit = "mesh files carry no unit; pass --unit mm, cm, m or in"
-        hint = unit if name == "--unit" else help_of(error.command_chain or ())
+        hint = unit if name == "--unit" else f"{_words(error)}{help_of(error.command_chain or ())}"
         return _fail(f"{name} is missing: {hint}", USAGE_ERROR, debug)
     except CycloptsError as error:
         return _fail(mistyped(error, app), USAGE_ERROR, debug)
@@ -86,6 +86,13 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
         return _fail("not enough memory; decimate the meshes or evaluate fewer frames", FAILURE, debug)
     except Exception as error:  # the last line of defence: one line for the user, --debug for us
         return _fail(f"{type(error).__name__}: {error} (run again with --debug for the details)", FAILURE, debug)
+
+
+def _words(error: MissingArgumentError) -> str:
+    """First sentence of the help of what is missing: "a mesh of the body; "."""
+    words = (error.argument.parameter.help or "") if error.argument else ""
+    first = words.split(". ")[0].rstrip(".")
+    return f"{first[:1].lower()}{first[1:]}; " if first else ""
 
 
 def _terminated(*_: object) -> None:

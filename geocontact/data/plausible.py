@@ -50,24 +50,27 @@ class Plausible:
     usual: tuple[float, float] | None = None
     or_zero: bool = False
 
-    def refusal(self, value: float) -> tuple[str, str] | None:
-        """What is wrong with a value [SI], and what to do about it; None when it is possible."""
+    def refusal(self, value: float, written: float | None = None) -> tuple[str, str] | None:
+        """What is wrong with a value [SI], and what to do about it; None when it is possible.
+
+        `written` is the number that stands in a file, where its unit stands beside it.
+        """
         if not math.isfinite(value):
             return f"{value} is not a finite number", "give a number"
         if self._holds(value, self.possible):
             return None
         low, high = self.possible
         what = f"{self.shown(value)} cannot be {self.what}: that is {low:g} to {self.shown(high * self.unit.factor)}"
-        return what, self._question(value) or "check the value and its unit"
+        return what, self._question(value, written) or "check the value and its unit"
 
-    def doubt(self, value: float) -> str | None:
-        """Why a value [SI] that is possible is not likely; None when it is usual."""
+    def doubt(self, value: float, written: float | None = None) -> str | None:
+        """Why a value [SI] that is possible is not likely; None when it is usual. `written` as for `refusal`."""
         if self.usual is None or self._holds(value, self.usual):
             return None
         low, high = self.usual
         usual = f"{low:g} to {self.shown(high * self.unit.factor)}"
         line = f"{self.shown(value)} is unusual for {self.what}, which mostly is {usual}"
-        question = self._question(value)
+        question = self._question(value, written)
         return f"{line}; {question}" if question else line
 
     def require(self, value: float, name: str) -> None:
@@ -86,11 +89,12 @@ class Plausible:
         low, high = (end * self.unit.factor for end in ends)
         return bool(low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high))
 
-    def _question(self, value: float) -> str:
+    def _question(self, value: float, written: float | None = None) -> str:
         """Whether the number that was written was meant in another unit, in which it would be usual."""
         units = [self.unit, *(unit for unit in KNOWN if unit.si == self.unit.si and unit.name != self.unit.name)]
         read = value / self.unit.factor
-        for number in filter(_may_be_written, (value, read) if abs(value) >= LEAST_NUMBER else (read,)):
+        numbers = (value, read) if abs(value) >= LEAST_NUMBER else (read,)
+        for number in filter(_may_be_written, numbers if written is None else (written,)):
             for unit in units:
                 meant = number * unit.factor
                 if meant != value and self._holds(meant, self.usual or self.possible):

@@ -15,16 +15,15 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.contact.joint_stop import stop_force
-from geocontact.contact.sphere_in_tube import TubeContact, TubeLaw, tube_contact
 from geocontact.data.multibody.joint_kinds import revolute
 from geocontact.data.multibody.model import GROUND, Body, Multibody
-from geocontact.dynamics.body_contact import action_and_reaction
 from geocontact.dynamics.equations import Equations, LawState, equations_of_motion
 from geocontact.dynamics.equilibrium import Equilibrium
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.symbols import constant
-from geocontact.dynamics.tree import Moving, Tree, tree_of
+from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.shoulder_exoskeleton.arm_numbers import BODIES, COLUMN, SIZES, slices
+from geocontact.shoulder_exoskeleton.cuff_contact import Cuff, held_at_a_point, held_by_a_surface
 from geocontact.shoulder_exoskeleton.cylinder import lever
 from geocontact.shoulder_exoskeleton.device import JOINTS, Device
 
@@ -33,16 +32,21 @@ if TYPE_CHECKING:
 
 TUBE = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]])
 """Axes of the cuff in the arm link's frame, in columns: distal, medial, and the way it moves when it is raised."""
-INPUTS = ("sphere", "sphere_rate", "gravity", "factor")
-"""Recorded inputs after those of locked joints: 3, 3, 3 and 1 numbers."""
+RECORDED: dict[Cuff, int] = {"point": 10, "surface": 16}
+"""Recorded inputs after those of locked joints: place of the sphere, its velocity, gravity, the support's factor; for a
+surface also the direction of the arm's line and its rate."""
 OUTPUTS: dict[str, int] = {
     "force": 3,
     "in_cuff": 3,
+    "couple": 3,
     "normal": 3,
     "friction": 3,
     "sliding": 3,
     "place": 3,
     "pressing": 1,
+    "centre": 1,
+    "peak": 1,
+    "share": 1,
     "support": 1,
     "stops": 3,
     "energy": 1,
@@ -73,7 +77,9 @@ class ArmModel:
     equilibrium: Equilibrium
 
 
-def arm_model(device: Device, *, locked: Sequence[str] = (), machine_code: bool = True) -> ArmModel:
+def arm_model(
+    device: Device, *, locked: Sequence[str] = (), machine_code: bool = True, cuff: Cuff = "point"
+) -> ArmModel:
     """The model of a device: its numbers are parameters, but for the directions of the axes.
 
     Parameters
@@ -82,49 +88,60 @@ def arm_model(device: Device, *, locked: Sequence[str] = (), machine_code: bool 
         Joints that an input prescribes.
     machine_code
         Whether to compile where there is a compiler.
+    cuff
+        How the arm is held: at a point, or by the surface of a padded cuff.
     """
     axes = tuple(tuple(map(float, device.axis(joint))) for joint in JOINTS)
-    return _made(axes, tuple(locked), machine_code)
+    return _made(axes, tuple(locked), machine_code, cuff)
 
 
 @lru_cache(maxsize=8)
-def _made(axes: tuple[tuple[float, ...], ...], locked: tuple[str, ...], machine_code: bool) -> ArmModel:
-    from casadi import SX, Function, densify, vertcat
+def _made(axes: tuple[tuple[float, ...], ...], locked: tuple[str, ...], machine_code: bool, cuff: Cuff) -> ArmModel:
+    from casadi import SX, Function, cross, densify, vertcat
 
-    p, w = SX.sym("numbers", sum(SIZES.values())), SX.sym("recorded", 10)
+    p, w = SX.sym("numbers", sum(SIZES.values())), SX.sym("recorded", RECORDED[cuff])
     of = {name: p[place, :] for name, place in slices().items()}
-    tree = _tree(axes, of, w[6:9, :])
-    push = SX.sym("push")
-    arm = tree.bodies["arm"]
-    contact, cuff = _contact(tree, of, w)
-    force = cuff @ vertcat(*(a + b for a, b in zip(contact.normal, contact.friction, strict=True)))
+    tree, push = _tree(axes, of, w[6:9, :]), SX.sym("push")
+    arm, middle = tree.bodies["arm"], tree.point("arm", of["cuff"])
+    turned = arm.rotation @ constant(TUBE)
+    held = (held_at_a_point if cuff == "point" else held_by_a_surface)(arm, turned, middle, of, w)
     k, width, damping = (of["stop"][i] for i in range(3))
     stops = [stop_force(tree.q[i], tree.u[i], of["lower"][i], of["upper"][i], k, width, damping) for i in range(3)]
     support = push * lever(tree.q[2], of["lever"][0], of["lever"][1], of["lever"][2])
     along = {joint: stops[i] - of["damping"][i] * tree.u[i] for i, joint in enumerate(JOINTS)}
     along["elevation"] = along["elevation"] + support
+    back = (-held.force, -(held.couple + cross(w[:3, :], held.force)))
     equations = equations_of_motion(
         tree,
-        loads=action_and_reaction("arm", GROUND, -force, w[:3, :]),
+        loads={"arm": back},
         along=along,
         prescribed=locked,
         memory=[LawState(push, (of["push"] * w[9, :] - push) / of["lag"])],
         inputs=[w],
         parameters=[p],
     )
-    energy = _energy(tree, of) + 0.5 * of["law"][0] * sum((x * x for x in contact.radial), SX(0))
-    lost = sum((of["damping"][i] * tree.u[i] ** 2 for i in range(3)), SX(0))
-    slip = vertcat(*contact.sliding)
-    lost = lost - vertcat(*contact.friction).T @ slip
-    damped = vertcat(*contact.normal) + of["law"][0] * vertcat(*contact.radial)
-    moving = cuff.T @ (w[3:6, :] - _speed(arm, w[:3, :]))
-    lost = lost - damped.T @ moving
-    power = support * tree.u[2] + sum((stops[i] * tree.u[i] for i in range(3)), SX(0)) - force.T @ w[3:6, :]
-    place = vertcat(contact.along, contact.radial[1], contact.radial[2])
-    joints = [tree.bodies[name].place for name in BODIES] + [tree.point("arm", of["cuff"])]
-    told = [force, cuff.T @ force, vertcat(*contact.normal), vertcat(*contact.friction), slip, place]
-    told += [contact.pressing, support, vertcat(*stops), energy, power, lost, vertcat(*joints)]
-    outputs = Function("outputs", equations.state, [densify(vertcat(*told))])
+    damped = sum((of["damping"][i] * tree.u[i] ** 2 for i in range(3)), SX(0))
+    power = support * tree.u[2] + sum((stops[i] * tree.u[i] for i in range(3)), SX(0)) + held.fed
+    told = {
+        "force": held.force,
+        "in_cuff": turned.T @ held.force,
+        "couple": turned.T @ held.couple,
+        "normal": held.normal,
+        "friction": held.friction,
+        "sliding": held.sliding,
+        "place": held.place,
+        "pressing": held.pressing,
+        "centre": held.centre,
+        "peak": held.peak,
+        "share": held.share,
+        "support": support,
+        "stops": vertcat(*stops),
+        "energy": _energy(tree, of) + held.stored,
+        "power_in": power,
+        "power_lost": damped + held.lost,
+        "joints": vertcat(*(tree.bodies[name].place for name in BODIES), middle),
+    }
+    outputs = Function("outputs", equations.state, [densify(vertcat(*(told[name] for name in OUTPUTS)))])
     return ArmModel(equations, outputs, Stepper(equations, machine_code=machine_code), Equilibrium(equations))
 
 
@@ -157,29 +174,6 @@ def _tree(axes: tuple[tuple[float, ...], ...], of: dict[str, SX], gravity: SX) -
     )
 
 
-def _contact(tree: Tree, of: dict[str, SX], w: SX) -> tuple[TubeContact, SX]:
-    """Forces on the sphere in the cuff's axes, and these axes in the device's frame."""
-    from casadi import SX
-
-    arm = tree.bodies["arm"]
-    cuff = arm.rotation @ constant(TUBE)
-    offset = cuff.T @ (w[:3, :] - tree.point("arm", of["cuff"]))
-    velocity = cuff.T @ (w[3:6, :] - _speed(arm, w[:3, :]))
-    law = TubeLaw(*(of["law"][i] for i in range(SIZES["law"])))
-    return tube_contact(_components(offset), _components(velocity), (SX(1), SX(0), SX(0)), law), cuff
-
-
-def _components(vector: SX) -> tuple[SX, SX, SX]:
-    return vector[0], vector[1], vector[2]
-
-
-def _speed(body: Moving, place: SX) -> SX:
-    """Velocity of the body's material point at a place of the ground's frame [m/s]."""
-    from casadi import cross
-
-    return body.speed + cross(body.spin, place - body.place)
-
-
 def _energy(tree: Tree, of: dict[str, SX]) -> SX:
     """Of motion and weight [J]."""
     from casadi import SX, cross, dot, sumsqr
@@ -206,12 +200,14 @@ Told = dict[str, Float[np.ndarray, "t _"]]
 
 force
     On the human arm, in the device's frame [N].
-in_cuff, normal, friction
-    The same in the cuff's axes (distal, medial, raising), and its two parts.
+in_cuff, couple, normal, friction
+    The same in the cuff's axes (distal, medial, raising), the moment about the sphere's centre [N m], and the force's
+    two parts.
 sliding, place
     Velocity of the sphere along the wall [m/s] and its place from the cuff's middle [m], in these axes.
-pressing
-    Normal force, >= 0 [N].
+pressing, centre, peak, share
+    Normal force, or pressures times areas, >= 0 [N]; centre of the pressures along the cuff [m]; largest pressure [Pa]
+    and share of the wall that is pressed on, 0 where the arm is held at a point.
 support, stops
     Torque of the cylinder on the active joint, torques of the stops on all [N m].
 energy

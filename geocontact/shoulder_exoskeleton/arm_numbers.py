@@ -27,10 +27,23 @@ SIZES: dict[str, int] = {
     "lag": 1,
     "lever": 3,
     "law": 7,
+    "padded": 9,
 }
 """Groups of numbers, and how many each has."""
 THIN = 0.02
 """m; radius of gyration of the arm link about its own line, invented: it hardly counts."""
+PADDED = (
+    "cuff_radius",
+    "cuff_length",
+    "pad_thickness",
+    "pad_modulus",
+    "tissue_thickness",
+    "tissue_modulus",
+    "interference",
+    "pad_damping",
+    "delta_full",
+)
+"""Numbers of a cuff that holds the arm by its surface."""
 COLUMN = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
 """Entries of a symmetric matrix that are kept."""
 
@@ -69,6 +82,7 @@ def adjusted_numbers(device: Device, wearer: Wearer, level: float) -> Float[np.n
         "lag": [d["lag"]],
         "lever": [d["lever_a"], d["lever_b"], d["lever_phase"]],
         "law": [d[name] for name in ("k", "b", "delta_full", "v_th", "mu_s", "mu_k", "rounding")],
+        "padded": [d[name] for name in PADDED],
     }
     return np.concatenate([np.asarray(groups[name], float) for name in SIZES])
 

@@ -103,6 +103,12 @@ QUANTITIES: Mapping[str, DeviceQuantity] = {
     "mu_s": _as_is("1", 0.0, 5.0, "static friction of the interface"),
     "mu_k": _as_is("1", 0.0, 5.0, "kinetic friction of the interface"),
     "v_th": DeviceQuantity("m/s", ("mm/s", 1e3), 1e-5, 1.0, "threshold speed of the friction table"),
+    "pad_thickness": _length("thickness of the cuff's padding", 1e-4, 0.1),
+    "pad_modulus": _as_is("Pa", 10.0, 1e8, "confined modulus of the padding"),
+    "tissue_thickness": _length("thickness of the arm's soft tissue", 1e-4, 0.1),
+    "tissue_modulus": _as_is("Pa", 10.0, 1e8, "confined modulus of the soft tissue"),
+    "interference": _length("by how much the arm is wider than the empty cuff", 0.0, 0.05),
+    "pad_damping": _as_is("Pa s/m", 0.0, 1e8, "damping of the padding where it is pressed on"),
     "rounding": _length("over which friction's kink on the axis is rounded", 1e-7),
 }
 """All numbers of a device."""

@@ -46,6 +46,12 @@ OTHERS: tuple[tuple[str, float, Source, str], ...] = (
     ("mu_s", 1.0, "paper", "sec. 2.3"),
     ("mu_k", 0.8, "paper", "sec. 2.3"),
     ("v_th", 1e-3, "invented", "the library's law has such a speed, the paper does not tell it"),
+    ("pad_thickness", 0.01, "invented", "of the cuff as a surface"),
+    ("pad_modulus", 2e4, "invented", "a soft foam; of the cuff as a surface"),
+    ("tissue_thickness", 0.025, "invented", "of the cuff as a surface"),
+    ("tissue_modulus", 1e4, "invented", "relaxed muscle and skin; of the cuff as a surface"),
+    ("interference", 1e-3, "invented", "a strap pulled tight; of the cuff as a surface"),
+    ("pad_damping", 5e3, "invented", "of the cuff as a surface"),
     ("rounding", 5e-5, "invented", "numerical: friction is less by at most 0.05 N"),
 )
 

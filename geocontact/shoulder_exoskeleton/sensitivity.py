@@ -8,21 +8,25 @@ from dataclasses import dataclass
 import numpy as np
 
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.shoulder_exoskeleton.arm_numbers import PADDED
+from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
 from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Source, Wearer
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 
 SHARE, TURN, SHIFT = 0.1, np.radians(5.0), 0.01
 """Of a number; of an angle [rad] and of a length that may be 0 [m]."""
-NUMERICAL = ("rounding",)
-SHOWN_ONLY = ("belt_share", "cuff_length", "cuff_radius")
-"""Numbers on which no motion depends."""
+IDLE: dict[Cuff, tuple[str, ...]] = {
+    "point": ("rounding", "belt_share", *(name for name in PADDED if name != "delta_full")),
+    "surface": ("rounding", "belt_share", "k", "b"),
+}
+"""Numbers that no motion depends on, and one that is numerical, by how the arm is held."""
 STANDING = tuple(f"axis_{joint}_{axis}" for joint in JOINTS for axis in "xyz")
 """Directions of axes: other axes are another device, with equations of its own."""
 
 
 @dataclass(frozen=True)
 class Influence:
-    """What one number changes, at most over the trial, by plus or minus its step.
+    """What one number changes by plus or minus its step, the larger of both; root mean square over the trial.
 
     Parameters
     ----------
@@ -34,6 +38,8 @@ class Influence:
         Of the active joint [rad].
     supporting, shear
         Interface force that lifts, and friction on the arm [N].
+    most
+        Largest change of the supporting force in a frame [N]: mostly when something slips earlier or later.
     """
 
     number: str
@@ -42,13 +48,16 @@ class Influence:
     elevation: float
     supporting: float
     shear: float
+    most: float
 
 
-def influences(motion: ArmMotion, device: Device, wearer: Wearer, level: float) -> Iterator[Influence]:
+def influences(
+    motion: ArmMotion, device: Device, wearer: Wearer, level: float, cuff: Cuff = "point"
+) -> Iterator[Influence]:
     """One by one, in the device's order; a number with which nothing rests at the start changes all by infinity."""
-    usual = simulate_arm(motion, device, wearer, level)
+    usual = simulate_arm(motion, device, wearer, level, cuff=cuff)
     for name, number in device.numbers.items():
-        if name in (*NUMERICAL, *SHOWN_ONLY, *STANDING):
+        if name in (*IDLE[cuff], *STANDING):
             continue
         step = _step(name, number.value)
         if step == 0.0:
@@ -69,11 +78,11 @@ def _step(name: str, value: float) -> float:
     return abs(SHARE * value)
 
 
-def _changed(usual: ArmSimulation, device: Device) -> tuple[float, float, float]:
+def _changed(usual: ArmSimulation, device: Device) -> tuple[float, ...]:
     try:
-        other = simulate_arm(usual.motion, device, usual.wearer, usual.level)
+        other = simulate_arm(usual.motion, device, usual.wearer, usual.level, cuff=usual.cuff)
     except ArithmeticError:
-        return np.inf, np.inf, np.inf
+        return (np.inf,) * 4
     pairs = ((usual.elevation, other.elevation), (usual.supporting, other.supporting), (usual.shear, other.shear))
-    elevation, supporting, shear = (float(np.abs(a - b).max()) for a, b in pairs)
-    return elevation, supporting, shear
+    changes = [float(np.sqrt(np.mean((a - b) ** 2))) for a, b in pairs]
+    return (*changes, float(np.abs(usual.supporting - other.supporting).max()))

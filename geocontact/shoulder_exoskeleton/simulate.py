@@ -11,10 +11,11 @@ from geocontact.dynamics.recorded_inputs import RecordedInputs, recorded_inputs,
 from geocontact.shoulder_exoskeleton.arm_model import ArmModel, Told, arm_model, output_slices
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers, slices
+from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
 from geocontact.shoulder_exoskeleton.device import JOINTS, Device, Wearer
 
-TOLERANCE = 3e-6
-"""Error allowed in a step [rad, rad/s, N], plus as much of each one's size: 0.01 degrees and 0.06 N over a lift."""
+TOLERANCE = 5e-7
+"""Error allowed in a step [rad, rad/s, N], plus as much of each one's size: 0.01 degrees and 0.1 N over a trial."""
 FIRST = 1e-4
 """s; first step that is tried."""
 FARTHEST = 0.25
@@ -32,6 +33,8 @@ class ArmSimulation:
         Of the human arm, at the recorded frames.
     device, wearer, level
         Whose motion it is; share of the cylinder's force.
+    cuff
+        How the arm is held.
     angles, rates
         Of `JOINTS` [rad, rad/s]: elevation from hanging down; passive joints positive across the chest, for both sides.
     cylinder
@@ -46,6 +49,7 @@ class ArmSimulation:
     device: Device
     wearer: Wearer
     level: float
+    cuff: Cuff
     angles: Float[np.ndarray, "t 3"]
     rates: Float[np.ndarray, "t 3"]
     cylinder: Float[np.ndarray, " t"]
@@ -96,6 +100,7 @@ def simulate_arm(
     tolerance: float = TOLERANCE,
     steps: int | None = None,
     machine_code: bool = True,
+    cuff: Cuff = "point",
 ) -> ArmSimulation:
     """Motion of the exoskeleton's arm, at the recorded times.
 
@@ -110,12 +115,14 @@ def simulate_arm(
         lag.
     tolerance, steps
         As those of `Stepper.simulate`.
+    cuff
+        How the arm is held: at a point, as in the paper, or by the surface of a padded cuff.
 
     ArithmeticError where nothing rests in equilibrium at the start, or the motion cannot go on.
     """
-    model, p = arm_model(device, machine_code=machine_code), adjusted_numbers(device, wearer, level)
+    model, p = arm_model(device, machine_code=machine_code, cuff=cuff), adjusted_numbers(device, wearer, level)
     mirrored = mirrored_arm(motion)
-    inputs = arm_inputs(mirrored, factor)
+    inputs = arm_inputs(mirrored, factor, cuff)
     start = at_rest(model, device, p, inputs(motion.time[0])[0])
     found = model.stepper.simulate(
         start, motion.time, inputs=inputs, parameters=p, tolerance=tolerance, first=FIRST, steps=steps
@@ -125,7 +132,7 @@ def simulate_arm(
         told["force"] = told["force"] * MIRROR
         told["joints"] = told["joints"] * np.tile(MIRROR, 4)
     return ArmSimulation(
-        motion, device, wearer, level, found.q, found.u, found.z[:, 0], told, found.steps, found.refused
+        motion, device, wearer, level, cuff, found.q, found.u, found.z[:, 0], told, found.steps, found.refused
     )
 
 
@@ -142,14 +149,21 @@ def mirrored_arm(motion: ArmMotion) -> ArmMotion:
     )
 
 
-def arm_inputs(motion: ArmMotion, factor: Float[np.ndarray, " t"] | None = None) -> RecordedInputs:
-    """Place and velocity of the sphere, gravity and the support's factor over time."""
+def arm_inputs(
+    motion: ArmMotion, factor: Float[np.ndarray, " t"] | None = None, cuff: Cuff = "point"
+) -> RecordedInputs:
+    """Place and velocity of the sphere, gravity and the support's factor over time; the arm's line for a surface."""
     held = np.ones(len(motion.time)) if factor is None else np.asarray(factor, float)
-    return (
+    found = (
         recorded_inputs(motion.time, motion.interface, derivatives=1)
         .beside(recorded_inputs(motion.time, motion.gravity_at_frames()))
         .beside(stepped_inputs(motion.time, held[:-1, None]))
     )
+    if cuff == "point":
+        return found
+    line = motion.interface - motion.shoulder
+    line = line / np.linalg.norm(line, axis=1, keepdims=True)
+    return found.beside(recorded_inputs(motion.time, line, derivatives=1))
 
 
 State = tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"], Float[np.ndarray, " k"]]
@@ -162,6 +176,7 @@ def at_rest(model: ArmModel, device: Device, p: Float[np.ndarray, " p"], inputs:
     """
     held = inputs.copy()
     held[3:6] = 0.0
+    held[13:16] = 0.0
     guess = _guess(p, held[:3])
     q, z = model.equilibrium.find((guess, p[slices()["push"]] * held[9]), inputs=held, parameters=p, tolerance=1e-7)
     lower, upper = (np.array([device[f"{joint}_{end}"] for joint in JOINTS]) for end in ("lower", "upper"))

@@ -25,6 +25,7 @@ JOBS: tuple[Job, ...] = (
     gc.misalignment.population,
     gc.shoulder.simulate,
     gc.shoulder.compare,
+    gc.shoulder.study,
     gc.shoulder.optimise,
     gc.diagnose,
     gc.discriminability,

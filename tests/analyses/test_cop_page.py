@@ -48,6 +48,7 @@ def test_the_butterfly_holds_each_force_at_its_centre(tmp_path: Path) -> None:
     lengths = lines[:, 1, 1] - lines[:, 0, 1]
     np.testing.assert_allclose(lengths / lengths[0], [1.0, 2.0, 3.0], rtol=1e-9)
     assert f"100 N are {100.0 * lengths[0] / 1000.0:g} mm long" in forces.words, "2 × 5e5 N/m × 1 mm = 1000 N"
+    assert [track.told for track in forces.tracks] == [(), ["1000 N", "2000 N", "3000 N"]], "a force is read in N"
 
 
 def test_the_page_answers_first(tmp_path: Path) -> None:

@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from geocontact.analyses.motion.inverse_dynamics import page as id_page
+from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.sides import stem_and_side
 from geocontact.analyses.motion.skeleton import forces_on, markers_beside, scene_of, skeleton
@@ -84,3 +86,19 @@ def test_right_and_left_share_a_panel() -> None:
 )
 def test_sides_of_names(name: str, stem: str, side: str) -> None:
     assert stem_and_side(name) == (stem, side)
+
+
+def test_the_page_of_moments_opens_at_the_largest_and_says_it(tmp_path: Path) -> None:
+    """Of 2001 frames every second is shown: the 1401st is the 701st of them."""
+    _, model, _, _ = legs.planted(tmp_path)
+    names = [c.name for c in model.coordinates]
+    values = np.zeros((2001, len(names)))
+    values[1400, names.index("knee")] = -55.0
+    values[:, names.index("ty")] = 40.0
+    forces = Forces(np.arange(2001) / 100.0, model, values, 800.0, 0.9)
+    turning = np.array([c.kind == "rotational" for c in model.coordinates]) & ~forces.at_ground
+    assert id_page.answer(forces, turning) == [
+        "knee needs the largest moment, 55.0 N m at 14 s.",
+        "Up to 40 N are left over at the ground: 5.0% of the largest measured force.",
+    ]
+    assert id_page._start(forces, turning, id_page.thinned(2001)) == 700

@@ -58,7 +58,7 @@ class Example(Options):
     radius: Annotated[Millimetres | None, Spelled("radius-mm", "radius_mm"), Requires("depth")] = None
     kind: Literal["a", "b"] = "a"
     other: Annotated[str | None, Excludes("radius"), Needs("depth", "give 4mm")] = None
-    course: Annotated[Path | Mapping[str, tuple[float, ...]] | None, Typed("m", "misalignment.drift:typed")] = None
+    course: Annotated[Path | Mapping[str, tuple[float, ...]] | None, Typed("m", "misalignment.drift:typed", "")] = None
 
     def refuse_impossible(self) -> None:
         if self.depth is not None and not self.depth > 0.0:

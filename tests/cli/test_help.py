@@ -126,7 +126,14 @@ def test_many_options_are_never_one_heap(job: Job) -> None:
             "--sze is no option of geocontact gap; name the command before its options, see geocontact gap --help",
         ),
         ("elbow zzzz", "zzzz is no command of elbow; there are simulate, fit, compare, design, population"),
-        ("cop a.csv --out x", "--motion is missing: see geocontact cop --help"),
+        (
+            "cop a.csv --out x",
+            (
+                "--motion is missing: poses of the foot in the ground's frame (.csv), or coordinates (.mot .sto) with "
+                "--osim and --joint, or --map; see geocontact cop --help"
+            ),
+        ),
+        ("fit a.stl --unit mm --out x", "--shape is missing: what is fitted; see geocontact fit --help"),
     ],
 )
 def test_what_was_mistyped_is_told_in_one_line(typed: str, line: str) -> None:

@@ -36,7 +36,7 @@ def unpictured() -> Iterator[None]:
     """Neither figures nor pages are made."""
     room = "geocontact.analyses.loadcells.result"
     with ExitStack() as stack:
-        for name in ("loadcell_figure", "ensemble_figure", "save_both", "write_loadcell_report"):
+        for name in ("loadcell_figure", "ensemble_figure", "save_both", "loadcell_page", "write_page"):
             stack.enter_context(mock.patch(f"{room}.{name}", return_value=b""))
         yield
 

@@ -34,7 +34,7 @@ def edited(*changes: str, frames: tuple[int, ...] = (0, 30)) -> Callable[[Path],
 FAR = edited("-0.0306176748938", "-0.1306176748938", frames=(0,))
 
 MOTIONS: Cases = {
-    "missing file": ({"--motion": "nowhere.csv"}, ("nowhere.csv", "No such file", "check the path")),
+    "missing file": ({"--motion": "nowhere.csv"}, ("nowhere.csv", "there is no such file", "check the path")),
     "folder": ({"--motion": made("poses.csv")}, ("poses.csv", "irectory", "check the path")),
     "unknown format": (
         motion(HEAD + "0,0,20,0,1,0,0,0\n", "poses.trc"),

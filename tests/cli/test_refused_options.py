@@ -137,7 +137,7 @@ OPTIONS: Cases = {
     "placement file missing": ({"--place-moving": "nowhere.txt"}, ("nowhere.txt", "check the path")),
     "placement by an unknown body": ({"--place-fixed": f"{KNEE}:patella"}, ("knee.osim", "'patella'", "tibial_insert")),
     "placement by a missing model": ({"--place-fixed": "nowhere.osim:tibia"}, ("nowhere.osim", "check the path")),
-    "comparison missing": ({"--compare": "nowhere.csv"}, ("nowhere.csv", "No such file")),
+    "comparison missing": ({"--compare": "nowhere.csv"}, ("nowhere.csv", "there is no such file")),
     "comparison empty": (compared(""), ("measured.csv", "area.csv")),
     "comparison without time": (compared("area_fixed [mm^2]\n1\n"), ("measured.csv", "'time [s]'")),
     "comparison without an area": (compared("time [s],force [N]\n0,1\n"), ("measured.csv", "area_fixed [mm^2]")),

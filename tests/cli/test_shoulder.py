@@ -111,3 +111,18 @@ def test_a_person_that_cannot_be(tmp_path: Path, text: str, words: str) -> None:
 def test_help_lists_the_commands() -> None:
     told = call("shoulder", "--help")
     assert told.code == 0 and "simulate" in told.out and "compare" in told.out
+
+
+def test_angles_beyond_all_stops_at_the_start(tmp_path: Path) -> None:
+    """Ranges that hold no pose of an arm that hangs down; stops so soft that they give way."""
+    ranges = {"passive_1": (40, 60), "passive_2": (20, 30), "elevation": (120, 150)}
+    lines = [
+        f'{joint}_{end} = {{ value = {angle}, unit = "deg" }}'
+        for joint, ends in ranges.items()
+        for end, angle in zip(("lower", "upper"), ends, strict=True)
+    ]
+    text = "\n".join(["[numbers]", *lines, 'stop_stiffness = { value = 0.5, unit = "N m/rad" }'])
+    file = spoilt(tmp_path, "device.toml", text)
+    told = call("shoulder", "simulate", TRIAL / "markers.trc", "--device", file, "--out", tmp_path / "out")
+    assert told.code == 2 and "at the start all joints are beyond their stops" in told.err, told.err
+    assert len(told.complaints) == 1

@@ -321,3 +321,15 @@ def test_map_keeps_order_and_sign() -> None:
 def test_malformed_maps_are_refused(text: str) -> None:
     with pytest.raises(InputError, match="`map`"):
         parse_map(text, ("rz", "tx"))
+
+
+@pytest.mark.parametrize(("name", "head"), [("gait.csv", "time, knee [deg]"), ("gait.mot", None)])
+def test_a_cycle_in_per_cent_without_a_unit_is_told(tmp_path: Path, name: str, head: str | None) -> None:
+    """0, 1, ... 100 in 101 rows; with a unit, or a row less, the file is believed."""
+    start = f"{head}\n" if head else "inDegrees=yes\nendheader\ntime\tknee\n"
+    mark = "," if head else "\t"
+    rows = "".join(f"{k}{mark}{k % 7}\n" for k in range(101))
+    with pytest.warns(InputWarning, match="time without a unit is 0, 1, … 100: taken as per cent of a cycle"):
+        assert table(tmp_path, start + rows, name).time_unit == "%"
+    assert table(tmp_path, start.replace("time", "time(s)") + rows, name).time_unit == "s"
+    assert table(tmp_path, start + rows.rsplit("\n", 2)[0] + "\n", name).time_unit == "s"

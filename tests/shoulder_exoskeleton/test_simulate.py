@@ -11,7 +11,7 @@ from geocontact.shoulder_exoskeleton.arm_model import arm_model
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers, slices
 from geocontact.shoulder_exoskeleton.device import Wearer
 from geocontact.shoulder_exoskeleton.lucy import lucy
-from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, arm_inputs, at_rest, simulate_arm
+from geocontact.shoulder_exoskeleton.simulate import TOLERANCE, ArmSimulation, arm_inputs, at_rest, simulate_arm
 from tests.shoulder_exoskeleton.arms import GRAVITY, lifted
 
 LUCY, WEARER = lucy(), Wearer()
@@ -25,7 +25,7 @@ def lift() -> ArmSimulation:
 @pytest.mark.parametrize("level", [0.0, 0.5, 1.0])
 def test_error_of_the_usual_tolerance(level: float) -> None:
     """Below 0.05 degrees and 0.5 N beside a tolerance of 1e-10, at every frame."""
-    usual, tight = (simulate_arm(lifted(), LUCY, WEARER, level, tolerance=t) for t in (3e-6, 1e-10))
+    usual, tight = (simulate_arm(lifted(), LUCY, WEARER, level, tolerance=t) for t in (TOLERANCE, 1e-10))
     assert np.degrees(np.abs(usual.angles - tight.angles)).max() < 0.05
     assert np.linalg.norm(usual.told["force"] - tight.told["force"], axis=1).max() < 0.5
     assert np.ptp(tight.elevation) > 1.0

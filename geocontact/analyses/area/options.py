@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import KW_ONLY, dataclass, field
+from glob import has_magic
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
@@ -14,6 +16,7 @@ from geocontact.analyses.options import (
     Length,
     Lengths,
     MeshUnit,
+    Missing,
     Needs,
     Options,
     Pressure,
@@ -42,9 +45,14 @@ READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which reads no mo
 OF_LAYER = Requires("pressure")
 OF_SECOND = Requires("modulus_moving")
 
-Sweep = Annotated[tuple[str, float, float, float], Typed("rad", "sweep_range"), Spelled(dashed=True), JOINT_ANGLE]
-Turn = Annotated[tuple[str, float], Typed("rad", "turn"), TURN]
-Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness"), LAYER]
+Sweep = Annotated[
+    tuple[str, float, float, float],
+    Typed("rad", "sweep_range", '("flexion", *gc.deg(0, 90, 1))'),
+    Spelled(dashed=True),
+    JOINT_ANGLE,
+]
+Turn = Annotated[tuple[str, float], Typed("rad", "turn", '("x", gc.deg(2))'), TURN]
+Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness", "gc.mm(8)"), LAYER]
 
 
 @dataclass(frozen=True)
@@ -116,7 +124,7 @@ class AreaOptions(Options):
     How area is counted
     -------------------
     threshold
-        Largest distance that counts, or several: 0.1,0.5,1,4
+        Largest distance that counts, or several: 0.1,0.5,1,4. 0 counts what is inside the other body.
     assume_closed
         Treat a surface as closed although its edges do not show it.
     rule
@@ -236,6 +244,13 @@ class AreaOptions(Options):
     thickness_moving: Annotated[Thickness | None, OF_SECOND] = None
     piece: Annotated[Length | None, OF_LAYER, PIECE] = None
     workers: int | None = None
+
+    def paths(self) -> Iterator[tuple[Path, Missing]]:
+        """Those of files, and of motions that are no patterns."""
+        yield from super().paths()
+        for name in (*(self.motion or ()), *(self.motion_fixed or ())):
+            if not has_magic(name):
+                yield Path(name), Missing()
 
     def refuse_impossible(self) -> None:
         """Motions that are none or two, and numbers that cannot be."""

@@ -10,6 +10,7 @@ from geocontact.analyses import quantities
 from geocontact.analyses.area.motions import motions_given
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.reference_areas import Reference, read_reference
+from geocontact.analyses.area.refusals import refuse_plane_beside, refuse_zero_without_inside
 from geocontact.analyses.bodies import chosen_faces, read_body, refuse_two_spaces
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sides import MedialSide, medial_side, refuse_other_axes
@@ -21,6 +22,10 @@ from geocontact.geometry.surface import Surface
 from geocontact.view.surfaces.vtp_series import require_pyvista
 
 BRIEF, PATIENT = 40_000, 1_000_000  # triangles divided per area, without and with bounds asked for
+FEW = (
+    8_000  # without, where thresholds are finer than `FINE`: all that nearly touches is doubtful, however often divided
+)
+FINE = 0.05e-3  # m
 TOLERANCE = 0.02
 SENSITIVITY = np.linspace(0.0, 1.5, 13)  # shares of the largest threshold at which the page shows the area as well
 ZERO_REACH = 1e-3  # m; what these shares are of where the threshold is zero
@@ -70,10 +75,12 @@ def read(o: AreaOptions, record: Record) -> Bodies:
     moving = read_body(record, "moving", o.moving, o.unit, o.place_moving, closed["moving"])
     fixed = read_body(record, "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
     refuse_two_spaces(moving, fixed)
+    refuse_zero_without_inside(o.threshold, moving, fixed)
     if split is not None:
         refuse_other_axes(fixed.space, fixed.name, o.side, o.medial)
     settings = _settings(record, o, split, moving, fixed)
-    if split is not None:
+    if o.split is not None and split is not None:
+        refuse_plane_beside(o.split, split[0], fixed, settings.fixed_faces, o.unit)
         record.say(f"medial is {split[1].words} of {fixed.name}")
     return Bodies(moving, fixed, settings, tuple(motions_given(record, o, moving)), reference)
 
@@ -81,7 +88,8 @@ def read(o: AreaOptions, record: Record) -> Bodies:
 def _settings(
     record: Record, o: AreaOptions, split: tuple[Plane, MedialSide] | None, moving: Surface, fixed: Surface
 ) -> Settings:
-    refinement = Refinement(pieces=BRIEF) if o.bounds is None else Refinement(bounds=o.bounds, pieces=PATIENT)
+    pieces = BRIEF if min(o.threshold) >= FINE else FEW
+    refinement = Refinement(pieces=pieces) if o.bounds is None else Refinement(bounds=o.bounds, pieces=PATIENT)
     return Settings(
         thresholds=o.threshold,
         rule=o.rule,

@@ -80,7 +80,8 @@ def _warn_of_doubts(record: Record, e: AreaEvolution, settings: Settings, asked:
             with np.errstate(invalid="ignore"):
                 width = np.nan_to_num((side.upper - side.lower) / side.upper)
             if (width > wanted).any():
-                record.warn(f"bounds of {name} stay {width.max():.1%} apart in the worst frame; asked for {wanted:.1%}")
+                line = f"bounds of {name} stay {width.max():.1%} apart in the worst frame; asked for {wanted:.1%}"
+                record.warn(line if asked else f"{line} (`bounds` {wanted:.0%} divides triangles longer)")
 
 
 def _summarise(record: Record, e: AreaEvolution, name: str) -> None:

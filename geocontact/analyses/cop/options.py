@@ -34,7 +34,7 @@ LAW = ByName(
     )
 )
 """What the numbers of the force law can be, wherever they come from."""
-Friction = Annotated[tuple[float, float], Typed("-", "friction"), FRICTION]
+Friction = Annotated[tuple[float, float], Typed("-", "friction", "(0.9, 0.7)"), FRICTION]
 
 
 @dataclass(frozen=True)

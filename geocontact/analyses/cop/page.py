@@ -11,12 +11,12 @@ from geocontact.analyses.cop.foot_loads import FootLoads
 from geocontact.analyses.cop.page_answer import NO_MOMENT, facts, headline
 from geocontact.analyses.cop.page_plans import MM, butterfly, foot_plan
 from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Section, Table, Words
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
 
-FRAMES = 1001  # frames that the page shows at most; longer motions are thinned out
 SPHERES, PLATE = "spheres", "force plate"
 LAW = (
     "Forces follow from how deep spheres of given stiffness stand in the ground. A millimetre of error in the motion "
@@ -33,8 +33,7 @@ def write_cop_report(r: FootLoads, file: Path) -> int:
 def cop_page(r: FootLoads) -> Page:
     """The page before it becomes a file."""
     time, c = r.foot.motion.time, r.centre
-    every = -(-len(time) // FRAMES)
-    shown = np.unique([*range(0, len(time), every), int(np.argmax(c.pressing))])
+    shown = np.unique([*thinned(len(time)), int(np.argmax(c.pressing))])
     forces = butterfly(r, shown)
     sections: list[Section] = [
         foot_plan(r, shown),
@@ -47,7 +46,7 @@ def cop_page(r: FootLoads) -> Page:
         options_table(r.record),
     ]
     warnings = list(r.warnings)
-    if every > 1:
+    if len(shown) < len(time):
         warnings.append(f"the page shows {len(shown)} of {len(time)} frames; cop.csv has them all")
     return Page(
         title=f"Centre of pressure of {r.foot.name}",

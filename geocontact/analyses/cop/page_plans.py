@@ -69,7 +69,8 @@ def butterfly(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan | None:
     along = _along(c.centre[found], upward)
     plane = [along, upward]
     start, force = c.centre[:, plane] * MM, c.wrench.force[:, plane]
-    most = float(np.linalg.norm(force[found], axis=1).max())
+    sizes = np.linalg.norm(force, axis=1)
+    most = float(sizes[found].max())
     scale = _round_scale(TALL * max(float(np.ptp(start[found][:, 0])), LEAST * MM) / most)  # mm for 1 N
     tip = start + scale * force
     some = np.flatnonzero(found)
@@ -83,7 +84,7 @@ def butterfly(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan | None:
         [np.array([start[k], tip[k]]) for k in some],
         [
             Track("centre of pressure", start[shown]),
-            Track("end of the force", np.where(found[:, None], tip, np.nan)[shown]),
+            Track("force", np.where(found[:, None], tip, np.nan)[shown], [f"{size:.0f} N" for size in sizes[shown]]),
         ],
         words=words,
     )

@@ -9,12 +9,11 @@ from typing import Annotated, ClassVar
 from geocontact.analyses.options import Expression, ForceUnit, Fraction, Options, Requires
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import N, Plausible
-from geocontact.data.ranges import SHARE
+from geocontact.data.ranges import MASS, SHARE
 
 STRIDE, STANCE = "stride", "stance"
 FOUND = (STRIDE, STANCE)
 """Cycles that are found in the total force; all others are named by their times."""
-MASSES = (20.0, 300.0)  # kg; of people who may have a knee implant, with room
 GRAVITY = 9.80665  # m/s^2, standard
 
 LEVEL = Plausible("the force at which load sets in", N, (1e-3, 1e5), (1.0, 5000.0))
@@ -56,15 +55,12 @@ class LoadcellOptions(Options):
     cycles: Expression | None = None
     part: Annotated[Fraction | None, Cycles, SHARE] = None
     level: Annotated[float | None, Cycles, LEVEL] = None
-    body_mass: float | None = None
+    body_mass: Annotated[float | None, MASS] = None
 
     def refuse_impossible(self) -> None:
-        """A level that no cycle needs, a mass that no body has, sub-folders of one name."""
+        """A level that no cycle needs, sub-folders of one name."""
         if self.level is not None and str(self.cycles).strip() not in FOUND:
             raise InputError("", "`level`", "has no effect here: the cycles are given", "leave it out")
-        if self.body_mass is not None and not MASSES[0] <= self.body_mass <= MASSES[1]:
-            what = f"{self.body_mass:g} kg is no body mass ({MASSES[0]:g} to {MASSES[1]:g} kg)"
-            raise InputError("", "`body_mass`", what, "give the mass in kg, e.g. 72.6")
         self._refuse_names()
 
     @property

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -17,7 +16,6 @@ from geocontact.analyses.page_words import NOT_A_DEVICE, counted
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.seconds import seconds
 from geocontact.view.page.content import Choices, Curve, Curves, Page, PageChoice, Picture, Section, Table, Words
-from geocontact.view.page.write import write_page
 
 CELLS = (
     "Each cell measures the force along its own axis. The sum is the axial force on the tray; how it is shared between "
@@ -54,8 +52,7 @@ Drawn = Callable[[ForceUnit], bytes | None]
 """The figure of the mean over the cycle (SVG) in a unit; None where there is none."""
 
 
-def write_loadcell_report(
-    path: Path,
+def loadcell_page(
     recorded: RecordedCells,
     regression: CellRegression,
     cuts: list[Cut],
@@ -64,8 +61,8 @@ def write_loadcell_report(
     results: Sequence[Table] = (),
     provenance: Sequence[Table] = (),
     warnings: Sequence[str] = (),
-) -> int:
-    """Write the self-contained page of one recording; returns its size in bytes.
+) -> Page:
+    """The page of one recording.
 
     Parameters
     ----------
@@ -80,21 +77,6 @@ def write_loadcell_report(
     warnings
         Reservations that came up on the way.
     """
-    page = loadcell_page(recorded, regression, cuts, ensemble, weight, [*results], [*provenance], list(warnings))
-    return write_page(page, path)
-
-
-def loadcell_page(
-    recorded: RecordedCells,
-    regression: CellRegression,
-    cuts: list[Cut],
-    ensemble: Drawn,
-    weight: float | None = None,
-    results: Sequence[Table] = (),
-    provenance: Sequence[Table] = (),
-    warnings: Sequence[str] = (),
-) -> Page:
-    """The page before it becomes a file."""
     forces, shown = recorded.forces, samples(recorded.forces.time)
     cells = {name: shown.of(values) for name, values in recorded.by_cell(regression).items()}
     tray = tray_plan(cells)

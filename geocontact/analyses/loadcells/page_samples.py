@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.analyses.page_frames import thinned
 from geocontact.identify.signals.gaps import broken, gaps
-
-FRAMES = 1001  # samples that the page shows at most; longer recordings are thinned out
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,10 +33,9 @@ class Samples:
 
 def samples(time: Float[np.ndarray, " t"]) -> Samples:
     """Every so manieth sample, those beside gaps, and the middle of each gap."""
-    every = -(-len(time) // FRAMES)
     missing = gaps(time)
     after = np.array([np.searchsorted(time, each.end) for each in missing], int)
-    kept = np.unique(np.concatenate([np.arange(0, len(time), every), after, after - 1])).astype(int)
+    kept = np.unique(np.concatenate([thinned(len(time)), after, after - 1])).astype(int)
     step = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
     lost = np.maximum(np.rint(np.diff(time) / step).astype(int) - 1, 0)
     lost[np.setdiff1d(np.arange(len(lost)), after - 1)] = 0

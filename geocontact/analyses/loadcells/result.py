@@ -12,7 +12,7 @@ from geocontact.analyses.figure_files import drawing, save_both
 from geocontact.analyses.loadcells.cycles import SIDES, Cut, stacked
 from geocontact.analyses.loadcells.figure import ensemble_figure, loadcell_figure
 from geocontact.analyses.loadcells.options import LoadcellOptions
-from geocontact.analyses.loadcells.page import CYCLES, NEWTON, STYLES, ForceUnit, write_loadcell_report
+from geocontact.analyses.loadcells.page import CYCLES, NEWTON, STYLES, ForceUnit, loadcell_page
 from geocontact.analyses.loadcells.recorded import RecordedCells
 from geocontact.analyses.loadcells.tables import cycle_table, ensemble_table, style_table
 from geocontact.analyses.options_table import options_table
@@ -22,6 +22,7 @@ from geocontact.data.cell_regression import CellRegression
 from geocontact.io.text.results import write_table
 from geocontact.view.curves.given import SERIES
 from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -110,8 +111,7 @@ class LoadcellResult(Result):
         own = each.folder or "."
         inputs = [entry for entry in self.record.inputs if entry.get("folder", own) == own]
         provenance = [inputs_table(inputs), options_table(self.record)]
-        write_loadcell_report(
-            file,
+        page = loadcell_page(
             each,
             self.regression,
             self.cuts,
@@ -121,3 +121,4 @@ class LoadcellResult(Result):
             provenance,
             self.warnings,
         )
+        write_page(page, file)

@@ -10,6 +10,7 @@ from geocontact.analyses.loadcells.read import LoadCellInputs
 from geocontact.analyses.loadcells.recorded import RecordedCells
 from geocontact.analyses.loadcells.result import LoadcellResult
 from geocontact.analyses.loadcells.tables import style_table
+from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.seconds import seconds
@@ -85,7 +86,7 @@ def _tell(record: Record, cuts: list[Cut]) -> None:
         return
     counts = {style: len(trials) for style, trials in stacked(cuts, "total").items()}
     record.results["cycles"] = counts
-    record.say(f"cycles: {', '.join(f'{style} {count}' for style, count in counts.items())}")
+    record.say(", ".join(f"{counted(count, 'cycle')} of {style}" for style, count in counts.items()))
     if max(counts.values()) == 1:
         record.warn("one cycle per style: means are single cycles, and there is no spread to show")
     if len(counts) > 1:

@@ -23,8 +23,10 @@ from geocontact.analyses.options import (
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import BORDER, CUTOFF, DISPLACEMENT, FORCE, SHARE, TOUCH
 
-TimeWindows = Annotated[tuple[tuple[float, float], ...], Typed("s", "windows"), Spelled(dashed=True)]
-Displacement = Annotated[tuple[float, float], Typed("m, rad", "registration"), DISPLACEMENT]
+TimeWindows = Annotated[
+    tuple[tuple[float, float], ...], Typed("s", "windows", "((0.0, 0.5), (9.0, 9.5))"), Spelled(dashed=True)
+]
+Displacement = Annotated[tuple[float, float], Typed("m, rad", "registration", "(gc.mm(1), gc.deg(2))"), DISPLACEMENT]
 FromMotion = Requires("motion")
 FromSecondScan = Requires("scan_with_mat", "leave it out")
 

@@ -27,8 +27,13 @@ from geocontact.data.plausible import ByName
 from geocontact.data.ranges import DELAY, POISSON, RADIUS, STRIP, THRESHOLD, TURN
 
 FREE = ByName((("threshold", THRESHOLD), ("lag", DELAY), ("adduction", TURN)))
-Free = Annotated[Mapping[str, tuple[float, float] | None], Typed("-", "free_numbers"), Spelled(dashed=True), FREE]
-Ratios = Annotated[tuple[float, ...], Typed("-", "ratios"), POISSON]
+Free = Annotated[
+    Mapping[str, tuple[float, float] | None],
+    Typed("-", "free_numbers", '{"threshold": gc.mm(1, 6), "lag": None}'),
+    Spelled(dashed=True),
+    FREE,
+]
+Ratios = Annotated[tuple[float, ...], Typed("-", "ratios", "(0.25, 0.46)"), POISSON]
 
 
 @dataclass(frozen=True)

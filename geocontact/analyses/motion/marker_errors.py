@@ -50,6 +50,10 @@ class MarkerErrors:
         largest = float(poses.distances[frame, which])
         return cls(rms, largest, poses.markers[int(which)], float(poses.time[frame]))
 
+    def within(self, limits: MarkerLimits) -> bool:
+        """Whether they are good enough."""
+        return self.rms <= limits.rms and self.largest <= limits.largest
+
     def words(self, limits: MarkerLimits) -> str:
         """The numbers in one clause."""
         return (
@@ -57,11 +61,11 @@ class MarkerErrors:
             f"{self.marker} at {self.time:.3g} s (OpenSim advises less than {limits.words})"
         )
 
-    def warn(self, record: Record, limits: MarkerLimits) -> None:
-        """One line where they are beyond the limits."""
-        if self.rms <= limits.rms and self.largest <= limits.largest:
+    def warn(self, record: Record, limits: MarkerLimits, why: str = "") -> None:
+        """One line where they are beyond the limits; `why` is the cause that was found."""
+        if self.within(limits):
             return
         check = f"check where {self.marker} is on the model and in the recording, the scaling, and exchanged markers"
         if self.rms > FAR:
             check = "another subject's size, axes (`axes`) or unit?"
-        record.warn(f"markers are {self.words(limits)}: {check}")
+        record.warn(f"markers are {self.words(limits)}: {why or check}")

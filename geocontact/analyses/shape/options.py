@@ -22,7 +22,9 @@ NEEDS = {
 """Names that a region may use, by the options that say where they are counted from."""
 
 WINDOW = Plausible("a window of flexion", deg, (1.0, 180.0))
-AngleRange = Annotated[tuple[float, float, float], Typed("rad", "degree_range"), Spelled(dashed=True), JOINT_ANGLE]
+AngleRange = Annotated[
+    tuple[float, float, float], Typed("rad", "degree_range", "gc.deg(-30, 120, 5)"), Spelled(dashed=True), JOINT_ANGLE
+]
 Profile = Requires("profile")
 
 

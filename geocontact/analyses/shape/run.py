@@ -84,6 +84,11 @@ def _warn_of_doubts(record: Record, name: str, fit: ShapeFit) -> None:
             f"a {fit.shape} does not describe this patch; another shape, or fewer faces with `region`?"
         )
     share = float(fit.quality.inlier.mean())
+    if fit.radius is not None and fit.exact_in_part:
+        record.warn(
+            f"{name}: {share:.0%} of the points lie on the {fit.shape} exactly, the others {fit.rms * 1e3:.2f} mm off, "
+            "root mean square over all: no interval of the radius, which is that of a part; choose it with `region`"
+        )
     if share < 0.7:
         record.warn(f"{name}: {1.0 - share:.0%} of the points are outliers; is it a {fit.shape}, and the right patch?")
 

@@ -11,7 +11,8 @@ if TYPE_CHECKING:
     from geocontact.analyses.shoulder.compare.job import compare
     from geocontact.analyses.shoulder.optimise.job import optimise
     from geocontact.analyses.shoulder.simulate.job import simulate
+    from geocontact.analyses.shoulder.study.job import study
 
-__all__ = ["compare", "optimise", "simulate"]
+__all__ = ["compare", "optimise", "simulate", "study"]
 
 sys.modules[__name__].__class__ = PackageOfJobs

@@ -9,7 +9,7 @@ HELP = """Motion and interface forces of a shoulder exoskeleton along recorded h
 
 Writes right.csv and left.csv, numbers.csv with the source of every number of the device, sensitivity.csv with
 `sensitivity`, angles.sto, interface_forces.mot and .xml (external loads for OpenSim and `geocontact id`), paraview,
-a figure, report.html (moving arms with forces) and run.json into OUT.
+plane (for `geocontact gap gather`), a figure, report.html (moving arms with forces) and run.json into OUT.
 """
 
 simulate = Command("geocontact.analyses.shoulder.simulate.job:simulate", ShoulderSimulateOptions, HELP)

@@ -13,6 +13,8 @@ from geocontact.geometry.fit.uncertainty import cells, covariance, half_width
 from geocontact.geometry.sweep import Axis
 
 HELD = 0.98  # share of the inliers that an arc is to hold
+MOSTLY = 0.9  # of the points; fewer that lie on a shape are a part of them
+EXACT = 1e-3  # of the root mean square of all points, that of those on a constructed shape is below
 OUTLYING = 3.0  # standard deviations beyond which a point is called an outlier
 
 
@@ -110,9 +112,17 @@ class ShapeFit:
         return float(np.abs(self.quality.residual).max())
 
     @property
+    def exact_in_part(self) -> bool:
+        """Whether some points lie on the shape by construction and many others off it.
+
+        Residuals of those on it are rounding, so that an interval made of them has no width, whatever the others are.
+        """
+        return bool(self.quality.inlier.mean() < MOSTLY and self.rms_inliers < EXACT * self.rms)
+
+    @property
     def radius_interval(self) -> tuple[float, float] | None:
-        """95 % interval of the radius [m]; None for a plane, and where the points do not tell."""
-        if self.radius is None or not np.isfinite(self.quality.half_widths[-1]):
+        """95 % interval of the radius [m]; None for a plane, where the points do not tell, and if `exact_in_part`."""
+        if self.radius is None or self.exact_in_part or not np.isfinite(self.quality.half_widths[-1]):
             return None
         half = float(self.quality.half_widths[-1])
         return self.radius - half, self.radius + half

@@ -54,7 +54,11 @@ def read_gathering(path: Path) -> Gathering:
 
 def _check_columns(path: Path, sources: Mapping[str, Source], columns: tuple[StorageColumn, ...]) -> None:
     """Columns are told where, and only where, a file without units is read."""
-    unnamed = [name for name, each in sources.items() if each.outputs is not None or is_storage(each.inputs)]
+    unnamed = [
+        name
+        for name, each in sources.items()
+        if is_storage(each.inputs) or (each.outputs is not None and is_storage(each.outputs))
+    ]
     if unnamed and not columns:
         what = f"is missing: [from.{unnamed[0]}] names a .mot or .sto file, which says no units"
         raise InputError(path, "[columns]", what, f"write [columns] and {EXAMPLE_COLUMN}")

@@ -44,7 +44,7 @@ class SidesSource:
 class Source:
     """Where one trial comes from: the file of its inputs, and what is measured beside them.
 
-    `outputs` is a .mot or .sto file.
+    `outputs` is a .mot or .sto file, or a .csv table with units like that of a trial.
     """
 
     inputs: Path
@@ -72,8 +72,9 @@ def source_of(path: Path, trial: str, given: Any) -> Source:
         areas = path.parent / given["areas"] if "areas" in given else None
         sides = SidesSource(areas, given.get("threshold"), path.parent / given["forces"], given.get("force_unit"))
     outputs = path.parent / given["outputs"] if "outputs" in given else None
-    if outputs is not None and not is_storage(outputs):
-        raise InputError(path, f"{place} outputs", f"'{outputs.suffix}' is not read here", "give a .mot or .sto file")
+    if outputs is not None and not is_storage(outputs) and outputs.suffix.lower() != ".csv":
+        remedy = "give a .mot, .sto or .csv file"
+        raise InputError(path, f"{place} outputs", f"'{outputs.suffix}' is not read here", remedy)
     return Source(path.parent / given["inputs"], outputs, sites, plate, sides)
 
 

@@ -14,7 +14,7 @@ FLAT = 1e-12
 """A face is degenerate when its height is below this fraction of its longest edge: rounding, not shape."""
 
 _IN_WORDS = {"m": "metres", "cm": "centimetres", "mm": "millimetres", "in": "inches"}
-SIZES = (5e-3, 3.0)
+SIZES = (5e-3, 2.5)
 """Smallest and largest diagonal [m] of an implant, a bone or a body."""
 _LIKELY = (10e-3, 2.5)
 _USUAL = (10e-3, 0.7)

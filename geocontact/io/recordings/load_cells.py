@@ -16,7 +16,7 @@ from geocontact.data.cell_regression import CellRegression
 from geocontact.data.errors import InputError
 from geocontact.io.text.csv_text import text_of
 from geocontact.io.text.side_table import LARGEST_TABLE, read_side_table
-from geocontact.io.text.tables import CELLS, TextTable, read_table
+from geocontact.io.text.tables import CELLS, TextTable, listed, read_table
 from geocontact.io.text.units import DIMENSIONS, si_unit
 
 FORCES = DIMENSIONS["N"]
@@ -75,6 +75,10 @@ def read_load_cells(
     if table.time_unit != "s":
         raise InputError(table.file, "", "time is in per cent of a cycle", "give a recording in seconds")
     sources = [mapping.get(cell, (1.0, cell)) for cell in cells]
+    missing = [(cell, name) for cell, (_, name) in zip(cells, sources, strict=True) if name not in table.channels]
+    if missing:
+        what = f"no column '{missing[0][1]}' for the cell {missing[0][0]}; columns are: {listed(table.channels)}"
+        raise InputError(table.file, "", what, f"name it, `map` {','.join(f'{cell}=…' for cell, _ in missing)}")
     columns = [(sign, *column_in_newtons(table, name, unit)) for sign, name in sources]
     units = {said for _, _, said in columns}
     forces = np.column_stack([sign * values for sign, values, _ in columns])

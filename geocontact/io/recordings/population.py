@@ -28,10 +28,14 @@ CUTS = ("lower", "upper")
 
 @dataclass(frozen=True)
 class StatedQuantity:
-    """A quantity: its kind, and its numbers in SI units (`value`, or those of `KINDS` and `CUTS`)."""
+    """A quantity: its kind, and its numbers in SI units (`value`, or those of `KINDS` and `CUTS`).
+
+    `factor` is how many SI units the unit is that stands beside them.
+    """
 
     kind: str
     numbers: Mapping[str, float]
+    factor: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +89,7 @@ def _told(path: Path, name: str, entry: dict[str, Any], unit: str) -> StatedQuan
     _only(path, place, given, (*needed, *(CUTS if kind == "normal" else ())))
     numbers = {key: known[1] * _number(path, place, key, given.get(key)) for key in dict.fromkeys((*needed, *given))}
     _check_order(path, place, kind, numbers)
-    return StatedQuantity(kind, numbers)
+    return StatedQuantity(kind, numbers, known[1])
 
 
 def _only(path: Path, place: str, entry: Mapping[str, Any], allowed: Sequence[str]) -> None:

@@ -31,6 +31,9 @@ LARGEST_FILE = 256_000_000
 _TIME = re.compile(r"time\s*(?:\((?P<unit>[^()]*)\))?", re.IGNORECASE)
 """Name of the time column; recorders also write its unit in round brackets: Time(sec)."""
 
+CYCLE = np.arange(101.0)
+"""Times of a cycle in per cent, as gait software writes it; nobody records 101 frames at one a second."""
+
 
 @dataclass(frozen=True)
 class TextTable(Signals):
@@ -47,7 +50,7 @@ class TextTable(Signals):
     opensim
         True for .mot and .sto: lengths are in m.
     time_unit
-        Unit of `time`: "s", or "%" of a cycle. OpenSim's headers cannot tell the two apart and count as "s".
+        Unit of `time`: "s", or "%" of a cycle. Without a unit it is "s", but 0, 1, … 100 is "%", with a warning.
     """
 
     file: str
@@ -205,4 +208,8 @@ def _time(
         i = late[0]
         what = f"time {values[i + 1]:.9g} does not follow {values[i]:.9g}"
         raise InputError(file, f"line {lines[i + 1]}", what, "time must increase from row to row")
+    if not unit and np.array_equal(values, CYCLE):
+        told = f"{file}: time without a unit is 0, 1, … 100: taken as per cent of a cycle; write `time(s)` for seconds"
+        warnings.warn(InputWarning(told), stacklevel=5)
+        unit = "%"
     return values * seconds[unit], "%" if unit == "%" else "s"

@@ -105,7 +105,7 @@ def synthetic_trial(person: Participant, task: OverheadTask, condition: Conditio
 
 
 def phases(time: Float[np.ndarray, " t"], times: Times) -> Int[np.ndarray, " t"]:
-    """ToolWork phase of every frame: arms that are held up before and after screwing count as raised."""
+    """Work phase of every frame: arms that are held up before and after screwing count as raised."""
     found = np.full(len(time), phase_numbers.REST)
     found[(time >= times.lift) & (time < times.lower)] = phase_numbers.LIFT
     found[(time >= times.screw) & (time < times.screwed)] = phase_numbers.SCREW

@@ -9,7 +9,18 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.seconds import seconds
-from geocontact.view.page.content import Curves, FaceMap, Intervals, Page, Plan, Readout, Scene, SceneBody, Strip
+from geocontact.view.page.content import (
+    Curves,
+    FaceMap,
+    Intervals,
+    Page,
+    Plan,
+    Readout,
+    Scene,
+    SceneBody,
+    Strip,
+    Track,
+)
 from geocontact.view.page.levels import AmountLevels, Levels, across
 from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.opening import opacities, opening_view
@@ -201,6 +212,15 @@ def _curves(panel: Curves) -> dict[str, object]:
     return described | {"beside": beside}
 
 
+def _track(track: Track) -> dict[str, object]:
+    points: dict[str, object] = {
+        "name": track.name,
+        "x": _numbers(track.points[:, 0]),
+        "y": _numbers(track.points[:, 1]),
+    }
+    return {**points, "told": list(track.told)} if track.told else points
+
+
 def _plan(plan: Plan) -> dict[str, object]:
     return {
         "title": plan.title,
@@ -208,7 +228,7 @@ def _plan(plan: Plan) -> dict[str, object]:
         "across": plan.across,
         "up": plan.up,
         "lines": [[_numbers(line[:, 0]), _numbers(line[:, 1])] for line in plan.lines],
-        "tracks": [{"name": t.name, "x": _numbers(t.points[:, 0]), "y": _numbers(t.points[:, 1])} for t in plan.tracks],
+        "tracks": [_track(track) for track in plan.tracks],
         "marks": [{"name": mark.name, "at": [float(x) for x in mark.point]} for mark in plan.marks],
         "lengths": [
             {"name": each.name, "told": minus(each.told), "ends": [list(map(float, p)) for p in (each.start, each.end)]}

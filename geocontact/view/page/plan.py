@@ -11,10 +11,14 @@ from jaxtyping import Float
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """A point that moves over the frames; NaN is a gap."""
+    """A point that moves over the frames; NaN is a gap.
+
+    `told` is what the key says in each frame; where the point is, unless given.
+    """
 
     name: str
     points: Float[np.ndarray, "t 2"]
+    told: Sequence[str] = ()
 
 
 @dataclass(frozen=True, eq=False)

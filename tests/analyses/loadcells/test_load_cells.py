@@ -33,7 +33,7 @@ def test_says_what_was_found(tmp_path: Path) -> None:
     result = load_cells(recorded(tmp_path), unit="N", cycles="stride")
     peaks = {side: float(values.max()) for side, values in sides(gait(np.arange(0.0, 5.0, 0.01))).items()}
     told = ", ".join(f"{side} {peak:.1f} N" for side, peak in peaks.items())
-    assert repr(result) == f"largest forces: {told} (total at 0.53 s)\ncycles: walk 4"
+    assert repr(result) == f"largest forces: {told} (total at 0.53 s)\n4 cycles of walk"
     summary = result.record.results["recording"]
     assert summary["peak_total_N"] == pytest.approx(peaks["total"], rel=1e-6) and summary["frames"] == 500
     assert result.record.results["cycles"] == {"walk": 4}
@@ -141,7 +141,12 @@ def test_root_mean_square_between_synthetic_styles(tmp_path: Path) -> None:
 
 def test_page_of_several_recordings_has_all_their_tables(tmp_path: Path) -> None:
     page = styles(tmp_path).page(tmp_path / "page.html").read_text(encoding="utf-8")
-    for words in ("Load cells of 2 recordings", "bouncy/forces", "rmse_total [N]", "cycles: normal 3, bouncy 3"):
+    for words in (
+        "Load cells of 2 recordings",
+        "bouncy/forces",
+        "rmse_total [N]",
+        "3 cycles of normal, 3 cycles of bouncy",
+    ):
         assert words in page
 
 
@@ -214,3 +219,12 @@ def test_a_few_samples_missing_are_bridged(tmp_path: Path) -> None:
     assert load_cells(with_gap(tmp_path, 1.495, 1.525), unit="N", cycles="stance").warnings == ()
     with pytest.raises(InputError, match="lie across gaps of the recordings, all of them"):
         load_cells(with_gap(tmp_path, 1.495, 1.805), unit="N", cycles="1.2:2.2")
+
+
+def test_a_cell_without_a_column_says_how_to_name_it(tmp_path: Path) -> None:
+    file = tmp_path / "cells.csv"
+    file.write_text("time, AM [N], AL [N], PL2 [N]\n0, 1, 2, 3\n0.01, 2, 3, 4\n", encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        load_cells(file)
+    what = "no column 'PM' for the cell PM; columns are: AM, AL, PL2"
+    assert str(refused.value) == f"{file}: {what}; name it, `map` PM=…,PL=…"

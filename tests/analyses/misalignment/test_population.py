@@ -117,3 +117,17 @@ def test_the_people_of_the_how_to_are_those_of_the_benchmark(tmp_path: Path) -> 
     file.write_text(block)
     result = population(file, limit=10.0, samples=1000, seed=5)
     np.testing.assert_allclose(result.drawn.people, drawn(1000, 5), rtol=1e-12)
+
+
+def test_a_stiffness_in_another_unit_than_meant_is_asked_about(tmp_path: Path) -> None:
+    """222 N/mm are 222 kN/m; the number stands in the file, so the question is about it."""
+    file = tmp_path / "people.toml"
+    rows = ['[k]\nunit = "N/mm"\nnormal = { mean = 222, sd = 40, lower = 50 }']
+    rows += [f'[{name}]\nunit = "mm"\nnormal = {{ mean = {mean}, sd = 5 }}' for name, mean in
+             (("l", 180), ("z", 100), ("x", 0), ("y", 0))]  # fmt: skip
+    file.write_text("\n".join(rows), encoding="utf-8")
+    with pytest.warns(gc.InputWarning) as heard:
+        gc.misalignment.population(file, range=gc.deg(0, 120), limit=1e4, samples=1000, seed=1)
+    (line,) = [str(w.message) for w in heard if "[k]" in str(w.message)]
+    assert line.endswith("[k] mean: 222000 N/m is unusual for the stiffness of an attachment, which mostly is "
+                         "10 to 100000 N/m; is 222 N/m meant?")  # fmt: skip

@@ -12,6 +12,7 @@ from scipy.stats import t as student
 import geocontact as gc
 from geocontact.analyses.shape.result import ShapeResult
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.geometry.fit.cylinder import fit_cylinder
 
 MESHES = Path(__file__).resolve().parents[3] / "meshes"
 CYLINDER, SPHERE, CUP, PLATE, FEMUR, FINER = (
@@ -66,7 +67,10 @@ def test_says_what_was_found() -> None:
 @pytest.mark.slow
 def test_the_ends_of_a_rod_are_outliers_of_its_wall() -> None:
     """Without a region: caps and all."""
-    with pytest.warns(gc.InputWarning, match="does not describe this patch"):
+    with (
+        pytest.warns(gc.InputWarning, match="does not describe this patch"),
+        pytest.warns(gc.InputWarning, match="74% of the points lie on the cylinder exactly"),
+    ):
         robust, plain = fit(CYLINDER, "cylinder"), fit(CYLINDER, "cylinder", robust=False)
     assert robust.fit.radius == pytest.approx(15e-3, abs=1e-6) and not robust.fit.quality.inlier.all()
     assert plain.fit.radius is not None and abs(plain.fit.radius - 15e-3) > 1e-4
@@ -207,3 +211,50 @@ def test_a_shape_that_does_not_describe_the_patch_is_told() -> None:
     sphere = MESHES / "sphere_r20.stl"
     with pytest.warns(gc.InputWarning, match="27% of the radius: a cylinder does not describe this patch"):
         gc.fit_shape(sphere, unit="mm", shape="cylinder")
+
+
+def stem(share: float) -> np.ndarray:
+    """Points of a rod of 7 mm, exact, and a share of them on a cone that it widens to."""
+    rng = np.random.default_rng(5)
+    count, wide = 4000, int(share * 4000)
+    turn, along_it = rng.uniform(0.0, 2.0 * np.pi, count), rng.uniform(0.0, 0.1, count)
+    radius = np.full(count, 7e-3)
+    radius[:wide] += 0.25 * rng.uniform(0.01, 0.05, wide)
+    along_it[:wide] += 0.1
+    return np.column_stack([radius * np.cos(turn), radius * np.sin(turn), along_it])
+
+
+@pytest.mark.parametrize(("share", "exact"), [(0.2, True), (0.0, False), (0.04, False)])
+def test_a_part_that_is_exact_gives_no_interval_for_the_whole(share: float, exact: bool) -> None:
+    fit = fit_cylinder(stem(share))
+    assert fit.radius == pytest.approx(7e-3, rel=1e-6)
+    assert (fit.exact_in_part, fit.radius_interval is None) == (exact, exact)
+
+
+def test_scatter_on_the_shape_keeps_its_interval_beside_outliers() -> None:
+    points = stem(0.2) + np.random.default_rng(6).normal(0.0, 50e-6, (4000, 3))
+    low, high = fit_cylinder(points).radius_interval or (np.nan, np.nan)
+    assert low < high
+    assert not fit_cylinder(points).exact_in_part
+
+
+def stem_file(folder: Path) -> Path:
+    """The same as a surface of revolution [mm]: 60 % of its rings on the rod."""
+    rings = [(7.0, z) for z in np.linspace(0.0, 60.0, 31)] + [(7.0 + 0.3 * z, 60.0 + z) for z in range(2, 41, 2)]
+    turns = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
+    lines = [f"v {r * np.cos(t)} {r * np.sin(t)} {z}" for r, z in rings for t in turns]
+    for ring in range(len(rings) - 1):
+        for k in range(48):
+            a, b = 48 * ring + k + 1, 48 * ring + (k + 1) % 48 + 1
+            lines += [f"f {a} {b} {b + 48}", f"f {a} {b + 48} {a + 48}"]
+    file = folder / "stem.obj"
+    file.write_text("\n".join(lines), encoding="utf-8")
+    return file
+
+
+def test_a_part_that_is_exact_is_told(tmp_path: Path) -> None:
+    with pytest.warns(InputWarning) as heard:
+        result = gc.fit_shape(stem_file(tmp_path), unit="mm", shape="cylinder")
+    assert any("of the points lie on the cylinder exactly" in str(w.message) for w in heard)
+    assert "radius 7.000 mm, rms" in repr(result) and "95 %" not in repr(result)
+    assert "95 % interval" not in json.dumps(json.loads((result.write(tmp_path / "out") / "fit.json").read_text()))

@@ -13,8 +13,10 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.data.wrench import Wrench
+from geocontact.dynamics import compiled as code
 from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.text.tables import read_table
+from geocontact.shoulder_exoskeleton import arm_model
 from geocontact.shoulder_exoskeleton.device import QUANTITIES
 from tests.cli.calls import MESHES
 
@@ -190,6 +192,21 @@ def test_the_page_shows_moving_arms_and_what_is_invented(folder: Path) -> None:
     page = (folder / "report.html").read_text(encoding="utf-8")
     for words in ("forces on the arms, 0.5 m for 100 N", "Numbers of the device", "numbers are invented", "at a stop"):
         assert words in page, words
+
+
+@pytest.mark.slow
+def test_a_padded_cuff_tells_couple_and_pressures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without a compiler, which takes longer than two seconds of motion."""
+    monkeypatch.setattr(code, "compiler", lambda: None)
+    monkeypatch.setattr(arm_model, "_made", arm_model._made.__wrapped__)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        options = {"side": "right", "cuff": "surface", "time": (0.0, 2.0), "upright": (0.0, 0.5)}
+        table = gc.shoulder.simulate(TRIAL / "markers.trc", **options).table()
+    assert table["peak pressure [Pa]"].between(100.0, 1e5).all()
+    assert table["pressed share [-]"].between(0.3, 1.0).all()
+    assert table.filter(like="couple").abs().to_numpy().max() > 0.1
+    assert table["centre of pressure [mm]"].abs().max() < 60.0
 
 
 @pytest.mark.slow

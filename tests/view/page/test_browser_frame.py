@@ -295,3 +295,26 @@ def test_a_lost_picture_comes_back(opened: Open) -> None:
     set_range(here, "#slider", 4)
     after = pixels(here.picture())
     assert np.abs(after - pixels(before)).mean() < 1.0, "the same picture as before"
+
+
+@DEVICES
+def test_the_player_covers_neither_buttons_nor_tiles(opened: Open, device: dict[str, Any]) -> None:
+    """It stands between legend and tools, and sticks to the window where that place is not seen."""
+    here = opened(small_page(), device=device)
+    here.tab.locator("#tools").scroll_into_view_if_needed()
+    here.tab.evaluate("window.scrollTo(0, document.querySelector('#tools').offsetTop - 400)")
+    place = {
+        name: here.tab.locator(f"#{name}").bounding_box() or {"y": np.nan, "height": np.nan}
+        for name in ("legend", "timeline", "tools")
+    }
+    assert place["legend"]["y"] + place["legend"]["height"] <= place["timeline"]["y"] + 1
+    assert place["timeline"]["y"] + place["timeline"]["height"] <= place["tools"]["y"] + 1
+    wide = here.tab.evaluate("window.innerWidth")
+    for tile in here.tab.locator(".facts div").all():
+        box = tile.bounding_box()
+        assert box is not None and box["x"] >= 0 and box["x"] + box["width"] <= wide
+    here.tab.evaluate("window.scrollTo(0, document.querySelector('.panels .panel:last-child').offsetTop - 200)")
+    shown = here.tab.locator("#timeline").bounding_box()
+    assert (
+        shown is not None and shown["y"] > -1 and shown["y"] + shown["height"] <= here.tab.evaluate("innerHeight") + 1
+    )

@@ -193,7 +193,7 @@ def test_what_takes_the_focus_is_in_sight(opened: Open, device: dict[str, Any]) 
     here.tab.locator("#more").evaluate("e => e.open = true")
     here.tab.evaluate("document.getElementById('canvas').focus({preventScroll: true}); scrollTo(0, 0)")
     seen = []
-    for _ in range(13):
+    for _ in range(19):  # the player comes first
         here.tab.keyboard.press("Tab")
         here.tab.wait_for_timeout(60)
         name, hidden = here.tab.evaluate(

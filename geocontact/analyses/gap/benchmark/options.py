@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import Excludes, Needs, Options
+from geocontact.analyses.options import Excludes, Missing, Needs, Options
 from geocontact.data.errors import InputError
 
 
@@ -48,6 +48,7 @@ class BenchmarkOptions(Options):
     again: int = 5
     journal: Annotated[
         Path | None,
+        Missing(""),  # it is made
         Needs("seed", "it would go on with other cases; give the seed of the run"),
         Excludes("keep", "does not hold folders of cases", "leave out `keep`"),
     ] = None

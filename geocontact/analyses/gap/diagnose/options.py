@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
-from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import Options, Requires
+from geocontact.analyses.options import CaseFolder, Options, Requires
 from geocontact.data.errors import InputError
 
 
@@ -26,7 +25,7 @@ class DiagnoseOptions(Options):
 
     over_time: ClassVar[bool] = True
 
-    case: Path
+    case: CaseFolder
     _: KW_ONLY
     bare: bool = False
     run_simulator: bool = False

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import KW_ONLY, dataclass
-from pathlib import Path
 
-from geocontact.analyses.options import Options
+from geocontact.analyses.options import CaseFolder, Options
 from geocontact.data.errors import InputError
 
 
@@ -29,7 +28,7 @@ class DiscriminabilityOptions(Options):
         Allow a case of the system "command" to run the program that it names.
     """
 
-    case: Path
+    case: CaseFolder
     _: KW_ONLY
     effects: str | None = None
     nats: float = 50.0

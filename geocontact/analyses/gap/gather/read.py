@@ -93,7 +93,8 @@ def _inputs_and_outputs(
     record.add_input(name, source.inputs, samples=len(inputs.signals.time))
     outputs = None
     if source.outputs is not None:
-        outputs = read_storage_trial(source.outputs, plan.columns)
+        own = is_storage(source.outputs)
+        outputs = read_storage_trial(source.outputs, plan.columns) if own else read_trial(source.outputs)
         record.add_input(f"{name} outputs", source.outputs, samples=len(outputs.signals.time))
     found = {*inputs.signals.channels, *(() if outputs is None else outputs.signals.channels)}
     missing = [one.label for one in plan.columns if one.channel.name not in found]

@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
-from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import Options, Spelled, Typed
+from geocontact.analyses.options import CaseFolder, Options, Spelled, Typed
 from geocontact.data.errors import InputError
 
 NamedNumbers = Annotated[
-    Mapping[str, float], Typed("-", "named_numbers", kind=tuple[str, ...]), Spelled(default=(), each=True)
+    Mapping[str, float],
+    Typed("-", "named_numbers", '{"damping.b": 25.0}', kind=tuple[str, ...]),
+    Spelled(default=(), each=True),
 ]
 
 
@@ -41,7 +42,7 @@ class InjectOptions(Options):
 
     over_time: ClassVar[bool] = True
 
-    case: Path
+    case: CaseFolder
     _: KW_ONLY
     effect: str
     value: NamedNumbers = field(default_factory=dict)

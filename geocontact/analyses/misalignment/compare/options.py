@@ -16,7 +16,10 @@ from geocontact.data.errors import InputError
 from geocontact.data.ranges import BIN
 
 Stroke = Annotated[
-    tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
+    tuple[float, float],
+    Typed("m", "length_span", "gc.mm(-20, 35)"),
+    Spelled("stroke-mm", "stroke_mm", dashed=True),
+    STROKE,
 ]
 TWO_DEGREES = math.radians(2.0)
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from jaxtyping import Float
 
-from geocontact.axis_misalignment.design import Boundary
+from geocontact.analyses.misalignment.design.designed import Designed
 from geocontact.view.curves.style import BLACK, DOUBLE, GREY, PALETTE, in_style, legend, panels
 
 if TYPE_CHECKING:
@@ -22,21 +21,13 @@ BEYOND = 4.0
 
 
 @in_style
-def design_figure(
-    axes: tuple[Float[np.ndarray, " a"], Float[np.ndarray, " b"]],
-    peak: Float[np.ndarray, " ab"],
-    boundary: Boundary,
-    offset: tuple[float, float],
-    uncertainty: float,
-    limit: float,
-    curves: tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"], Float[np.ndarray, " m"], Float[np.ndarray, " m"]],
-) -> Figure:
-    """Draw largest |F| [N] over the offsets [m] with the limit, and force, lowest, highest over the angle [rad]."""
+def design_figure(d: Designed) -> Figure:
+    """Draw largest |F| [N] over the offsets with the limit, and force, lowest, highest over the angle."""
     figure, (plane, course) = panels(1, 2, DOUBLE, 0.08)
-    _map(figure, plane, axes, peak, boundary, offset, uncertainty, limit)
-    beta, force, lowest, highest = curves
-    band = course.fill_between(np.degrees(beta), lowest, highest, color=PALETTE[0], alpha=0.25, lw=0)
-    curve = course.plot(np.degrees(beta), force, color=PALETTE[0])[0]
+    _map(figure, plane, d)
+    beta, limit = np.degrees(d.beta), d.task.limit
+    band = course.fill_between(beta, *d.band, color=PALETTE[0], alpha=0.25, lw=0)
+    curve = course.plot(beta, d.force, color=PALETTE[0])[0]
     ends = [course.axhline(side * limit, color=BLACK, lw=0.8, ls="--") for side in (-1.0, 1.0)]
     course.axhline(0.0, color=GREY, lw=0.5)
     course.set_xlabel("angle of the exoskeleton [°]")
@@ -46,33 +37,18 @@ def design_figure(
 
 
 @in_style
-def map_figure(
-    axes: tuple[Float[np.ndarray, " a"], Float[np.ndarray, " b"]],
-    peak: Float[np.ndarray, " ab"],
-    boundary: Boundary,
-    offset: tuple[float, float],
-    uncertainty: float,
-    limit: float,
-) -> Figure:
-    """Draw largest |F| [N] over the offsets [m] with the limit alone."""
+def map_figure(d: Designed) -> Figure:
+    """Draw largest |F| [N] over the offsets with the limit alone."""
     figure, (plane,) = panels(1, 1, 0.11, 0.085)
-    _map(figure, plane, axes, peak, boundary, offset, uncertainty, limit)
+    _map(figure, plane, d)
     return figure
 
 
-def _map(
-    figure: Figure,
-    plane: Axes,
-    axes: tuple[Float[np.ndarray, " a"], Float[np.ndarray, " b"]],
-    peak: Float[np.ndarray, " ab"],
-    boundary: Boundary,
-    offset: tuple[float, float],
-    uncertainty: float,
-    limit: float,
-) -> None:
+def _map(figure: Figure, plane: Axes, d: Designed) -> None:
     """The largest |F| over the offsets with the limit, the robust radius and the uncertainty."""
-    x, y = (axis * MM for axis in axes)
-    shown = np.ma.masked_invalid(peak.reshape(len(y), len(x)))
+    limit, offset = d.task.limit, d.offset
+    x, y = (axis * MM for axis in d.axes)
+    shown = np.ma.masked_invalid(d.map.peak.reshape(len(y), len(x)))
     levels = np.linspace(0.0, BEYOND * limit, LEVELS + 1)
     filled = plane.contourf(x, y, shown, levels, cmap="cividis", extend="max")
     figure.colorbar(filled, ax=plane, label="largest |F| [N]")
@@ -80,8 +56,8 @@ def _map(
     circles: list[tuple[Artist | tuple[Artist, ...], str]] = []
     around = np.linspace(0.0, 2.0 * np.pi, 361)
     for radius, colour, line, name in (
-        (boundary.least, PALETTE[4], "--", f"any offset within {boundary.least * MM:.1f} mm keeps it"),
-        (uncertainty, PALETTE[1], ":", f"uncertainty, {uncertainty * MM:g} mm"),
+        (d.boundary.least, PALETTE[4], "--", f"any offset within {d.boundary.least * MM:.1f} mm keeps it"),
+        (d.uncertainty, PALETTE[1], ":", f"uncertainty, {d.uncertainty * MM:g} mm"),
     ):
         if radius > 0.0:
             u, v = (offset[k] * MM + radius * MM * turn(around) for k, turn in enumerate((np.cos, np.sin)))

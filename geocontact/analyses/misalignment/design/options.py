@@ -18,18 +18,24 @@ from geocontact.data.plausible import Plausible
 from geocontact.data.ranges import ATTACHMENT, JOINT_ANGLE, LIMIT, SHIFT
 from geocontact.data.units import mm
 
-Angles = Annotated[tuple[float, float], Typed("rad", "angle_span"), Spelled(dashed=True), JOINT_ANGLE]
+Angles = Annotated[tuple[float, float], Typed("rad", "angle_span", "gc.deg(0, 120)"), Spelled(dashed=True), JOINT_ANGLE]
 Stroke = Annotated[
-    tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
+    tuple[float, float],
+    Typed("m", "length_span", "gc.mm(-20, 35)"),
+    Spelled("stroke-mm", "stroke_mm", dashed=True),
+    STROKE,
 ]
 Offset = Annotated[
     tuple[float, float],
-    Typed("m", "length_pair"),
+    Typed("m", "length_pair", "gc.mm(5, -3)"),
     Spelled("offset-mm", "offset_mm", default="0,0", dashed=True),
     OFFSET,
 ]
 Drift = Annotated[
-    Path | Mapping[str, tuple[float, ...]], Typed("-", "misalignment.drift:typed"), Spelled(dashed=True), DRIFT
+    Path | Mapping[str, tuple[float, ...]],
+    Typed("-", "misalignment.drift:typed", '{"x": gc.mm(0, -8, 2)}'),
+    Spelled(dashed=True),
+    DRIFT,
 ]
 REACH = Plausible("how far a map goes", mm, (0.1, 1000.0), (2.0, 300.0))
 STEP = Plausible("the step of a map", mm, (0.001, 500.0), (0.05, 50.0))

@@ -50,9 +50,7 @@ class DesignResult(Result):
 
     def figure(self) -> Figure:
         """The limit in the plane of the offsets, and the force over the angle with its band."""
-        d = self.design
-        curves = d.beta, d.force, *d.band
-        return design_figure(d.axes, d.map.peak, d.boundary, d.offset, d.uncertainty, d.task.limit, curves)
+        return design_figure(self.design)
 
     def write_files(self, folder: Path) -> None:
         """design.json, tables, figure, page."""
@@ -64,6 +62,4 @@ class DesignResult(Result):
 
     def write_page(self, file: Path) -> None:
         """Map of the offsets, force over the angle, what the limit asks for, sensitivities."""
-        d = self.design
-        plane = map_figure(d.axes, d.map.peak, d.boundary, d.offset, d.uncertainty, d.task.limit)
-        write_design_report(file, self.record, d, self.summary, drawing(plane))
+        write_design_report(file, self.record, self.design, self.summary, drawing(map_figure(self.design)))

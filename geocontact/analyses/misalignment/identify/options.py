@@ -14,9 +14,25 @@ from geocontact.analyses.options import Degrees, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import BIN
 
-Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True), NUMBERS]
-Pairs = Annotated[Mapping[str, tuple[float, float]], Typed("-", "misalignment.parameters:pairs"), Spelled(dashed=True)]
-Names = Annotated[tuple[str, ...], Typed("-", "misalignment.parameters:names")]
+Numbers = Annotated[
+    Mapping[str, float],
+    Typed("-", "misalignment.parameters:numbers", '{"l": 0.169, "z": 0.127}'),
+    Spelled(dashed=True),
+    NUMBERS,
+]
+Spreads = Annotated[
+    Mapping[str, tuple[float, float]],
+    Typed("-", "misalignment.parameters:pairs", '{"l": gc.mm(185, 10)}'),
+    Spelled(dashed=True),
+    MEANS,
+]
+Bounds = Annotated[
+    Mapping[str, tuple[float, float]],
+    Typed("-", "misalignment.parameters:pairs", '{"l": gc.mm(160, 210)}'),
+    Spelled(dashed=True),
+    TOPS,
+]
+Names = Annotated[tuple[str, ...], Typed("-", "misalignment.parameters:names", '("b", "s")')]
 REPLICATES = 100, 100_000
 TWO_DEGREES, TEN_DEGREES = math.radians(2.0), math.radians(10.0)
 
@@ -71,8 +87,8 @@ class IdentifyOptions(ColumnOptions):
     rotary_free: Annotated[bool, Requires("unlocked")] = False
     held_out: tuple[Path, ...] | None = None
     known: Numbers | None = None
-    prior: Annotated[Pairs | None, MEANS] = None
-    bounds: Annotated[Pairs | None, TOPS] = None
+    prior: Spreads | None = None
+    bounds: Bounds | None = None
     start: Numbers | None = None
     free: Names | None = None
     bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0), BIN] = TWO_DEGREES

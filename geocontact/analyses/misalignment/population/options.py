@@ -18,12 +18,18 @@ from geocontact.analyses.misalignment.law_numbers import DRIFT, STROKE
 from geocontact.analyses.options import Options, Spelled, Typed
 from geocontact.data.ranges import JOINT_ANGLE, LIMIT
 
-Angles = Annotated[tuple[float, float], Typed("rad", "angle_span"), Spelled(dashed=True), JOINT_ANGLE]
+Angles = Annotated[tuple[float, float], Typed("rad", "angle_span", "gc.deg(0, 120)"), Spelled(dashed=True), JOINT_ANGLE]
 Stroke = Annotated[
-    tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
+    tuple[float, float],
+    Typed("m", "length_span", "gc.mm(-20, 35)"),
+    Spelled("stroke-mm", "stroke_mm", dashed=True),
+    STROKE,
 ]
 Drift = Annotated[
-    Path | Mapping[str, tuple[float, ...]], Typed("-", "misalignment.drift:typed"), Spelled(dashed=True), DRIFT
+    Path | Mapping[str, tuple[float, ...]],
+    Typed("-", "misalignment.drift:typed", '{"x": gc.mm(0, -8, 2)}'),
+    Spelled(dashed=True),
+    DRIFT,
 ]
 SAMPLES = 100, 20_000_000
 """Fewest and most people."""

@@ -58,14 +58,16 @@ def _check_sizes(record: Record, description: Path, told: PopulationFile) -> Non
     """Refuse numbers that a quantity cannot have, and warn of unusual ones; lower ends and deviations may be small."""
     ranges = dict(NUMBERS.ranges)
     stated = [
-        (f"[{n}] {key}", n, one.numbers[key]) for n, one in told.quantities.items() for key in ENDS & {*one.numbers}
+        (f"[{n}] {key}", n, one.numbers[key], one.numbers[key] / one.factor)
+        for n, one in told.quantities.items()
+        for key in ENDS & {*one.numbers}
     ]
-    listed = [(f"[{n}] table", n, float(c.max())) for columns in told.tables.values() for n, c in columns.items()]
-    for place, name, value in (*sorted(stated), *listed):
+    listed = [(f"[{n}] table", n, float(c.max()), None) for columns in told.tables.values() for n, c in columns.items()]
+    for place, name, value, written in (*sorted(stated), *listed):
         for _, known, number in numbers_in(ranges[name], value):
-            if refusal := known.refusal(number):
+            if refusal := known.refusal(number, written):
                 raise InputError(description, place, *refusal)
-            if doubt := known.doubt(number):
+            if doubt := known.doubt(number, written):
                 record.warn(f"{description} {place}: {doubt}")
 
 

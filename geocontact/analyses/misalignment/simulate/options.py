@@ -23,13 +23,23 @@ from geocontact.data.units import deg
 
 ELBOW = Plausible("an angle of an elbow", deg, (-30.0, 180.0))
 ALONG = Excludes("recordings", "has no effect along a recording")
-Numbers = Annotated[Mapping[str, float], Typed("-", "misalignment.parameters:numbers"), Spelled(dashed=True), NUMBERS]
-Band = Annotated[tuple[float, float], Typed("Hz", "misalignment.parameters:pair"), BAND]
-Angles = Annotated[tuple[float, float], Typed("rad", "misalignment.parameters:degrees"), Spelled(dashed=True), ELBOW]
-Stroke = Annotated[
-    tuple[float, float], Typed("m", "length_span"), Spelled("stroke-mm", "stroke_mm", dashed=True), STROKE
+Numbers = Annotated[
+    Mapping[str, float],
+    Typed("-", "misalignment.parameters:numbers", '{"l": 0.169, "z": 0.127}'),
+    Spelled(dashed=True),
+    NUMBERS,
 ]
-Pressures = Annotated[tuple[float, float], Typed("Pa", "misalignment.parameters:mercury"), CUFF]
+Band = Annotated[tuple[float, float], Typed("Hz", "misalignment.parameters:pair", "(0.05, 0.35)"), BAND]
+Angles = Annotated[
+    tuple[float, float], Typed("rad", "misalignment.parameters:degrees", "gc.deg(8, 92)"), Spelled(dashed=True), ELBOW
+]
+Stroke = Annotated[
+    tuple[float, float],
+    Typed("m", "length_span", "gc.mm(-20, 35)"),
+    Spelled("stroke-mm", "stroke_mm", dashed=True),
+    STROKE,
+]
+Pressures = Annotated[tuple[float, float], Typed("Pa", "misalignment.parameters:mercury", "gc.mmHg(10, 60)"), CUFF]
 FEWEST = 4
 """Trials of a gap case: two to fit to, two held out."""
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.motion.cycles_picture import cycles_pictured
 from geocontact.analyses.motion.gait_cycles import GaitCycles
@@ -14,12 +14,12 @@ from geocontact.analyses.motion.inverse_dynamics.forces import Forces
 from geocontact.analyses.motion.inverse_dynamics.residuals import force_left, moment_left, verdict
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import forces_on, scene_of, skeleton
+from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.wrench import Wrench
 from geocontact.view.page.content import Curve, Curves, Page, Scale, Section, Table, Words
 from geocontact.view.page.write import write_page
 
-FRAMES = 1001  # that the page shows at most
 LEFT = (
     "The joint to the ground has no muscle: what is found along its coordinates is what motion, masses and plates do "
     "not agree upon. Hicks et al. (2015, J Biomech Eng 137, 020905) ask for peaks below 5 % of the largest external "
@@ -44,8 +44,7 @@ def write_forces_report(
     sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page; returns its size in bytes."""
-    every = -(-len(forces.time) // FRAMES)
-    shown = np.arange(0, len(forces.time), every)
+    shown = thinned(len(forces.time))
     turning = np.array([c.kind == "rotational" for c in forces.model.coordinates], dtype=bool)
     base = forces.at_ground
     values = np.asarray(forces.values)[shown]
@@ -66,8 +65,9 @@ def write_forces_report(
         subtitle=f"{int((~base).sum())} coordinates of {forces.model.name or 'the model'}",
         time=forces.time[shown],
         time_label="time [s]",
-        headline=headline(sentences, most=2),
+        headline=answer(forces, turning & ~base) or headline(sentences, most=2),
         facts=_facts(forces, turning & ~base),
+        start_frame=_start(forces, turning & ~base, shown),
         reservations=tuple(warnings),
         sections=tuple(sections),
         numbers=shown + 1,
@@ -76,13 +76,38 @@ def write_forces_report(
     return write_page(page, path)
 
 
+def answer(forces: Forces, turning: Bool[np.ndarray, " n"]) -> list[str]:
+    """The largest moment, and what is left over at the ground; nothing where no joint turns."""
+    if not turning.any():
+        return []
+    frame, which = _largest(forces, turning)
+    name, size = forces.model.coordinates[which].name, abs(forces.values[frame, which])
+    told = [f"{name} needs the largest moment, {size:.1f} N m at {forces.time[frame]:.3g} s."]
+    if forces.at_ground.any():
+        left = force_left(forces)
+        of = "largest measured force" if forces.peak > 0.0 else "weight, as nothing but gravity acts"
+        told.append(f"Up to {left.size:.0f} N are left over at the ground: {left.share:.1%} of the {of}.")
+    return told
+
+
+def _largest(forces: Forces, turning: Bool[np.ndarray, " n"]) -> tuple[int, int]:
+    """Frame and coordinate of the largest moment."""
+    sizes = np.abs(np.where(turning, forces.values, 0.0))
+    frame, which = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
+    return int(frame), int(which)
+
+
+def _start(forces: Forces, turning: Bool[np.ndarray, " n"], shown: Int[np.ndarray, " k"]) -> int:
+    """Of the frames shown, the one next to the largest moment."""
+    return int(np.argmin(np.abs(shown - _largest(forces, turning)[0]))) if turning.any() else 0
+
+
 def _facts(forces: Forces, turning: Bool[np.ndarray, " n"]) -> list[tuple[str, str]]:
     told = []
     if turning.any():
-        sizes = np.abs(np.where(turning, forces.values, 0.0))
-        frame, which = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
+        frame, which = _largest(forces, turning)
         where = f"{forces.model.coordinates[which].name} at {forces.time[frame]:.3g} s"
-        told.append(("Largest moment", f"{sizes[frame, which]:.1f} N m, {where}"))
+        told.append(("Largest moment", f"{abs(forces.values[frame, which]):.1f} N m, {where}"))
     if forces.at_ground.any():
         left = force_left(forces)
         of = "the largest measured force" if forces.peak > 0.0 else "the weight, as nothing but gravity acts"

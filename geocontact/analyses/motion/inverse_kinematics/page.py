@@ -12,6 +12,7 @@ from geocontact.analyses.motion.cycles_picture import cycles_pictured
 from geocontact.analyses.motion.gait_cycles import GaitCycles
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
+from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -19,7 +20,6 @@ from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.view.page.content import Curve, Curves, Page, Readout, Row, Scene, Section, Table, Words
 from geocontact.view.page.write import write_page
 
-FRAMES = 1001  # that the page shows at most
 SKIN = (
     "Markers lie on skin, which slides over bone by centimetres, and the model's joints are not the subject's: the "
     "distances above tell how far both come together, not how wrong the angles are. Angles of joints that few markers "
@@ -39,8 +39,7 @@ def write_kinematics_report(
     sentences: Sequence[str] = (),
 ) -> int:
     """Write the self-contained page; returns its size in bytes."""
-    every = -(-len(found.time) // FRAMES)
-    shown = np.arange(0, len(found.time), every)
+    shown = thinned(len(found.time))
     angular = np.array([c.kind == "rotational" for c in model.coordinates])
     off = 1e3 * found.distances
     values = np.asarray(found.values)[shown]

@@ -7,12 +7,14 @@ import time
 import numpy as np
 
 from geocontact.analyses.json_file import plain
+from geocontact.analyses.motion.exchanged_markers import exchanged_markers
 from geocontact.analyses.motion.gait_cycles import GaitCycles, gait_cycles
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs
 from geocontact.analyses.motion.inverse_kinematics.result import IkResult
 from geocontact.analyses.motion.marker_errors import MOVING, MarkerErrors
 from geocontact.analyses.motion.printed import printed
+from geocontact.analyses.motion.upright import warn_of_tilt
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_kinematics import Poses, inverse_kinematics
@@ -38,7 +40,10 @@ def run(seen: KinematicsInputs, o: IkOptions, record: Record) -> IkResult:
     result = IkResult(record=record, options=o, seen=seen, poses=found, cycles=cycles, summary=summary)
     record.results.update(plain(summary))
     errors = MarkerErrors.of(found)
-    errors.warn(record, MOVING)
+    exchanged = exchanged_markers(tree, seen.markers, seen.tasks, found)
+    errors.warn(record, MOVING, "" if exchanged is None else exchanged.words)
+    if exchanged is None:
+        warn_of_tilt(record, seen.model, found.values, o.axes)
     _warn(record, found)
     told = "" if (free := _never(found)) <= UNTOLD * len(found.names) else f"{free} of {len(found.names)} coordinates "
     told = told and f"{told}are not determined; "

@@ -9,6 +9,7 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.motion.skeleton import JOINT, MARKER, scene_of, skeleton, upwards
 from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE, counted
 from geocontact.analyses.run_record import Record
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
@@ -17,7 +18,6 @@ from geocontact.view.page.content import Curve, Curves, Linkage, Page, Scene, Se
 from geocontact.view.page.tables import inputs_table
 from geocontact.view.page.write import write_page
 
-FRAMES = 1001  # that the page shows at most
 MODELLED = "Markers sit on rigid segments: they do not slide as those on skin do, and hold no noise of cameras."
 
 
@@ -30,8 +30,7 @@ def write_markers_page(
     markers: MarkerTrajectories,
 ) -> int:
     """Write the self-contained page along coordinates [rad, m]; returns its size in bytes."""
-    every = -(-len(markers.time) // FRAMES)
-    shown = np.arange(0, len(markers.time), every)
+    shown = thinned(len(markers.time))
     places = markers.positions[shown]
     panels = [
         Curves(f"{axis} of the markers", "m", [Curve(n, places[:, k, i]) for k, n in enumerate(markers.names)])

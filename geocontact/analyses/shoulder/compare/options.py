@@ -9,7 +9,7 @@ from typing import Annotated
 from geocontact.analyses.options import AngleUnit, Expression, ForceUnit, Options, Spelled, Typed
 from geocontact.data.ranges import DELAY
 
-Clock = Annotated[float, Typed("s", "finite", "[s]", float), Spelled(dashed=True), DELAY]
+Clock = Annotated[float, Typed("s", "finite", "0.02", "[s]", float), Spelled(dashed=True), DELAY]
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.result import Result
 from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
-from geocontact.analyses.shoulder.compare.read import ELEVATION
+from geocontact.analyses.shoulder.recorded_channels import ELEVATION
 from geocontact.identify.signals.agreement import Agreement
 from geocontact.io.text.results import write_table
 from geocontact.view.page.content import Curve, Curves, Page, Words

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import groupby
 
 import numpy as np
-from jaxtyping import Bool
 
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
-from geocontact.analyses.shoulder.compare.read import ELEVATION, ArmAndRecording
+from geocontact.analyses.shoulder.compare.read import ArmAndRecording
 from geocontact.analyses.shoulder.compare.result import ComparedChannel, ShoulderCompareResult
+from geocontact.analyses.shoulder.phase_errors import ALL, WORK, phase_errors
+from geocontact.analyses.shoulder.recorded_channels import ELEVATION
 from geocontact.data.errors import InputError
-from geocontact.identify.signals.agreement import Agreement, agreement, over_stretches
+from geocontact.identify.signals.agreement import Agreement
 from geocontact.identify.signals.even_times import at_times, even_times
-from geocontact.shoulder_exoskeleton.work_phases import PHASES
-
-ALL, WORK = "all", "work"
-"""The whole trial; from the beginning of lifting to the end of lowering, as the study of the exoskeleton takes it."""
 
 
 def run(both: ArmAndRecording, o: ShoulderCompareOptions, record: Record) -> ShoulderCompareResult:
@@ -33,26 +29,18 @@ def run(both: ArmAndRecording, o: ShoulderCompareOptions, record: Record) -> Sho
     if not inside.all():
         record.warn(f"{o.recorded.name}: {inside.mean():.0%} of the simulated time was recorded")
     phase = np.array(both.phase)
-    parts = {ALL: inside, WORK: inside & (phase != PHASES[0])} | {name: inside & (phase == name) for name in PHASES[1:]}
     _, recorded_step = even_times(recorded.time)
     found = []
     for channel, values in recorded.values.items():
         measured = at_times(recorded.time, values, time, recorded_step)
         model = both.simulated.values[channel]
-        errors = {name: _agreement(model, measured, step, part) for name, part in parts.items() if part.any()}
+        errors = phase_errors(model, measured, step, phase, inside)
         found.append(ComparedChannel(channel, time, model, np.where(inside, measured, np.nan), errors))
         _say(found[-1], errors, record)
     record.results["comparison"] = plain(
         {each.channel: {name: vars(error) for name, error in each.errors.items()} for each in found}
     )
     return ShoulderCompareResult(record=record, options=o, channels=tuple(found))
-
-
-def _agreement(model: np.ndarray, measured: np.ndarray, step: float, part: Bool[np.ndarray, " t"]) -> Agreement:
-    if part.all():
-        return agreement(model, measured, step)
-    runs = [[i for i, _ in group] for inside, group in groupby(enumerate(part), lambda pair: bool(pair[1])) if inside]
-    return over_stretches(model, measured, step, [(run[0], run[-1] + 1) for run in runs])
 
 
 def _say(one: ComparedChannel, errors: Mapping[str, Agreement], record: Record) -> None:

@@ -13,7 +13,7 @@ from geocontact.data.ranges import CUTOFF, GAP
 from geocontact.data.units import Unit
 
 CURRENT = Plausible("the current of a tool", Unit("A", "A", 1.0), (0.0, 1000.0), (0.0, 100.0))
-Level = Annotated[float, Typed("-", "shoulder.level:level"), Spelled(default="100%")]
+Level = Annotated[float, Typed("-", "shoulder.level:level", "0.5"), Spelled(default="100%")]
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,9 @@ class ShoulderSimulateOptions(Options):
         Support level: share of the cylinder's force, 0 to 100%.
     side
         Arms that are simulated.
+    cuff
+        How the cuff holds the arm: point, a sphere in a tube as in the paper, or surface, a padded cuff around the arm
+        (its first run compiles for half a minute).
     sensitivity
         Also write what each number of the device changes.
 
@@ -69,6 +72,7 @@ class ShoulderSimulateOptions(Options):
     person: Path | None = None
     level: Level = 1.0
     side: Literal["both", "right", "left"] = "both"
+    cuff: Literal["point", "surface"] = "point"
     sensitivity: bool = False
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2

@@ -39,6 +39,11 @@ POINT = (
     "the third is held by friction, stops and damping of the joints, which are invented, and so is what of the passive "
     "joints, of slip and shear hangs on them. Padding, skin and the area of contact are not modelled."
 )
+SURFACE = (
+    "The cuff holds the arm by an elastic foundation: pad and soft tissue as springs that do not know each other, the "
+    "arm a round cylinder. Layers, interference and damping are invented. Tilt and friction of the pressed wall hold "
+    "the third joint, which a point leaves to friction, stops and damping."
+)
 FRAME = (
     "The human arm is recorded: the exoskeleton does not change its motion. The device's frame moves with the trunk; "
     "gravity turns with it, accelerations of the trunk do not act on the exoskeleton's arms."
@@ -60,11 +65,11 @@ def write_simulation_page(
         Scene(directions=DIRECTIONS, up=(0.0, 0.0, 1.0), view=(-0.8, 1.0, 0.5), linkages=_lines(arms, shown)),
         *_curves(arms, shown),
         Readout([_phases(each, shown) for each in arms]),
-        *(frame_table("What each number of the device changes, at most", table) for table in changed),
+        *(frame_table("What each number of the device changes, root mean square", table) for table in changed),
         frame_table("Numbers of the device, and where they are from", tables["numbers"]),
         inputs_table(record.inputs),
         options_table(record),
-        Words("What the numbers do not contain", [POINT, FRAME, NOT_A_DEVICE]),
+        Words("What the numbers do not contain", [SURFACE if o.cuff == "surface" else POINT, FRAME, NOT_A_DEVICE]),
     ]
     page = Page(
         title=f"Shoulder exoskeleton along {o.markers.name}",

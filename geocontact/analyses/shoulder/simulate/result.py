@@ -16,6 +16,7 @@ from geocontact.analyses.result import Result
 from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulate.page import write_simulation_page
+from geocontact.analyses.shoulder.simulate.plane_files import write_plane
 from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
 from geocontact.analyses.shoulder.simulate.tables import arm_table, numbers_table, sensitivity_table
 from geocontact.io.text.results import write_table
@@ -79,6 +80,8 @@ class ShoulderSimulateResult(Result):
         write_angles(folder, simulations)
         write_external_loads(folder, simulations, self.frame)
         write_lines(folder / "paraview", simulations)
+        for each in self.arms:
+            write_plane(folder / "plane", each)
         save_both(self.figure(), folder, "shoulder")
         self.write_page(folder / "report.html")
 

@@ -25,7 +25,7 @@ def run(worn: Worn, o: ShoulderSimulateOptions, record: Record) -> ShoulderSimul
     arms = tuple(_simulated(worn, arm, o, record) for arm in worn.arms)
     record.results["arms"] = plain({each.side: _summary(each) for each in arms})
     found = {
-        each.side: tuple(influences(each.simulation.motion, worn.device, worn.wearer, o.level))
+        each.side: tuple(influences(each.simulation.motion, worn.device, worn.wearer, o.level, o.cuff))
         for each in (arms if o.sensitivity else ())
     }
     return ShoulderSimulateResult(
@@ -41,7 +41,7 @@ def run(worn: Worn, o: ShoulderSimulateOptions, record: Record) -> ShoulderSimul
 
 def _simulated(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, record: Record) -> SimulatedArm:
     try:
-        found = simulate_arm(arm, worn.device, worn.wearer, o.level)
+        found = simulate_arm(arm, worn.device, worn.wearer, o.level, cuff=o.cuff)
     except ArithmeticError as error:
         remedy = "check `person`, `device`, and the unit and names of the markers"
         raise InputError(o.markers, "", f"{arm.side} arm: {error}", remedy) from error

@@ -13,6 +13,9 @@ from geocontact.shoulder_exoskeleton.sensitivity import Influence
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
+WAYS = ("distal", "medial", "raising")
+"""Axes of the cuff."""
+
 
 def arm_table(s: ArmSimulation, phase: Int[np.ndarray, " t"]) -> pd.DataFrame:
     """Angles, forces and slip over time; forces of the cuff on the arm, in the device's frame and in the cuff's."""
@@ -39,6 +42,13 @@ def arm_table(s: ArmSimulation, phase: Int[np.ndarray, " t"]) -> pd.DataFrame:
         "out of the cuff": s.out_of_cuff.astype(int),
         **{f"{joint} at a stop": column.astype(int) for joint, column in zip(JOINTS, s.at_stop.T, strict=True)},
     }
+    if s.cuff == "surface":
+        columns |= {
+            **{f"couple {way} [N m]": column for way, column in zip(WAYS, told["couple"].T, strict=True)},
+            "centre of pressure [mm]": 1e3 * told["centre"][:, 0],
+            "peak pressure [Pa]": told["peak"][:, 0],
+            "pressed share [-]": told["share"][:, 0],
+        }
     return pd.DataFrame(columns)
 
 
@@ -52,11 +62,12 @@ def numbers_table(device: Device) -> pd.DataFrame:
 
 
 def sensitivity_table(side: str, found: Sequence[Influence]) -> pd.DataFrame:
-    """What each number changes at most, the largest change of the supporting force first."""
+    """What each number changes, root mean square; the largest change of the supporting force first."""
     rows = []
     for one in sorted(found, key=lambda each: -each.supporting):
         unit, factor = QUANTITIES[one.number].written
-        changed = (np.degrees(one.elevation), one.supporting, one.shear)
+        changed = (np.degrees(one.elevation), one.supporting, one.shear, one.most)
         rows.append((side, one.number, one.source, one.step * factor, unit, *changed))
     names = ["side", "number", "source", "step", "unit", "elevation [deg]", "supporting [N]", "shear [N]"]
+    names.append("supporting at most [N]")
     return pd.DataFrame(rows, columns=names)

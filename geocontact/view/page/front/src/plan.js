@@ -82,7 +82,7 @@ export function plan(figure, part) {
     now = at;
     tracks.forEach((t, k) => {
       const known = t.x[at] !== null && t.y[at] !== null;
-      values[k].textContent = known ? `${brief(t.x[at])}, ${brief(t.y[at])}` : "–";
+      values[k].textContent = known ? (t.told?.[at] ?? `${brief(t.x[at])}, ${brief(t.y[at])}`) : "–";
       if (!dots[k]) return;
       dots[k].setAttribute("visibility", known ? "visible" : "hidden");
       if (!known) return;

@@ -1,0 +1,88 @@
+"""What a study finds: errors, differences of both groups, figure, page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from geocontact.analyses.figure_files import drawing, save_both
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.result import Result
+from geocontact.analyses.shoulder.study.case import StudyCase
+from geocontact.analyses.shoulder.study.figure import study_figure
+from geocontact.analyses.shoulder.study.options import StudyOptions
+from geocontact.analyses.shoulder.study.tables import difference_table, error_table, passive_table, summary_table
+from geocontact.io.text.results import write_table
+from geocontact.shoulder_exoskeleton.device import Device
+from geocontact.view.page.content import Page, Picture, Words
+from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+CAPTION = "Elevation of the exoskeleton's arm and force that lifts the human one: recorded, and simulated twice."
+PASSIVE = (
+    "What turns the passive joints is the sphere's push sideways; about the third direction only friction, stops and "
+    "joint damping hold them, so their angles hang on numbers that are invented."
+)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class StudyResult(Result):
+    """Every trial of a study, simulated along both motions."""
+
+    options: StudyOptions
+    cases: tuple[StudyCase, ...]
+    device: Device
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`summary` over all trials, `errors` of each, `differences` of both groups, `passive` joints."""
+        return {
+            "summary": summary_table(self.cases),
+            "errors": error_table(self.cases),
+            "differences": difference_table(self.cases),
+            "passive": passive_table(self.cases),
+        }
+
+    def figure(self) -> Figure:
+        """Elevation and supporting force of each trial: recorded, and simulated along both motions."""
+        return study_figure(self.cases)
+
+    def write_files(self, folder: Path) -> None:
+        """Tables, figure, page."""
+        for name, table in self.tables().items():
+            write_table(table, folder, name)
+        save_both(self.figure(), folder, "study")
+        self.write_page(folder / "report.html")
+
+    def write_page(self, file: Path) -> None:
+        """Figure and tables."""
+        tables = self.tables()
+        words = {
+            "summary": "Errors over all trials",
+            "differences": "Motion recorded in the device less that without it, screw-in",
+            "passive": "Passive joints and slip",
+            "errors": "Errors by trial",
+        }
+        page = Page(
+            title=f"Study of {len(self.cases)} trials with {self.device.name}",
+            subtitle="Shoulder exoskeleton driven by human motion, beside its logger and a pressure mat",
+            time=np.zeros(1),
+            time_label="",
+            headline=headline(self.sentences, most=2),
+            reservations=self.warnings,
+            sections=(
+                Picture("Every trial", CAPTION, drawing(self.figure()), wide=True),
+                *(frame_table(title, tables[name], 3) for name, title in words.items() if len(tables[name])),
+                inputs_table(self.record.inputs),
+                options_table(self.record),
+                Words("What the numbers do not contain", [PASSIVE, NOT_A_DEVICE]),
+            ),
+        )
+        write_page(page, file)

@@ -1,0 +1,188 @@
+"""A padded cuff around an upper arm: an elastic foundation on its wall instead of one point, in symbols.
+
+Pad and soft tissue are two layers under one pressure (`contact.elastic_foundation.linear_pair_pressure`); the arm is
+a circular cylinder around the line from shoulder to cuff, wider than the empty cuff by the interference that a tight
+strap makes. Depth at station x and angle φ of the wall is interference + (y cos φ + z sin φ), with y, z where the arm's
+line passes that station: first order in offset over radius and in the tilt. Pressures act along the gradient of the
+depth through the arm's line, so that the layers give back what they store. Friction is that of the table, point by
+point, against the arm's material, which does not spin about its own line: two markers do not tell how it does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.contact.elastic_foundation import linear_pair_pressure
+from geocontact.contact.sphere_foot import friction_coefficient, normal_force
+from geocontact.contact.sphere_in_tube import STILL
+
+if TYPE_CHECKING:
+    from casadi import SX
+
+    from geocontact.dynamics.tree import Moving
+
+STATIONS, AROUND = 3, 8
+"""Places along the cuff (Gauss and Legendre's) and around it; see `quadrature`."""
+
+
+@dataclass(frozen=True)
+class CuffLaw:
+    """Numbers of pad, tissue and friction, each a number or a symbol.
+
+    Parameters
+    ----------
+    radius, length
+        Of the cuff's wall [m].
+    pad_thickness, pad_modulus, tissue_thickness, tissue_modulus
+        Layers [m] and their confined moduli [Pa].
+    interference
+        By how much the arm is wider than the empty cuff [m], >= 0.
+    damping
+        While a place is pressed on [Pa s/m], from the depth `delta_full` [m] on.
+    v_th, mu_s, mu_k
+        Threshold speed of the friction table [m/s], static and kinetic coefficient.
+    """
+
+    radius: SX
+    length: SX
+    pad_thickness: SX
+    pad_modulus: SX
+    tissue_thickness: SX
+    tissue_modulus: SX
+    interference: SX
+    damping: SX
+    delta_full: SX
+    v_th: SX
+    mu_s: SX
+    mu_k: SX
+
+
+@dataclass(frozen=True)
+class CuffLoad:
+    """What the cuff does to the arm, in the ground's frame unless said otherwise.
+
+    Parameters
+    ----------
+    force, moment
+        [N], and about the ground's origin [N m].
+    normal, friction
+        Parts of the force [N].
+    pressing
+        Sum of the pressures times their areas [N].
+    along
+        Centre of the pressures along the cuff from its middle [m].
+    peak
+        Largest pressure of a place [Pa].
+    share
+        Of the wall that is pressed on [-].
+    stored
+        In the layers [J].
+    lost
+        In friction and damping [W].
+    """
+
+    force: SX
+    moment: SX
+    normal: SX
+    friction: SX
+    pressing: SX
+    along: SX
+    peak: SX
+    share: SX
+    stored: SX
+    lost: SX
+
+
+@dataclass(frozen=True)
+class ArmLine:
+    """The arm's line: a point of it and its velocity [m, m/s], direction and its rate [1, 1/s], ground's frame."""
+
+    place: SX
+    speed: SX
+    direction: SX
+    turning: SX
+
+
+def cuff_load(arm: ArmLine, cuff: Moving, axes: SX, middle: SX, law: CuffLaw) -> CuffLoad:
+    """Load of the cuff on the arm.
+
+    Parameters
+    ----------
+    cuff
+        Body that carries it.
+    axes, middle
+        Distal, medial and raising axes of the cuff in columns, and its middle, in the ground's frame.
+    """
+    from casadi import SX, cross, dot, vertcat
+
+    offset, along = axes.T @ (arm.place - middle), axes.T @ arm.direction
+    spin = cross(arm.direction, arm.turning)
+    sums = {name: SX(3, 1) for name in ("normal", "friction", "moment")}
+    pressing, first, peak, share, stored, lost = (SX(0) for _ in range(6))
+    for x, weight in zip(*quadrature(STATIONS), strict=True):
+        station = 0.5 * law.length * x
+        way = (station - offset[0]) / along[0]
+        y, z = offset[1] + way * along[1], offset[2] + way * along[2]
+        area = np.pi * law.radius / AROUND * law.length * weight
+        core = middle + axes @ vertcat(station, y, z)
+        for angle in 2.0 * np.pi * np.arange(AROUND) / AROUND:
+            out = axes @ vertcat(0.0, np.cos(angle), np.sin(angle))
+            slope = (along[1] * np.cos(angle) + along[2] * np.sin(angle)) / along[0]
+            facing = out - slope * axes[:, 0]
+            place = middle + axes[:, 0] * station + law.radius * out
+            closing = dot(_between(arm, spin, cuff, core), facing)
+            depth = law.interference + y * np.cos(angle) + z * np.sin(angle)
+            layers = (law.pad_thickness, law.pad_modulus, law.tissue_thickness, law.tissue_modulus)
+            elastic = linear_pair_pressure(depth, *layers)
+            damped = normal_force(depth, closing, 0.0, 1.0, law.damping, law.delta_full)
+            pressure = elastic + damped
+            velocity = _between(arm, spin, cuff, place)
+            sliding = velocity - dot(velocity, out) * out
+            speed = np.sqrt(dot(sliding, sliding) + STILL * STILL)
+            drag = friction_coefficient(speed, law.v_th, law.mu_s, law.mu_k) * pressure / speed
+            normal, friction = -pressure * area * facing, -drag * area * sliding
+            sums["normal"] += normal
+            sums["friction"] += friction
+            sums["moment"] += cross(core, normal) + cross(place, friction)
+            pressing += pressure * area
+            first += pressure * area * station
+            peak = np.maximum(peak, pressure)
+            share += (depth > 0.0) * weight / (2.0 * AROUND)
+            stored += 0.5 * elastic * np.maximum(depth, 0.0) * area
+            lost += (damped * closing + drag * dot(sliding, sliding)) * area
+    force = sums["normal"] + sums["friction"]
+    centre = first / (pressing + 1e-9)
+    return CuffLoad(
+        force, sums["moment"], sums["normal"], sums["friction"], pressing, centre, peak, share, stored, lost
+    )
+
+
+def _between(arm: ArmLine, spin: SX, cuff: Moving, place: SX) -> SX:
+    """Velocity of the arm's material against the cuff's at a place [m/s]."""
+    from casadi import cross
+
+    return arm.speed + cross(spin, place - arm.place) - cuff.speed - cross(cuff.spin, place - cuff.place)
+
+
+def quadrature(count: int) -> tuple[Sequence[float], Sequence[float]]:
+    """Gauss and Legendre's places on -1 … 1 and their weights, which sum to 2."""
+    places, weights = np.polynomial.legendre.leggauss(count)
+    return places.tolist(), weights.tolist()
+
+
+def lateral_stiffness(
+    radius: float, length: float, layers: Float[np.ndarray, " 4"], interference: float, offset: float
+) -> float:
+    """Force across a closed cuff over its offset [N/m], both small against the radius; layers as in `CuffLaw`.
+
+    π r L K while every place stays pressed (offset < interference), and about half of it where one half lets go.
+    """
+    yielding = float(layers[0] / layers[1] + layers[2] / layers[3])
+    angle = 2.0 * np.pi * (np.arange(4000) + 0.5) / 4000
+    depth = np.maximum(interference + offset * np.cos(angle), 0.0)
+    return float(radius * length / yielding * np.mean(depth * np.cos(angle)) * 2.0 * np.pi / offset)

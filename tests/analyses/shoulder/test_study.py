@@ -1,0 +1,125 @@
+"""A study of two trials: both groups, errors beside recordings that are known, descriptions that cannot be right."""
+
+from __future__ import annotations
+
+import shutil
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.shoulder.study.case import COPIED
+from geocontact.analyses.shoulder.study.result import StudyResult
+from tests.cli.calls import MESHES
+
+TRIAL = MESHES / "overhead_P1T1S100"
+BOTH = """\
+device = "lucy"
+
+[[trial]]
+name = "supported"
+person = "P1"
+task = "T1"
+level = "100%"
+side = "right"
+markers = "markers.trc"
+tool = "tool.csv"
+recorded = "recorded.csv"
+wearer = "P1.toml"
+without = "markers.trc"
+without_tool = "tool.csv"
+
+[[trial]]
+name = "unsupported"
+person = "P1"
+task = "T1"
+level = "0%"
+side = "left"
+markers = "markers.trc"
+"""
+LATE, HIGH = np.radians(2.0), 3.0
+"""What the recording shows more than the simulation: elevation [rad], force [N]."""
+
+
+def studied(file: Path) -> StudyResult:
+    """Without its warnings."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        return gc.shoulder.study(file)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The shipped trial twice, and a recording that is the simulation shifted by `LATE` and `HIGH`."""
+    place = tmp_path_factory.mktemp("study")
+    for name in ("markers.trc", "tool.csv"):
+        shutil.copy(TRIAL / name, place / name)
+    (place / "P1.toml").write_text('upper_arm = { value = 296, unit = "mm" }\n', encoding="utf-8")
+    (place / "study.toml").write_text(BOTH, encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        arm = gc.shoulder.simulate(place / "markers.trc", person=place / "P1.toml", side="right").arms[0].simulation
+    columns = {"time [s]": arm.motion.time, "elevation [rad]": arm.elevation + LATE, "force [N]": arm.supporting + HIGH}
+    pd.DataFrame(columns).to_csv(place / "recorded.csv", index=False)
+    return place
+
+
+@pytest.fixture(scope="module")
+def found(folder: Path) -> StudyResult:
+    return studied(folder / "study.toml")
+
+
+def test_errors_are_those_that_were_made(found: StudyResult) -> None:
+    errors = found.table("errors").set_index(["channel", "part"])
+    assert errors.loc[("elevation", "all"), "bias"] == pytest.approx(-2.0, abs=1e-6)
+    assert errors.loc[("force", "work"), "rmsd"] == pytest.approx(3.0, abs=1e-6)
+    assert errors.loc[(COPIED, "all"), "rmsd"] > 4.0, "the human elevation is not that of the exoskeleton"
+    assert set(errors["trial"]) == {"supported"}, "the other one has no recording"
+    assert found.table("summary")["trials"].eq(1).all()
+
+
+def test_same_motion_makes_no_difference_between_groups(found: StudyResult) -> None:
+    rows = found.table("differences").set_index("trial")
+    assert list(rows.index) == ["supported", "mean"]
+    np.testing.assert_allclose(rows.loc["supported"].iloc[:3].astype(float), 0.0, atol=1e-12)
+    assert rows.loc["mean", "shoulder less exoskeleton [deg]"] > 2.0
+
+
+def test_level_and_side_are_those_of_the_trial(found: StudyResult) -> None:
+    supported, other = found.cases
+    assert (supported.within.side, other.within.side) == ("right", "left")
+    assert supported.within.simulation.supporting.max() > 20.0 > other.within.simulation.supporting.max()
+    assert other.without is None and other.recorded is None
+
+
+def test_everything_is_written(found: StudyResult, tmp_path: Path) -> None:
+    out = found.write(tmp_path / "out")
+    names = {"summary.csv", "errors.csv", "differences.csv", "passive.csv", "study.png", "report.html", "run.json"}
+    assert names <= {file.name for file in out.iterdir()}
+    roles = {entry["role"] for entry in found.record.inputs}
+    assert {"study", "supported markers", "supported recorded"} <= roles
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("[[trial]]", "[[trials]]", "`trials`: is not known here"),
+        ('side = "left"', 'side = "dominant"', "side is 'dominant'; write right or left"),
+        ('name = "unsupported"', 'name = "supported"', "two have the name 'supported'"),
+        ('level = "0%"', 'level = "120%"', "level is 120%; give 0 to 100%"),
+        ('level = "0%"\n', "", "level is missing"),
+        ("recorded.csv", "record.csv", "there is no file record.csv"),
+        ('task = "T1"\n', 'task = "T1"\nlogger = "a.csv"\n', "logger is not known"),
+    ],
+)
+def test_descriptions_that_cannot_be(folder: Path, tmp_path: Path, old: str, new: str, told: str) -> None:
+    place = tmp_path / "study"
+    shutil.copytree(folder, place)
+    text = BOTH.replace(old, new) if old == "[[trial]]" else new.join(BOTH.rsplit(old, 1))
+    (place / "study.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(gc.InputError) as error:
+        studied(place / "study.toml")
+    assert told in str(error.value)
