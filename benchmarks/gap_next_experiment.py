@@ -205,8 +205,11 @@ class Seen:
 
 def whitenings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain: int) -> list[Any]:
     """Whitening of every trial; those from `plain` on are staged."""
+    from geocontact.gap.case.placement import placement
+    from geocontact.gap.case.quotient_noise import noise_spread
     from geocontact.gap.case.refit import Measured, derivatives
     from geocontact.gap.case.whitening import Whitening, propagated_input_noise
+    from geocontact.gap.inputs.spectrum import measured_inputs
     from geocontact.identify.noise.covariance import Layout
 
     base = {name: lead.model.values[name] for name in problem.plain.values}
@@ -214,10 +217,11 @@ def whitenings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain
     for k, trial in enumerate(trials):
         system = problem.system if k < plain else stage(problem.system)
         measured = Measured.of(system, [trial], problem.calibration.rough)
-        layout = Layout.of(
-            trial.time, measured.present[0], propagated_input_noise(system, trial, base, problem.passed, problem.left)
-        )
-        varied = derivatives(system, measured, base)[0] * lead.noise.varies
+        heard = propagated_input_noise(system, trial, base, problem.passed, problem.left)
+        spread = noise_spread(system, measured.outputs, problem.calibration.rough)[0]
+        layout = Layout.of(trial.time, measured.present[0], heard, spread)
+        placed = placement(system, [trial], base, measured_inputs(problem.recorded.trials, system.inputs))[0]
+        varied = np.concatenate([derivatives(system, measured, base)[0], placed], axis=-1) * lead.noise.varies
         made.append(Whitening.of(layout.whitener(lead.noise.levels), varied))
     return made
 

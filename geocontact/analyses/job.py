@@ -113,7 +113,7 @@ class Call:
 def execute(job: Job[Any, R], options: Options, out: Path, call: Call) -> tuple[R, list[str]]:
     """Evaluate and write into `out`, whole or not at all; the result and the names of the files."""
     record = Record(
-        job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell, forms=call.forms
+        job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell, forms=call.forms, out=out
     )
     with record.catching_warnings(), written_whole(out, call.overwrite) as draft:
         tell_doubts(options, record)

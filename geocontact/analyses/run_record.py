@@ -55,6 +55,8 @@ class Record:
         Turns options in backticks into what the user wrote them as.
     forms
         Further forms of the tables.
+    out
+        Where results will be; None where nothing is written. What is whole by itself may be put there at once.
     """
 
     command: str
@@ -69,6 +71,7 @@ class Record:
     listener: Listener = field(default_factory=Listener)
     spell: Callable[[str], str] = as_python
     forms: TableForms = AS_ALWAYS
+    out: Path | None = None
 
     def add_input(self, role: str, path: str | PathLike[str], **facts: object) -> None:
         """Note a file with its SHA-256 and what is known of it."""

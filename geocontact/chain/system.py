@@ -60,6 +60,12 @@ class System:
     dynamic
         Whether the base has a motion of its own, so that outputs feel what inputs did before; otherwise they answer to
         values and rates of the moment.
+    lengths
+        Constants that are lengths of the device, or of how it is placed [m].
+    extent
+        Largest length of the device where no constant tells it [m]; 0 where the model does not know.
+    quotients
+        Outputs that are a moment over another output, by name of that one: {"cop_x": "force_y"}.
     """
 
     name: str
@@ -78,6 +84,9 @@ class System:
     bias: Mapping[str, float] = field(default_factory=dict)
     places: tuple[str, ...] = ()
     dynamic: bool = False
+    lengths: tuple[str, ...] = ()
+    extent: float = 0.0
+    quotients: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -98,6 +107,15 @@ class System:
     def known(self) -> dict[str, float]:
         """Values that need not be given: constants and fixed parameters."""
         return {**self.constants, **{p.name: p.start for p in self.parameters if p.fixed}}
+
+    @property
+    def length(self) -> float:
+        """Largest length of the device [m]: what the model says, its lengths; else the half-range of its inputs."""
+        lengths = [self.known[name] for name in self.lengths if name in self.known]
+        lengths += [p.start for p in self.parameters if p.unit == "m" and "." not in p.name]
+        found = max([self.extent, *map(abs, lengths)])
+        moved = [self.scale.span.get(name, 0.0) for name in self.inputs if self.unit(name) == "m"]
+        return found if found > 0.0 else max(moved, default=0.0)
 
     @cached_property
     def start(self) -> dict[str, float]:

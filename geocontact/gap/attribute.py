@@ -16,8 +16,9 @@ from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
 from geocontact.gap.selection.calibration_share import calibration_share, changes
 from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import settled
+from geocontact.gap.selection.held_out_rules import HeldOutRules
 from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, settled_in, singles
-from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, residual_anomalies
+from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, recorder_remarks, residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
 from geocontact.gap.selection.verdict import Answer, answer, borne_out, ranking, with_mistake
 
@@ -56,7 +57,11 @@ class Attribution:
     remaining
         What the surrogate for anything unknown finds on the base ("none") and on the best contender, by label.
     odd
-        What is odd about the residual of the leader.
+        Oscillations in the residual of the leader.
+    recorder
+        What the recordings show of their recorder.
+    objections
+        Why models that gain may not be named, by label.
     flat
         Channels whose recordings end at a level.
     answer
@@ -70,6 +75,8 @@ class Attribution:
     contenders: tuple[Contender, ...]
     remaining: dict[str, Surrogate]
     odd: tuple[ResidualAnomaly, ...]
+    recorder: tuple[ResidualAnomaly, ...]
+    objections: dict[str, str]
     flat: tuple[ClippedChannel, ...]
     answer: Answer
 
@@ -120,22 +127,38 @@ def _attributed(
         for c in contenders
     ]
     shares = {c.label: calibration_share(clean, changes(clean, base, c)) for c in contenders}
-    held = ranking(base, contenders, shares, Counter(one.name for one in entered))
+    at("whether held-out trials are predicted better")
+    rules = HeldOutRules.of(clean, base.judged)
+    gaining = [c for c in contenders if c.nats > base.nats]
+    objections = {c.label: why for c in gaining if (why := rules.objection(c))}
+    objections |= rules.outdone([c for c in gaining if c.label not in objections])
+    free = [c for c in contenders if c.label not in objections]
+    held = ranking(base, free, shares, Counter(one.name for one in entered))
     odd = tuple(each for each in residual_anomalies(clean, held.leader.judged) if each.nats > ODD)
+    recorder = tuple(each for each in recorder_remarks(clean, held.leader.judged) if each.nats > ODD)
     strange = float(sum(each.nats for each in odd))
     best = held.best
     at("what is left over")
     rest = surrogate(clean, best.judged)
-    said = answer(held, _believed(clean, remaining["none"]), strange, _believed(clean, rest) + strange)
+    left = _believed(rules, best, rest) if best is base or rules.adds(rest, best) else 0.0
+    said = answer(held, _believed(rules, base, remaining["none"]), strange, left + strange)
     remaining |= {best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)
-    return Attribution(problem, data_error, clean, base, tuple(contenders), remaining, odd, flat, said)
+    found = tuple(contenders)
+    return Attribution(problem, data_error, clean, base, found, remaining, odd, recorder, objections, flat, said)
 
 
-def _believed(problem: Problem, found: Surrogate) -> float:
-    """What a surrogate gains, as far as the calibration trials bear it out, its choice paid for [nats]."""
-    return borne_out(found.gain, found.calibration, calibration_share(problem, found.predicted)) - found.price
+def _believed(rules: HeldOutRules, over: Contender, found: Surrogate) -> float:
+    """What a surrogate gains over a model, its choice paid for [nats]; nothing unless held-out trials are predicted
+    better.
+
+    As far as the calibration trials bear it out.
+    """
+    if not rules.unnamed(found, over.judged.model.residuals):
+        return 0.0
+    share = calibration_share(rules.problem, found.predicted)
+    return borne_out(found.gain, found.calibration, share) - found.price
 
 
 def compared(problem: Problem, contenders: Sequence[Contender]) -> list[Contender]:

@@ -29,7 +29,7 @@ from geocontact.gap.reduction.held_out import held_out
 from geocontact.gap.reduction.leave_one_out import TrialGain, leave_one_out
 from geocontact.gap.reduction.raw_input_errors import raw_input_errors
 from geocontact.gap.selection.evidence import Judged, prior_spread
-from geocontact.gap.selection.model_comparison import base_contender
+from geocontact.gap.selection.model_comparison import Contender, base_contender
 from geocontact.gap.selection.verdict import SURE
 
 Z95 = 1.959964
@@ -129,9 +129,11 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
         version=version,
         faults=_faults(found),
         remarks=(
-            *(f"{each.words} in {each.channel}" if each.channel else each.words for each in found.odd),
+            *(f"{each.words} in {each.channel}" for each in (*found.odd, *found.recorder)),
             *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
+            *objection(found),
             *(nearest(found) if said.verdict == "unknown" else ()),
+            *(on_bounds(said.chosen, found.base) if said.effects else ()),
         ),
         next_experiment=then,
     )
@@ -153,6 +155,29 @@ def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ran
         probability = probabilities.get(one.names[0], 0.0) if first else None
         rows.append(Ranked(one.label, " + ".join(one.names), gain, calibration, probability))
     return tuple(sorted(rows, key=lambda row: -row.gain))
+
+
+def objection(found: Attribution) -> tuple[str, ...]:
+    """In words why the model that gains most is not named, where it gains surely."""
+    best = max(found.contenders, key=lambda one: one.nats, default=found.base)
+    why, gain = found.objections.get(best.label, ""), best.nats - found.base.nats
+    return (f"{best.label} gains {gain:.0f} nats and is not named: {why}",) if why and gain > SURE else ()
+
+
+def on_bounds(chosen: Contender, base: Contender) -> tuple[str, ...]:
+    """In words which shapes of named effects, and which base parameters only beside them, end on a bound."""
+    system, values, alone = chosen.judged.model.system, chosen.judged.model.values, base.judged.model
+    ended, stays = prior_spread(system, values) == 0.0, prior_spread(alone.system, alone.values) == 0.0
+    shapes = {p.name for one in chosen.candidates for p in one.parameters[1:]}
+    driven = {p.name for p, on_it in zip(free(alone.system), stays, strict=True) if not on_it}
+    names = " + ".join(chosen.names)
+    told = []
+    for p, on_it in zip(free(system), ended, strict=True):
+        if on_it and p.name in shapes:
+            told.append(f"the shape {p.name} ends on its bound, {values[p.name]:.3g} {p.unit}")
+        elif on_it and p.name in driven:
+            told.append(f"with {names} the base parameter {p.name} ends on its bound, {values[p.name]:.3g} {p.unit}")
+    return tuple(told)
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:

@@ -18,17 +18,18 @@ from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import Problem, problem_of
-from geocontact.gap.case.refit import Measured
+from geocontact.gap.case.problem import Noise, Problem, problem_of
+from geocontact.gap.case.refit import Measured, Refit
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.localise.gap_map import Window, gap_map, windows
 from geocontact.gap.selection import model_comparison as contest
 from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
-from geocontact.gap.selection.evidence import judged
+from geocontact.gap.selection.evidence import Judged, judged
 from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, singles
 from geocontact.gap.selection.model_discrepancy import discrepancy_basis
-from geocontact.gap.selection.residual_anomalies import residual_anomalies
+from geocontact.gap.selection.residual_anomalies import recorder_remarks, residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
+from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.systems.catalogue import system_of
 
 TRUE = {"k": 260.0, "x": 0.035, "y": 0.05}
@@ -71,6 +72,13 @@ def elbow_case(
     measured = {name: beta + _smooth(rng, len(beta), 0.002) for name, beta in motions.items()}
     calibration, evaluation = _split(measured, forces)
     return GapCase("case", "elbow", calibration, evaluation, PARAMETERS, empty.constants, {"force": NOISE})
+
+
+def judged_as(model: Refit) -> Judged:
+    """A model that nobody judged."""
+    one, n = np.ones(1), len(model.whitened)
+    noise = Noise(NoiseLevels(one, one[None], one[None], one), one, 0.0, ())
+    return Judged(model, noise, 0.0, 0.0, n, [], np.zeros((n, 0)))
 
 
 def diagnosis(*arguments: object, **options: object) -> Diagnosis:
@@ -150,7 +158,8 @@ def odd(change: Change | None, after: Change | None = None, duration: float = 24
         if after:
             trial.signals.values[:, 1] = after(trial.name, trial.time, trial.signals.values[:, 1])
     problem = problem_of(case, system_of(case))
-    return {each.words: each.nats for each in residual_anomalies(problem, base_contender(problem).judged)}
+    base = base_contender(problem).judged
+    return {each.words: each.nats for check in (residual_anomalies, recorder_remarks) for each in check(problem, base)}
 
 
 def paired() -> tuple[list[tuple[str, ...]], list[float]]:

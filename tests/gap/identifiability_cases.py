@@ -128,7 +128,7 @@ def powers() -> list[tuple[float, float]]:
     ground, known = stood(elbow_case(seed=1))
     ground = replace(ground, fitted_rows=len(ground.slopes))  # nothing held out that would have to bear it out
     found = []
-    for nats in (2.0, 6.0, 9.0, 14.0, 20.0):
+    for nats in (2.0, 6.0, 9.0, 14.0, 24.0):
         one = at_nats(ground, known["time_shift"], nats)
         moved = ground.moved(one.candidate.apply(ground.system), {**ground.values, **one.values})
         slope = ground.left(own_slopes(ground, one.candidate, one.values, moved)[:, 0])
@@ -166,7 +166,7 @@ def proposed(effects: Mapping[str, float] | None, times: float = TELLS) -> NextE
         said = Answer("explained", ("time_shift",), {}, ("time_shift", "filter_lag"), competitors[0])
     else:
         competitors, said = [], Answer("no_gap", (), {}, (), base)
-    found = Attribution(problem, None, problem, base, tuple(competitors), {}, (), (), said)
+    found = Attribution(problem, None, problem, base, tuple(competitors), {}, (), (), {}, (), said)
     names = [each.name for each in non_identifiable(problem, known, ())]
     with patch("geocontact.gap.experiment.proposal.TELLS", times):
         return next_experiment(found, first_of(known, names))

@@ -10,11 +10,13 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from geocontact.analyses.gap.diagnose.words import verdict_sentences
 from geocontact.analyses.gap.words import proposal_words
+from geocontact.chain.system import System
 from geocontact.data.gap.diagnosis import Diagnosis
-from geocontact.gap.case.problem import Noise, problem_of
-from geocontact.gap.diagnose import diagnose, estimates
-from geocontact.gap.selection.evidence import Judged
-from geocontact.identify.noise.noise_levels import NoiseLevels
+from geocontact.data.parameter import Parameter
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.case.problem import problem_of
+from geocontact.gap.diagnose import diagnose, estimates, on_bounds
+from geocontact.gap.selection.model_comparison import Contender
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.cases import (
@@ -26,6 +28,7 @@ from tests.gap.cases import (
     diagnosis_of_reversed,
     diagnosis_that_names_nothing,
     elbow_case,
+    judged_as,
 )
 
 pytestmark = pytest.mark.slow
@@ -171,10 +174,28 @@ def test_a_number_on_its_bound_has_the_whole_range_for_an_interval() -> None:
     p = next(p for p in problem.system.parameters if p.name == "x")
     n = len(problem.plain.whitened)
     model = replace(problem.plain, values={**problem.plain.values, "x": p.upper}, whitened_jacobian=np.ones((n, 3)))
-    one = np.ones(1)
-    judged = Judged(
-        model, Noise(NoiseLevels(one, one[None], one[None], one), one, 0.0, ()), 0.0, 0.0, n, [], np.zeros((n, 0))
-    )
-    found = estimates(judged)
+    found = estimates(judged_as(model))
     assert found["x"].ci95 == (p.lower, p.upper) and not found["x"].identifiable
     assert found["k"].ci95 != (50.0, 1000.0)
+
+
+def test_what_ends_on_a_bound_is_told() -> None:
+    """The shape of a named effect, and a base parameter that the base alone does not drive there."""
+    case = elbow_case(duration=2.0)
+    problem = problem_of(case, system_of(case))
+    (one,) = [each for each in candidates(problem.system) if each.label == "sensor_drift.force"]
+    with_it = one.apply(problem.system)
+    start = {p.name: p.start for p in with_it.parameters}
+    x, bend = (next(p for p in with_it.parameters if p.name == name) for name in ("x", "sensor_drift.force.bend"))
+
+    def contender(system: System, *on_it: Parameter) -> Contender:
+        values = {**start, bend.name: 1.0, **{p.name: p.upper for p in on_it}}
+        return Contender((one,), judged_as(replace(problem.plain, system=system, values=values)))
+
+    def told(*ended: Parameter, base: tuple[Parameter, ...] = ()) -> tuple[str, ...]:
+        return on_bounds(contender(with_it, *ended), contender(problem.system, *base))
+
+    assert told() == ()
+    assert told(bend) == (f"the shape {bend.name} ends on its bound, 10 -",)
+    assert told(x) == ("with sensor_drift the base parameter x ends on its bound, 0.1 m",)
+    assert told(x, base=(x,)) == ()

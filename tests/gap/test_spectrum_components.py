@@ -51,7 +51,7 @@ def test_the_filter_that_noise_came_through_is_likeliest() -> None:
 
 def tail(height: float) -> Float[np.ndarray, " f"]:
     """Power of a movement in pieces."""
-    return np.asarray(height / (1.0 + (FREQUENCY / TAIL) ** 4) ** 2)
+    return np.asarray(height / (1.0 + (FREQUENCY * STEP / TAIL) ** 4) ** 2)
 
 
 def spread(height: float) -> Float[np.ndarray, " f"]:
@@ -120,7 +120,7 @@ def test_many_values_are_pooled() -> None:
     answer = split(seen, FILTERS)
     assert int(np.argmin(answer.unlikely)) == 5
     assert answer.noise[5] == pytest.approx(1e-4, rel=0.05)
-    truth = np.array([[np.log(10.0), np.log(0.5), np.log(1.2), np.log(1e-8 / part), np.log(1e-12)]])
+    truth = np.array([[np.log(10.0), np.log(0.5 * STEP), np.log(1.2), np.log(1e-8 / part), np.log(1e-12)]])
     (exact,) = Whole.of(seen, FILTERS[5]).scored(truth, np.zeros(1, dtype=int))[0]
     (pooled,) = parts.scored(truth, np.array([5]))[0]
     assert pooled == pytest.approx(exact, abs=60.0), "of 40 000 values"
@@ -133,7 +133,8 @@ class Whole:
     def of(seen: Spectrum, through: LowPass) -> Parts:
         usual = Parts.of(seen, [through])
         passed = through.power(seen.frequency)[None]
-        return replace(usual, frequency=seen.frequency, power=seen.power, count=np.ones(len(seen.power)), passed=passed)
+        whole = {"frequency": seen.frequency * STEP, "power": seen.power, "count": np.ones(len(seen.power))}
+        return replace(usual, passed=passed, **whole)
 
 
 def test_gradients_are_those_of_the_values() -> None:
@@ -150,7 +151,7 @@ def test_gradients_are_those_of_the_values() -> None:
 
 def test_curvatures_are_those_of_the_values_where_what_is_expected_is_met() -> None:
     parts = Parts.of(drawn(movement(0.5) + noise(FILTERS[4], 0.004) + 1e-9), FILTERS)
-    x, which = np.array([[2.0, -0.5, 0.2, -11.0, -18.0, -4.0]]), np.array([4])
+    x, which = np.array([[2.0, -0.5 + np.log(STEP), 0.2, -11.0, -18.0, -4.0]]), np.array([4])
     fall = (FREQUENCY / np.exp(-0.5)) ** np.exp(0.2)
     expected = np.exp(2.0 - fall) + np.exp(-11.0) * FILTERS[4].power(FREQUENCY) + np.exp(-18.0) + tail(np.exp(-4.0))
     met = replace(parts, power=expected[np.argsort(FREQUENCY, kind="stable")])

@@ -22,7 +22,7 @@ def test_a_bump_is_found_among_many_columns() -> None:
     residual = rng.standard_normal(300) + 0.8 * columns[:, 7] + 5.0 * known[:, 0]
     found = chosen(residual, columns, known, 200, 1.0)
     assert found.columns == [7]
-    assert found.weights[0] == pytest.approx(0.8, abs=0.2)
+    assert found.by_all.weights[0] == pytest.approx(0.8, abs=0.2)
     assert 0.0 < found.calibration < found.gain
     assert found.price > 1.0
 
@@ -39,7 +39,7 @@ def test_fitted_parameters_make_room() -> None:
     rng = np.random.default_rng(4)
     known, column = rng.standard_normal((300, 2)), rng.standard_normal((300, 1))
     found = chosen(2.0 * column[:, 0] + 3.0 * known[:, 1], column, known, 200, 1.0)
-    assert found.shift == pytest.approx([0.0, 3.0], abs=0.05)
+    assert found.by_all.shift == pytest.approx([0.0, 3.0], abs=0.05)
 
 
 def test_what_fitted_parameters_explain_is_not_paid_for() -> None:
@@ -60,10 +60,9 @@ def test_a_short_push_that_noise_of_the_input_would_explain_away(elsewhere: Else
     assert found.family == "time within the trial"
 
 
-def test_coarse_steps_below_the_noise_are_waves_over_the_prediction(elsewhere: Elsewhere) -> None:
-    found = elsewhere(stood_in, stairs)
-    assert found.nats > 40.0
-    assert found.family == "steps of force"
+def test_coarse_steps_of_the_recorder_are_nothing_to_explain(elsewhere: Elsewhere) -> None:
+    """Rounding is noise of variance q²/12, whatever regular pattern it leaves over the prediction."""
+    assert elsewhere(stood_in, stairs).nats < 5.0
 
 
 def test_the_stand_in_finds_nothing_where_nothing_is(elsewhere: Elsewhere) -> None:

@@ -23,7 +23,7 @@ def parts(rng: np.random.Generator) -> tuple[Layout, NoiseLevels, np.ndarray]:
     still = np.zeros((60, 1, 1))
     levels = NoiseLevels(np.array([0.4]), np.array([[0.6]]), np.array([[0.2]]), np.array([1.0]))
     return (
-        Layout.of(time, np.ones((60, 1), bool), Instant(time, still, still, (SPECTRUM,))),
+        Layout.of(time, np.ones((60, 1), bool), Instant(time, still, still, (SPECTRUM,)), np.ones((60, 1))),
         levels,
         rng.standard_normal((60, 1, 2)),
     )

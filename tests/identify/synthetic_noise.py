@@ -27,7 +27,7 @@ def layout(present: np.ndarray | None = None) -> Layout:
     to_value = np.ones((COUNT, 2, 1)) * np.array([[[5.0], [2.0]]])
     to_rate = np.zeros((COUNT, 2, 1))
     to_rate[:, 1] = 0.3
-    return Layout.of(time, there, Instant(time, to_value, to_rate, (PASSED,)))
+    return Layout.of(time, there, Instant(time, to_value, to_rate, (PASSED,)), np.ones(there.shape))
 
 
 def noise_of(one: Layout, levels: NoiseLevels, rng: np.random.Generator) -> np.ndarray:

@@ -7,7 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.signal import butter, filtfilt
 
-from geocontact.identify.noise.covariance import NoiseBlock
+from geocontact.identify.noise.covariance import Layout, NoiseBlock
+from geocontact.identify.noise.input_noise import Lasting
 from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
@@ -28,6 +29,16 @@ def test_rows_are_cut_into_blocks_and_every_measured_sample_is_in_one() -> None:
     found = layout(there)
     assert len(found.blocks) > 1
     assert sorted(found.rows) == sorted(np.flatnonzero(there.ravel()))
+
+
+def test_a_stretch_in_which_nothing_was_measured_has_no_block() -> None:
+    """Nor is there anything in it that noise of an input, whose response lasts, could be felt in."""
+    time, there = STEP * np.arange(1000), np.zeros((1000, 1), bool)
+    there[:300] = True
+    response = np.zeros((1, 1000, 1, 6))
+    response[..., 3] = 1.0
+    found = Layout.of(time, there, Lasting(time, response, 3, (PASSED,)), np.ones(there.shape))
+    assert list(found.rows) == list(range(300))
 
 
 def test_covariance_is_symmetric_and_sums_white_coloured_and_input_noise() -> None:

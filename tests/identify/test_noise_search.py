@@ -45,7 +45,7 @@ def test_what_is_limited_does_not_grow_with_what_a_model_misses() -> None:
     limited = replace(free, sensors=LEVELS.sensors, inputs=LEVELS.inputs)
     loud = most_likely(layouts, residuals, nothing, free, LEVELS)[0]
     held = most_likely(layouts, residuals, nothing, limited, LEVELS)[0]
-    assert (loud.sensors > 3.0).all()
+    assert (loud.sensors > 3.0 * LEVELS.sensors).all()
     assert (held.sensors < np.exp(BEYOND) * LEVELS.sensors).all()
     assert (held.inputs < np.exp(BEYOND) * LEVELS.inputs).all()
 
@@ -55,7 +55,7 @@ def test_a_slow_part_is_told_from_a_quick_one() -> None:
     time, rng = STEP * np.arange(400), np.random.default_rng(5)
     nothing = np.zeros((400, 1, 1))
     heard = Instant(time, nothing, nothing, (PASSED,))
-    layouts = [Layout.of(time, np.ones((400, 1), bool), heard) for _ in range(6)]
+    layouts = [Layout.of(time, np.ones((400, 1), bool), heard, np.ones((400, 1))) for _ in range(6)]
     true = NoiseLevels(np.array([0.3]), np.array([[0.3], [0.25]]), np.array([[0.03], [0.5]]), np.array([1.0]))
     residuals = [noise_of(each, true, rng) for each in layouts]
     prior = NoiseLevels(np.array([0.3]), np.array([[0.3], [0.1]]), np.array([[0.04], [0.4]]), np.array([1.0]))
@@ -72,7 +72,7 @@ def test_a_search_ends_where_it_does_not_matter_from_where_it_set_out() -> None:
     time, rng = STEP * np.arange(300), np.random.default_rng(6)
     answers = np.full((300, 1, 1), 5.0)
     heard = Instant(time, answers, np.zeros((300, 1, 1)), (PASSED,))
-    layouts = [Layout.of(time, np.ones((300, 1), bool), heard) for _ in range(6)]
+    layouts = [Layout.of(time, np.ones((300, 1), bool), heard, np.ones((300, 1))) for _ in range(6)]
     true = NoiseLevels(np.array([0.002]), np.array([[0.1], [0.05]]), np.array([[0.03], [0.6]]), np.array([0.02]))
     residuals = [noise_of(each, true, rng) for each in layouts]
     prior = NoiseLevels(np.array([0.07]), np.array([[0.07], [0.02]]), np.array([[0.08], [0.4]]), np.array([0.005]))

@@ -59,3 +59,12 @@ def test_a_mean_that_was_fitted_to_the_same_trials_is_made_up_for():
 def test_what_trials_do_not_tell_keeps_its_prior():
     silent = [Products.of(np.zeros(20), np.zeros((20, 1))) for _ in range(4)]
     assert variation(silent, np.array([0.3]), weight=1.0, spent=1.0)[0] == pytest.approx(0.3, rel=1e-6)
+
+
+def test_what_all_trials_have_alike_is_no_variation():
+    """A gap is the same in all trials; deviations are taken from their mean."""
+    design = 40.0 * np.random.default_rng(4).normal(size=(30, 1))
+    alike = [Products.of(5.0 * design[:, 0], design) for _ in range(4)]
+    around_zero, around_mean = (variation(alike, np.ones(1), weight=1.0, spent=spent)[0] for spent in (0.0, 1.0))
+    assert around_zero == pytest.approx(np.sqrt((1.0 + 4.0 * 25.0) / 5.0), rel=0.01)
+    assert around_mean == pytest.approx(np.sqrt(1.0 / 4.0), rel=0.01)

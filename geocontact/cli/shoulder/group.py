@@ -10,5 +10,5 @@ shoulder = App(
 )
 shoulder.command("geocontact.cli.shoulder.simulate:simulate", name="simulate")
 shoulder.command("geocontact.cli.shoulder.compare:compare", name="compare")
-shoulder.command("geocontact.cli.shoulder.optimise:optimise", name="optimise")
 shoulder.command("geocontact.cli.shoulder.study:study", name="study")
+shoulder.command("geocontact.cli.shoulder.optimise:optimise", name="optimise")

@@ -17,12 +17,14 @@ from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_sensor
 
 RANK = 30.0
+LONGEST = 50.0
+"""Samples that outputs may lag."""
 
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude tau, shape order."""
-    most = min(1.0, 0.25 * system.scale.duration)
-    lag = Parameter("filter_lag.lag", "s", min(0.02, 0.2 * most), 0.0, most)
+    most = min(LONGEST * system.scale.step, 0.25 * system.scale.duration)
+    lag = Parameter("filter_lag.lag", "s", min(2.0 * system.scale.step, 0.2 * most), 0.0, most)
     order = Parameter("filter_lag.order", "-", 1.2, 1.0, 2.0)
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:

@@ -16,12 +16,14 @@ from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_sensor
 
 RANK = 70.0
+LONGEST = 50.0
+"""Samples that outputs may lag."""
 
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude d."""
-    most = min(0.5, 0.25 * system.scale.duration)
-    delay = Parameter("time_shift.delay", "s", min(0.02, 0.2 * most), 0.0, most)
+    most = min(LONGEST * system.scale.step, 0.25 * system.scale.duration)
+    delay = Parameter("time_shift.delay", "s", min(2.0 * system.scale.step, 0.2 * most), 0.0, most)
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         return delayed(movement.time, outputs, values[delay.name])

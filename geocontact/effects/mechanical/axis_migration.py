@@ -2,11 +2,13 @@
 
 x → x + a φ + c φ², φ = β - the middle of the measured range, so that x keeps its meaning there; at the shoulder φ is
 the arm's angle itself, because o_x is known from the arm that hangs down. a of either sign, a few centimetres per
-radian; the curvature c is the shape. Its rate moves the deflection as well. The lever ρ of a
-strapped-on site changes with the site's own rotation, which is small: by `LEVER` over half its range at most.
+radian; the curvature c is the shape. Its rate moves the deflection as well. The lever ρ of a strapped-on site changes
+with the site's own rotation, which is small: by the largest lever that is allowed over half its range at most.
 """
 
 from __future__ import annotations
+
+import math
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.effect import Effect
@@ -14,17 +16,26 @@ from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_geometry
 
-LEVER = 0.15
-"""Largest plausible change of the lever of a site [m], as far as an attachment reaches."""
+MOST = {"elbow": 0.3, "shoulder": 0.2, "knee": 2.0}
+"""Largest plausible migration per radian, over the length of the device (a knee's is its small radius)."""
+BEND = 0.6
+"""Of that, largest curvature per radian."""
+
+
+def longest_lever(system: System) -> float:
+    """Of a site [m]: as far as an attachment reaches."""
+    ends = [abs(each) for p in system.parameters if p.unit == "m" for each in (p.start, p.lower, p.upper)]
+    return max((each for each in ends if math.isfinite(each)), default=0.0) or system.length
 
 
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate: amplitude a, shape c."""
     angle = next((name for name in system.inputs if system.unit(name) == "rad"), system.geometry.yields)
-    most, bend = 0.05, 0.03
+    most = MOST.get(system.name, MOST["elbow"]) * system.length
+    bend = BEND * most
     if system.name == "sit_to_stand":
-        half = system.scale.span.get(angle, 1.0)
-        most, bend = LEVER / half, LEVER / half**2
+        half, lever = system.scale.span.get(angle, 1.0), longest_lever(system)
+        most, bend = lever / half, lever / half**2
     a = Parameter("axis_migration.slope", "m/rad", 0.1 * most, -most, most)
     c = Parameter("axis_migration.curvature", "m/rad^2", 0.0, -bend, bend)
     centre = 0.0 if system.name == "shoulder" else system.scale.centre.get(angle, 0.0)

@@ -19,8 +19,8 @@ from geocontact.effects.parts import largest_load, load_channels, with_balance
 
 FLAG = "event"
 RANK = 30.0
-SLOWEST = 0.5
-"""Largest tau [s]."""
+SLOWEST = 50.0
+"""Largest tau, in samples."""
 
 
 def offer(system: System) -> tuple[Candidate, ...]:
@@ -30,7 +30,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
         return ()
     most = largest_load(system)
     push = Parameter("event_load.push", system.unit(loads[0]), 0.1 * most, -2.0 * most, 2.0 * most)
-    tau = Parameter("event_load.tau", "s", 0.02, 0.0, SLOWEST)
+    tau = Parameter("event_load.tau", "s", 2.0 * system.scale.step, 0.0, SLOWEST * system.scale.step)
     row, column = system.inputs.index(FLAG), system.outputs.index(loads[0])
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
@@ -40,7 +40,7 @@ def offer(system: System) -> tuple[Candidate, ...]:
         return out
 
     link = with_balance(Modifier("event_load", RANK, change))
-    others = ({push.name: -push.start}, {push.name: push.start, tau.name: 0.2})
+    others = ({push.name: -push.start}, {push.name: push.start, tau.name: 20.0 * system.scale.step})
     return (Candidate("event_load", "", "load", (push, tau), link, {push.name: 0.0}, others),)
 
 

@@ -21,27 +21,39 @@ from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import load_channels, with_balance, with_geometry
 
 RANK = 20.0
-HEAVY = 10.0
-"""Largest plausible mass [kg] or moment of inertia [kg m^2] that somebody left out."""
+HEAVY = 0.2
+"""Of the largest load, that a mass which somebody left out makes at the most in a typical acceleration."""
+KNOWN = 10.0
+"""Times the known moment of inertia that somebody may have left out."""
+FIRST = 0.02
+"""Of the largest mass, from which a search sets out."""
 INERTIA = {("N", "m"): "kg", ("N m", "rad"): "kg m^2"}
 """Unit of a load over that of the acceleration of an input."""
 
 
+def heaviest(system: System, name: str, load: str, arm: float = 1.0) -> float:
+    """Largest plausible mass; accelerations of an input are typically the square of its rate over its half-range."""
+    scale = system.scale
+    return HEAVY * scale.of(load) * scale.span.get(name, 1.0) / (abs(arm) * scale.speed.get(name, 1.0) ** 2)
+
+
 def at_the_tip(system: System) -> Candidate:
     """Elbow: mass times tangential acceleration of the link's end."""
-    mass = Parameter("inertia_load.tip.mass", "kg", 0.2, -HEAVY, HEAVY)
+    most = heaviest(system, "beta", "force", {**system.known, **system.start}["l"])
+    mass = Parameter("inertia_load.tip.mass", "kg", FIRST * most, -most, most)
     row = system.inputs.index("beta")
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         return np.asarray(outputs + values[mass.name] * values["l"] * movement.acceleration[row][:, None])
 
     link = with_balance(Modifier("inertia_load.tip", RANK, change))
-    return Candidate("inertia_load", "tip", "load", (mass,), link, {mass.name: 0.0}, ({mass.name: -0.2},))
+    return Candidate("inertia_load", "tip", "load", (mass,), link, {mass.name: 0.0}, ({mass.name: -mass.start},))
 
 
 def at_the_attachment(system: System) -> Candidate:
     """Elbow: mass times second derivative of the deflection, as the geometry without further effects has it."""
-    mass = Parameter("inertia_load.attachment.mass", "kg", 0.2, 0.0, HEAVY)
+    most = HEAVY * system.scale.of("force") * system.scale.deflection / system.scale.rate**2
+    mass = Parameter("inertia_load.attachment.mass", "kg", FIRST * most, 0.0, most)
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         _, rate = system.geometry.deflection(movement, values)
@@ -53,8 +65,9 @@ def at_the_attachment(system: System) -> Candidate:
 
 def in_the_foot(system: System) -> Candidate:
     """Foot: mass at a distance from the heel, both components."""
-    mass = Parameter("inertia_load.mass", "kg", 1.0, 0.0, 2.0 * HEAVY)
-    ahead = Parameter("inertia_load.ahead", "m", 0.05, 0.0, 0.3)
+    most, long = heaviest(system, "y", "force_y"), system.length
+    mass = Parameter("inertia_load.mass", "kg", 2.0 * FIRST * most, 0.0, most)
+    ahead = Parameter("inertia_load.ahead", "m", 0.2 * long, 0.0, 1.2 * long)
     x, y, pitch = (system.inputs.index(name) for name in ("x", "y", "pitch"))
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
@@ -67,7 +80,7 @@ def in_the_foot(system: System) -> Candidate:
         return out
 
     link = with_balance(Modifier("inertia_load", RANK, change))
-    return Candidate("inertia_load", "", "load", (mass, ahead), link, {mass.name: 0.0}, ({ahead.name: 0.15},))
+    return Candidate("inertia_load", "", "load", (mass, ahead), link, {mass.name: 0.0}, ({ahead.name: 0.6 * long},))
 
 
 def of_the_input(system: System) -> tuple[Candidate, ...]:
@@ -76,7 +89,8 @@ def of_the_input(system: System) -> tuple[Candidate, ...]:
     unit = INERTIA.get((system.unit(loads[0]), system.unit(moved))) if len(loads) == 1 else None
     if unit is None:
         return ()
-    mass = Parameter("inertia_load.mass", unit, 0.2, 0.0, HEAVY)
+    most = heaviest(system, moved, loads[0])
+    mass = Parameter("inertia_load.mass", unit, FIRST * most, 0.0, most)
     row, hit = system.inputs.index(moved), np.array([name in loads for name in system.outputs])
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
@@ -89,14 +103,15 @@ def of_the_input(system: System) -> tuple[Candidate, ...]:
 def of_the_arm_that_is_moved(system: System) -> Candidate:
     """Shoulder: moment of inertia of the exoskeleton's arm beyond the known one."""
     known = {**system.known, **system.start}["I"]
-    inertia = Parameter("inertia_load.exo.inertia", "kg m^2", 0.1 * known, 0.0, HEAVY * known)
+    inertia = Parameter("inertia_load.exo.inertia", "kg m^2", 0.1 * known, 0.0, KNOWN * known)
     link = with_geometry({"inertia_load.inertia": inertia.name})
     return Candidate("inertia_load", "exo", "load", (inertia,), link, {inertia.name: 0.0})
 
 
 def at_the_cuff(system: System) -> Candidate:
     """Shoulder: mass times acceleration of the arm where the interface is."""
-    mass = Parameter("inertia_load.cuff.mass", "kg", 0.2, -HEAVY, HEAVY)
+    most = heaviest(system, "arm", "force", {**system.known, **system.start}["L_h"])
+    mass = Parameter("inertia_load.cuff.mass", "kg", FIRST * most, -most, most)
     row, column = system.inputs.index("arm"), system.outputs.index("force")
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
@@ -105,7 +120,7 @@ def at_the_cuff(system: System) -> Candidate:
         return out
 
     link = with_balance(Modifier("inertia_load.cuff", RANK, change))
-    return Candidate("inertia_load", "cuff", "load", (mass,), link, {mass.name: 0.0}, ({mass.name: -0.2},))
+    return Candidate("inertia_load", "cuff", "load", (mass,), link, {mass.name: 0.0}, ({mass.name: -mass.start},))
 
 
 def offer(system: System) -> tuple[Candidate, ...]:

@@ -19,16 +19,17 @@ from geocontact.data.parameter import Parameter
 from geocontact.effects.parts import with_motion
 
 RANK = 10.0
-PLAUSIBLE = {"rad": 0.35, "m": 0.01}
-"""Largest bias that a careful laboratory might have, by unit."""
+PLAUSIBLE = {"rad": 0.35, "m": 1.0}
+"""Largest bias that a careful laboratory might have, by unit; of a length over its half-range."""
 USED = {
     "elbow": (("beta", "rad", 0.35),),
-    "foot": (("y", "m", 0.01), ("pitch", "rad", 0.15)),
+    "foot": (("y", "m", 0.16), ("pitch", "rad", 0.15)),
     "shoulder": (("arm", "rad", 0.35),),
-    "knee": (("area_medial", "m^2", 1e-4), ("area_lateral", "m^2", 1e-4)),
-    "sit_to_stand": tuple((f"{site}_normal", "m", 0.01) for site in ("pelvis", "thigh", "shank")),
+    "knee": (("area_medial", "m^2", 0.8), ("area_lateral", "m^2", 0.8)),
+    "sit_to_stand": tuple((f"{site}_normal", "m", 2.5) for site in ("pelvis", "thigh", "shank")),
 }
-"""Inputs by system, with their unit and the largest bias; of other systems every angle and length (`System.bias`)."""
+"""Inputs by system, with their unit and the largest bias, of lengths and areas over their half-ranges; of other systems
+every angle and length (`System.bias`)."""
 
 
 def biased(system: System, name: str, unit: str, most: float) -> Candidate:
@@ -49,9 +50,10 @@ def biased(system: System, name: str, unit: str, most: float) -> Candidate:
 def offer(system: System) -> tuple[Candidate, ...]:
     """One candidate per input that matters."""
     units = ((name, system.unit(name)) for name in system.inputs)
-    measured = tuple((name, unit, system.bias.get(name, PLAUSIBLE[unit])) for name, unit in units if unit in PLAUSIBLE)
-    used = USED.get(system.name, measured)
-    return tuple(biased(system, name, unit, most) for name, unit, most in used if name in system.inputs)
+    used = USED.get(system.name, tuple((name, unit, PLAUSIBLE[unit]) for name, unit in units if unit in PLAUSIBLE))
+    there = [(name, unit, most) for name, unit, most in used if name in system.inputs]
+    per = {name: 1.0 if unit == "rad" else system.scale.span.get(name, 1.0) for name, unit, _ in there}
+    return tuple(biased(system, name, unit, system.bias.get(name, most * per[name])) for name, unit, most in there)
 
 
 MOTION_OFFSET = Effect(

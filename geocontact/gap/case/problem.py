@@ -10,19 +10,22 @@ from jaxtyping import Float
 
 from geocontact.chain.system import FAR, System
 from geocontact.data.gap.case import GapCase
+from geocontact.gap.case.placement import placement, varies_by
+from geocontact.gap.case.quotient_noise import noise_spread
 from geocontact.gap.case.refit import NO_VALUE, Measured, Refit, at, free, refit
-from geocontact.gap.case.whitening import Share, Whitening, layouts_of, sensitivity, usual_levels, varies_by
+from geocontact.gap.case.whitening import Share, Whitening, layouts_of, sensitivity, usual_levels
 from geocontact.gap.inputs.denoise import Filters, Left, denoised, highest_noise, left, seen_noise, shaken
 from geocontact.gap.inputs.filter_cutoff import filters_of, likely_noise
-from geocontact.gap.inputs.spectrum import switches
+from geocontact.gap.inputs.quantisation import resolution
+from geocontact.gap.inputs.spectrum import measured_inputs
 from geocontact.identify.noise.covariance import Layout, Whitener
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_search import most_likely
 from geocontact.identify.noise.trial_variation import Products, variation
 
-REACHES = (0.07, 0.05, 0.035, 0.025)  # s, that rates may be smoothed over
+REACHES = (14.0, 10.0, 7.0, 5.0, 3.5, 2.5)  # samples to either side, that rates may be smoothed over
 STARTS = 4  # of the base fit, besides the case's own
-BARELY = 1.0  # trials that the usual variation counts as where the trials are to speak
+USUALLY, BARELY = 4.0, 1.0  # trials that the usual variation of a parameter counts as; where the trials are to speak
 MEMORY = 2.0  # times its usual correlation time that low noise may remember
 TAKEN_OFF = 1.25  # times what is believed of an input's noise, that is taken off it at the most
 SEED = 0  # of the noise that is added to inputs
@@ -46,7 +49,9 @@ class Problem:
     beliefs
         What was believed of the noise levels.
     usual
-        Usual standard deviation of each free base parameter from trial to trial.
+        Usual standard deviation, from trial to trial, of each free base parameter, then of each column of `placement`.
+    placement
+        What else differs from trial to trial (`gap.case.placement`), in all trials.
     plain
         Base model fitted by least squares, every channel divided by `floor`.
     floor
@@ -68,6 +73,7 @@ class Problem:
     layouts: tuple[Layout, ...]
     beliefs: NoisePriors
     usual: Float[np.ndarray, " q"]
+    placement: tuple[Float[np.ndarray, "_ c k"], ...]
     plain: Refit
     floor: Float[np.ndarray, " c"]
     passed: Filters
@@ -81,20 +87,33 @@ class Problem:
         return self.layouts[: len(self.calibration.trials)]
 
     @property
+    def fitted(self) -> int:
+        """How many free parameters the base model has: the first of every model."""
+        return len(free(self.system))
+
+    def varied(self, jacobian: Sequence[Float[np.ndarray, "_ c p"]]) -> list[Float[np.ndarray, "_ c q"]]:
+        """Per trial, what a unit of everything that differs from trial to trial changes in a prediction."""
+        return [
+            np.concatenate([j[..., : self.fitted], other], axis=-1)
+            for j, other in zip(jacobian, self.placement, strict=False)
+        ]
+
+    @property
     def floor_of_noise(self) -> Float[np.ndarray, " c"]:
         """Noise of each channel as it was believed beforehand: a scale, no estimate."""
         return self.beliefs.middle.sensors
 
     def weighed(self, model: Refit, before: Noise | None = None) -> Noise:
         """Noise levels and variation that make a model's residuals most likely, calibration trials only."""
-        count, fitted = len(self.usual), len(self.calibration.trials)
+        fitted = len(self.calibration.trials)
+        varied = self.varied(model.jacobian[:fitted])
         sd = self.usual if before is None else before.varies
         levels, surprise = None if before is None else before.levels, 0.0
         for _ in range(2 if before is None else 1):
             levels, surprise, _ = most_likely(
                 self.calibration_layouts,
                 model.residuals[:fitted],
-                [j[..., :count] * sd for j in model.jacobian[:fitted]],
+                [each * sd for each in varied],
                 self.beliefs,
                 self.beliefs.middle if levels is None else levels,
             )
@@ -126,15 +145,17 @@ class Problem:
         return tuple(layout.whitener(levels) for layout in self.layouts)
 
     def _variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
-        found = variation(self._products(self.calibration_layouts, model, levels), self.usual)
+        """Of parameters around their fitted values; of what is not fitted around its mean over the trials."""
+        kinds = [self.fitted, len(self.usual) - self.fitted]
+        weight, spent = np.repeat([USUALLY, BARELY], kinds), np.repeat([0.0, 1.0], kinds)
+        found = variation(self._products(self.calibration_layouts, model, levels), self.usual, weight, spent)
         return np.asarray(np.minimum(found, MOST_VARIATION * self.usual))
 
     def _products(self, layouts: Sequence[Layout], model: Refit, levels: NoiseLevels) -> list[Products]:
         products = []
-        for layout, residual, jacobian in zip(layouts, model.residuals, model.jacobian, strict=False):
+        for layout, residual, varied in zip(layouts, model.residuals, self.varied(model.jacobian), strict=False):
             whitener = layout.whitener(levels)
-            design = whitener(jacobian[..., : len(self.usual)])
-            products.append(Products.of(whitener(residual[..., None])[:, 0], design))
+            products.append(Products.of(whitener(residual[..., None])[:, 0], whitener(varied)))
         return products
 
     def seen_variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
@@ -148,16 +169,15 @@ class Problem:
 
     def whitenings(self, noise: Noise, model: Refit) -> list[Whitening]:
         """Whitening of the trials that a model was evaluated on: all of them, or those of the calibration."""
-        count = len(self.usual)
         return [
-            Whitening.of(whitener, jacobian[..., :count] * noise.varies)
-            for whitener, jacobian in zip(noise.whiteners, model.jacobian, strict=False)
+            Whitening.of(whitener, varied * noise.varies)
+            for whitener, varied in zip(noise.whiteners, self.varied(model.jacobian), strict=False)
         ]
 
 
 @dataclass(frozen=True)
 class Noise:
-    """Levels of noise, standard deviation of each base parameter from trial to trial, and how surprising they are.
+    """Levels of noise, standard deviation of what differs from trial to trial, and how surprising they are.
 
     `whiteners` are what these levels make of the layouts of all trials.
     """
@@ -183,6 +203,8 @@ class Plain:
 
 def problem_of(case: GapCase, system: System) -> Problem:
     """A case made ready; the base model is fitted from several starts."""
+    system = system.reaching(REACHES[-1] * typical_step(case))
+    stated = with_rounding(case)
     rough = rough_noise(system, case)
     calibration = Measured.of(system, case.calibration, rough)
     evaluation = Measured.of(system, case.evaluation, rough)
@@ -193,20 +215,25 @@ def problem_of(case: GapCase, system: System) -> Problem:
     )
     recorded = everything
     passed = filters_of(recorded.trials, system.inputs)
-    noisy = [name for name in system.inputs if not switches(recorded.trials, name)]
-    shown = {name: seen_noise(calibration.trials, name, passed[name]) for name in noisy}
+    noisy = measured_inputs(recorded.trials, system.inputs)
+    shown = {name: stated.get(name) or seen_noise(calibration.trials, name, passed[name]) for name in noisy}
     seen = {name: level or likely_noise(recorded.trials, name, passed[name]) for name, level in shown.items()}
     most = {name: max(highest_noise(recorded.trials, name, passed[name]), seen[name]) for name in noisy}
-    system = _rates(system, case, calibration, rough, passed, seen, most)
+    spread = noise_spread(system, recorded.outputs, rough)
+    system = _rates(system, stated, calibration, rough, passed, seen, most)
     plain = _plain_fit(system, calibration, rough, base_starts(system), rounds=40)
     floor, more = rough, everything
     kept: dict[str, Left] = {}
     for last in (False, True):
         system = system.scaled(calibration.trials, plain.values)
-        usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
-        beliefs = usual_levels(system, case.noise, rough, seen, most)
+        placed = placement(system, everything.trials, plain.values, noisy)
+        own = [varies_by(system, p, plain.values[p.name]) for p in free(system)]
+        usual = np.array([*own, *np.ones(placed[0].shape[-1])])
+        beliefs = usual_levels(system, stated, rough, seen, most)
         heard = everything if last else calibration  # levels are those of calibration trials
-        layouts = tuple(layouts_of(system, heard.trials, plain.values, heard.present, passed, kept))
+        layouts = tuple(
+            layouts_of(system, heard.trials, plain.values, heard.present, passed, kept, spread[: len(heard.trials)])
+        )
         problem = Problem(
             system,
             calibration,
@@ -215,6 +242,7 @@ def problem_of(case: GapCase, system: System) -> Problem:
             layouts,
             beliefs,
             usual,
+            placed,
             plain,
             floor,
             passed,
@@ -240,7 +268,7 @@ def problem_of(case: GapCase, system: System) -> Problem:
 
 def _rates(
     system: System,
-    case: GapCase,
+    stated: Mapping[str, float],
     measured: Measured,
     rough: Float[np.ndarray, " c"],
     passed: Filters,
@@ -251,7 +279,7 @@ def _rates(
 
     That is a local best, searched from the middle of `REACHES` uphill. How far rates have to be smoothed depends on the
     noise of the inputs, which is not known. Where the base does not
-    depend on rates the usual smoothing stays.
+    depend on rates, least is smoothed.
     """
     plain = _plain_fit(system, measured, rough, base_starts(system), rounds=40)
     system = system.scaled(measured.trials, plain.values)
@@ -259,17 +287,18 @@ def _rates(
         sensitivity(system, trial, plain.values, ()).to_rate.any() for trial in measured.trials
     ):
         return system
-    beliefs = usual_levels(system, case.noise, rough, seen, most)
-    usual = np.array([varies_by(p, plain.values[p.name]) for p in free(system)])
+    beliefs = usual_levels(system, stated, rough, seen, most)
+    usual = np.array([varies_by(system, p, plain.values[p.name]) for p in free(system)])
 
     def likelihood(reach: float) -> float:
         other = system.reaching(reach)
         model = _plain_fit(other, measured, rough, [plain.values], rounds=6)
-        layouts = layouts_of(other, measured.trials, model.values, measured.present, passed, {})
+        spread = noise_spread(other, measured.outputs, rough)
+        layouts = layouts_of(other, measured.trials, model.values, measured.present, passed, {}, spread)
         varied = [j[..., : len(usual)] * usual for j in model.jacobian]
         return most_likely(layouts, model.residuals, varied, beliefs, beliefs.middle, rounds=15)[2]
 
-    return system.reaching(best_of(likelihood, REACHES))
+    return system.reaching(best_of(likelihood, [each * system.scale.step for each in REACHES]))
 
 
 def best_of(likelihood: Callable[[float], float], points: Sequence[float]) -> float:
@@ -318,9 +347,27 @@ def base_starts(system: System) -> list[dict[str, float]]:
     ]
 
 
+def with_rounding(case: GapCase) -> dict[str, float]:
+    """Noise that the case tells, by channel, with that of the recorder's steps: q²/12 of variance, and nothing more."""
+    return {name: float(np.hypot(sd, rounding(case, name))) for name, sd in case.noise.items()}
+
+
+def rounding(case: GapCase, name: str) -> float:
+    """Standard deviation of the noise that rounding makes of a channel."""
+    columns = [trial.column(name) for trial in (*case.calibration, *case.evaluation)]
+    return resolution([x[np.isfinite(x)] for x in columns]) / float(np.sqrt(12.0))
+
+
+def typical_step(case: GapCase) -> float:
+    """Time between two samples of the calibration trials [s]."""
+    return float(np.median(np.concatenate([np.diff(trial.time) for trial in case.calibration])))
+
+
 def rough_noise(system: System, case: GapCase) -> Float[np.ndarray, " c"]:
-    """Noise that the case tells, else what second differences of the measurement suggest."""
-    return np.array([case.noise.get(name, _jumpiness(case, name)) for name in system.outputs])
+    """Noise that the case tells, else what second differences of the measurement suggest; no less than its rounding."""
+    stated = with_rounding(case)
+    seen = (stated.get(name) or max(_jumpiness(case, name), rounding(case, name)) for name in system.outputs)
+    return np.array(list(seen))
 
 
 def _jumpiness(case: GapCase, name: str) -> float:
@@ -333,12 +380,9 @@ def _jumpiness(case: GapCase, name: str) -> float:
 def floor_of(problem: Problem, noise: Noise, model: Refit) -> Float[np.ndarray, " c"]:
     """Root mean square of what no model can predict, per channel: noise, noise of inputs, trial-to-trial variation."""
     squares, counts = np.zeros(len(problem.floor)), np.zeros(len(problem.floor))
-    for layout, jacobian, present in zip(
-        problem.calibration_layouts, model.jacobian, problem.calibration.present, strict=True
-    ):
-        own = noise_variance(layout, noise.levels) + ((jacobian[..., : len(noise.varies)] * noise.varies) ** 2).sum(
-            axis=-1
-        )
+    fitted = problem.varied(model.jacobian[: len(problem.calibration.trials)])
+    for layout, varied, present in zip(problem.calibration_layouts, fitted, problem.calibration.present, strict=True):
+        own = noise_variance(layout, noise.levels) + ((varied * noise.varies) ** 2).sum(axis=-1)
         squares += np.where(present, own, 0.0).sum(axis=0)
         counts += present.sum(axis=0)
     return np.sqrt(squares / np.maximum(counts, 1))
@@ -348,7 +392,7 @@ def noise_variance(layout: Layout, levels: NoiseLevels) -> Float[np.ndarray, "t 
     """Variance of sensor noise and input noise at every sample; 0 where nothing was measured."""
     total = np.zeros(layout.shape[0] * layout.shape[1])
     for block in layout.blocks:
-        total[block.rows] = np.diag(block.covariance(levels))
+        total[block.rows] = np.diag(block.covariance(levels)) * block.spread**2
     return total.reshape(layout.shape)
 
 

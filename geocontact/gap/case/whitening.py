@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -12,18 +13,14 @@ from jaxtyping import Float
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs, rate_of_waves
 from geocontact.chain.links import Modifier
 from geocontact.chain.system import System
-from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.responses import responses
-from geocontact.identify.noise.covariance import Layout, Whitener
+from geocontact.identify.noise.covariance import Layout
 from geocontact.identify.noise.input_noise import InputNoise, Instant
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 from geocontact.identify.signals.low_pass import LowPass
 
-POSITION_VARIES = 1e-3  # m
-ANGLE_VARIES = 0.01  # rad
-SHARE_VARIES = 0.04  # of any other parameter
 INPUT_NOISE = 2e-3  # of an input's half-range
 ALIKE, OWN = 0.8, 0.5  # standard deviations of the logarithm of input noise: of a unit, and of one input beyond that
 LOUDER = 2.0  # times what is believed of an input's noise that it may be
@@ -32,10 +29,23 @@ QUIETEST = 0.1  # of `INPUT_NOISE`, that an input's limit is at the least: resol
 Share = Callable[[Float[np.ndarray, " f"]], Float[np.ndarray, " f"]]
 """Of power that is left, by frequency [Hz]."""
 
-SLOW, SLOW_TIME = 0.4, 0.7  # s, that slow noise usually remembers, and standard deviation of the logarithm
+SLOW, SLOW_TIME = 30.0, 0.7  # samples, that slow noise usually remembers, and standard deviation of the logarithm
+QUICK = 2.0  # samples, that quick noise usually remembers
 SLOW_SHARE, SLOW_LEVEL = 0.3, 0.8  # of the quick noise, that it usually is, and of the logarithm of its level
-BUMP = 1e-4  # of an input's half-range
+BUMP, RATE = 1e-4, 0.06  # of an input's half-range; and per sample
 LAST = 1e6  # rank of the bump: after everything that is wrong with the motion
+
+
+@runtime_checkable
+class Weighing(Protocol):
+    """What weighs the columns of a trial, and half the logarithm of the determinant of the covariance behind it."""
+
+    @property
+    def log_scale(self) -> float:
+        """Sum of the logarithms of what rows are divided by."""
+
+    def __call__(self, values: Float[np.ndarray, "t c p"]) -> Float[np.ndarray, "n p"]:
+        """Rows of measured samples, weighed."""
 
 
 @dataclass(frozen=True)
@@ -52,17 +62,18 @@ class Whitening:
         Half the logarithm of the determinant of the whole covariance.
     """
 
-    whitener: Whitener
+    whitener: Weighing
     directions: Float[np.ndarray, "n q"]
     gains: Float[np.ndarray, " q"]
     log_scale: float
 
     @classmethod
-    def of(cls, whitener: Whitener, varied: Float[np.ndarray, "t c q"]) -> Whitening:
+    def of(cls, whitener: Weighing, varied: Float[np.ndarray, "t c q"]) -> Whitening:
         """From the whitener and derivatives with respect to what varies, times its standard deviation."""
-        if varied.shape[-1] == 0:
-            return cls(whitener, np.zeros((sum(map(len, whitener.rows)), 0)), np.zeros(0), whitener.log_scale)
-        directions, singular, _ = np.linalg.svd(whitener(varied), full_matrices=False)
+        white = whitener(varied)
+        if white.shape[1] == 0:
+            return cls(whitener, white, np.zeros(0), whitener.log_scale)
+        directions, singular, _ = np.linalg.svd(white, full_matrices=False)
         grown = np.sqrt(1.0 + singular**2)
         return cls(whitener, directions, 1.0 - 1.0 / grown, whitener.log_scale + float(np.log(grown).sum()))
 
@@ -70,13 +81,6 @@ class Whitening:
         """Whitened columns."""
         white = self.whitener(values)
         return np.asarray(white - self.directions @ (self.gains[:, None] * (self.directions.T @ white)))
-
-
-def varies_by(parameter: Parameter, value: float) -> float:
-    """Standard deviation that a base parameter usually has from trial to trial: donning, placement."""
-    if parameter.unit == "m":
-        return POSITION_VARIES
-    return ANGLE_VARIES if parameter.unit == "rad" else SHARE_VARIES * abs(value)
 
 
 def propagated_input_noise(
@@ -101,7 +105,7 @@ def sensitivity(
 ) -> Instant:
     """How the outputs answer to each input's value and rate, sample by sample, by central differences."""
     answers = []
-    for kind, per_second in (("position", 1.0), ("rate", 6.0)):
+    for kind, per_second in (("position", 1.0), ("rate", RATE / system.scale.step)):
         columns = []
         for row, name in enumerate(system.inputs):
             step = BUMP * per_second * system.scale.span.get(name, 1.0)
@@ -132,11 +136,11 @@ def usual_levels(
     """What is believed of the noise before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
-    stands in and is believed less. Quick noise remembers a few samples, slow noise some tenths of a second. Inputs are
+    stands in and is believed less. Quick noise remembers a few samples, slow noise some tens. Inputs are
     known as well as their spectra show (`seen`), 0.2 % of their half-range at the least unless `most` is less, and
-    those of one unit about equally well, since they come from the same markers. A sensor is hardly noisier than
-    `SENSOR_LOUDER` times what was stated, an input than `LOUDER` times what is believed, or than `most` (a tenth of the
-    0.2 % at the least); nothing more is believed of it than that.
+    those of one unit about equally well, since they come from the same markers; what is stated of one is believed. A
+    sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than `LOUDER` times what is believed,
+    or than `most` (a tenth of the 0.2 % at the least); nothing more is believed of it than that.
     """
     known = np.array([name in stated for name in system.outputs])
     sd = np.array([stated.get(name, each) for name, each in zip(system.outputs, rough, strict=True)]) / np.sqrt(2.0)
@@ -144,6 +148,7 @@ def usual_levels(
     alike = np.array([[a == b for b in units] for a in units])
     own = np.array([max(INPUT_NOISE * system.scale.span.get(name, 1.0), seen.get(name, 0.0)) for name in system.inputs])
     inputs = np.exp(alike @ np.log(own) / alike.sum(axis=1))
+    inputs = np.array([stated.get(name, level) for name, level in zip(system.inputs, inputs, strict=True)])
     covariance = ALIKE**2 * alike + OWN**2 * np.eye(len(units))
     white, quick = np.where(known, 0.5, 1.0), np.where(known, 0.7, 1.2)
     sure = np.ones(len(sd))
@@ -151,12 +156,14 @@ def usual_levels(
     factor = np.zeros((len(widths) + len(units),) * 2)
     factor[: len(widths), : len(widths)] = np.diag(widths)
     factor[len(widths) :, len(widths) :] = np.linalg.cholesky(covariance)
-    memory = np.array([2.0 * system.scale.step * sure, SLOW * sure])
+    memory = system.scale.step * np.array([QUICK * sure, SLOW * sure])
     sensors = SENSOR_LOUDER * np.array([stated.get(name, np.inf) for name in system.outputs])
     highest_noise = np.minimum(LOUDER * np.maximum(inputs, own), [most.get(name, np.inf) for name in system.inputs])
     highest_noise = np.maximum(
         highest_noise, [QUIETEST * INPUT_NOISE * system.scale.span.get(name, 1.0) for name in system.inputs]
     )
+    limits = zip(system.inputs, highest_noise, strict=True)
+    highest_noise = np.array([SENSOR_LOUDER * stated[n] if n in stated else limit for n, limit in limits])
     inputs = np.minimum(inputs, highest_noise)
     return NoisePriors(NoiseLevels(sd, np.array([sd, SLOW_SHARE * sd]), memory, inputs), factor, sensors, highest_noise)
 
@@ -168,9 +175,10 @@ def layouts_of(
     present: Sequence[np.ndarray],
     passed: Mapping[str, LowPass],
     left: Mapping[str, Share],
+    spread: Sequence[Float[np.ndarray, "_ c"]],
 ) -> list[Layout]:
     """One per trial, inputs' noise (see `propagated_input_noise`) seen through the model at `values`."""
     return [
-        Layout.of(t.time, there, propagated_input_noise(system, t, values, passed, left))
-        for t, there in zip(trials, present, strict=True)
+        Layout.of(t.time, there, propagated_input_noise(system, t, values, passed, left), own)
+        for t, there, own in zip(trials, present, spread, strict=True)
     ]

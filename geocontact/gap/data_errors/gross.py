@@ -14,7 +14,6 @@ from itertools import combinations
 import numpy as np
 
 from geocontact.chain.candidate import Candidate
-from geocontact.chain.differentiated_inputs import REACH
 from geocontact.chain.system import System
 from geocontact.gap.case.problem import Plain, Problem, base_starts
 from geocontact.gap.case.refit import Measured, Refit, refit
@@ -22,6 +21,7 @@ from geocontact.gap.case.refit import Measured, Refit, refit
 GROSS = 0.3  # residual over measured, root mean squares of a channel in a trial
 FIXED_BY = 0.15  # of the misfit may be left when a mistake is undone
 ROUNDS = 8
+SMOOTHED = 7.0  # samples to either side, that rates are smoothed over
 FEW = 4  # calibration trials of which every set is tried
 
 
@@ -79,13 +79,13 @@ def gross(problem: Problem, measured: Measured, model: Refit) -> bool:
 
 
 def _as_recorded(problem: Problem) -> Problem:
-    """Inputs with all their noise, rates smoothed as usual."""
+    """Inputs with all their noise, rates smoothed well."""
     count, recorded = len(problem.calibration.trials), problem.recorded
 
     def part(some: slice) -> Measured:
         return replace(recorded, trials=recorded.trials[some], outputs=recorded.outputs[some])
 
-    system = problem.system.reaching(REACH)
+    system = problem.system.reaching(SMOOTHED * problem.system.scale.step)
     return replace(problem, system=system, calibration=part(slice(count)), evaluation=part(slice(count, None)))
 
 

@@ -76,7 +76,7 @@ def band(system: System, trial: Trial) -> tuple[str, float, float]:
 
     Inputs are compared by their standard deviations over the half-range that the case has of them.
     """
-    movement = recorded(trial.signals, system.inputs)
+    movement = recorded(trial.signals, system.inputs, system.motion.reach)
     names = system.driving or system.inputs
     most = max(names, key=lambda name: float(np.std(movement.position[movement.row(name)])) / _span(system, name))
     step = float(np.median(np.diff(trial.time)))

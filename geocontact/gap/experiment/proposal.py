@@ -17,11 +17,14 @@ import numpy as np
 from geocontact.chain.candidate import Candidate
 from geocontact.data.gap.diagnosis import NextExperiment
 from geocontact.gap.attribute import Attribution
+from geocontact.gap.case.placement import placement
 from geocontact.gap.case.problem import Problem
+from geocontact.gap.case.quotient_noise import noise_spread
 from geocontact.gap.case.refit import Measured, derivatives
 from geocontact.gap.case.whitening import Whitening, propagated_input_noise
 from geocontact.gap.experiment.competing_models import Hypothesis, ModelPair, Rows, SimulatedTrials, remaining_nats
 from geocontact.gap.experiment.menu import Experiment, menu
+from geocontact.gap.inputs.spectrum import measured_inputs
 from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.identify.noise.covariance import Layout
@@ -211,8 +214,11 @@ def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[Mode
     }
     staged = one.staged(problem.system)
     base = {name: lead.model.values[name] for name in problem.plain.values}
-    layout = Layout.of(trial.time, present, propagated_input_noise(staged, trial, base, problem.passed, problem.left))
-    varied = derivatives(staged, zero, base)[0] * lead.noise.varies
+    spread = noise_spread(staged, [staged.simulate(trial, base)], problem.calibration.rough)[0]
+    heard = propagated_input_noise(staged, trial, base, problem.passed, problem.left)
+    layout = Layout.of(trial.time, present, heard, spread)
+    placed = placement(staged, (trial,), base, measured_inputs(problem.recorded.trials, staged.inputs))[0]
+    varied = np.concatenate([derivatives(staged, zero, base)[0], placed], axis=-1) * lead.noise.varies
     whiten = Whitening.of(layout.whitener(lead.noise.levels), varied)
     found = []
     for pair in pairs:

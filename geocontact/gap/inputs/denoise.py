@@ -102,7 +102,7 @@ def highest_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
     from scipy.stats import chi2
 
     recordings, found = _evenly(trials, name), []
-    for corner in {passed.corner, min(passed.corner, USUAL)}:
+    for corner in {passed.corner, min(passed.corner, USUAL / passed.step)}:
         bands = in_bands(recordings, passed, corner)
         if not bands:
             return float("inf")
@@ -240,7 +240,7 @@ class Stretches:
     @classmethod
     def of(cls, values: Float[np.ndarray, " n"], step: float, passed: LowPass) -> Stretches:
         """Of values `step` seconds apart."""
-        hop = max(round(0.25 * PERIODS / (min(passed.corner, HIGHEST) * step)), FEWEST)
+        hop = max(round(0.25 * PERIODS / min(passed.corner * step, HIGHEST)), FEWEST)
         width = 4 * hop
         longer = np.pad(values, (width, 2 * width), mode="reflect", reflect_type="odd")
         window = np.sin(np.pi * (np.arange(width) + 0.5) / width) ** 2

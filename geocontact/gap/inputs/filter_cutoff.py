@@ -2,8 +2,9 @@
 
 Motion is slow; above its own frequencies a recording holds noise up to the corner of the filter and little beyond it.
 The spectrum of every input is taken apart into movement, noise and a white rest (`gap/inputs/spectrum_components.py`),
-with one f_c for all inputs that were filtered. Corners far from 6 Hz are believed less: where the movement hides the
-noise, f_c stays near that. Usually all inputs were filtered, or none; that some were and others not is believed least.
+with one f_c for all inputs that were filtered. Frequencies are in cycles per sample: 6 Hz of motion capture at 100 Hz
+are 0.06. Corners far from the usual one are believed less: where the movement hides the noise, f_c stays near that.
+Usually all inputs were filtered, or none; that some were and others not is believed least.
 """
 
 from __future__ import annotations
@@ -16,26 +17,25 @@ from jaxtyping import Float
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.spectrum import spectrum
 from geocontact.gap.inputs.spectrum_components import split
-from geocontact.identify.signals.low_pass import BELOW_NYQUIST, LowPass
+from geocontact.identify.signals.low_pass import LowPass
 
-USUAL, USUALLY = 6.0, 0.5  # Hz, and the standard deviation of its logarithm (Winter 2009, ch. 3: 4 to 8 Hz in gait)
-LOWEST, HIGHEST, CORNERS = 2.5, 40.0, 17  # Hz, that are compared, and how many
+USUAL, USUALLY = 0.08, 0.9  # per sample, and the standard deviation of its logarithm: 6 Hz at 75 (Winter 2009)
+LOWEST, HIGHEST, CORNERS = 0.0125, 0.44, 21  # per sample, that are compared, and how many
 UNFILTERED, MIXED = 4.0, 12.0  # nats that must speak for no filter: of any input, of some and not of others
 
 
 def filters_of(trials: Sequence[Trial], inputs: Sequence[str]) -> Mapping[str, LowPass]:
     """The filter, if any, of each input that makes the spectra most likely; the usual one without spectra."""
     step = float(np.median(np.concatenate([np.diff(trial.time) for trial in trials])))
-    corners = np.geomspace(LOWEST, HIGHEST, CORNERS)
-    corners = corners[corners < BELOW_NYQUIST * 0.5 / step]
+    corners = np.geomspace(LOWEST, HIGHEST, CORNERS) / step
     found = {name: spectrum(trials, name, step) for name in inputs}
     seen = {name: each for name, each in found.items() if each is not None}
-    if not seen or not len(corners):
-        return dict.fromkeys(inputs, LowPass(USUAL, step))
+    if not seen:
+        return dict.fromkeys(inputs, LowPass(USUAL / step, step))
     filters = [*(LowPass(f, step) for f in corners), LowPass.none(step)]
     costs = np.array([split(each, filters).unlikely for each in seen.values()])
     through, free = costs[:, :-1], costs[:, -1]
-    far = 0.5 * (np.log(corners / USUAL) / USUALLY) ** 2
+    far = 0.5 * (np.log(corners * step / USUAL) / USUALLY) ** 2
     everyone, each = far + through.sum(axis=0), far + np.minimum(through, free[:, None]).sum(axis=0) + MIXED
     if free.sum() + UNFILTERED < min(everyone.min(), each.min()):
         return dict.fromkeys(inputs, LowPass.none(step))

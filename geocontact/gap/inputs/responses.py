@@ -17,7 +17,7 @@ from geocontact.identify.noise.noise_spectrum import NoiseSpectrum
 BUMP = 1e-3  # of an input's half-range
 PLACES = (0.2, 0.35, 0.5, 0.65)  # of a trial, where it is seen how long a response lasts
 FADED = 0.02  # of its largest value, below which a response is over
-AT_MOST, LONGEST = 0.4, 1.5  # of a trial, and s, that a response is followed
+AT_MOST, LONGEST = 0.4, 150  # of a trial, and samples, that a response is followed
 
 
 def responses(system: System, trial: Trial, values: Mapping[str, float], spectra: tuple[NoiseSpectrum, ...]) -> Lasting:
@@ -31,7 +31,7 @@ def responses(system: System, trial: Trial, values: Mapping[str, float], spectra
     step = float(np.median(np.diff(trial.time))) if count > 1 else 1.0
     ahead = max(int(np.ceil(2.0 * system.motion.reach / step)), NEIGHBOURS) + _longest_gap(system, trial)
     plain = system.simulate(trial, values)
-    most = min(int(AT_MOST * count), int(LONGEST / step))
+    most = min(int(AT_MOST * count), LONGEST)
     faded = {name: min(max(_lasting(system, trial, values, name, plain), ahead), most) for name in system.driving}
     longest = ahead + max(faded.values(), default=0) + 1
     found = np.zeros((len(system.inputs), count, plain.shape[1], longest))

@@ -47,6 +47,11 @@ def switches(trials: Sequence[Trial], name: str) -> bool:
     return len(np.unique(values[np.isfinite(values)])) <= BOTH
 
 
+def measured_inputs(trials: Sequence[Trial], inputs: Sequence[str]) -> list[str]:
+    """Inputs that are measurements, with noise and a zero of their own."""
+    return [name for name in inputs if not switches(trials, name)]
+
+
 def spectrum(trials: Sequence[Trial], name: str, step: float) -> Spectrum | None:
     """Periodograms under Nuttall's window, of all trials long enough, below Nyquist's frequency of a `step` [s].
 

@@ -23,12 +23,12 @@ from geocontact.identify.signals.low_pass import LowPass
 
 LEVEL, LOUDER = 2e-3, 2.0  # usual noise of an input in half-ranges, and standard deviation of its power's logarithm
 OVER = 1.0  # standard deviation of the logarithm of a rest's power beyond rounding
-TAIL = 2.0  # Hz, from which a movement's tail falls off
+TAIL = 0.02  # cycles per sample, from which a movement's tail falls off
 TAILED = 3.0  # nats that must speak for it
 FLATTEST, STEEPEST = np.log([0.7, 3.0])  # bounds of log q
-SLOWEST, QUICKEST = np.log([0.02, 20.0])  # of log b
-FALLS, STEEPS = (0.1, 0.4, 1.2, 3.0), (0.9, 1.6)  # b [Hz] and q that a search starts from
-BROAD = ((8.0, 0.7), (20.0, 0.7))  # the same of movements that fill the spectrum
+SLOWEST, QUICKEST = np.log([1e-4, 0.5])  # of log b
+FALLS, STEEPS = (0.001, 0.004, 0.012, 0.03, 0.08), (0.9, 1.6)  # b, per sample, and q that a search starts from
+BROAD = ((0.08, 0.7), (0.2, 0.7))  # the same of movements that fill the spectrum
 FIRST, BEST = 40, 4  # steps from all starts, and how many of them, for each filter, go on
 MANY = 400  # values of a spectrum that are not pooled
 FAINT = 600.0  # exponent beyond which a movement is nothing
@@ -66,7 +66,7 @@ class Parts:
     Parameters
     ----------
     frequency, power, count
-        Of the spectrum: its values, or means of neighbours and how many of them.
+        Of the spectrum, frequencies in cycles per sample: its values, or means of neighbours and how many of them.
     passed
         Share of the power that each filter lets through at each frequency.
     part
@@ -93,7 +93,7 @@ class Parts:
         part = np.array([one.power(even).mean() for one in filters])
         passed = np.array([one.power(frequency) for one in filters])
         usual = 2.0 * np.log(LEVEL * seen.half_range) - np.log(part)
-        return cls(frequency, power, count, passed, part, usual, 2.0 * float(np.log(seen.rounding)))
+        return cls(frequency * filters[0].step, power, count, passed, part, usual, 2.0 * float(np.log(seen.rounding)))
 
     def scored(self, x: Batch, which: Int[np.ndarray, " b"]) -> Scored:
         """-log likelihoods with their gradients, and curvatures to step by.

@@ -130,10 +130,8 @@ def _deviations_off(problem: Problem, base: Judged) -> list[Float[np.ndarray, "_
     from geocontact.identify.noise.trial_variation import Products, deviations
 
     left = []
-    for whitener, residual, jacobian in zip(
-        base.noise.whiteners, base.model.residuals, base.model.jacobian, strict=True
-    ):
-        design = jacobian[..., : len(problem.usual)]
+    varied = problem.varied(base.model.jacobian)
+    for whitener, residual, design in zip(base.noise.whiteners, base.model.residuals, varied, strict=True):
         products = Products.of(whitener(residual[..., None])[:, 0], whitener(design))
         left.append(residual - design @ deviations(products, base.noise.varies))
     return left
@@ -221,7 +219,7 @@ def _axes(problem: Problem, base: Judged) -> list[tuple[str, list[np.ndarray], F
     outputs = problem.calibration.outputs + problem.evaluation.outputs
     phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
     found = [("phase", phase, np.linspace(0.0, 1.0, PHASES + 1))]
-    movements = [recorded(t.signals, problem.system.inputs) for t in trials]
+    movements = [recorded(t.signals, problem.system.inputs, problem.system.motion.reach) for t in trials]
     for row, name in enumerate(problem.system.inputs):
         position, rate = [m.position[row] for m in movements], [m.rate[row] for m in movements]
         found += [(axis, values, _quantiles(values)) for axis, values in ((name, position), (f"{name}'", rate))]

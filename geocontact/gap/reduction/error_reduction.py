@@ -43,7 +43,8 @@ class ErrorReduction:
     rmse_before, rmse_after
         On the held-out trials as they were measured, without and with the effect [the channel's unit].
     floor
-        Noise, noise of inputs and trial-to-trial variation, root mean square on the held-out trials.
+        Noise, noise of inputs and trial-to-trial variation, root mean square on the held-out trials; what was fitted of
+        them counts no more than the error that is there.
     reduction, low, high
         Of fresh trials of the same kind, and its 95 % interval.
     unexplained
@@ -89,13 +90,13 @@ def error_reduction_of(
     heard = np.zeros(len(problem.system.outputs))
     if named and data_error is None:  # beside a mistake in the data noise of the inputs is nothing
         base = (problem.system.as_measured(), errors.values, errors.before[count:])
-        own = (after.model.system.as_measured(), after.model.values, errors.after[count:])
+        own = (after.model.system.as_measured(), errors.fitted, errors.after[count:])
         heard = passed_on(problem, after, [base, own])
     found = {}
     for c, name in enumerate(problem.system.outputs):
         error = _mean_square(errors.before[count:], present[count:], c)
         stays = _mean_square(errors.after[count:], present[count:], c)
-        floor = float(np.mean([f[c] for f in errors.implied[count:]]))
+        floor = min(float(np.mean([f[c] for f in errors.implied[count:]])), error, stays)
         if not named:
             found[name] = ErrorReduction(error**0.5, error**0.5, floor**0.5, 0.0, 0.0, 0.0, None)
             continue

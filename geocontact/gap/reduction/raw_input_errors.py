@@ -11,12 +11,13 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.system import System
+from geocontact.gap.case.measured_fit import measured_fit
 from geocontact.gap.case.problem import Plain, Problem, differences, noise_variance
 from geocontact.gap.case.refit import refit
 from geocontact.gap.data_errors.correction import put_back
 from geocontact.gap.data_errors.gross import DataError
 from geocontact.gap.inputs.denoise import changed, drawn
-from geocontact.gap.inputs.spectrum import switches
+from geocontact.gap.inputs.spectrum import measured_inputs
 from geocontact.gap.selection.evidence import Judged, prior_spread
 
 IMPLIED = 0.3  # trials that the fitted noise levels count as
@@ -33,7 +34,7 @@ class RawInputErrors:
     before
         Base model refitted to the calibration trials by plain least squares, every channel divided by its floor.
     after
-        The answer at its values, fitted to the calibration trials.
+        The answer, fitted to the calibration trials likewise, as it was judged (`gap.case.measured_fit`).
     best
         The answer where all trials together put it (to first order), its effects bent as they may be otherwise than
         their candidates (`gap.selection.model_discrepancy`): nearest to the truth, not to be reported as an error on
@@ -48,8 +49,8 @@ class RawInputErrors:
         Mean square that stays on a fresh trial, and its standard deviation, per channel; the squared floor.
     told_by
         How many trials tell that.
-    values
-        Of the base model's parameters.
+    values, fitted
+        Parameters of the base model, and of the answer.
     """
 
     before: list[Float[np.ndarray, "_ c"]]
@@ -61,6 +62,7 @@ class RawInputErrors:
     left: tuple[tuple[float, float], ...]
     told_by: int
     values: dict[str, float]
+    fitted: dict[str, float]
 
 
 def raw_input_errors(problem: Problem, clean: Problem, answer: Judged, data_error: DataError | None) -> RawInputErrors:
@@ -74,10 +76,12 @@ def raw_input_errors(problem: Problem, clean: Problem, answer: Judged, data_erro
     derivatives = [put_back(data_error, n, outputs, d) for n, d in zip(names, directions(answer), strict=True)]
     model = answer.model
     predicted = clean.recorded.residuals(model.system.as_measured(), model.values)
+    at_best = [put_back(data_error, name, outputs, each) for name, each in zip(names, predicted, strict=True)]
+    fitted, predicted = measured_fit(clean, model, clean.floor)
     after = [put_back(data_error, name, outputs, each) for name, each in zip(names, predicted, strict=True)]
     varies = observed_variation(clean, answer)
     shift, known = from_all_trials(clean, answer, varies)
-    best = [r - j @ shift for r, j in zip(after, derivatives, strict=True)]
+    best = [r - j @ shift for r, j in zip(at_best, derivatives, strict=True)]
     implied = _implied(clean, answer, varies, data_error)
     sound = [data_error is None or name not in data_error.trials for name in names[:count]]
     used = [*(sound if any(sound) else [True] * count), *(True for _ in names[count:])]
@@ -87,7 +91,7 @@ def raw_input_errors(problem: Problem, clean: Problem, answer: Judged, data_erro
     base = problem.system.as_measured()
     values = refit(base, first, whiten, [problem.plain.values], 20).values
     before = whole.residuals(base, values)
-    return RawInputErrors(before, after, best, derivatives, known, implied, left, sum(used), values)
+    return RawInputErrors(before, after, best, derivatives, known, implied, left, sum(used), values, fitted)
 
 
 def passed_on(
@@ -104,7 +108,7 @@ def passed_on(
     trials, rng = problem.recorded.trials[len(problem.calibration.trials) :], np.random.default_rng(SEED)
     held_out = replace(problem.recorded, trials=trials, outputs=problem.evaluation.outputs)
     levels = dict(zip(problem.system.inputs, answer.noise.levels.inputs, strict=True))
-    noisy = [name for name in levels if not switches(problem.recorded.trials, name)]
+    noisy = measured_inputs(problem.recorded.trials, list(levels))
 
     def change(name: str, even: Float[np.ndarray, " n"], step: float) -> Float[np.ndarray, " n"]:
         return drawn(rng, len(even), step, levels[name], problem.passed[name])
@@ -161,18 +165,18 @@ def _implied(
     found = []
     raw = clean.recorded.residuals(after.model.system.as_measured(), after.model.values)
     everything = zip(
-        clean.layouts, after.model.jacobian, clean.recorded.present, after.model.residuals, raw, strict=True
+        clean.layouts,
+        clean.varied(after.model.jacobian),
+        clean.recorded.present,
+        after.model.residuals,
+        raw,
+        strict=True,
     )
-    for trial, (layout, jacobian, there, smooth, rough) in zip(clean.recorded.trials, everything, strict=True):
-        own = noise_variance(layout, after.noise.levels) + _varied(jacobian, varies) + (smooth - rough) ** 2
+    for trial, (layout, varied, there, smooth, rough) in zip(clean.recorded.trials, everything, strict=True):
+        own = noise_variance(layout, after.noise.levels) + ((varied * varies) ** 2).sum(axis=-1) + (smooth - rough) ** 2
         own = put_back(data_error, trial.name, clean.system.outputs, np.sqrt(own)) ** 2
         found.append(np.where(there, own, 0.0).sum(axis=0) / np.maximum(there.sum(axis=0), 1))
     return found
-
-
-def _varied(jacobian: Float[np.ndarray, "t c p"], varies: Float[np.ndarray, " q"]) -> Float[np.ndarray, "t c"]:
-    """Variance that trial-to-trial variation brings to each sample."""
-    return np.asarray(((jacobian[..., : len(varies)] * varies) ** 2).sum(axis=-1))
 
 
 def misjudged(derivatives: Float[np.ndarray, "t p"], posterior: Float[np.ndarray, "p p"]) -> float:
@@ -202,6 +206,7 @@ def _left(
             each.append(float(np.mean(residual[own, c] ** 2)) + more[-1])
     floor = float(np.mean([f[c] for f in implied[count:]]))
     weight = len(each) + IMPLIED
-    left = max((sum(each) + IMPLIED * floor) / weight, NOTHING)
+    seen = sum(each) / len(each) if each else floor
+    left = max((sum(each) + IMPLIED * min(floor, seen)) / weight, NOTHING)
     scatter = float(np.var(each, ddof=1)) if len(each) > 1 else left**2
     return left, float(np.sqrt(scatter / weight + np.mean(more) ** 2)) if more else left

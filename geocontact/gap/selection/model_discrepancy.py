@@ -31,7 +31,7 @@ def discrepancy_basis(
     1.
     """
     everything = [*problem.calibration.trials, *problem.evaluation.trials]
-    floor, base = problem.floor, len(problem.usual)
+    floor, base = problem.floor, problem.fitted
     jacobian = np.concatenate([(j[..., :base] / floor[:, None]).reshape(-1, base) for j in model.jacobian])
     monomials = _monomials(problem)
     made: list[list[np.ndarray]] = [[] for _ in everything]
@@ -82,7 +82,7 @@ def _of_one_effect(
 def _monomials(problem: Problem) -> list[Float[np.ndarray, "_ m"]]:
     """Of every input's position and rate, each over its range, and of time within the trial."""
     trials = [*problem.calibration.trials, *problem.evaluation.trials]
-    movements = [recorded(t.signals, problem.system.inputs) for t in trials]
+    movements = [recorded(t.signals, problem.system.inputs, problem.system.motion.reach) for t in trials]
     columns = [[np.ones(len(t))] for t in trials]
     for row in range(len(problem.system.inputs)):
         p = _within([m.position[row] for m in movements])

@@ -1,8 +1,9 @@
-"""What no candidate makes and no surrogate sees: a narrow line, ringing, a burst, held samples, coarse steps.
+"""What no candidate makes and no surrogate sees: a narrow line, ringing; and remarks on how the data were recorded.
 
 Noise is coloured at most, its spectrum smooth; whitened by the right model it is white. Each check compares the
 whitened residual, or the recording itself, with that, and says in nats (minus the logarithm of a p-value that is
-corrected for everything that was looked at) how far off it is.
+corrected for everything that was looked at) how far off it is. Bursts, repeated values and coarse steps are of the
+recorder: they are remarked upon, and are no evidence of an effect.
 """
 
 from __future__ import annotations
@@ -42,14 +43,13 @@ class ResidualAnomaly:
 
 
 def residual_anomalies(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
-    """Every check, the surest first."""
-    found = [
-        *lines(problem, judged),
-        *ringing(problem, judged),
-        *bursts(problem, judged),
-        *held_samples(problem),
-        *steps(problem),
-    ]
+    """Oscillations, the surest first."""
+    return sorted([*lines(problem, judged), *ringing(problem, judged)], key=lambda each: -each.nats)
+
+
+def recorder_remarks(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
+    """What the recording itself shows, the surest first."""
+    found = [*bursts(problem, judged), *held_samples(problem), *steps(problem)]
     return sorted(found, key=lambda each: -each.nats)
 
 
@@ -60,10 +60,11 @@ def innovations(problem: Problem, judged: Judged) -> list[list[Float[np.ndarray,
     whitenings = problem.whitenings(judged.noise, judged.model)
     channels = len(problem.floor)
     out = []
-    for whitening, residual in zip(whitenings, without_discrepancy(judged), strict=True):
+    together = zip(whitenings, judged.noise.whiteners, without_discrepancy(judged), strict=True)
+    for whitening, whitener, residual in together:
         white = whitening(residual[..., None])[:, 0]
         flat = np.full(residual.size, np.nan)
-        flat[np.concatenate(whitening.whitener.rows)] = white
+        flat[np.concatenate(whitener.rows)] = white
         out.append([column[np.isfinite(column)] for column in flat.reshape(-1, channels).T])
     return out
 

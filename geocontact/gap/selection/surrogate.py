@@ -25,8 +25,6 @@ THROUGH = (6, 16, 40)  # bumps over a trial
 ALONE = (5, 12)  # bumps over a trial that are a trial's own
 CLOSER = 2  # times as close as bumps are wide they stand, so that none falls in between
 STRETCHES = 8  # of a trial, that parameters may differ between
-NARROWEST = 1.5  # steps, in noise levels of the channel, that are looked for
-FEWEST_STAIRS, MOST_STAIRS = 8, 200  # half waves over the range of a channel
 RENEWED = 2  # times that the noise is estimated anew with the surrogate in place
 DEEPEST = 24  # bumps that are taken at most
 RIDGE = 1e-6  # against parameters that do nothing
@@ -49,6 +47,8 @@ class Surrogate:
         Of choosing family, bumps and sizes [nats].
     predicted
         What it predicts of the residual of every trial, in the channels' units.
+    by_calibration
+        The same with weights from the calibration trials alone.
     """
 
     family: str
@@ -56,6 +56,7 @@ class Surrogate:
     calibration: float
     price: float
     predicted: tuple[Float[np.ndarray, "_ c"], ...]
+    by_calibration: tuple[Float[np.ndarray, "_ c"], ...]
 
     @property
     def nats(self) -> float:
@@ -77,17 +78,20 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
         whitenings = problem.whitenings(one.noise, one.model)
         unbent = _without(one.whitened_basis)
         known, residual = unbent(one.model.whitened_jacobian * spread), unbent(one.model.whitened[:, None])[:, 0]
-        best = Surrogate("", 0.0, 0.0, 0.0, tuple(np.zeros_like(each) for each in one.model.residuals))
+        nothing = tuple(np.zeros_like(each) for each in one.model.residuals)
+        best = Surrogate("", 0.0, 0.0, 0.0, nothing, nothing)
         for name, features in made:
             white = unbent(np.concatenate([w(part) for w, part in zip(whitenings, features, strict=True)]))
             found = chosen(residual, white, known, one.fitted_rows, price)
             if found.gain - found.price > best.nats:
-                shift = spread * found.shift
-                predicted = tuple(
-                    part[..., found.columns] @ found.weights + jacobian @ shift
-                    for part, jacobian in zip(features, one.model.jacobian, strict=True)
+                predicted, by_calibration = (
+                    tuple(
+                        part[..., found.columns] @ told.weights + jacobian @ (spread * told.shift)
+                        for part, jacobian in zip(features, one.model.jacobian, strict=True)
+                    )
+                    for told in (found.by_all, found.by_calibration)
                 )
-                best = Surrogate(name, found.gain, found.calibration, found.price, predicted)
+                best = Surrogate(name, found.gain, found.calibration, found.price, predicted, by_calibration)
         return best
 
     low_noise = judged_as(problem, judged.model, problem.with_lower_noise(judged.noise), judged.discrepancy_basis)
@@ -123,15 +127,23 @@ def _without(
 
 
 @dataclass(frozen=True)
-class Choice:
-    """Columns of a family that are worth their price, their weights, and what they gain.
+class FittedWeights:
+    """Weights of chosen columns as some trials tell them.
 
     `shift` is how the fitted parameters move to make room, in units of their prior spread.
     """
 
-    columns: list[int]
     weights: Float[np.ndarray, " k"]
     shift: Float[np.ndarray, " p"]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Columns of a family that are worth their price, their weights by all trials or few, and what they gain."""
+
+    columns: list[int]
+    by_all: FittedWeights
+    by_calibration: FittedWeights
     gain: float
     calibration: float
     price: float
@@ -170,22 +182,26 @@ def chosen(
         shared = free.T @ direction
         power, along = np.maximum(power - shared**2, 0.0), along - shared * (direction @ left)
     if not taken:
-        return Choice([], np.zeros(0), np.zeros(known.shape[1]), 0.0, 0.0, price)
+        none = FittedWeights(np.zeros(0), np.zeros(known.shape[1]))
+        return Choice([], none, none, 0.0, 0.0, price)
     design = free[:, taken]
     gain = log_evidence(left, design, spread) + 0.5 * float(left @ left)
     part = log_evidence(left[:rows], design[:rows], spread) + 0.5 * float(left[:rows] @ left[:rows])
-    weights = _posterior(left, design, spread)
-    ridge = RIDGE * np.eye(known.shape[1])
-    apart = np.concatenate([residual - columns[:, taken] @ weights, np.zeros(known.shape[1])])
-    shift = np.linalg.lstsq(np.concatenate([known, ridge]), apart, rcond=None)[0]
-    return Choice(taken, weights, shift, gain, part, price + each * len(taken))
+
+    def told(by: slice) -> FittedWeights:
+        weights = _posterior(left[by], design[by], spread)
+        ridge = RIDGE * np.eye(known.shape[1])
+        apart = np.concatenate([residual[by] - columns[by][:, taken] @ weights, np.zeros(known.shape[1])])
+        return FittedWeights(weights, np.linalg.lstsq(np.concatenate([known[by], ridge]), apart, rcond=None)[0])
+
+    return Choice(taken, told(slice(None)), told(slice(rows)), gain, part, price + each * len(taken))
 
 
 def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
     """Name and features of every family: one array per trial, calibration first, channels with weights of their own."""
     trials = problem.calibration.trials + problem.evaluation.trials
     system, scale = problem.system, problem.floor_of_noise
-    movements = [recorded(trial.signals, system.inputs) for trial in trials]
+    movements = [recorded(trial.signals, system.inputs, system.motion.reach) for trial in trials]
     for row, name in enumerate(system.inputs):
         position = [m.position[row] for m in movements]
         rate = [m.rate[row] for m in movements]
@@ -204,42 +220,13 @@ def lonely(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[n
     phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
     bumps = [_per_channel(each, problem.floor_of_noise) for each in _line(phase, ALONE)]
     yield "stretches of single trials", _apart(bumps)
-    count, edges = len(problem.usual), np.arange(1, STRETCHES) / STRETCHES
+    count, edges = problem.fitted, np.arange(1, STRETCHES) / STRETCHES
     changing = [
-        np.concatenate([j[..., :count] * problem.usual * (p > edge)[:, None, None] for edge in edges], axis=-1)
+        np.concatenate([j[..., :count] * problem.usual[:count] * (p > edge)[:, None, None] for edge in edges], axis=-1)
         for j, p in zip(judged.model.jacobian, phase, strict=True)
     ]
     yield "parameters that change during a trial", _apart(changing)
     yield "parameters that change at one moment of every trial", changing
-    yield from stairs(problem, judged)
-
-
-def stairs(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
-    """Waves over the prediction itself, which recording in coarse steps leaves: first harmonics of a sawtooth."""
-    clean = [own_course(problem, judged, i) for i in range(len(judged.model.residuals))]
-    for c, name in enumerate(problem.system.outputs):
-        together = np.concatenate([each[:, c] for each in clean])
-        extent, noise = float(together.max() - together.min()), float(problem.floor_of_noise[c])
-        count = min(int(2.0 * extent / (NARROWEST * noise)), MOST_STAIRS) if noise > 0.0 else 0
-        if count < FEWEST_STAIRS:
-            continue
-        turns = np.pi * np.arange(FEWEST_STAIRS, count + 1) / extent
-        waves = []
-        for each in clean:
-            angle = each[:, c, None] * turns
-            waves.append(np.zeros((*each.shape, 2 * len(turns))))
-            waves[-1][:, c] = noise * np.concatenate([np.sin(angle), np.cos(angle)], axis=1)
-        yield f"steps of {name}", waves
-
-
-def own_course(problem: Problem, judged: Judged, i: int) -> Float[np.ndarray, "t c"]:
-    """What a model predicts for a trial with the trial's own deviations as they most probably were."""
-    model, noise = judged.model, judged.noise
-    moved = model.jacobian[i][..., : len(noise.varies)] * noise.varies
-    whitener = noise.whiteners[i]
-    design, residual = whitener(moved), whitener(model.residuals[i][..., None])[:, 0]
-    deviation = np.linalg.solve(np.eye(design.shape[1]) + design.T @ design, design.T @ residual)
-    return np.asarray(np.nan_to_num(problem.recorded.outputs[i]) - model.residuals[i] + moved @ deviation)
 
 
 def _apart(features: list[Float[np.ndarray, "_ c m"]]) -> list[Float[np.ndarray, "_ c k"]]:

@@ -128,8 +128,10 @@ def answer(held: Ranking, unnamed: float, strange: float, rest: float) -> Answer
     """
     base, living, gains = held.base, held.living, held.gains
     rest = min(rest, max(unnamed, 0.0) + strange)
-    unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0) + strange
-    most = max([*gains.values(), unnamed, 0.0])
+    unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0)
+    named = max([*gains.values(), 0.0])
+    unnamed += 0.0 if strange <= LEFT_OVER * named else strange
+    most = max(named, unnamed)
     tolerance = 1.0 + FORM * most
     weights: dict[tuple[str, ...], float] = {("none",): np.exp((SURE - most) / tolerance)}
     for c in living:

@@ -4,11 +4,11 @@ Over a trial the residual r = measured - predicted is, to first order,
 
     r = w + c + sum_j R_j n_j + B d
 
-with w white sensor noise, c one or more Ornstein-Uhlenbeck processes per channel (a filter in the measuring chain is
-quick, muscle tone and sway are slow), n_j the noise of input j, whose spectrum is known, R_j what the model makes of
-it (`input_noise`), and d the trial's own deviation of some parameters (donning,
-placement; `trial_variation`). The time axis is cut into blocks that are taken as independent of each other, apart from
-d; that keeps matrices small, and is right for what is forgotten within a block.
+with w white sensor noise (that of a quotient is higher where its divisor is small), c one or more Ornstein-Uhlenbeck
+processes per channel (a filter in the measuring chain is quick, muscle tone and sway are slow), n_j the noise of input
+j, whose spectrum is known, R_j what the model makes of it (`input_noise`), and d the trial's own deviation of some
+parameters (donning, placement; `trial_variation`). The time axis is cut into blocks that are taken as independent of
+each other, apart from d; that keeps matrices small, and is right for what is forgotten within a block.
 """
 
 from __future__ import annotations
@@ -41,16 +41,19 @@ class NoiseBlock:
     time, channel
         Of each row [s].
     inputs
-        Covariance that noise of unit variance of each input makes.
+        Covariance that noise of unit variance of each input makes of rows divided by `spread`.
+    spread
+        How many times its level the sensor noise of each row is.
     """
 
     rows: Int[np.ndarray, " n"]
     time: Float[np.ndarray, " n"]
     channel: Int[np.ndarray, " n"]
     inputs: Float[np.ndarray, "j n n"]
+    spread: Float[np.ndarray, " n"]
 
     def covariance(self, levels: NoiseLevels) -> Float[np.ndarray, "n n"]:
-        """At these levels."""
+        """Of rows divided by `spread`, at these levels."""
         powers = (levels.white**2, levels.coloured**2, levels.memory, levels.inputs**2)
         return summed(self.time, self.channel, self.inputs, *powers, 1.0 + JITTER)
 
@@ -94,18 +97,35 @@ class Layout:
         time: Float[np.ndarray, " t"],
         present: np.ndarray,
         heard: InputNoise,
+        spread: Float[np.ndarray, "t c"],
     ) -> Layout:
-        """Blocks of a trial; `present` (t, c): which samples were measured; `heard`: what noise of inputs makes."""
+        """Blocks of a trial.
+
+        Parameters
+        ----------
+        time
+            Of each sample [s].
+        present
+            Which samples were measured (t, c).
+        heard
+            What noise of inputs makes.
+        spread
+            How many times its level the sensor noise of each sample is.
+        """
         count = max(1, round(present.sum() / BLOCK_ROWS))
         edges = [round(each) for each in np.linspace(0, len(time), count + 1)]
-        blocks = [_block(time, present, heard, a, b) for a, b in pairwise(edges)]
-        return cls(present.shape, tuple(block for block in blocks if len(block.rows)))
+        measured = [(a, b) for a, b in pairwise(edges) if present[a:b].any()]
+        return cls(present.shape, tuple(_block(time, present, heard, spread, a, b) for a, b in measured))
 
     def whitener(self, levels: NoiseLevels) -> Whitener:
         """What turns noise of these levels into independent numbers of unit variance."""
         factors = [factor_of(block.covariance(levels)) for block in self.blocks]
-        inverses = tuple(lapack.dtrtri(factor, lower=1)[0] for factor, _ in factors)
-        return Whitener(tuple(block.rows for block in self.blocks), inverses, sum(scale for _, scale in factors))
+        inverses = tuple(
+            lapack.dtrtri(factor, lower=1)[0] / block.spread
+            for block, (factor, _) in zip(self.blocks, factors, strict=True)
+        )
+        scale = sum(scale + float(np.log(b.spread).sum()) for b, (_, scale) in zip(self.blocks, factors, strict=True))
+        return Whitener(tuple(block.rows for block in self.blocks), inverses, scale)
 
     @cached_property
     def rows(self) -> Int[np.ndarray, " n"]:
@@ -141,6 +161,7 @@ def _block(
     time: np.ndarray,
     present: np.ndarray,
     heard: InputNoise,
+    spread: Float[np.ndarray, "t c"],
     first: int,
     last: int,
 ) -> NoiseBlock:
@@ -150,7 +171,10 @@ def _block(
         sample.append(own)
         channel.append(np.full(len(own), c))
     at, which = np.concatenate(sample), np.concatenate(channel)
-    return NoiseBlock(at * present.shape[1] + which, time[at], which, heard.covariance(at, which))
+    own = spread[at, which]
+    return NoiseBlock(
+        at * present.shape[1] + which, time[at], which, heard.covariance(at, which) / np.outer(own, own), own
+    )
 
 
 def factor_of(covariance: Float[np.ndarray, "n n"]) -> tuple[Float[np.ndarray, "n n"], float]:

@@ -29,6 +29,7 @@ from geocontact.identify.optimise.bounded_gauss_newton import (
 )
 
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
+LONGEST = 2.0  # that a correlation time is: longer, and noise becomes what the model misses
 ENOUGH = 1e-6  # nats that a step of the search must gain for another
 NEAR = 1.0  # nats gained by a step, below which secants amend the curvature
 CURVED = 0.2  # of what was expected, curvature along a step that a secant is believed
@@ -36,7 +37,10 @@ CURVED = 0.2  # of what was expected, curvature along a step that a secant is be
 
 @dataclass(frozen=True)
 class ResidualBlock:
-    """One block of a trial: its residual, and the covariance that variation from trial to trial makes."""
+    """One block of a trial: its residual, and the covariance that variation from trial to trial makes.
+
+    Both of rows divided by the block's `spread`.
+    """
 
     block: NoiseBlock
     residual: Float[np.ndarray, " n"]
@@ -78,8 +82,8 @@ class CostSurface:
         for layout, residual, moved in zip(layouts, residuals, jitter, strict=True):
             flat = moved.reshape(residual.size, moved.shape[-1])
             for block in layout.blocks:
-                own = flat[block.rows]
-                pieces.append(ResidualBlock(block, residual.ravel()[block.rows], own @ own.T))
+                own = flat[block.rows] / block.spread[:, None]
+                pieces.append(ResidualBlock(block, residual.ravel()[block.rows] / block.spread, own @ own.T))
         return cls(tuple(pieces), beliefs)
 
     def at(self, x: Float[np.ndarray, " h"]) -> SearchPoint:
@@ -135,16 +139,16 @@ def most_likely(
     rounds
         Evaluations of the likelihood at the most.
     """
-    surface = CostSurface.of(layouts, residuals, jitter, beliefs)
-    here = surface.at(np.clip(beliefs.point(start), -FARTHEST, FARTHEST))
+    surface, farthest = CostSurface.of(layouts, residuals, jitter, beliefs), searched(beliefs)
+    here = surface.at(np.clip(beliefs.point(start), -farthest, farthest))
     curvature, damping, near = surface.information(here), DAMPED, False
     for _ in range(rounds - 1):
-        low, high = -FARTHEST - here.x, FARTHEST - here.x
+        low, high = -farthest - here.x, farthest - here.x
         bend = QuadraticModel.within(here.gradient, curvature, low, high)
         if bend.promise(bend.step(0.0, low, high)) < ENOUGH:
             break
         step = bend.step(damping, low, high)
-        x = np.clip(here.x + step, -FARTHEST, FARTHEST)
+        x = np.clip(here.x + step, -farthest, farthest)
         if np.array_equal(x, here.x):
             break
         there = surface.at(x)
@@ -162,6 +166,12 @@ def most_likely(
         elif damping > MOST:
             break
     return here.levels, 0.5 * float(here.x @ here.x), -here.cost
+
+
+def searched(beliefs: NoisePriors) -> Float[np.ndarray, " h"]:
+    """How many standard deviations of the prior each number is searched in, either way."""
+    kinds = beliefs.middle.white.size + beliefs.middle.coloured.size, beliefs.middle.memory.size
+    return np.repeat([FARTHEST, LONGEST, FARTHEST], [*kinds, beliefs.middle.inputs.size])
 
 
 def damped(damping: float, kept: float) -> float:

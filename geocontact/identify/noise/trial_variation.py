@@ -18,6 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+LARGEST = 1e4  # times its prior, that a standard deviation is looked for
+
 
 @dataclass(frozen=True)
 class Products:
@@ -36,22 +38,25 @@ class Products:
 def variation(
     trials: Sequence[Products],
     prior_sd: Float[np.ndarray, " q"],
-    weight: float = 4.0,
-    spent: float = 0.0,
+    weight: float | Float[np.ndarray, " q"] = 4.0,
+    spent: float | Float[np.ndarray, " q"] = 0.0,
     rounds: int = 50,
 ) -> Float[np.ndarray, " q"]:
-    """Most likely standard deviation of each varying parameter; the prior is worth `weight` trials of `prior_sd`.
+    """Most likely standard deviation of each varying parameter.
 
-    `spent` trials count as used up, 1 where the parameters' means were fitted to the same trials, as far as the trials
-    tell of a parameter's deviations at all.
+    The prior is worth `weight` trials of `prior_sd`. `spent` is 1 where deviations are taken from their mean over the
+    trials, which uses up one of them as far as the trials tell of the deviations at all: what all trials have alike is
+    no variation.
     """
     sd = prior_sd.copy()
     for _ in range(rounds):
         pairs = [_conditional(trial, sd) for trial in trials]
         unsure = sum(np.diag(cov) for _, cov in pairs)
-        squares = unsure + sum(mean**2 for mean, _ in pairs)
+        means = np.array([mean for mean, _ in pairs])
+        squares = unsure + ((means - spent * means.mean(axis=0)) ** 2).sum(axis=0)
         identified = 1.0 - unsure / np.maximum(len(trials) * sd**2, 1e-300)
         new = np.sqrt((weight * prior_sd**2 + squares) / (weight + len(trials) - spent * identified))
+        new = np.minimum(new, LARGEST * prior_sd)
         done = bool(np.allclose(new, sd, rtol=1e-6))
         sd = new
         if done:
@@ -68,6 +73,7 @@ def _conditional(
     trial: Products, sd: Float[np.ndarray, " q"]
 ) -> tuple[Float[np.ndarray, " q"], Float[np.ndarray, "q q"]]:
     """Mean and covariance of a trial's deviation given its residual."""
-    scaled = np.linalg.inv(sd[:, None] * trial.gram * sd + np.eye(len(sd)))
+    told, along = np.linalg.eigh(sd[:, None] * trial.gram * sd)
+    scaled = (along / (1.0 + np.maximum(told, 0.0))) @ along.T  # of I + sd gram sd, whatever its condition
     covariance = sd[:, None] * scaled * sd
     return covariance @ trial.mixed, covariance

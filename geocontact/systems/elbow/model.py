@@ -51,6 +51,7 @@ def build(
         constants=dict(constants),
         scale=Magnitudes(),
         units=UNITS,
+        lengths=tuple(name for name in LENGTHS if name in constants),
     )
 
 

@@ -70,6 +70,8 @@ def build(
         constants=dict(constants),
         scale=Magnitudes(),
         units=UNITS,
+        extent=float(np.ptp(place[0])),
+        quotients={"cop_x": "force_y"},
     )
 
 

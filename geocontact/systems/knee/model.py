@@ -52,6 +52,7 @@ def build(
         scale=Magnitudes(),
         units=UNITS,
         spare=("flexion", "adduction"),
+        lengths=tuple(name for name in ("R",) if name in constants),
     )
 
 

@@ -29,6 +29,7 @@ from geocontact.systems.shoulder.arm import ShoulderArm
 
 INPUTS, OUTPUTS = ("arm", "event"), ("exo", "force")
 UNITS = {"arm": "rad", "event": "-", "exo": "rad", "force": "N"}
+LENGTHS = ("L_h", "o_x", "o_y", "l_c")
 NUMBERS = ("L_h", "o_x", "o_y", "I", "c", "l_c", "m")
 COLUMNS = ("angle [rad]", "torque [N m]")
 
@@ -77,6 +78,7 @@ def build(
         scale=Magnitudes(),
         units=UNITS,
         spare=("event",),
+        lengths=tuple(name for name in LENGTHS if name in constants),
         dynamic=True,
     )
 

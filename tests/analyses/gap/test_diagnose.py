@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from unittest import mock
@@ -13,7 +13,10 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.gap.diagnose.job import diagnose_many
+from geocontact.analyses.gap.diagnose.options import ManyOptions
 from geocontact.analyses.gap.diagnose.result import DiagnoseResult
+from geocontact.analyses.job import Call, execute
+from geocontact.analyses.listener import Listener
 from tests.cli.calls import call, done
 from tests.cli.gap_cases import DAMPING, TOLD, damped_elbow, diagnosed_elbow, known, spoilt
 from tests.unchecked import unchecked
@@ -118,6 +121,29 @@ def test_stages_are_told_as_they_begin(found: DiagnoseResult) -> None:
             "where it misses, and how far that shrinks",
         )
     ] == TOLD
+
+
+class Stops(Listener):
+    """Ends the run once one case is done, as Ctrl-C does."""
+
+    @contextmanager
+    def progress(self, label: str, total: int) -> Iterator[Callable[[], None]]:
+        """The block of all cases."""
+
+        def stop() -> None:
+            raise KeyboardInterrupt
+
+        yield stop
+
+
+def test_what_is_done_when_a_run_is_ended_stays(case: Path, tmp_path: Path) -> None:
+    for name in "ab":
+        spoilt(case, tmp_path / "cases" / name, "case.toml", "format = 1", "format = 1 ")
+    options = ManyOptions(tmp_path / "cases", many=True, bare=True, workers=1)
+    with known(), pytest.raises(KeyboardInterrupt):
+        execute(diagnose_many, options, tmp_path / "out", Call({}, Stops()))
+    assert [p.name for p in (tmp_path / "out").iterdir()] == ["a"]
+    assert (tmp_path / "out" / "a" / "diagnosis.json").is_file() and (tmp_path / "out" / "a" / "run.json").is_file()
 
 
 def test_many_cases_are_a_row_each_and_a_wrong_one_is_told(case: Path, tmp_path: Path) -> None:

@@ -1,7 +1,7 @@
 """Many gap cases at once, a process each, as many at a time as there are cores.
 
 A case that cannot be used costs the others nothing: it is one line, and the exit code is 2. Cases are independent, so
-the results are those of one call per case.
+the results are those of one call per case. Each is written as it is done: a run that is ended keeps what it has.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from geocontact.analyses.gap.diagnose.options import ManyOptions
 from geocontact.analyses.gap.diagnose.read import read
 from geocontact.analyses.gap.diagnose.result import DiagnoseResult
 from geocontact.analyses.gap.diagnose.run import run
-from geocontact.analyses.results_folder import Scratch
+from geocontact.analyses.results_folder import Scratch, written_whole
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.stale_results import RUN
 from geocontact.analyses.table_forms import TableForms
@@ -63,9 +63,17 @@ def _all(folders: list[Path], draft: Path, o: ManyOptions, record: Record) -> li
     work = partial(outcome, draft=draft, o=o, options=options, run_id=run_id, forms=record.forms)
     with record.listener.progress("cases", len(folders)) as step:
         for folder, became in each(work, folders, o.workers):
-            found[folder.name] = _outcome_of(folder, became, draft, record)
+            found[folder.name] = one = _outcome_of(folder, became, draft, record)
+            if one.code == 0 and record.out is not None:
+                _keep(draft / one.name, record.out / one.name)
             step()
     return [found[folder.name] for folder in folders]
+
+
+def _keep(done: Path, place: Path) -> None:
+    """Results of a case where they will be, whole, before the other cases are done."""
+    with written_whole(place) as draft:
+        shutil.copytree(done, draft, dirs_exist_ok=True)
 
 
 def _outcome_of(folder: Path, became: Outcome | BaseException, draft: Path, record: Record) -> Outcome:

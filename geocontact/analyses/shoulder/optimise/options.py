@@ -12,7 +12,7 @@ from geocontact.data.plausible import PLAIN, Plausible
 from geocontact.data.ranges import CUTOFF, GAP, LIMIT
 
 TORQUE_RATE = Plausible("a rate of torque in N m/s", PLAIN, (1e-3, 1e5), (1.0, 1000.0))
-Share = Annotated[float, Typed("-", "shoulder.level:level")]
+Share = Annotated[float, Typed("-", "shoulder.level:level", "0.5")]
 FEWEST_DRAWS = 20
 
 

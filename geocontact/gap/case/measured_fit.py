@@ -1,0 +1,35 @@
+"""A model as somebody with a simulator has it: fitted by least squares to what was measured, nothing smoothed first.
+
+What is judged by its held-out error, what is reported of it and what is drawn are this one fit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.gap.case.problem import Plain, Problem
+from geocontact.gap.case.refit import Refit, refit
+
+ROUNDS = 20
+
+
+def measured_fit(
+    problem: Problem, model: Refit, floor: Float[np.ndarray, " c"]
+) -> tuple[dict[str, float], list[Float[np.ndarray, "_ c"]]]:
+    """Parameters from the calibration trials, every channel divided by its floor, and residuals of all trials.
+
+    Parameters
+    ----------
+    model
+        Where the search sets out.
+    floor
+        Of each channel, in its unit.
+    """
+    count, whole = len(problem.calibration.trials), problem.recorded
+    first = replace(whole, trials=whole.trials[:count], outputs=whole.outputs[:count])
+    system = model.system.as_measured()
+    values = refit(system, first, [Plain(there, floor) for there in first.present], [model.values], ROUNDS).values
+    return values, whole.residuals(system, values)

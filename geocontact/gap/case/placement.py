@@ -1,0 +1,99 @@
+"""What differs from trial to trial beside base parameters: constants, zeros of inputs, zeros and gains of outputs.
+
+A device is put on anew for every trial, sensors are zeroed and calibrated anew. The usual sizes are those of the
+contract of a gap case: about a millimetre on a device of some 20 cm, half a degree, a per cent of a channel's
+calibration. Lengths are in proportion to the device, so that a larger one is not put on more exactly. Each is a
+direction in which the residual of a trial may lie, integrated out like the trial-to-trial variation of base parameters
+(`identify.noise.trial_variation`), its size estimated from the trials together with what is usual.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.differentiated_inputs import DifferentiatedInputs
+from geocontact.chain.links import Modifier
+from geocontact.chain.system import FAR, System
+from geocontact.data.parameter import Parameter
+from geocontact.data.trial import Trial
+
+LENGTH = 0.006  # of the device's largest length: 1 mm of 17 cm
+ANGLE = 0.0087  # rad: half a degree
+SPAN = 0.01  # of the half-range of an input that is neither a length nor an angle
+GAIN = 0.01  # of a channel
+ZERO = 0.005  # of a channel's largest magnitude
+SHARE = 0.04  # of a base parameter that is neither a length nor an angle
+LAST = 1e6  # rank of a shifted zero: after everything that is wrong with the motion
+
+
+def varies_by(system: System, parameter: Parameter, value: float) -> float:
+    """Standard deviation that a base parameter usually has from trial to trial."""
+    if parameter.unit == "m":
+        return LENGTH * system.length
+    return ANGLE if parameter.unit == "rad" else SHARE * abs(value)
+
+
+def placement(
+    system: System, trials: Sequence[Trial], values: Mapping[str, float], movable: Sequence[str]
+) -> tuple[Float[np.ndarray, "_ c k"], ...]:
+    """Per trial, what one usual standard deviation of each changes in the outputs, in their units.
+
+    Constants that are lengths, zeros of the inputs in `movable`, zeros of outputs, gains of outputs, in this order;
+    0 where the model has no value.
+    """
+    return tuple(_of_trial(system, trial, values, movable) for trial in trials)
+
+
+def _of_trial(
+    system: System, trial: Trial, values: Mapping[str, float], movable: Sequence[str]
+) -> Float[np.ndarray, "t c k"]:
+    columns = []
+    length = LENGTH * system.length
+    for name in system.lengths:
+        if name in system.known:
+            at = system.known[name]
+            above, below = (system.simulate(trial, {**values, name: at + s * length}) for s in (1.0, -1.0))
+            columns.append(_half(above, below))
+    for row, name in enumerate(system.inputs):
+        if name in movable:
+            by = zero_of_input(system, name)
+            above, below = (shifted(system, row, s * by).simulate(trial, values) for s in (1.0, -1.0))
+            columns.append(_half(above, below))
+    predicted = system.simulate(trial, values)
+    predicted = np.where(np.isfinite(predicted) & (np.abs(predicted) < 0.5 * FAR), predicted, 0.0)
+    for c, name in enumerate(system.outputs):
+        for column in (ZERO * system.scale.of(name), GAIN * predicted[:, c]):
+            own = np.zeros_like(predicted)
+            own[:, c] = column
+            columns.append(own)
+    return np.stack(columns, axis=-1)
+
+
+def zero_of_input(system: System, name: str) -> float:
+    """Standard deviation of the zero of an input from trial to trial."""
+    unit = system.unit(name)
+    if unit == "m":
+        return LENGTH * system.length
+    return ANGLE if unit == "rad" else SPAN * system.scale.span.get(name, 1.0)
+
+
+def shifted(system: System, row: int, by: float) -> System:
+    """A system that sees one input `by` so much higher."""
+
+    def change(
+        movement: DifferentiatedInputs, _: DifferentiatedInputs, __: Mapping[str, float]
+    ) -> DifferentiatedInputs:
+        position = movement.position.copy()
+        position[row] += by
+        return replace(movement, position=position)
+
+    return replace(system, motion=system.motion.having(Modifier("zero", LAST, change)))
+
+
+def _half(above: Float[np.ndarray, "t c"], below: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t c"]:
+    off = 0.5 * (above - below)
+    return np.asarray(np.where(np.isfinite(off) & (np.abs(off) < 0.25 * FAR), off, 0.0))

@@ -1,0 +1,322 @@
+"""Rules on held-out trials that no evidence overrides.
+
+An effect is named only if it predicts trials that are left out better, and worsens no channel of the held-out ones.
+With b the residual of the base model and m what the effect changes of its prediction, the squared error falls by
+
+    sum b² - sum (b - m)² = (2 a - 1) sum m²,   a = sum b m / sum m²,
+
+so it falls where the amplitude a of the change, as those trials have it, is above one half; 1 where the change is what
+is missing. Whether it is there is asked of residuals that are whitened by noise and by what trials differ by, which
+tell most; whether it does harm of residuals in units of the floor, inputs as they were measured. The standard error is
+from blocks of the trials, whatever the noise within and between neighbouring blocks is (Newey & West 1987,
+Econometrica 55:703), no less than that of independent samples: few blocks that hold the change tell little, however
+many samples they have. The change must exceed what the calibration of a channel varies by, and no verdict hangs on a
+few samples or on one trial.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from geocontact.gap.case.measured_fit import measured_fit
+from geocontact.gap.case.problem import Noise, Plain, Problem
+from geocontact.gap.case.whitening import Whitening
+from geocontact.gap.selection.calibration_share import changes
+from geocontact.gap.selection.evidence import Judged, prior_spread
+from geocontact.gap.selection.model_comparison import Contender
+from geocontact.gap.selection.surrogate import Surrogate
+
+BLOCKS = 16  # per trial
+SURE = 0.975  # one-sided
+HALF = 0.5  # amplitude below which a change makes the error larger
+NOTHING = 1e-12  # of the squared residual, below which a prediction is not changed
+HARM = 0.02  # of a squared error, that it may grow by without being called worse
+SMALL = 0.005  # of a channel's signal, that a gap must exceed: half of what its calibration varies by
+FEW = 0.02  # of the samples, that no verdict may hang on
+ENOUGH = 6.0  # nats that the others must gain
+LEFT_OVER = 0.2  # of what a named effect changes, or of an error, in squares, that may be left over
+TOO_SMALL = f"the change is below {SMALL:.1%} of the signal in every channel"
+
+
+@dataclass(frozen=True)
+class Amplitude:
+    """How much of a change the held-out trials have: 1 all of it, 0 nothing.
+
+    Parameters
+    ----------
+    value, low, high
+        With its interval of 95 %.
+    grown
+        What the change adds to the squared error, as a share of it; negative where the error falls.
+    """
+
+    value: float
+    low: float
+    high: float
+    grown: float
+
+    @property
+    def better(self) -> bool:
+        """Whether the error surely falls."""
+        return self.low > HALF
+
+    @property
+    def words(self) -> str:
+        """With its interval."""
+        return f"amplitude there {self.value:.2f} [{self.low:.2f}, {self.high:.2f}], 1 where the change is right"
+
+    @property
+    def worse(self) -> bool:
+        """Whether the error surely grows, by more than what makes no difference."""
+        return self.high < HALF and self.grown > HARM
+
+
+def block_edges(count: int) -> Int[np.ndarray, " b"]:
+    """Where the blocks of a trial of so many rows begin; a short trial has fewer."""
+    return np.unique(np.linspace(0, count, BLOCKS + 1).astype(int)[:-1])
+
+
+def amplitude(
+    before: Sequence[Float[np.ndarray, "_ c"]], change: Sequence[Float[np.ndarray, "_ c"]]
+) -> Amplitude | None:
+    """Of a change of a prediction in trials with the residuals `before`, both weighed; None where there is none."""
+    from scipy.stats import t
+
+    works, powers, squares = [], [], 0.0
+    for own, moved in zip(before, change, strict=True):
+        edges = block_edges(len(own))
+        works.append(np.add.reduceat((own * moved).sum(axis=1), edges))
+        powers.append(np.add.reduceat((moved**2).sum(axis=1), edges))
+        squares += float((own**2).sum())
+    power, work = float(np.sum(powers)), float(np.sum(works))
+    if not NOTHING * squares < power < np.inf:
+        return None
+    value = work / power
+    off = [w - value * p for w, p in zip(works, powers, strict=True)]
+    pairs = zip(before, change, strict=True)
+    alone = sum(float(((moved * (own - value * moved)).sum(axis=1) ** 2).sum()) for own, moved in pairs)
+    spread = max(sum(float(each @ each) + float(each[1:] @ each[:-1]) for each in off), alone)
+    count = power**2 / float(np.sum(np.square(powers)))
+    freedom = max(count - 1.0, 0.5)
+    error = float(np.sqrt(spread * (count / freedom))) / power
+    reach = float(t.ppf(SURE, freedom)) * error
+    return Amplitude(value, value - reach, value + reach, (power - 2.0 * work) / max(squares, 1e-300))
+
+
+@dataclass(frozen=True)
+class TrialWeight:
+    """What a residual of one trial weighs: (I + B Q Bᵀ)^(-1/2) D⁻¹, D the floor, B Q Bᵀ what trials differ by."""
+
+    present: Bool[np.ndarray, "t c"]
+    whitening: Whitening
+
+    @classmethod
+    def of(
+        cls, present: Bool[np.ndarray, "t c"], floor: Float[np.ndarray, " c"], varied: Float[np.ndarray, "t c q"]
+    ) -> TrialWeight:
+        """From derivatives with respect to what varies, times its standard deviation."""
+        return cls(present, Whitening.of(Plain(present, floor), varied))
+
+    def __call__(self, values: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t c"]:
+        """Weighed; 0 where nothing was measured."""
+        out = np.zeros(values.shape)
+        out[self.present] = self.whitening(values[..., None])[:, 0]
+        return out
+
+
+@dataclass(frozen=True)
+class HeldOutRules:
+    """The base model on the held-out trials, and what a model with an effect must do there to be named.
+
+    Parameters
+    ----------
+    problem
+        The case.
+    base
+        The base model as it was judged.
+    before
+        Its residuals on the held-out trials, refitted to the calibration trials, inputs as they were measured.
+    signal
+        Root mean square of each measured channel on the held-out trials.
+    weights
+        Of all trials.
+    fitted
+        Residuals of models on the held-out trials, by label, once somebody asked for them.
+    """
+
+    problem: Problem
+    base: Judged
+    before: list[Float[np.ndarray, "_ c"]]
+    signal: Float[np.ndarray, " c"]
+    weights: tuple[TrialWeight, ...]
+    fitted: dict[str, list[Float[np.ndarray, "_ c"]]] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, problem: Problem, base: Judged) -> HeldOutRules:
+        """The base model refitted by plain least squares, every channel divided by its floor."""
+        count, whole = len(problem.calibration.trials), problem.recorded
+        before = measured_fit(problem, problem.plain, problem.floor)[1][count:]
+        signal = np.sqrt(mean_squares(whole.outputs[count:], whole.present[count:]))
+        varies = base.noise.varies
+        weights = tuple(
+            TrialWeight.of(there, problem.floor, varied * varies)
+            for there, varied in zip(whole.present, problem.varied(base.model.jacobian), strict=True)
+        )
+        return cls(problem, base, before, signal, weights)
+
+    @property
+    def present(self) -> tuple[Bool[np.ndarray, "_ c"], ...]:
+        """Which samples of the held-out trials were measured."""
+        return self.problem.recorded.present[len(self.problem.calibration.trials) :]
+
+    def objection(self, one: Contender) -> str:
+        """Why a model may not be named, in words; "" where nothing speaks against it.
+
+        Mistakes in the data are not judged: trials that have them are not predicted.
+        """
+        if any(each.somewhere is not None for each in one.candidates):
+            return ""
+        return self._of_change(one.judged) or self._of_harm(one) or self._of_few(one.judged)
+
+    def outdone(self, free: Sequence[Contender]) -> dict[str, str]:
+        """Objections to models that another with as many effects outdoes, by label.
+
+        It surely leaves less of the squared error on held-out trials, by `LEFT_OVER`: models that predict about the
+        same are not told apart by it.
+        """
+        found = {}
+        for many in (1, 2):
+            alike = [one for one in free if len(one.candidates) == many and one.candidates[0].somewhere is None]
+            scaled = {one.label: [part / self.problem.floor for part in self._after(one)] for one in alike}
+            if not scaled:
+                continue
+            best = min(scaled, key=lambda label: sum(float((part**2).sum()) for part in scaled[label]))
+            for label, own in scaled.items():
+                change = [a - b for a, b in zip(own, scaled[best], strict=True)]
+                whole = amplitude(own, change)
+                if whole is not None and whole.better and whole.grown < -LEFT_OVER:
+                    found[label] = f"{best} predicts held-out trials better"
+        return found
+
+    def adds(self, found: Surrogate, one: Contender) -> bool:
+        """Whether a surrogate on top of a model changes enough on held-out trials, beside what the model's effects do.
+
+        In squares, in units of the floor.
+        """
+        count, floor = len(self.problem.calibration.trials), self.problem.floor
+        whole = changes(self.problem, replace(one, judged=self.base), one)[count:]
+        own, more = (sum(float(((p / floor) ** 2).sum()) for p in parts) for parts in (whole, found.predicted[count:]))
+        return more > LEFT_OVER * own
+
+    def _of_change(self, one: Judged) -> str:
+        before, rest = (left_out_residuals(self.problem, each, one.noise) for each in (self.base, one))
+        whitenings = self.problem.whitenings(one.noise, self.base.model)
+        change = [b - a for b, a in zip(before, rest, strict=True)]
+        whole = amplitude(*(whitened_samples(whitenings, one.noise, parts) for parts in (before, change)))
+        if whole is None or not whole.better:
+            return f"trials left out are not surely predicted better{'' if whole is None else f' ({whole.words})'}"
+        return ""
+
+    def _after(self, one: Contender) -> list[Float[np.ndarray, "_ c"]]:
+        """Residuals of a model on the held-out trials; fitted once."""
+        if one.label not in self.fitted:
+            count = len(self.problem.calibration.trials)
+            self.fitted[one.label] = measured_fit(self.problem, one.judged.model, self.problem.floor)[1][count:]
+        return self.fitted[one.label]
+
+    def _of_harm(self, one: Contender) -> str:
+        change = [b - a for b, a in zip(self.before, self._after(one), strict=True)]
+        old, new = ([part / self.problem.floor for part in parts] for parts in (self.before, change))
+        together = amplitude(old, new)
+        if together is not None and together.grown > HARM:
+            return f"the error on held-out trials grows ({together.words})"
+        for c, name in enumerate(self.problem.system.outputs):
+            own = amplitude([b[:, c : c + 1] for b in old], [m[:, c : c + 1] for m in new])
+            if own is not None and own.worse:
+                return f"{name} is predicted worse ({own.words})"
+        return "" if self.large(change) else TOO_SMALL
+
+    def _of_few(self, one: Judged) -> str:
+        without, with_it = (_innovations(self.problem, each, one.noise) for each in (self.base, one))
+        by_sample = [0.5 * (b**2 - a**2) for b, a in zip(without, with_it, strict=True)]
+        by_trial = [float(each.sum()) for each in by_sample]
+        if sum(by_trial) - max(by_trial) <= 0.0:
+            return "without one trial nothing speaks for it"
+        if trimmed(np.concatenate(by_sample)) <= ENOUGH:
+            return f"without {FEW:.0%} of the samples nothing speaks for it"
+        if trimmed(np.concatenate([np.add.reduceat(each, block_edges(len(each))) for each in by_sample])) <= 0.0:
+            return f"without {FEW:.0%} of the blocks nothing speaks for it"
+        return ""
+
+    def large(self, change: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
+        """Whether a change of the prediction of the held-out trials is worth speaking of in some channel."""
+        return bool((np.sqrt(mean_squares(change, self.present)) > SMALL * self.signal).any())
+
+    def unnamed(self, found: Surrogate, before: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
+        """Whether something without a name predicts held-out trials better, as the calibration trials tell it.
+
+        `before` are the residuals that the surrogate was fitted to, all trials.
+        """
+        count = len(self.problem.calibration.trials)
+        change = found.by_calibration[count:]
+        pairs = zip(self.weights[count:], before[count:], change, strict=True)
+        both = [(weight(b), weight(m)) for weight, b, m in pairs]
+        whole = amplitude([b for b, _ in both], [m for _, m in both])
+        return whole is not None and whole.better and self.large(change)
+
+
+def whitened_samples(
+    whitenings: Sequence[Whitening], noise: Noise, parts: Sequence[Float[np.ndarray, "_ c"]]
+) -> list[Float[np.ndarray, "_ c"]]:
+    """Whitened values where they were measured, in their place in time; 0 elsewhere."""
+    found = []
+    for whitening, whitener, part in zip(whitenings, noise.whiteners, parts, strict=True):
+        flat = np.zeros(part.size)
+        flat[np.concatenate(whitener.rows)] = whitening(part[..., None])[:, 0]
+        found.append(flat.reshape(part.shape))
+    return found
+
+
+def left_out_residuals(problem: Problem, one: Judged, noise: Noise) -> list[Float[np.ndarray, "_ c"]]:
+    """Of every trial, predicted from all others: one Gauss-Newton step without it (`gap.reduction.leave_one_out`)."""
+    whitenings = problem.whitenings(noise, one.model)
+    spread = prior_spread(one.model.system, one.model.values)
+    both = [
+        whiten(np.concatenate([residual[..., None], jacobian * spread], axis=-1))
+        for whiten, residual, jacobian in zip(whitenings, one.model.residuals, one.model.jacobian, strict=True)
+    ]
+    grams = [each[:, 1:].T @ each[:, 1:] for each in both]
+    pulls = [each[:, 1:].T @ each[:, 0] for each in both]
+    found = []
+    for residual, jacobian, gram, pull in zip(one.model.residuals, one.model.jacobian, grams, pulls, strict=True):
+        others = np.eye(len(spread)) + sum(grams) - gram
+        found.append(residual - jacobian @ (spread * np.linalg.solve(others, sum(pulls) - pull)))
+    return found
+
+
+def mean_squares(
+    values: Sequence[Float[np.ndarray, "_ c"]], present: Sequence[Bool[np.ndarray, "_ c"]]
+) -> Float[np.ndarray, " c"]:
+    """Of each channel where it was measured; 0 where it never was."""
+    squares = sum(np.where(there, v**2, 0.0).sum(axis=0) for v, there in zip(values, present, strict=True))
+    return np.asarray(squares / np.maximum(sum(there.sum(axis=0) for there in present), 1))
+
+
+def trimmed(gains: Float[np.ndarray, " n"]) -> float:
+    """Sum of what samples gain, `FEW` of them left out at either end."""
+    ends = int(np.ceil(FEW * len(gains)))
+    return float(np.sort(gains)[ends : len(gains) - ends].sum())
+
+
+def _innovations(problem: Problem, one: Judged, noise: Noise) -> list[Float[np.ndarray, " _"]]:
+    """Whitened residuals of each trial under a noise, parameters where all trials put them to first order."""
+    whitenings = problem.whitenings(noise, one.model)
+    spread = prior_spread(one.model.system, one.model.values)
+    model = one.model.weighed(whitenings)
+    scaled = model.whitened_jacobian * spread
+    shift = np.linalg.solve(np.eye(len(spread)) + scaled.T @ scaled, scaled.T @ model.whitened)
+    return np.split(model.whitened - scaled @ shift, np.cumsum([len(w.directions) for w in whitenings])[:-1])

@@ -1,0 +1,129 @@
+"""What a change of a prediction must do on held-out trials, on residuals made up here."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.case.problem import evaluated, problem_of
+from geocontact.gap.selection.held_out_rules import FEW, HeldOutRules, TrialWeight, amplitude, trimmed
+from geocontact.gap.selection.model_comparison import Contender
+from geocontact.systems.catalogue import system_of
+from tests.gap.cases import elbow_case, judged_as
+
+RNG = np.random.default_rng(5)
+TRIALS, SAMPLES = 3, 400
+
+
+def made(share: float, noise: float = 0.3, where: slice = slice(None)) -> tuple[list[np.ndarray], list[np.ndarray]]:
+    """Residuals that hold this share of a change, and the change, one channel; the change is 0 outside `where`."""
+    before, change = [], []
+    for _ in range(TRIALS):
+        moved = np.zeros((SAMPLES, 1))
+        moved[where, 0] = np.sin(np.linspace(0.0, 9.0, SAMPLES))[where]
+        before.append(share * moved + noise * RNG.standard_normal((SAMPLES, 1)))
+        change.append(moved)
+    return before, change
+
+
+@pytest.mark.parametrize("share", [0.0, 0.4, 1.0, 1.3])
+def test_the_amplitude_is_what_the_residual_holds(share: float):
+    found = amplitude(*made(share))
+    assert found is not None
+    assert found.low < share < found.high
+    assert found.high - found.low < 0.2
+    assert found.better == (share > 0.5)
+    assert found.worse == (share < 0.5)
+
+
+def test_the_error_falls_or_grows_by_what_the_amplitude_says():
+    before, change = made(0.3)
+    found = amplitude(before, change)
+    old, new = (
+        sum(float((x**2).sum()) for x in xs) for xs in (before, [b - m for b, m in zip(before, change, strict=True)])
+    )
+    assert found is not None
+    assert found.grown == pytest.approx(new / old - 1.0)
+    assert (found.grown > 0.0) == (found.value < 0.5)
+
+
+def test_a_change_in_one_block_alone_is_not_sure():
+    jump = slice(100, 110)
+    before, change = made(0.0, where=jump)
+    for b in before[1:]:
+        b[jump] = 0.0
+    before[0][jump] += 1.5 * change[0][jump]
+    change[1:] = [0.0 * m for m in change[1:]]
+    found = amplitude(before, change)
+    assert found is not None and found.value > 1.0
+    assert not found.better, "however large it is there: one block has no spread"
+
+
+def test_nothing_changed_is_no_amplitude():
+    before, change = made(0.0)
+    assert amplitude(before, [0.0 * m for m in change]) is None
+
+
+def test_what_trials_differ_by_weighs_little():
+    """A channel that is higher throughout in one trial and lower in the other speaks for no offset."""
+    varied = np.ones((SAMPLES, 1, 1))
+    present, floor = np.ones((SAMPLES, 1), bool), np.array([0.3])
+    noise = 0.3 * RNG.standard_normal((2, SAMPLES, 1))
+    before = [noise[0] + 2.0, noise[1] + 1.0]
+    change = [np.full((SAMPLES, 1), 1.5)] * 2
+    bare = amplitude([b / floor for b in before], [m / floor for m in change])
+    weight = TrialWeight.of(present, floor, 3.0 * varied)
+    weighed = amplitude([weight(b) for b in before], [weight(m) for m in change])
+    assert bare is not None and weighed is not None
+    assert bare.better
+    held = [sum(float((each**2).sum()) for each in parts) for parts in ([weight(m) for m in change], change)]
+    assert held[0] < 0.01 * held[1] / floor[0] ** 2
+
+
+@pytest.fixture(scope="module")
+def rules() -> HeldOutRules:
+    """Of a short elbow, with what two models leave on its held-out trials told beforehand."""
+    case = elbow_case(duration=3.0)
+    problem = problem_of(case, system_of(case))
+    found = HeldOutRules.of(problem, judged_as(evaluated(problem, problem.plain)))
+    left = [0.5 * problem.floor * RNG.standard_normal(part.shape) for part in found.before]
+    found.fitted["preload"] = left
+    found.fitted["damping"] = [part + 2.0 * problem.floor for part in left]
+    return found
+
+
+def contenders(rules: HeldOutRules) -> list[Contender]:
+    offered = [one for one in candidates(rules.problem.system) if one.label in ("preload", "damping")]
+    return [Contender((one,), rules.base) for one in offered]
+
+
+@pytest.mark.slow
+def test_who_is_surely_outdone_on_held_out_trials_is_told(rules: HeldOutRules) -> None:
+    assert rules.outdone(contenders(rules)) == {"damping": "preload predicts held-out trials better"}
+    rules.fitted["damping"] = [1.05 * part for part in rules.fitted["preload"]]
+    assert rules.outdone(contenders(rules)) == {}, "about the same error does not tell them apart"
+    rules.fitted["damping"] = [part + 2.0 * rules.problem.floor for part in rules.fitted["preload"]]
+    pair = Contender((*contenders(rules)[0].candidates, *contenders(rules)[1].candidates), rules.base)
+    rules.fitted[pair.label] = [0.0 * part for part in rules.before]
+    assert rules.outdone([*contenders(rules), pair]).keys() == {"damping"}, "two effects do not outdo one"
+
+
+@pytest.mark.slow
+def test_a_larger_error_on_held_out_trials_is_harm(rules: HeldOutRules) -> None:
+    one = contenders(rules)[0]
+    rules.fitted[one.label] = [3.0 * part for part in rules.before]
+    assert "grows" in rules._of_harm(one)
+    rules.fitted[one.label] = [0.2 * part for part in rules.before]
+    assert rules._of_harm(one) == ""
+    rules.fitted[one.label] = [(1.0 - 1e-3) * part for part in rules.before]
+    assert "below" in rules._of_harm(one), "of a change that is nothing"
+
+
+def test_few_samples_count_for_nothing():
+    gains = np.full(1000, -0.01)
+    gains[: int(FEW * 1000)] = 50.0
+    assert gains.sum() > 900.0
+    assert trimmed(gains) < 0.0
+    even = np.full(1000, 0.02)
+    assert trimmed(even) == pytest.approx(20.0 * (1.0 - 2.0 * FEW))
