@@ -62,7 +62,7 @@ class StudyPerson:
 
 
 @dataclass(frozen=True)
-class OverheadTrial:
+class OverheadStudyTrial:
     """Names of person and task, files, and a span of upright stance [s]."""
 
     person: str
@@ -78,7 +78,7 @@ class OverheadStudy:
 
     tasks: Mapping[str, StudyTask]
     persons: Mapping[str, StudyPerson]
-    trials: tuple[OverheadTrial, ...]
+    trials: tuple[OverheadStudyTrial, ...]
 
 
 def read_overhead_study(path: Path) -> OverheadStudy:
@@ -147,7 +147,7 @@ def _person(path: Path, name: str, told: Mapping[str, Any]) -> StudyPerson:
 
 def _trial(
     path: Path, number: int, told: Any, tasks: Mapping[str, StudyTask], persons: Mapping[str, StudyPerson]
-) -> OverheadTrial:
+) -> OverheadStudyTrial:
     place = f"[[trials]] {number}"
     if not isinstance(told, dict):
         raise InputError(path, place, "is no table", f"write {', '.join(KEYS['trials'])}")
@@ -162,4 +162,4 @@ def _trial(
     ):
         raise InputError(path, place, f"upright {upright!r} is no span", "write [first, last] in s")
     span = None if upright is None else (float(upright[0]), float(upright[1]))
-    return OverheadTrial(person, task, path.parent / markers, path.parent / tool, span)
+    return OverheadStudyTrial(person, task, path.parent / markers, path.parent / tool, span)
