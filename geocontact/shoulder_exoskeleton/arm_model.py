@@ -17,6 +17,7 @@ from jaxtyping import Float
 from geocontact.contact.joint_stop import stop_force
 from geocontact.data.multibody.joint_kinds import revolute
 from geocontact.data.multibody.model import GROUND, Body, Multibody
+from geocontact.dynamics.body_contact import action_and_reaction, together
 from geocontact.dynamics.equations import Equations, LawState, equations_of_motion
 from geocontact.dynamics.equilibrium import Equilibrium
 from geocontact.dynamics.simulate import Stepper
@@ -97,7 +98,7 @@ def arm_model(
 
 @lru_cache(maxsize=8)
 def _made(axes: tuple[tuple[float, ...], ...], locked: tuple[str, ...], machine_code: bool, cuff: Cuff) -> ArmModel:
-    from casadi import SX, Function, cross, densify, vertcat
+    from casadi import SX, Function, densify, vertcat
 
     p, w = SX.sym("numbers", sum(SIZES.values())), SX.sym("recorded", RECORDED[cuff])
     of = {name: p[place, :] for name, place in slices().items()}
@@ -110,10 +111,10 @@ def _made(axes: tuple[tuple[float, ...], ...], locked: tuple[str, ...], machine_
     support = push * lever(tree.q[2], of["lever"][0], of["lever"][1], of["lever"][2])
     along = {joint: stops[i] - of["damping"][i] * tree.u[i] for i, joint in enumerate(JOINTS)}
     along["elevation"] = along["elevation"] + support
-    back = (-held.force, -(held.couple + cross(w[:3, :], held.force)))
+    back = together(action_and_reaction("arm", GROUND, -held.force, w[:3, :]), {"arm": (SX(3, 1), -held.couple)})
     equations = equations_of_motion(
         tree,
-        loads={"arm": back},
+        loads=back,
         along=along,
         prescribed=locked,
         memory=[LawState(push, (of["push"] * w[9, :] - push) / of["lag"])],

@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from jaxtyping import Float
 
 from geocontact.contact.elastic_foundation import linear_pair_pressure
 from geocontact.contact.sphere_foot import friction_coefficient, normal_force
@@ -173,16 +172,3 @@ def quadrature(count: int) -> tuple[Sequence[float], Sequence[float]]:
     """Gauss and Legendre's places on -1 … 1 and their weights, which sum to 2."""
     places, weights = np.polynomial.legendre.leggauss(count)
     return places.tolist(), weights.tolist()
-
-
-def lateral_stiffness(
-    radius: float, length: float, layers: Float[np.ndarray, " 4"], interference: float, offset: float
-) -> float:
-    """Force across a closed cuff over its offset [N/m], both small against the radius; layers as in `CuffLaw`.
-
-    π r L K while every place stays pressed (offset < interference), and about half of it where one half lets go.
-    """
-    yielding = float(layers[0] / layers[1] + layers[2] / layers[3])
-    angle = 2.0 * np.pi * (np.arange(4000) + 0.5) / 4000
-    depth = np.maximum(interference + offset * np.cos(angle), 0.0)
-    return float(radius * length / yielding * np.mean(depth * np.cos(angle)) * 2.0 * np.pi / offset)

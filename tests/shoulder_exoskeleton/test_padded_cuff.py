@@ -15,7 +15,7 @@ from geocontact.dynamics.tree import Moving
 from geocontact.shoulder_exoskeleton import padded_cuff
 from geocontact.shoulder_exoskeleton.device import Wearer
 from geocontact.shoulder_exoskeleton.lucy import lucy
-from geocontact.shoulder_exoskeleton.padded_cuff import ArmLine, CuffLaw, CuffLoad, cuff_load, lateral_stiffness
+from geocontact.shoulder_exoskeleton.padded_cuff import ArmLine, CuffLaw, CuffLoad, cuff_load
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from tests.shoulder_exoskeleton.arms import lifted
 
@@ -63,8 +63,6 @@ def test_a_closed_cuff_is_a_linear_spring_across() -> None:
     np.testing.assert_allclose(found["moment"], 0.0, atol=1e-12)
     assert found["share"] == pytest.approx(1.0) and found["along"] == pytest.approx(0.0, abs=1e-12)
     assert found["pressing"] == pytest.approx(STIFF * 2e-3 * 2 * np.pi * 0.05 * 0.12)
-    layers = np.array([0.01, 2e4, 0.025, 1e4])
-    assert lateral_stiffness(0.05, 0.12, layers, 2e-3, 1e-3) == pytest.approx(np.pi * 0.05 * 0.12 * STIFF, rel=1e-6)
 
 
 def test_a_tilt_is_held_by_a_moment() -> None:

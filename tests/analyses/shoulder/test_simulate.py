@@ -46,6 +46,7 @@ def test_both_arms_follow_the_recorded_ones(found: ShoulderSimulateResult) -> No
     for each in found.arms:
         s = each.simulation
         assert np.corrcoef(s.elevation, s.motion.elevation)[0, 1] > 0.99
+    assert found.record.results["device"]["peak_torque_N_m"] == pytest.approx(7.8, abs=0.01)
     told = found.record.results["arms"]
     assert 2.0 < told["right"]["screw_in_shoulder_minus_exoskeleton_deg"] < 25.0
     assert told["right"]["shoulder_max_deg"] > told["left"]["shoulder_max_deg"]

@@ -22,6 +22,11 @@ def run(worn: Worn, o: ShoulderSimulateOptions, record: Record) -> ShoulderSimul
     """Each arm by itself; they share the device's frame only."""
     invented = sum(number.source == "invented" for number in worn.device.numbers.values())
     record.warn(f"{worn.device.name}: {invented} of {len(worn.device.numbers)} numbers are invented, see numbers.csv")
+    record.results["device"] = {
+        "name": worn.device.name,
+        "peak_force_N": worn.device.peak_force,
+        "peak_torque_N_m": worn.device.peak_torque,
+    }
     arms = tuple(_simulated(worn, arm, o, record) for arm in worn.arms)
     record.results["arms"] = plain({each.side: _summary(each) for each in arms})
     found = {
