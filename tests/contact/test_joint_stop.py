@@ -20,6 +20,8 @@ def test_force_is_that_of_the_text_on_both_sides() -> None:
     assert stop_force(lower - 0.1, 0.0, *NUMBERS) == pytest.approx(k * (0.1 - width / 2))
     assert stop_force(upper + 0.1, 0.2, *NUMBERS) == pytest.approx(-k * (0.1 - width / 2) * 1.6)
     assert stop_force(upper + 0.1, -1.0, *NUMBERS) == 0.0
+    assert stop_force(lower - 0.1, -0.2, *NUMBERS) == pytest.approx(k * (0.1 - width / 2) * 1.6)
+    assert stop_force(lower - 0.1, 1.0, *NUMBERS) == 0.0
 
 
 def test_it_is_once_continuously_differentiable_in_the_coordinate() -> None:
