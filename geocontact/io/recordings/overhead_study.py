@@ -44,7 +44,7 @@ KEYS = {
 
 
 @dataclass(frozen=True)
-class StudyTask:
+class DescribedTask:
     """Tool [kg], push [N], and the dominant hand's share of it."""
 
     tool: float
@@ -53,7 +53,7 @@ class StudyTask:
 
 
 @dataclass(frozen=True)
-class StudyPerson:
+class DescribedPerson:
     """Mass [kg], sex, and the side of the dominant hand."""
 
     mass: float
@@ -62,7 +62,7 @@ class StudyPerson:
 
 
 @dataclass(frozen=True)
-class OverheadStudyTrial:
+class DescribedTrial:
     """Names of person and task, files, and a span of upright stance [s]."""
 
     person: str
@@ -76,9 +76,9 @@ class OverheadStudyTrial:
 class OverheadStudy:
     """Everything in the description."""
 
-    tasks: Mapping[str, StudyTask]
-    persons: Mapping[str, StudyPerson]
-    trials: tuple[OverheadStudyTrial, ...]
+    tasks: Mapping[str, DescribedTask]
+    persons: Mapping[str, DescribedPerson]
+    trials: tuple[DescribedTrial, ...]
 
 
 def read_overhead_study(path: Path) -> OverheadStudy:
@@ -117,7 +117,7 @@ def _needed(path: Path, place: str, told: Mapping[str, Any], key: str) -> Any:
     return told[key]
 
 
-def _task(path: Path, name: str, told: Mapping[str, Any]) -> StudyTask:
+def _task(path: Path, name: str, told: Mapping[str, Any]) -> DescribedTask:
     place = f"[tasks.{name}]"
     tool, push = (
         stated_number(path, f"{place} {key}", _needed(path, place, told, key), unit, ()).value
@@ -128,10 +128,10 @@ def _task(path: Path, name: str, told: Mapping[str, Any]) -> StudyTask:
         raise InputError(path, place, f"dominant_share {share!r} is no share", "write a number from 0 to 1")
     if tool < 0.0 or push < 0.0:
         raise InputError(path, place, "tool and push must not be negative", "the push is upward")
-    return StudyTask(tool, push, None if share is None else float(share))
+    return DescribedTask(tool, push, None if share is None else float(share))
 
 
-def _person(path: Path, name: str, told: Mapping[str, Any]) -> StudyPerson:
+def _person(path: Path, name: str, told: Mapping[str, Any]) -> DescribedPerson:
     place = f"[persons.{name}]"
     mass = stated_number(path, f"{place} mass", _needed(path, place, told, "mass"), "kg", ()).value
     if not 20.0 <= mass <= 300.0:
@@ -142,12 +142,12 @@ def _person(path: Path, name: str, told: Mapping[str, Any]) -> StudyPerson:
         raise InputError(path, place, f"sex {sex!r} is not in the table of segments", f"write {' or '.join(SEXES)}")
     if dominant not in DOMINANT:
         raise InputError(path, place, f"dominant {dominant!r} is no side", f"write {' or '.join(DOMINANT)}")
-    return StudyPerson(mass, known, dominant)
+    return DescribedPerson(mass, known, dominant)
 
 
 def _trial(
-    path: Path, number: int, told: Any, tasks: Mapping[str, StudyTask], persons: Mapping[str, StudyPerson]
-) -> OverheadStudyTrial:
+    path: Path, number: int, told: Any, tasks: Mapping[str, DescribedTask], persons: Mapping[str, DescribedPerson]
+) -> DescribedTrial:
     place = f"[[trials]] {number}"
     if not isinstance(told, dict):
         raise InputError(path, place, "is no table", f"write {', '.join(KEYS['trials'])}")
@@ -162,4 +162,4 @@ def _trial(
     ):
         raise InputError(path, place, f"upright {upright!r} is no span", "write [first, last] in s")
     span = None if upright is None else (float(upright[0]), float(upright[1]))
-    return OverheadStudyTrial(person, task, path.parent / markers, path.parent / tool, span)
+    return DescribedTrial(person, task, path.parent / markers, path.parent / tool, span)

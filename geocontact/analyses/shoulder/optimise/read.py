@@ -15,7 +15,7 @@ from geocontact.analyses.shoulder.tool import tool_current
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.identify.signals.filled import filled_and_smoothed
-from geocontact.io.recordings.overhead_study import OverheadStudy, OverheadStudyTrial, read_overhead_study
+from geocontact.io.recordings.overhead_study import DescribedTrial, OverheadStudy, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.cylinder import lever
 from geocontact.shoulder_exoskeleton.device import Device
@@ -60,9 +60,7 @@ def support_of(device: Device) -> Support:
     return Support(torque, device["lag"])
 
 
-def _arms(
-    o: ShoulderOptimiseOptions, record: Record, study: OverheadStudy, trial: OverheadStudyTrial
-) -> list[ArmTrial]:
+def _arms(o: ShoulderOptimiseOptions, record: Record, study: OverheadStudy, trial: DescribedTrial) -> list[ArmTrial]:
     person, task = study.persons[trial.person], study.tasks[trial.task]
     seen = _filled(markers_given(trial.markers, None, None), o.gap_limit)
     record.add_input(f"{trial.person} {trial.task}", trial.markers, frames=len(seen))
