@@ -46,7 +46,10 @@ def read(o: ShoulderOptimiseOptions, record: Record) -> WorkersAndDevice:
         return WorkersAndDevice(tuple(all_arms(dominant_share=o.dominant_share)), device, support_of(device))
     study = read_overhead_study(o.study)
     record.add_input("`study`", o.study, persons=len(study.persons), trials=len(study.trials))
-    arms = [arm for trial in study.trials for arm in _arms(o, record, study, trial)]
+    bare = [trial for trial in study.trials if trial.level is None]
+    if not bare:
+        record.warn("every trial was recorded in the device: the shoulder's torque is that of arms that it supported")
+    arms = [arm for trial in bare or study.trials for arm in _arms(o, record, study, trial)]
     return WorkersAndDevice(tuple(arms), device, support_of(device))
 
 
