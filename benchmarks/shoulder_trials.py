@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import argparse
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
 from functools import partial
 from itertools import product
 from pathlib import Path
@@ -71,26 +70,43 @@ def write_trial(folder: Path, made: tuple[Participant, OverheadTask, Condition])
     place.mkdir(parents=True, exist_ok=True)
     for name, text in trial_files(trial).items():
         (place / name).write_text(text, encoding="utf-8")
-    if condition.level is None:
-        return ""
-    found = measured(trial, TRUE)
-    columns = {"time [s]": found.time, "elevation [deg]": np.degrees(found.logger), "force [N]": found.mat}
-    pd.DataFrame(columns).round(4).to_csv(place / "recorded.csv", index=False)
-    bare = f"{person.name}{task.name}{BARE.name}"
     lines = {
         "name": trial.name,
         "person": person.name,
         "task": task.name,
-        "level": f"{100 * condition.level:g}%",
-        "side": person.dominant,
-        "wearer": f"{person.name}.toml",
         "markers": f"{trial.name}/markers.trc",
         "tool": f"{trial.name}/tool.csv",
-        "recorded": f"{trial.name}/recorded.csv",
-        "without": f"{bare}/markers.trc",
-        "without_tool": f"{bare}/tool.csv",
     }
-    return "\n[[trial]]\n" + "".join(f'{key} = "{value}"\n' for key, value in lines.items())
+    if condition.level is None:
+        return part(lines)
+    found = measured(trial, TRUE)
+    columns = {"time [s]": found.time, "elevation [deg]": np.degrees(found.logger), "force [N]": found.mat}
+    pd.DataFrame(columns).round(4).to_csv(place / "recorded.csv", index=False)
+    lines |= {
+        "level": f"{100 * condition.level:g}%",
+        "recorded": f"{trial.name}/recorded.csv",
+        "without": f"{person.name}{task.name}{BARE.name}",
+    }
+    return part(lines)
+
+
+def part(lines: dict[str, str]) -> str:
+    """A trial in study.toml."""
+    return "\n[[trials]]\n" + "".join(f'{key} = "{value}"\n' for key, value in lines.items())
+
+
+def heads(persons: tuple[Participant, ...], tasks: tuple[OverheadTask, ...]) -> str:
+    """Tasks and persons in study.toml."""
+    text = "# synthetic: see benchmarks/shoulder_trials.py\n"
+    for task in tasks:
+        text += f'\n[tasks.{task.name}]\ntool = {{ value = {task.tool}, unit = "kg" }}\n'
+        text += f'push = {{ value = {task.push}, unit = "N" }}\n'
+    for person in persons:
+        text += f'\n[persons.{person.name}]\nmass = {{ value = {person.mass}, unit = "kg" }}\n'
+        text += f'sex = "{person.sex}"\ndominant = "{person.dominant}"\n'
+        lengths = {"upper_arm": person.upper_arm, "shoulder_width": person.shoulders}
+        text += "".join(f'{name} = {{ value = {1e3 * size:g}, unit = "mm" }}\n' for name, size in lengths.items())
+    return text
 
 
 def write_study(
@@ -101,24 +117,12 @@ def write_study(
 ) -> Path:
     """Everything; the file that describes it."""
     folder.mkdir(parents=True, exist_ok=True)
-    for person in persons:
-        lengths = {"upper_arm": person.upper_arm, "shoulder_width": person.shoulders}
-        text = "".join(f'{name} = {{ value = {1e3 * size:g}, unit = "mm" }}\n' for name, size in lengths.items())
-        (folder / f"{person.name}.toml").write_text(f"# synthetic\n{text}", encoding="utf-8")
     made = list(product(persons, tasks, (BARE, *WORN)))
     with ProcessPoolExecutor(workers) as pool:
         parts = list(pool.map(partial(write_trial, folder), made))
     file = folder / "study.toml"
-    file.write_text(
-        '# synthetic: see benchmarks/shoulder_trials.py\ndevice = "lucy"\n' + "".join(parts), encoding="utf-8"
-    )
+    file.write_text(heads(persons, tasks) + "".join(parts), encoding="utf-8")
     return file
-
-
-def shortened(trial: OverheadTrial, frames: int) -> OverheadTrial:
-    """The first frames of a trial."""
-    markers = replace(trial.markers, time=trial.markers.time[:frames], position=trial.markers.position[:frames])
-    return replace(trial, markers=markers, current=trial.current[:frames], phase=trial.phase[:frames])
 
 
 def main() -> None:

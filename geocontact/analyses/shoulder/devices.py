@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -53,12 +54,19 @@ def wearer_named(record: Record, file: Path | None) -> Wearer:
             f"{1e3 * usual.shoulder_width:.0f} mm wide (invented)"
         )
         return usual
-    lengths = read_person_file(file, LENGTHS)
+    found = wearer_of_lengths(record, file, read_person_file(file, LENGTHS))
+    record.add_input("`person`", file)
+    return found
+
+
+def wearer_of_lengths(record: Record, file: Path, lengths: Mapping[str, float]) -> Wearer:
+    """The usual wearer with the lengths [m] that are known, from a file; InputError for those of no person."""
+    if not lengths:
+        record.warn(f"{file.name}: no lengths of the person; the device is adjusted to the usual ones (invented)")
     for name, value in lengths.items():
         if not SHORTEST <= value <= LONGEST:
             what = f"{1e3 * value:g} mm is no length of a person"
             raise InputError(file, f"`{name}`", what, f"that is {1e3 * SHORTEST:g} to {1e3 * LONGEST:g} mm")
-    record.add_input("`person`", file)
     return Wearer(**lengths)
 
 

@@ -9,15 +9,29 @@
     mass = { value = 82, unit = "kg" }
     sex = "male"
     dominant = "right"
+    upper_arm = { value = 296, unit = "mm" }
 
     [[trials]]
+    name = "P1T1S0"
     person = "P1"
     task = "T1"
-    markers = "p1_t1.trc"
-    tool = "p1_t1_tool.csv"
+    markers = "P1T1S0/markers.trc"
+    tool = "P1T1S0/tool.csv"
     upright = [0.0, 0.5]
 
-Files are looked for beside the description. `dominant_share` and `upright` may be left out.
+    [[trials]]
+    name = "P1T1S100"
+    person = "P1"
+    task = "T1"
+    markers = "P1T1S100/markers.trc"
+    tool = "P1T1S100/tool.csv"
+    level = "100%"
+    recorded = "P1T1S100/recorded.csv"
+    without = "P1T1S0"
+
+Files are looked for beside the description. A trial with a `level` was recorded in the device: logger and mat, on the
+dominant side, are in `recorded`, and `without` names the same work without the device. What tells no more than these
+may be left out: `dominant_share`, lengths of the person, `name`, `upright`, `level`, `recorded`, `without`.
 """
 
 from __future__ import annotations
@@ -36,15 +50,17 @@ LARGEST = 1_000_000
 """Bytes of a description."""
 SEXES: tuple[Sex, ...] = ("female", "male")
 DOMINANT = ("right", "left")
+LENGTHS = ("upper_arm", "shoulder_width", "torso")
+"""Of a person, to which a device is adjusted."""
 KEYS = {
     "tasks": ("tool", "push", "dominant_share"),
-    "persons": ("mass", "sex", "dominant"),
-    "trials": ("person", "task", "markers", "tool", "upright"),
+    "persons": ("mass", "sex", "dominant", *LENGTHS),
+    "trials": ("person", "task", "markers", "tool", "upright", "name", "level", "recorded", "without"),
 }
 
 
 @dataclass(frozen=True)
-class DescribedTask:
+class StudyTask:
     """Tool [kg], push [N], and the dominant hand's share of it."""
 
     tool: float
@@ -53,32 +69,49 @@ class DescribedTask:
 
 
 @dataclass(frozen=True)
-class DescribedPerson:
-    """Mass [kg], sex, and the side of the dominant hand."""
+class StudyPerson:
+    """Mass [kg], sex, the side of the dominant hand, and those of `LENGTHS` that are known [m]."""
 
     mass: float
     sex: Sex
     dominant: str
+    lengths: Mapping[str, float]
 
 
 @dataclass(frozen=True)
-class DescribedTrial:
-    """Names of person and task, files, and a span of upright stance [s]."""
+class StudyTrial:
+    """A trial as it is described.
 
+    Parameters
+    ----------
+    upright
+        A span of upright stance [s].
+    level
+        Support level as it is written, "100%" or 0.5; None where the device was not worn.
+    recorded
+        Of logger and mat.
+    without
+        Name of the trial of the same work without the device.
+    """
+
+    name: str
     person: str
     task: str
     markers: Path
     tool: Path
     upright: tuple[float, float] | None
+    level: str | None = None
+    recorded: Path | None = None
+    without: str | None = None
 
 
 @dataclass(frozen=True)
 class OverheadStudy:
     """Everything in the description."""
 
-    tasks: Mapping[str, DescribedTask]
-    persons: Mapping[str, DescribedPerson]
-    trials: tuple[DescribedTrial, ...]
+    tasks: Mapping[str, StudyTask]
+    persons: Mapping[str, StudyPerson]
+    trials: tuple[StudyTrial, ...]
 
 
 def read_overhead_study(path: Path) -> OverheadStudy:
@@ -93,7 +126,20 @@ def read_overhead_study(path: Path) -> OverheadStudy:
     if not isinstance(trials, list) or not trials:
         raise InputError(path, "", "no [[trials]]", "name person, task, markers and tool of each")
     found = tuple(_trial(path, k, told, tasks, persons) for k, told in enumerate(trials, 1))
+    _require_names(path, found)
     return OverheadStudy(tasks, persons, found)
+
+
+def _require_names(path: Path, trials: tuple[StudyTrial, ...]) -> None:
+    """Names that stand for one trial, and `without` that is one of them."""
+    names = [each.name for each in trials]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise InputError(path, "[[trials]]", f"two have the name {twice!r}", "give each its own name")
+    lost = next((each for each in trials if each.without is not None and each.without not in names), None)
+    if lost is not None:
+        what = f"without: no trial {lost.without!r}"
+        raise InputError(path, f"[[trials]] {lost.name}", what, f"there are {', '.join(names)}")
 
 
 def _tables(path: Path, content: Mapping[str, Any], kind: str) -> dict[str, dict[str, Any]]:
@@ -117,7 +163,7 @@ def _needed(path: Path, place: str, told: Mapping[str, Any], key: str) -> Any:
     return told[key]
 
 
-def _task(path: Path, name: str, told: Mapping[str, Any]) -> DescribedTask:
+def _task(path: Path, name: str, told: Mapping[str, Any]) -> StudyTask:
     place = f"[tasks.{name}]"
     tool, push = (
         stated_number(path, f"{place} {key}", _needed(path, place, told, key), unit, ()).value
@@ -128,10 +174,10 @@ def _task(path: Path, name: str, told: Mapping[str, Any]) -> DescribedTask:
         raise InputError(path, place, f"dominant_share {share!r} is no share", "write a number from 0 to 1")
     if tool < 0.0 or push < 0.0:
         raise InputError(path, place, "tool and push must not be negative", "the push is upward")
-    return DescribedTask(tool, push, None if share is None else float(share))
+    return StudyTask(tool, push, None if share is None else float(share))
 
 
-def _person(path: Path, name: str, told: Mapping[str, Any]) -> DescribedPerson:
+def _person(path: Path, name: str, told: Mapping[str, Any]) -> StudyPerson:
     place = f"[persons.{name}]"
     mass = stated_number(path, f"{place} mass", _needed(path, place, told, "mass"), "kg", ()).value
     if not 20.0 <= mass <= 300.0:
@@ -142,12 +188,13 @@ def _person(path: Path, name: str, told: Mapping[str, Any]) -> DescribedPerson:
         raise InputError(path, place, f"sex {sex!r} is not in the table of segments", f"write {' or '.join(SEXES)}")
     if dominant not in DOMINANT:
         raise InputError(path, place, f"dominant {dominant!r} is no side", f"write {' or '.join(DOMINANT)}")
-    return DescribedPerson(mass, known, dominant)
+    lengths = {key: stated_number(path, f"{place} {key}", told[key], "m", ()).value for key in LENGTHS if key in told}
+    return StudyPerson(mass, known, dominant, lengths)
 
 
 def _trial(
-    path: Path, number: int, told: Any, tasks: Mapping[str, DescribedTask], persons: Mapping[str, DescribedPerson]
-) -> DescribedTrial:
+    path: Path, number: int, told: Any, tasks: Mapping[str, StudyTask], persons: Mapping[str, StudyPerson]
+) -> StudyTrial:
     place = f"[[trials]] {number}"
     if not isinstance(told, dict):
         raise InputError(path, place, "is no table", f"write {', '.join(KEYS['trials'])}")
@@ -162,4 +209,22 @@ def _trial(
     ):
         raise InputError(path, place, f"upright {upright!r} is no span", "write [first, last] in s")
     span = None if upright is None else (float(upright[0]), float(upright[1]))
-    return DescribedTrial(person, task, path.parent / markers, path.parent / tool, span)
+    recorded = None if "recorded" not in told else _file(path, f"{place} recorded", str(told["recorded"]))
+    return StudyTrial(
+        str(told.get("name", f"{person}{task}")),
+        person,
+        task,
+        _file(path, f"{place} markers", markers),
+        _file(path, f"{place} tool", tool),
+        span,
+        str(told["level"]) if "level" in told else None,
+        recorded,
+        str(told["without"]) if "without" in told else None,
+    )
+
+
+def _file(study: Path, place: str, named: str) -> Path:
+    file = study.parent / named
+    if not file.is_file():
+        raise InputError(study, place, f"there is no file {named}", "give its path from the study's folder")
+    return file

@@ -45,7 +45,7 @@ def test_the_verdict_is_said_in_one_sentence(found: DiagnoseResult) -> None:
     low, high = (100.0 * edge for edge in found.diagnosis.where[0].phase)
     said = found.sentences[0]
     assert said.startswith(f"damping is missing; it sits in force (phase {low:.0f}–{high:.0f} %, fast part of beta); ")
-    interval = ", ".join(f"{100.0 * edge:.0f}" for edge in gap.ci95)
+    interval = ", ".join(f"{100.0 * edge:.0f}" for edge in gap.ci95).replace("-", "−")
     assert f"adding it removes {100.0 * gap.reduction:.0f} % [{interval}] of the error on trials not used; " in said
     assert said.endswith("% stays unexplained")
     assert repr(found).splitlines() == [*found.sentences, *(f"warning: {line}" for line in found.warnings)]
@@ -115,6 +115,7 @@ def test_stages_are_told_as_they_begin(found: DiagnoseResult) -> None:
             "every effect alone",
             "whatever else it may be",
             "two effects together",
+            "whether held-out trials are predicted better",
             "what is left over",
             "what would be invisible",
             "the experiment to run next",

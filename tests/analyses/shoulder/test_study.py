@@ -17,28 +17,46 @@ from tests.cli.calls import MESHES
 
 TRIAL = MESHES / "overhead_P1T1S100"
 BOTH = """\
-device = "lucy"
+[tasks.T1]
+tool = { value = 1.3, unit = "kg" }
+push = { value = 35, unit = "N" }
 
-[[trial]]
+[persons.P1]
+mass = { value = 82, unit = "kg" }
+sex = "male"
+dominant = "right"
+upper_arm = { value = 296, unit = "mm" }
+
+[persons.P2]
+mass = { value = 70, unit = "kg" }
+sex = "male"
+dominant = "left"
+upper_arm = { value = 278, unit = "mm" }
+
+[[trials]]
+name = "bare"
+person = "P1"
+task = "T1"
+markers = "markers.trc"
+tool = "tool.csv"
+
+[[trials]]
 name = "supported"
 person = "P1"
 task = "T1"
-level = "100%"
-side = "right"
 markers = "markers.trc"
 tool = "tool.csv"
+level = "100%"
 recorded = "recorded.csv"
-wearer = "P1.toml"
-without = "markers.trc"
-without_tool = "tool.csv"
+without = "bare"
 
-[[trial]]
+[[trials]]
 name = "unsupported"
-person = "P1"
+person = "P2"
 task = "T1"
-level = "0%"
-side = "left"
 markers = "markers.trc"
+tool = "tool.csv"
+level = "0%"
 """
 LATE, HIGH = np.radians(2.0), 3.0
 """What the recording shows more than the simulation: elevation [rad], force [N]."""
@@ -61,7 +79,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (place / "study.toml").write_text(BOTH, encoding="utf-8")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        arm = gc.shoulder.simulate(place / "markers.trc", person=place / "P1.toml", side="right").arms[0].simulation
+        options = {"person": place / "P1.toml", "side": "right", "tool": place / "tool.csv"}
+        arm = gc.shoulder.simulate(place / "markers.trc", **options).arms[0].simulation
     columns = {"time [s]": arm.motion.time, "elevation [rad]": arm.elevation + LATE, "force [N]": arm.supporting + HIGH}
     pd.DataFrame(columns).to_csv(place / "recorded.csv", index=False)
     return place
@@ -95,6 +114,15 @@ def test_level_and_side_are_those_of_the_trial(found: StudyResult) -> None:
     assert other.without is None and other.recorded is None
 
 
+def test_a_study_without_the_device_is_none(folder: Path, tmp_path: Path) -> None:
+    place = tmp_path / "study"
+    shutil.copytree(folder, place)
+    bare = "\n".join(line for line in BOTH.splitlines() if not line.startswith("level"))
+    (place / "study.toml").write_text(bare, encoding="utf-8")
+    with pytest.raises(gc.InputError, match="none was recorded in the device"):
+        studied(place / "study.toml")
+
+
 def test_everything_is_written(found: StudyResult, tmp_path: Path) -> None:
     out = found.write(tmp_path / "out")
     names = {"summary.csv", "errors.csv", "differences.csv", "passive.csv", "study.png", "report.html", "run.json"}
@@ -106,19 +134,18 @@ def test_everything_is_written(found: StudyResult, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
-        ("[[trial]]", "[[trials]]", "`trials`: is not known here"),
-        ('side = "left"', 'side = "dominant"', "side is 'dominant'; write right or left"),
+        ("[[trials]]", "[[trial]]", "`trial`: is not known here"),
         ('name = "unsupported"', 'name = "supported"', "two have the name 'supported'"),
         ('level = "0%"', 'level = "120%"', "level is 120%; give 0 to 100%"),
-        ('level = "0%"\n', "", "level is missing"),
         ("recorded.csv", "record.csv", "there is no file record.csv"),
-        ('task = "T1"\n', 'task = "T1"\nlogger = "a.csv"\n', "logger is not known"),
+        ('without = "bare"', 'without = "none"', "no trial 'none'; there are bare, supported, unsupported"),
+        ('level = "0%"', 'logger = "a.csv"', "'logger' is not known here"),
     ],
 )
 def test_descriptions_that_cannot_be(folder: Path, tmp_path: Path, old: str, new: str, told: str) -> None:
     place = tmp_path / "study"
     shutil.copytree(folder, place)
-    text = BOTH.replace(old, new) if old == "[[trial]]" else new.join(BOTH.rsplit(old, 1))
+    text = BOTH.replace(old, new) if old == "[[trials]]" else new.join(BOTH.rsplit(old, 1))
     (place / "study.toml").write_text(text, encoding="utf-8")
     with pytest.raises(gc.InputError) as error:
         studied(place / "study.toml")

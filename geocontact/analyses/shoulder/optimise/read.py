@@ -15,7 +15,7 @@ from geocontact.analyses.shoulder.tool import tool_current
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.identify.signals.filled import filled_and_smoothed
-from geocontact.io.recordings.overhead_study import DescribedTrial, OverheadStudy, read_overhead_study
+from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.cylinder import lever
 from geocontact.shoulder_exoskeleton.device import Device
@@ -46,7 +46,10 @@ def read(o: ShoulderOptimiseOptions, record: Record) -> WorkersAndDevice:
         return WorkersAndDevice(tuple(all_arms(dominant_share=o.dominant_share)), device, support_of(device))
     study = read_overhead_study(o.study)
     record.add_input("`study`", o.study, persons=len(study.persons), trials=len(study.trials))
-    arms = [arm for trial in study.trials for arm in _arms(o, record, study, trial)]
+    bare = [trial for trial in study.trials if trial.level is None]
+    if not bare:
+        record.warn("every trial was recorded in the device: the shoulder's torque is that of arms that it supported")
+    arms = [arm for trial in bare or study.trials for arm in _arms(o, record, study, trial)]
     return WorkersAndDevice(tuple(arms), device, support_of(device))
 
 
@@ -60,7 +63,7 @@ def support_of(device: Device) -> Support:
     return Support(torque, device["lag"])
 
 
-def _arms(o: ShoulderOptimiseOptions, record: Record, study: OverheadStudy, trial: DescribedTrial) -> list[ArmTrial]:
+def _arms(o: ShoulderOptimiseOptions, record: Record, study: OverheadStudy, trial: StudyTrial) -> list[ArmTrial]:
     person, task = study.persons[trial.person], study.tasks[trial.task]
     seen = _filled(markers_given(trial.markers, None, None), o.gap_limit)
     record.add_input(f"{trial.person} {trial.task}", trial.markers, frames=len(seen))

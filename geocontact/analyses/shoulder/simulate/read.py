@@ -50,7 +50,12 @@ class Worn:
 
 def read(o: ShoulderSimulateOptions, record: Record) -> Worn:
     """Everything the options name."""
-    device, wearer = device_named(record, o.device), wearer_named(record, o.person)
+    return worn_along(o, wearer_named(record, o.person), record)
+
+
+def worn_along(o: ShoulderSimulateOptions, wearer: Wearer, record: Record) -> Worn:
+    """The same on a wearer who is known."""
+    device = device_named(record, o.device)
     seen = _renamed(record, markers_given(o.markers, o.axes, o.time), o.markers_map)
     record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     found = arm_motions(seen, MarkerSettings(upright=o.upright, gap_limit=o.gap_limit))

@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float
 from geocontact.analyses.shoulder.recorded_channels import Channels
 from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
 from geocontact.identify.signals.agreement import Agreement
-from geocontact.io.recordings.shoulder_study import StudyTrial
+from geocontact.io.recordings.overhead_study import StudyTrial
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 SCREWING = PHASES.index("screw-in")

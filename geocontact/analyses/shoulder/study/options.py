@@ -17,9 +17,10 @@ class StudyOptions(Options):
     Parameters
     ----------
     study
-        A .toml file: device = "lucy" and one table [[trial]] each with name, person, task, level = "100%", side (of
-        logger and mat) and files: markers, tool, recorded (elevation and force), wearer; without = another trial's
-        markers and without_tool its tool, recorded without the device.
+        Tasks, persons and trials (.toml). Trials with a level were recorded in the device: they are simulated, beside
+        `recorded` on the dominant side, and along the motion of the trial that `without` names.
+    device
+        lucy, lucy_new_cylinder (32 mm, with its mass), lucy_new_cylinder_massless, or a file (.toml) with numbers.
 
     The motion
     ----------
@@ -33,5 +34,6 @@ class StudyOptions(Options):
 
     study: Path
     _: KW_ONLY
+    device: str = "lucy"
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2

@@ -1,24 +1,23 @@
-"""What a study starts from: its description, its device, and every trial's motion and recordings."""
+"""What a study starts from: every trial's motion in the device and without it, and what was recorded."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.devices import wearer_of_lengths
 from geocontact.analyses.shoulder.level import level
 from geocontact.analyses.shoulder.recorded_channels import Channels, recorded_channels
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.analyses.shoulder.simulate.read import Worn
-from geocontact.analyses.shoulder.simulate.read import read as read_worn
+from geocontact.analyses.shoulder.simulate.read import Worn, worn_along
 from geocontact.analyses.shoulder.study.options import StudyOptions
 from geocontact.data.errors import InputError
-from geocontact.io.recordings.shoulder_study import StudyTrial, read_study_file
+from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 
 
 @dataclass(frozen=True, eq=False)
 class StudyTrialInputs:
-    """A trial with what its files hold: the arm of `trial.side` alone."""
+    """A trial in the device with what its files hold: the arm of the dominant side alone."""
 
     trial: StudyTrial
     level: float
@@ -28,20 +27,30 @@ class StudyTrialInputs:
 
 
 def read(o: StudyOptions, record: Record) -> tuple[StudyTrialInputs, ...]:
-    """Everything the study names; a file that two trials share is read twice."""
-    described = read_study_file(o.study)
-    record.add_input("study", o.study, trials=len(described.trials))
-    return tuple(_trial(described.device, each, o, record) for each in described.trials)
+    """Every trial with a level; InputError where there is none."""
+    study = read_overhead_study(o.study)
+    record.add_input("study", o.study, trials=len(study.trials))
+    found = tuple(
+        _trial(study, each, share, o, record) for each in study.trials if (share := _level(each, o)) is not None
+    )
+    if not found:
+        raise InputError(o.study, "[[trials]]", "none was recorded in the device", 'write level = "100%" into those')
+    return found
 
 
-def _trial(device: str, trial: StudyTrial, o: StudyOptions, record: Record) -> StudyTrialInputs:
-    share = level(trial.level, f"[[trial]] {trial.name} level")
+def _level(trial: StudyTrial, o: StudyOptions) -> float | None:
+    if trial.level is None:
+        return None
+    share = level(trial.level, f"{o.study.name} [[trials]] {trial.name} level")
     if not 0.0 <= share <= 1.0:
-        raise InputError(o.study, f"[[trial]] {trial.name}", f"level is {trial.level}", "give 0 to 100%")
-    within = _worn(device, trial, trial.markers, trial.tool, share, o, record)
-    without = None
-    if trial.without is not None:
-        without = _worn(device, trial, trial.without, trial.without_tool, share, o, record)
+        raise InputError(o.study, f"[[trials]] {trial.name}", f"level is {trial.level}", "give 0 to 100%")
+    return share
+
+
+def _trial(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions, record: Record) -> StudyTrialInputs:
+    within = _worn(study, trial, share, o, record)
+    bare = next((each for each in study.trials if each.name == trial.without), None)
+    without = None if bare is None else _worn(study, bare, share, o, record)
     recorded = None
     if trial.recorded is not None:
         recorded = recorded_channels(trial.recorded)
@@ -49,21 +58,20 @@ def _trial(device: str, trial: StudyTrial, o: StudyOptions, record: Record) -> S
     return StudyTrialInputs(trial, share, within, without, recorded)
 
 
-def _worn(
-    device: str, trial: StudyTrial, markers: Path, tool: Path | None, share: float, o: StudyOptions, record: Record
-) -> Worn:
+def _worn(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions, record: Record) -> Worn:
+    person = study.persons[trial.person]
     asked = ShoulderSimulateOptions(
-        markers,
-        device=device,
-        person=trial.wearer,
+        trial.markers,
+        device=o.device,
         level=share,
-        side="right" if trial.side == "right" else "left",
+        side="right" if person.dominant == "right" else "left",
         cutoff=o.cutoff,
         gap_limit=o.gap_limit,
-        tool=tool,
+        upright=trial.upright,
+        tool=trial.tool,
     )
     own = Record("shoulder simulate", {})
-    found = read_worn(asked, own)
+    found = worn_along(asked, wearer_of_lengths(own, o.study, person.lengths), own)
     for entry in own.inputs:
         record.inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
     for line in own.warnings:

@@ -67,7 +67,7 @@ def _simulated(each: StudyTrialInputs, worn: Worn, o: StudyOptions) -> Simulated
         return SimulatedArm(found, work_phases(arm.elevation, worn.tool))
     except (ArithmeticError, ValueError) as error:
         remedy = "look at it alone with shoulder simulate"
-        raise InputError(o.study, f"[[trial]] {each.trial.name}", str(error), remedy) from error
+        raise InputError(o.study, f"[[trials]] {each.trial.name}", str(error), remedy) from error
 
 
 def _errors(
