@@ -126,3 +126,18 @@ def test_angles_beyond_all_stops_at_the_start(tmp_path: Path) -> None:
     told = call("shoulder", "simulate", TRIAL / "markers.trc", "--device", file, "--out", tmp_path / "out")
     assert told.code == 2 and "at the start all joints are beyond their stops" in told.err, told.err
     assert len(told.complaints) == 1
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--reserve", "100%"), "--reserve: 100 % leaves no support; give less"),
+        (("--worst-share", "20%"), "--worst-share: has no effect with --aim mean; give --aim cvar"),
+        (("--draws", "5"), "--draws: 5 draws are too few for an interval; give 20 or more"),
+        (("--study", "lost.toml"), "lost.toml"),
+    ],
+)
+def test_support_that_cannot_be_asked_for(tmp_path: Path, options: tuple[str, str], words: str) -> None:
+    told = call("shoulder", "optimise", *options, "--out", tmp_path / "out")
+    assert told.code == 2 and words in told.err, told.err
+    assert len(told.complaints) == 1 and not (tmp_path / "out").exists()

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from scipy.optimize import linprog
 
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
@@ -118,20 +118,36 @@ def _constraints(
     """Rows A and b of A x <= b: needed torque, force, rate."""
     rows, bounds = [], []
     for case in cases:
-        own = np.zeros((len(case.time), len(keys)))
-        per_factor = case.per_factor
-        for key, column in zip(case.keys, per_factor.T, strict=True):
-            own[:, keys.index(key)] = column
-        acts = np.abs(per_factor).max(axis=1) > ACTS
-        rows.append(own[acts])
-        bounds.append(
-            np.minimum((1.0 - limits.reserve) * np.maximum(case.needed[acts], 0.0), limits.force * case.lever)
-        )
+        places = [keys.index(key) for key in case.keys]
+        acts = np.abs(case.per_factor).max(axis=1) > ACTS
+        most = np.minimum((1.0 - limits.reserve) * np.maximum(case.needed[acts], 0.0), limits.force * case.lever)
+        binding = _binding(case.per_factor[acts], most)
+        own = np.zeros((len(binding), len(keys)))
+        own[:, places] = case.per_factor[acts][binding]
+        rows.append(own)
+        bounds.append(most[binding])
         if np.isfinite(limits.rate):
-            slope = np.diff(own, axis=0) / np.diff(case.time)[:, None]
+            slope = np.zeros((len(case.time) - 1, len(keys)))
+            slope[:, places] = np.diff(case.per_factor, axis=0) / np.diff(case.time)[:, None]
             rows += [slope, -slope]
             bounds.append(np.full(2 * len(slope), limits.rate))
     return np.concatenate(rows), np.concatenate(bounds)
+
+
+def _binding(rows: Float[np.ndarray, "m k"], most: Float[np.ndarray, " m"]) -> Int[np.ndarray, " b"]:
+    """Moments whose bound can be reached: of a x <= b with a >= 0, none has larger a / b along every factor.
+
+    Where a is negative somewhere, as of a lever beyond its dead centre, every moment counts.
+    """
+    if np.any(rows < 0.0):
+        return np.arange(len(rows))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        steep = np.nan_to_num(rows / most[:, None], nan=0.0, posinf=np.inf)
+    left, kept = np.argsort(-steep.sum(axis=1), kind="stable"), []
+    while len(left):
+        kept.append(left[0])
+        left = left[np.any(steep[left] > steep[left[0]], axis=1)]
+    return np.array(kept, dtype=np.int64)
 
 
 def _by_person(cases: Sequence[SupportCase], gains: Float[np.ndarray, "c k"]) -> Float[np.ndarray, "p k"]:
