@@ -56,7 +56,7 @@ def run(tmp_path, monkeypatch):
 
 
 def test_there_is_one_for_each_part():
-    assert {"contact_area", "gap", "gap_own_model", "knee", "mat", "elbow", "motion"} <= {
+    assert {"contact_area", "gap", "gap_own_model", "knee", "mat", "elbow", "motion", "shoulder"} <= {
         notebook.stem for notebook in NOTEBOOKS
     }
 
@@ -247,6 +247,24 @@ def test_motion_finds_the_angles_and_the_marker_that_is_off(run, tmp_path):
     ):
         for file in files:
             assert (made / folder / file).read_bytes() == (out / command / file).read_bytes(), file
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")  # of the notebook machinery itself
+def test_shoulder_says_what_the_commands_say(run, tmp_path):
+    said = run(ROOT / "notebooks" / "shoulder.ipynb")
+    supported, bare = map(float, re.findall(r"screw-in: (-?[\d.]+) N with support, (-?[\d.]+) N without", said)[0])
+    assert supported > 10.0 > bare
+    assert "arms.html written" in said
+    made, out, trial = tmp_path / "shoulder-result", tmp_path / "commands", MESHES / "overhead_P1T1S100"
+    given = ("simulate", trial / "markers.trc", "--tool", trial / "tool.csv", "--upright", "0:0.5")
+    commands = (given, ("compare", made / "right.csv", made / "logger.csv"), ("optimise",))
+    with unpictured():
+        calls = [done(call("shoulder", *each, "--out", out / each[0])) for each in commands]
+    for line in said_of(calls):
+        assert line in said, "the command says something else"
+    for name in ("right.csv", "left.csv", "numbers.csv"):
+        assert (made / name).read_bytes() == (out / "simulate" / name).read_bytes(), name
 
 
 ONLY = {"geocontact", "pandas", "matplotlib", "matplotlib.pyplot", "pathlib"}
