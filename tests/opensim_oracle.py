@@ -67,6 +67,20 @@ def cell(file: Path, row: int, column: int) -> tuple[float, float]:
     return state.getTime(), state.getData().get(column)
 
 
+def external_loads(file: Path) -> list[tuple[str, str, str]]:
+    """Name, body and force identifier of each load of an external-loads file, whose data file is read as well."""
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    loads = opensim.ExternalLoads(str(file), True)
+    opensim.Storage(str(file.parent / loads.getDataFileName()))
+    found = []
+    for k in range(loads.getSize()):
+        one = loads.get(k)
+        found.append((one.getName(), one.getAppliedToBodyName(), one.getForceIdentifier()))
+    return found
+
+
 def markers(file: Path, row: int) -> tuple[list[str], np.ndarray]:
     """Names of a .trc file and where the markers are in a row, in the file's unit."""
     import opensim

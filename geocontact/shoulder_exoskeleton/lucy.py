@@ -20,7 +20,7 @@ DAMPING = {"passive_1": 0.05, "passive_2": 0.05, "elevation": 0.10}
 OTHERS: tuple[tuple[str, float, Source, str], ...] = (
     ("bar_share", 0.42, "invented", "the paper scales the bar with the shoulder width, without a number"),
     ("armrest_share", 0.72, "invented", "the paper scales the armrest with the upper arm, without a number"),
-    ("belt_share", 0.90, "invented", "shown only: the frame of the arms is the shoulder bar"),
+    ("belt_share", 0.90, "invented", "drawn only: the frame of the arms is the shoulder bar"),
     ("cuff_x", 0.05, "invented", "the arm link runs outside of the upper arm"),
     ("stop_stiffness", 200.0, "invented", "10 N m press 3 degrees into a stop"),
     ("stop_width", radians(1.0), "invented", ""),

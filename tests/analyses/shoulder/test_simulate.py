@@ -18,7 +18,9 @@ from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.text.tables import read_table
 from geocontact.shoulder_exoskeleton import arm_model
 from geocontact.shoulder_exoskeleton.device import QUANTITIES
+from tests import opensim_oracle
 from tests.cli.calls import MESHES
+from tests.elsewhere import Elsewhere
 
 TRIAL = MESHES / "overhead_P1T1S100"
 
@@ -178,13 +180,30 @@ def test_inverse_dynamics_reads_the_forces_as_external_loads(
         np.testing.assert_allclose(turned, -wrench.moment, atol=1e-6)
 
 
+@pytest.mark.slow
+def test_opensim_reads_what_is_exported(folder: Path, found: ShoulderSimulateResult, opensim: Elsewhere) -> None:
+    """The angles of a row, and the external loads with the bodies they act on."""
+    s = found.arms[0].simulation
+    header = read_table(folder / "angles.sto").channels
+    time, value = opensim(opensim_oracle.cell, folder / "angles.sto", 400, header.index("elevation_right"))
+    assert time == pytest.approx(s.motion.time[400], abs=1e-6)
+    assert np.radians(value) == pytest.approx(s.elevation[400], abs=1e-6)
+    told = opensim(opensim_oracle.external_loads, folder / "interface_forces.xml")
+    assert sorted(body for _, body, _ in told) == ["humerus_l", "humerus_r"]
+    table = read_table(folder / "interface_forces.mot")
+    for _, _, identifier in told:
+        assert any(name.startswith(identifier) for name in table.channels)
+
+
 def test_lines_for_paraview_hold_points_and_forces(folder: Path, found: ShoulderSimulateResult) -> None:
     pv = pytest.importorskip("pyvista")
     text = (folder / "paraview" / "device.pvd").read_text(encoding="utf-8")
     assert text.count("<DataSet") == 821
     lines = pv.read(folder / "paraview" / "frames" / "device_400.vtp")
     s = found.arms[0].simulation
-    assert lines.n_points == 12 and lines.n_lines == 4
+    assert lines.n_points == 14 and lines.n_lines == 5
+    belt = s.device["belt_share"] * s.wearer.torso
+    np.testing.assert_allclose(lines.points[12:], [[0.0, 0.0, 0.0], [0.0, 0.0, -belt]], atol=1e-6)
     np.testing.assert_allclose(lines.points[5], s.motion.interface[400], atol=1e-6)
     np.testing.assert_allclose(lines.point_data["force on the arm [N]"][5], s.told["force"][400], rtol=1e-5, atol=1e-5)
 

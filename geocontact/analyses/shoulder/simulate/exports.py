@@ -49,7 +49,7 @@ def write_external_loads(folder: Path, arms: Sequence[ArmSimulation], frame: Dev
 
 
 def write_lines(folder: Path, arms: Sequence[ArmSimulation]) -> None:
-    """device.pvd: the exoskeleton's arms and the human ones as lines with the cuff's force at every point."""
+    """device.pvd: the exoskeleton's arms, the human ones and the back down to the lap belt, with the cuffs' forces."""
     points, lines, forces = [], [], []
     start = 0
     for arm in arms:
@@ -61,5 +61,11 @@ def write_lines(folder: Path, arms: Sequence[ArmSimulation]) -> None:
         at[:, 5] = arm.told["force"]
         forces.append(at)
         start += 6
+    first = arms[0]
+    back = np.zeros((len(first.motion.time), 2, 3))
+    back[:, 1, 2] = -first.device["belt_share"] * first.wearer.torso
+    points.append(back)
+    lines.append((start, start + 1))
+    forces.append(np.zeros_like(back))
     series = LineSeries(arms[0].motion.time, np.concatenate(points, axis=1), lines)
     write_line_series(folder, "device", series, {"force on the arm [N]": np.concatenate(forces, axis=1)})
