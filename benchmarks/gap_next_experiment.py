@@ -127,7 +127,8 @@ def in_question(case: Any, system: Any, pair: tuple[str, ...]) -> Any:
     near = [c for c in ranked if c.judged.nats > ranked[0].judged.nats + np.log(ALIVE)]
     names = tuple(dict.fromkeys(name for c in near for name in c.names))
     said = Answer("explained", names[:1], {}, names, ranked[0])
-    return Attribution(problem, None, problem, base, tuple(ranked), remaining={}, odd=(), flat=(), answer=said)
+    nothing = {"odd": (), "recorder": (), "objections": {}, "flat": ()}
+    return Attribution(problem, None, problem, base, tuple(ranked), remaining={}, answer=said, **nothing)
 
 
 def separated(found: Any, chosen: Any, rng: np.random.Generator, repeats: int) -> tuple[float, float]:

@@ -37,7 +37,8 @@ def trial_of(
 ) -> Trial:
     """One recording of a movement, by `system` at `values`, as `staged` turns it."""
     own = dict(values)
-    for p, sd in zip(free(problem.system), noise.varies, strict=True):
+    movable = free(problem.system)  # placements, which come after these, stay
+    for p, sd in zip(movable, noise.varies[: len(movable)], strict=True):
         own[p.name] = float(np.clip(own[p.name] + sd * rng.standard_normal(), p.lower, p.upper))
     outputs = staged(system).simulate(moved, own) + disturbed(noise, moved.time, rng)
     levels = zip(problem.system.inputs, noise.levels.inputs, strict=True)
