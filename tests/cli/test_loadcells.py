@@ -13,7 +13,7 @@ import pytest
 from geocontact.analyses.loadcells.job import load_cells
 from geocontact.data.errors import InputWarning
 from tests.analyses.loadcells.synthetic_walk import CELLS, HEAD, LBF, PERIOD, recorded
-from tests.cli.calls import Call, call, done, inventory, written
+from tests.cli.calls import MESHES, Call, call, done, inventory, written
 
 FILES = {"forces.csv", "loadcells.png", "loadcells.svg", "report.html", "run.json"}
 CYCLES = {"cycles.csv", "ensemble.csv", "ensemble.png", "ensemble.svg"}
@@ -128,9 +128,9 @@ def test_newtons_taken_for_pounds_and_pounds_for_newtons(tmp_path: Path) -> None
         (("--cycles", "stride", "--part", "150%"), "--part: 150 % cannot be a share"),
         (("--map", "PM"), "is not of the form target=column"),
         (("--map", "XX=PM"), "unknown target 'XX'"),
-        (("--map", "PM=F1"), "no column 'F1'; columns are: PM, AM, AL, PL"),
+        (("--map", "PM=F1"), "no column 'F1' for the cell PM; columns are: PM, AM, AL, PL"),
         (("--matrix", "none.toml"), "none.toml"),
-        (("--matrix", "tray.json"), "is not a file of weights"),
+        (("--matrix", str(MESHES / "leg.osim")), "is not a file of weights"),
     ],
 )
 def test_options_refused(tmp_path: Path, options: tuple[str, ...], words: str) -> None:

@@ -16,7 +16,7 @@ def test_the_best_of_ordered_points_is_found_without_trying_all(peak: float) -> 
         return -abs(REACHES.index(point) - REACHES.index(peak))
 
     assert best_of(likelihood, REACHES) == peak
-    assert len(tried) == len(set(tried)) == 3
+    assert len(tried) == len(set(tried)) <= 4 < len(REACHES)
 
 
 def test_two_that_are_alike_are_no_peak_between_them() -> None:

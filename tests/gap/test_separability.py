@@ -19,7 +19,7 @@ from tests.gap.identifiability_cases import (
 def test_the_elbows_parameters_swallow_offsets_and_slow_loads(elsewhere: Elsewhere) -> None:
     shares = elsewhere(swallowed_shares)
     for label in ("preload", "gravity_load", "axis_migration", "motion_offset.beta"):
-        assert shares[label] > 0.9, (label, shares[label])
+        assert shares[label] > 0.8, (label, shares[label])
     assert shares["sensor_gain.force"] == pytest.approx(1.0, abs=1e-6)
     for label in ("time_shift", "filter_lag", "damping", "dry_friction.rate"):
         assert shares[label] < 0.2, (label, shares[label])

@@ -75,6 +75,8 @@ def read_load_cells(
     if table.time_unit != "s":
         raise InputError(table.file, "", "time is in per cent of a cycle", "give a recording in seconds")
     sources = [mapping.get(cell, (1.0, cell)) for cell in cells]
+    for name in {name for _, name in sources if table.channels.count(name) > 1}:
+        table.needed(name)  # refuses it, and says how often it occurs
     missing = [(cell, name) for cell, (_, name) in zip(cells, sources, strict=True) if name not in table.channels]
     if missing:
         what = f"no column '{missing[0][1]}' for the cell {missing[0][0]}; columns are: {listed(table.channels)}"

@@ -122,6 +122,7 @@ def build(
         constants=dict(constants),
         scale=Magnitudes(),
         units=units,
+        lengths=tuple(name for name in ("R",) if name in constants),
         bias=dict(zip(POSE, (OFFSET * geometry.areas.reach[:, 0]).tolist(), strict=True)),
     )
 

@@ -104,7 +104,7 @@ def test_python_and_command_write_the_same_case(plan: Callable[..., Path], tmp_p
             lambda t: t.replace("[columns]", '[columns]\n"load [N]" = "hip_force"'),
             "no column 'hip_force', which [columns]",
         ),
-        (lambda t: t.replace('"t01/id.sto"', '"t01/id.csv"'), "[from.t01] outputs: '.csv' is not read here"),
+        (lambda t: t.replace('"t01/id.sto"', '"t01/id.csv"'), "id.csv: there is no such file"),
         (lambda t: t.replace("[deg]", "[rad]"), "angles are in deg by the header"),
         (
             lambda t: t.replace(TORQUE, "").replace("torque = 0.2", "").replace("id.sto", "ik.mot"),
