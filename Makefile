@@ -13,7 +13,7 @@ COMPILE := $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --gen
 TOGETHER := -rs --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope --no-loadscope-reorder
 
 .DELETE_ON_ERROR:
-.PHONY: demo test slow real check lint types imports oracle lock page clean
+.PHONY: demo test slow long real check lint types imports oracle lock page clean
 
 demo: $(VENV)/core.stamp
 	@$(BIN)/geocontact demo
@@ -23,7 +23,11 @@ test: $(VENV)/full.stamp
 
 # What takes longer than a few seconds: notebooks, whole diagnoses, browsers, long recordings; without checks of shapes
 slow: $(VENV)/full.stamp
-	@GEOCONTACT_UNCHECKED=1 $(BIN)/python -m pytest -m "slow and not oracle and not real" $(TOGETHER)
+	@GEOCONTACT_UNCHECKED=1 $(BIN)/python -m pytest -m "slow and not long and not oracle and not real" $(TOGETHER)
+
+# What lasts longest of it and is not run with every change: before a release
+long: $(VENV)/full.stamp
+	@GEOCONTACT_UNCHECKED=1 $(BIN)/python -m pytest -m "long and not oracle and not real" $(TOGETHER)
 
 # Needs the real data: $GEOCONTACT_DATA, else ../shared/data
 real: $(VENV)/full.stamp

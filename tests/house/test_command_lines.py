@@ -72,6 +72,13 @@ MADE = {
 """What makes files that a reader would have recorded."""
 
 WITH_BLOCKS = [page for page in DOCUMENTS if shell_blocks(page)]
+LASTING = {"docs/how-to/knee_chain.md"}
+"""Pages whose commands take minutes."""
+
+
+def lasting(page: Path) -> tuple[pytest.MarkDecorator, ...]:
+    """Marks of a page's test."""
+    return (pytest.mark.long,) if name_of(page) in LASTING else ()
 
 
 @pytest.mark.parametrize("page", DOCUMENTS, ids=name_of)
@@ -99,7 +106,7 @@ def test_what_is_not_run_is_little_and_there() -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("bash") is None, reason="the pages speak to a shell")
-@pytest.mark.parametrize("page", WITH_BLOCKS, ids=name_of)
+@pytest.mark.parametrize("page", [pytest.param(page, marks=lasting(page)) for page in WITH_BLOCKS], ids=name_of)
 def test_every_block_prints_what_the_page_shows(tmp_path: Path, page: Path) -> None:
     """In the order of the page, in one folder: a later block may read what an earlier one wrote."""
     name = name_of(page)

@@ -175,7 +175,7 @@ def test_pressure_is_the_area_analysis_with_its_pressures_asked_for(tmp_path: Pa
     assert (list(areas.tables()), list(result.tables())) == (["area", "pressure"], ["pressure", "area"])
     for name, table in areas.tables().items():
         pd.testing.assert_frame_equal(result.table(name), table, check_exact=True)
-    assert areas.sentences == result.sentences and len(result.sentences) == 2
+    assert areas.sentences == result.sentences and len(result.sentences) == 3
     assert "contact area" in areas.figure().axes[0].get_ylabel()
     assert "force" in result.figure().axes[0].get_ylabel().lower()
 

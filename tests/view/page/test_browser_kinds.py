@@ -15,13 +15,19 @@ STILL = {"fit", "modulus", "elbow_fit", "elbow_design", "elbow_population", "sca
 """Pages on which nothing runs in time."""
 
 
+FIRST = {"area", "id", "mat", "modulus", "elbow_fit"}
+"""Kinds that are opened with every change: a scene, a skeleton, a map, choices, a drawing."""
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("kinds")
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    "kind", [kind if kind in FIRST else pytest.param(kind, marks=pytest.mark.long) for kind in KINDS]
+)
 def test_the_first_screen_answers(folder: Path, opened: Open, kind: str) -> None:
     page = make_pages(folder, [kind], again=False, jobs=1)[kind]
     warnings = json.loads((page.parent / "run.json").read_text(encoding="utf-8"))["warnings"]
