@@ -106,9 +106,7 @@ def test_one_millimetre_is_found(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.long
-@pytest.mark.xfail(
-    strict=True, reason="8 nats of two short trials name nothing since held-out trials decide; the page's case does"
-)
+@pytest.mark.xfail(strict=True, reason="8 nats of two short trials name nothing since held-out trials decide")
 def test_a_coupling_of_two_cells_is_found_where_it_is(tmp_path: Path) -> None:
     """6 % of PM in AM, of the same trials: the effect, its amount, its cell, and that cell's error falls most."""
     found = answer(tmp_path, "crosstalk", 21)

@@ -17,6 +17,7 @@ STILL = {"fit", "modulus", "elbow_fit", "elbow_design", "elbow_population", "sca
 
 FIRST = {"area", "id", "mat", "modulus", "elbow_fit"}
 """Kinds that are opened with every change: a scene, a skeleton, a map, choices, a drawing."""
+MARKED = [kind if kind in FIRST else pytest.param(kind, marks=pytest.mark.long) for kind in KINDS]
 
 
 @pytest.fixture(scope="module")
@@ -25,9 +26,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "kind", [kind if kind in FIRST else pytest.param(kind, marks=pytest.mark.long) for kind in KINDS]
-)
+@pytest.mark.parametrize("kind", MARKED)
 def test_the_first_screen_answers(folder: Path, opened: Open, kind: str) -> None:
     page = make_pages(folder, [kind], again=False, jobs=1)[kind]
     warnings = json.loads((page.parent / "run.json").read_text(encoding="utf-8"))["warnings"]
