@@ -20,6 +20,8 @@ from tests.one_core import one_core
 
 ROOT = Path(__file__).resolve().parents[1]
 REAL = ROOT / "tests" / "real"
+PER_CENT = "ignore:.*taken as per cent of a cycle:geocontact.data.errors.InputWarning"
+"""Right of DM's fluoroscopy, whose time has no unit."""
 COMPILED = "geocontact.geometry.kernels"  # numba reads these functions' own source; nothing may be wrapped around them
 
 one_core()
@@ -62,6 +64,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if REAL in item.path.parents:
             item.add_marker(pytest.mark.real)
+            item.add_marker(pytest.mark.filterwarnings(PER_CENT))
         if "opensim" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.oracle)
     slow = {item.path for item in items if item.get_closest_marker("slow")}
