@@ -103,6 +103,7 @@ def left_out(folder: Path) -> dict[str, dict[str, float]]:
         "as the study": (FREE, None),
         "passive joints locked, arms in the plane": (DEVICE, False),
         "and the shoulder stays": (DEVICE, True),
+        "and no friction in the cuff": (DEVICE.having(mu_s=0.0, mu_k=0.0), True),
     }
     told = {}
     for kind, (device, still) in kinds.items():
