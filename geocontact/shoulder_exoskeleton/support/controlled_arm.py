@@ -19,7 +19,7 @@ from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds, detected
 
 PASSES = 50
-"""Simulations until the phases must have settled; a trial of four changes takes about four."""
+"""Simulations until the phases must have settled; the shipped trial takes two or three."""
 
 
 @dataclass(frozen=True, eq=False)
