@@ -17,6 +17,7 @@ from geocontact.gap.case.quotient_noise import noise_spread
 from geocontact.gap.case.rate_smoothing import REACHES, with_smoothed_rates
 from geocontact.gap.case.refit import Measured, Refit, free
 from geocontact.gap.case.rough_noise import rough_noise, typical_step, with_rounding
+from geocontact.gap.case.tolerated_noise import tolerated
 from geocontact.gap.case.whitening import layouts_of, usual_levels
 from geocontact.gap.inputs.denoise import Filters, Left, denoised, highest_noise, left, seen_noise, shaken
 from geocontact.gap.inputs.filter_cutoff import filters_of, likely_noise
@@ -59,6 +60,14 @@ class InputBeliefs:
         most = {name: max(highest_noise(recorded.trials, name, passed[name]), seen[name]) for name in noisy}
         return cls(passed, shown, seen, most)
 
+    def tolerated(self, system: System, measured: Measured, plain: Refit, stated: Mapping[str, float]) -> InputBeliefs:
+        """The same without noise that could not be taken off without harm to the base model; what is told stays."""
+        guessed = {name: level for name, level in self.seen.items() if name not in stated}
+        borne = tolerated(system, measured, measured.rough, plain.values, guessed, self.passed)
+        less = {name: level for name, level in borne.items() if level < guessed[name]}
+        most = {name: min(level, less.get(name, level)) for name, level in self.most.items()}
+        return InputBeliefs(self.passed, self.shown | dict.fromkeys(less), self.seen | less, most)
+
 
 @dataclass(frozen=True)
 class Denoised:
@@ -88,8 +97,9 @@ def problem_of(case: GapCase, system: System) -> Problem:
     stated, rough = with_rounding(case), rough_noise(system, case)
     calibration, evaluation = (Measured.of(system, some, rough) for some in (case.calibration, case.evaluation))
     recorded = together(calibration, evaluation)
-    inputs = InputBeliefs.of(system, recorded, calibration.trials, stated)
-    system = with_smoothed_rates(system, stated, calibration, rough, inputs.passed, inputs.seen, inputs.most)
+    plain = plain_fit(system, calibration, rough, base_starts(system), rounds=40)
+    inputs = InputBeliefs.of(system, recorded, calibration.trials, stated).tolerated(system, calibration, plain, stated)
+    system = with_smoothed_rates(system, stated, calibration, plain, inputs.passed, inputs.seen, inputs.most)
     plain = plain_fit(system, calibration, rough, base_starts(system), rounds=40)
     as_came = Denoised(calibration, evaluation, {}, recorded)
     problem = _posed(system, stated, inputs, recorded, as_came, plain, calibration)
@@ -148,4 +158,4 @@ def _taken_off(problem: Problem, noise: Noise, inputs: InputBeliefs) -> dict[str
     """Standard deviation of the noise of each measured input that is taken off it."""
     low_noise = np.minimum(noise.levels.inputs, TAKEN_OFF * problem.beliefs.middle.inputs)
     levels = dict(zip(problem.system.inputs, map(float, low_noise), strict=True))
-    return {name: shown or levels[name] for name, shown in inputs.shown.items()}
+    return {name: shown or min(levels[name], inputs.most[name]) for name, shown in inputs.shown.items()}

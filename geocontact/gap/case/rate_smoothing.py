@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-from jaxtyping import Float
 
 from geocontact.chain.system import System
 from geocontact.gap.case.placement import varies_by
-from geocontact.gap.case.plain_fit import base_starts, plain_fit
+from geocontact.gap.case.plain_fit import plain_fit
 from geocontact.gap.case.quotient_noise import noise_spread
-from geocontact.gap.case.refit import Measured, free
+from geocontact.gap.case.refit import Measured, Refit, free
 from geocontact.gap.case.whitening import layouts_of, sensitivity, usual_levels
 from geocontact.gap.inputs.denoise import Filters
 from geocontact.identify.noise.noise_search import most_likely
@@ -23,18 +22,17 @@ def with_smoothed_rates(
     system: System,
     stated: Mapping[str, float],
     measured: Measured,
-    rough: Float[np.ndarray, " c"],
+    plain: Refit,
     passed: Filters,
     seen: Mapping[str, float],
     most: Mapping[str, float],
 ) -> System:
-    """The system with the smoothing of rates that makes the base model's residuals most likely.
+    """The system with the smoothing of rates that makes the base model's residuals most likely; `plain` fits it.
 
     That is a local best, searched from the middle of `REACHES` uphill. How far rates have to be smoothed depends on the
-    noise of the inputs, which is not known. Where the base does not
-    depend on rates, least is smoothed.
+    noise of the inputs, which is not known. Where the base does not depend on rates, least is smoothed.
     """
-    plain = plain_fit(system, measured, rough, base_starts(system), rounds=40)
+    rough = measured.rough
     system = system.scaled(measured.trials, plain.values)
     if not system.dynamic and not any(
         sensitivity(system, trial, plain.values, ()).to_rate.any() for trial in measured.trials
