@@ -84,11 +84,11 @@ class Denoised:
         recorded, rng = together(calibration, evaluation), np.random.default_rng(SEED)
         shaken_trials = tuple(shaken(trial, levels, passed, rng) for trial in recorded.trials)
         kept = {n: left(recorded.trials, n, sd, passed[n]) for n, sd in levels.items()}
-        calm = (
+        first, later = (
             replace(each, trials=tuple(denoised(trial, levels, passed) for trial in each.trials))
             for each in (calibration, evaluation)
         )
-        return cls(*calm, {n: one for n, one in kept.items() if one}, replace(recorded, trials=shaken_trials))
+        return cls(first, later, {n: one for n, one in kept.items() if one}, replace(recorded, trials=shaken_trials))
 
 
 def problem_of(case: GapCase, system: System) -> Problem:
