@@ -92,7 +92,7 @@ def test_filters_take_the_noise_and_leave_the_motion(tmp_path: Path) -> None:
     calm[:, 1:2] = zero_lag(noisy[:, 1:2], 1.0 / RATE, 6.0)
     plain, filtered = walked(tmp_path, noisy), walked(tmp_path, noisy, motion_cutoff=6.0)
     wanted = walked(tmp_path, calm)
-    rough, smooth = (np.abs(np.diff(each.centre.pressing)).max() for each in (plain, filtered))
+    rough, smooth = (np.abs(np.diff(each.centre.pressing[50:-50])).max() for each in (plain, filtered))
     assert rough > 20.0 * smooth
     np.testing.assert_allclose(filtered.centre.pressing, wanted.centre.pressing, rtol=2e-3)
     forces = walked(tmp_path, noisy, force_cutoff=40.0)
