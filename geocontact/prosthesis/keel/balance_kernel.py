@@ -14,9 +14,10 @@ from jaxtyping import Bool, Float, Int
 from geocontact.contact import sphere_foot
 from geocontact.dynamics.sphere_contact import STILL
 from geocontact.geometry.kernels.compile import kernel
+from geocontact.prosthesis.keel.chain_kernel import Vector, along, carried, chain, cross, dot, plus, row
 
-MOST, HALVINGS = 60, 20
-"""Steps in a frame, and how often one is halved until the torques that are left have shrunk."""
+MOST, SHORTEST = 200, 0.02
+"""Trials in a frame, and least share of a step that is tried for torques that shrink; then it is taken whole."""
 RADIUS, K, B, STATIC, KINETIC = range(5)
 """Rows of the spheres' numbers."""
 EXPONENT, FULL_DEPTH, THRESHOLD = range(3)
@@ -24,75 +25,6 @@ EXPONENT, FULL_DEPTH, THRESHOLD = range(3)
 
 normal_force = kernel(sphere_foot.normal_force)
 friction_coefficient = kernel(sphere_foot.friction_coefficient)
-
-
-@kernel
-def cross(a: Float[np.ndarray, " 3"], b: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " 3"]:
-    """A vector product, which numba's own takes longer for."""
-    out = np.empty(3)
-    out[0] = a[1] * b[2] - a[2] * b[1]
-    out[1] = a[2] * b[0] - a[0] * b[2]
-    out[2] = a[0] * b[1] - a[1] * b[0]
-    return out
-
-
-@kernel
-def dot(a: Float[np.ndarray, " 3"], b: Float[np.ndarray, " 3"]) -> float:
-    """A scalar product."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-@kernel
-def chain(
-    y: Float[np.ndarray, " m"], rest: Float[np.ndarray, "m 3"], axes: Float[np.ndarray, "m 3"]
-) -> tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "m 3"], Float[np.ndarray, "m 3 3"]]:
-    """Places and axes of the joints, and how each has turned what it carries."""
-    count = y.size
-    place, axis, turned = np.empty((count, 3)), np.empty((count, 3)), np.empty((count, 3, 3))
-    before, own = np.eye(3), np.empty((3, 3))
-    for j in range(count):
-        for r in range(3):
-            if j == 0:
-                place[j, r] = rest[j, r]
-            else:
-                place[j, r] = place[j - 1, r]
-                for q in range(3):
-                    place[j, r] += before[r, q] * (rest[j, q] - rest[j - 1, q])
-            axis[j, r] = before[r, 0] * axes[j, 0] + before[r, 1] * axes[j, 1] + before[r, 2] * axes[j, 2]
-        s, c = np.sin(y[j]), np.cos(y[j])
-        a = axes[j]
-        for r in range(3):
-            for q in range(3):
-                own[r, q] = (1.0 - c) * a[r] * a[q] + (c if r == q else 0.0)
-        own[0, 1] -= s * a[2]
-        own[0, 2] += s * a[1]
-        own[1, 0] += s * a[2]
-        own[1, 2] -= s * a[0]
-        own[2, 0] -= s * a[1]
-        own[2, 1] += s * a[0]
-        for r in range(3):
-            for q in range(3):
-                turned[j, r, q] = before[r, 0] * own[0, q] + before[r, 1] * own[1, q] + before[r, 2] * own[2, q]
-        before = turned[j].copy()
-    return place, axis, turned
-
-
-@kernel
-def carried(
-    point: Float[np.ndarray, " 3"],
-    last: int,
-    rest: Float[np.ndarray, "m 3"],
-    place: Float[np.ndarray, "m 3"],
-    turned: Float[np.ndarray, "m 3 3"],
-) -> Float[np.ndarray, " 3"]:
-    """Where a point that joint `last` carries has come to; -1 for a point of K."""
-    if last < 0:
-        return point.copy()
-    out = place[last].copy()
-    for r in range(3):
-        for q in range(3):
-            out[r] += turned[last, r, q] * (point[q] - rest[last, q])
-    return out
 
 
 @kernel
@@ -118,6 +50,35 @@ def friction_slope(speed: float, threshold: float, static: float, kinetic: float
 
 
 @kernel
+def sphere_force(
+    told: Float[np.ndarray, " told"],
+    numbers: Float[np.ndarray, " five"],
+    law: Float[np.ndarray, " three"],
+    n: Vector,
+    v: Vector,
+    sliding: Vector,
+    depth: float,
+) -> tuple[Vector, Vector, Vector, Vector, float, float]:
+    """Force of a sphere that touches, and what its change is made of.
+
+    Pressing and force are told. Given are the force, the same per pressing, the direction of sliding, the slopes of
+    the pressing by depth and rate and of the friction by speed, the friction, and the speed, which is never 0.
+    """
+    rate = -dot(n, v)
+    pressing = normal_force(depth, rate, numbers[K], law[EXPONENT], numbers[B], law[FULL_DEPTH])
+    by_depth, by_rate = force_slopes(depth, rate, numbers[K], law[EXPONENT], numbers[B], law[FULL_DEPTH])
+    speed = np.sqrt(dot(sliding, sliding) + STILL * STILL)
+    mu = friction_coefficient(speed, law[THRESHOLD], numbers[STATIC], numbers[KINETIC])
+    by_speed = friction_slope(speed, law[THRESHOLD], numbers[STATIC], numbers[KINETIC])
+    direction = plus((0.0, 0.0, 0.0), sliding, 1.0 / speed)
+    per_pressing = plus(n, direction, -mu)
+    force = plus((0.0, 0.0, 0.0), per_pressing, pressing)
+    told[2] = pressing
+    told[3], told[4], told[5] = force
+    return force, per_pressing, direction, (by_depth, by_rate, pressing * by_speed), pressing * mu, speed
+
+
+@kernel
 def add_sphere(
     torque: Float[np.ndarray, " m"],
     slope: Float[np.ndarray, "m m"],
@@ -134,65 +95,54 @@ def add_sphere(
     place: Float[np.ndarray, "m 3"],
     axis: Float[np.ndarray, "m 3"],
     turned: Float[np.ndarray, "m 3 3"],
+    goes: Float[np.ndarray, "m 3"],
 ) -> None:
     """A sphere's part in torques and derivatives; told: depth, its rate, pressing, force, centre, sliding."""
-    n, spin, flow = plane[:3], twist[:3], twist[3:]
-    count = last + 1
+    n, spin, flow = (plane[0], plane[1], plane[2]), (twist[0], twist[1], twist[2]), (twist[3], twist[4], twist[5])
+    radius = numbers[RADIUS]
     c = carried(point, last, rest, place, turned)
     height = dot(n, c) + plane[3]
-    depth, radius = numbers[RADIUS] - height, numbers[RADIUS]
-    goes = np.empty((count, 3))
-    v, whole = flow + cross(spin, c), spin.copy()
-    for j in range(count):
-        goes[j] = cross(axis[j], c - place[j])
-        v += speeds[j] * goes[j]
-        whole += speeds[j] * axis[j]
-    rate = -dot(n, v)
-    told[0], told[1], told[2] = depth, rate, 0.0
-    told[3:6] = 0.0
-    told[6:9] = c
-    moving = v - radius * cross(whole, n)
-    sliding = moving - dot(n, moving) * n
+    v, whole = plus(flow, cross(spin, c), 1.0), spin
+    for j in range(last + 1):
+        way = cross(row(axis, j), plus(c, row(place, j), -1.0))
+        goes[j, 0], goes[j, 1], goes[j, 2] = way
+        v, whole = plus(v, way, speeds[j]), plus(whole, row(axis, j), speeds[j])
+    sliding = along(n, plus(v, cross(whole, n), -radius))
+    told[0], told[1], told[2], told[3], told[4], told[5] = radius - height, -dot(n, v), 0.0, 0.0, 0.0, 0.0
+    told[6], told[7], told[8] = c
     told[9] = np.sqrt(dot(sliding, sliding))
-    if not depth > 0.0:
+    if not radius - height > 0.0:
         return
-    pressing = normal_force(depth, rate, numbers[K], law[EXPONENT], numbers[B], law[FULL_DEPTH])
-    by_depth, by_rate = force_slopes(depth, rate, numbers[K], law[EXPONENT], numbers[B], law[FULL_DEPTH])
-    speed = np.sqrt(dot(sliding, sliding) + STILL * STILL)
-    mu = friction_coefficient(speed, law[THRESHOLD], numbers[STATIC], numbers[KINETIC])
-    by_speed = friction_slope(speed, law[THRESHOLD], numbers[STATIC], numbers[KINETIC])
-    direction = sliding / speed
-    force = pressing * (n - mu * direction)
-    told[2] = pressing
-    told[3:6] = force
-    ground = c - height * n
-    work = np.empty((count, 3))
-    for j in range(count):
-        work[j] = cross(axis[j], ground - place[j])
-        torque[j] += dot(work[j], force)
-    for k in range(count):
-        dv, dspin = cross(spin, goes[k]) + per_time * goes[k], per_time * axis[k]
-        for j in range(count):
-            dv = dv + speeds[j] * (cross(axis[k], goes[j]) if k <= j else cross(axis[j], goes[k]))
+    force, per_pressing, direction, slopes, rubbing, speed = sphere_force(
+        told, numbers, law, n, v, sliding, radius - height
+    )
+    ground = plus(c, n, -height)
+    ahead, spun = plus(plus(v, flow, -1.0), cross(spin, c), -1.0), plus(whole, spin, -1.0)
+    behind = spin
+    for k in range(last + 1):
+        axis_k, goes_k = row(axis, k), row(goes, k)
+        # a point's velocity changes by A_k × what joints from k on do, and by what turns joint k itself
+        spun = plus(spun, axis_k, -speeds[k])
+        dv = plus(plus(cross(axis_k, ahead), cross(behind, goes_k), 1.0), goes_k, per_time)
+        dspin = plus(cross(axis_k, spun), axis_k, per_time)
+        ahead, behind = plus(ahead, goes_k, -speeds[k]), plus(behind, axis_k, speeds[k])
+        sinking = -dot(n, goes_k)
+        dpressing = slopes[0] * sinking - slopes[1] * dot(n, dv)
+        dsliding = along(n, plus(dv, cross(dspin, n), -radius))
+        dspeed = dot(direction, dsliding)
+        dforce = plus(plus((0.0, 0.0, 0.0), per_pressing, dpressing), direction, (rubbing / speed - slopes[2]) * dspeed)
+        dforce = plus(dforce, dsliding, -rubbing / speed)
+        dground = plus(goes_k, n, sinking)
+        for j in range(last + 1):
+            axis_j, place_j = row(axis, j), row(place, j)
+            arm = plus(ground, place_j, -1.0)
+            change = dot(cross(axis_j, arm), dforce)
+            moved = dground
             if k < j:
-                dspin = dspin + speeds[j] * cross(axis[k], axis[j])
-        sinking = -dot(n, goes[k])
-        dpressing = by_depth * sinking - by_rate * dot(n, dv)
-        dmoving = dv - radius * cross(dspin, n)
-        dsliding = dmoving - dot(n, dmoving) * n
-        dspeed = dot(sliding, dsliding) / speed
-        ddirection = dsliding / speed - sliding * (dspeed / speed**2)
-        dforce = dpressing * (n - mu * direction) - pressing * (by_speed * dspeed * direction + mu * ddirection)
-        dground = goes[k] + sinking * n
-        for j in range(count):
-            slope[j, k] += dot(work[j], dforce)
-            if k < j:
-                dplace = cross(axis[k], place[j] - place[k])
-                daxis = cross(axis[k], axis[j])
-                dwork = cross(daxis, ground - place[j]) + cross(axis[j], dground - dplace)
-            else:
-                dwork = cross(axis[j], dground)
-            slope[j, k] += dot(dwork, force)
+                moved = plus(moved, cross(axis_k, plus(place_j, row(place, k), -1.0)), -1.0)
+                change += dot(cross(axis_k, axis_j), cross(arm, force))
+            slope[j, k] += change + dot(moved, cross(force, axis_j))
+        torque[k] += dot(cross(axis_k, plus(ground, row(place, k), -1.0)), force)
 
 
 @kernel
@@ -201,7 +151,7 @@ def add_weight(
     slope: Float[np.ndarray, "m m"],
     point: Float[np.ndarray, " 3"],
     last: int,
-    force: Float[np.ndarray, " 3"],
+    force: Vector,
     rest: Float[np.ndarray, "m 3"],
     place: Float[np.ndarray, "m 3"],
     axis: Float[np.ndarray, "m 3"],
@@ -210,13 +160,13 @@ def add_weight(
     """A constant force's part, at a point that joint `last` carries."""
     c = carried(point, last, rest, place, turned)
     for j in range(last + 1):
-        goes = cross(axis[j], c - place[j])
+        goes = cross(row(axis, j), plus(c, row(place, j), -1.0))
         torque[j] += dot(goes, force)
-        for k in range(last + 1):
-            if k <= j:
-                slope[j, k] += dot(cross(axis[k], goes), force)
-            else:
-                slope[j, k] += dot(cross(axis[j], cross(axis[k], c - place[k])), force)
+        slope[j, j] += dot(cross(row(axis, j), goes), force)
+        for k in range(j):
+            both = dot(cross(row(axis, k), goes), force)
+            slope[j, k] += both
+            slope[k, j] += both
 
 
 @kernel
@@ -244,12 +194,14 @@ def balance(
     """Torques about the joints and their derivatives, and what the spheres do."""
     speeds = per_time * (y - before)
     place, axis, turned = chain(y, rest, axes)
+    goes = np.empty((y.size, 3))
     slope[:] = 0.0
     for j in range(y.size):
         torque[j] = -springs[0, j] * y[j] - springs[1, j] * speeds[j]
         slope[j, j] = -springs[0, j] - springs[1, j] * per_time
     for i in range(weights.size):
-        add_weight(torque, slope, centres[i], bearer[i], weights[i] * gravity, rest, place, axis, turned)
+        heavy = (weights[i] * gravity[0], weights[i] * gravity[1], weights[i] * gravity[2])
+        add_weight(torque, slope, centres[i], bearer[i], heavy, rest, place, axis, turned)
     for i in range(last.size):
         add_sphere(
             torque,
@@ -267,6 +219,7 @@ def balance(
             place,
             axis,
             turned,
+            goes,
         )
 
 
@@ -295,66 +248,49 @@ def solve_frames(
 ) -> Bool[np.ndarray, ""]:
     """Frame by frame from the one before; whether all ended below the tolerance."""
     m = start.size
-    y, tried = start.copy(), np.empty(m)
+    y, tried, before = start.copy(), np.empty(m), np.empty(m)
     torque, slope = np.empty(m), np.empty((m, m))
-    before = start.copy()
     for i in range(planes.shape[0]):
         before[:] = y
+        tried[:] = y
+        share, merit, whole = 0.0, np.inf, False
+        step = np.zeros(m)
         done = 0
-        balance(
-            y,
-            before,
-            per_time[i],
-            springs,
-            rest,
-            axes,
-            points,
-            last,
-            numbers,
-            law,
-            weights,
-            centres,
-            bearer,
-            planes[i],
-            twists[i],
-            gravities[i],
-            torque,
-            slope,
-            told[i],
-        )
-        size = np.abs(torque).max()
-        while size > tolerance and done < MOST:
-            step = np.linalg.solve(slope, -torque)
-            merit, share = (torque * torque).sum(), 1.0
-            for _ in range(HALVINGS):
-                tried[:] = y + share * step
-                balance(
-                    tried,
-                    before,
-                    per_time[i],
-                    springs,
-                    rest,
-                    axes,
-                    points,
-                    last,
-                    numbers,
-                    law,
-                    weights,
-                    centres,
-                    bearer,
-                    planes[i],
-                    twists[i],
-                    gravities[i],
-                    torque,
-                    slope,
-                    told[i],
-                )
-                if (torque * torque).sum() < merit * (1.0 - 0.1 * share):
-                    break
+        while True:
+            tried[:] = y + share * step
+            balance(
+                tried,
+                before,
+                per_time[i],
+                springs,
+                rest,
+                axes,
+                points,
+                last,
+                numbers,
+                law,
+                weights,
+                centres,
+                bearer,
+                planes[i],
+                twists[i],
+                gravities[i],
+                torque,
+                slope,
+                told[i],
+            )
+            now, size = (torque * torque).sum(), np.abs(torque).max()
+            if size <= tolerance or done == MOST:
+                break
+            if whole or now < merit * (1.0 - 0.1 * share):
+                y[:] = tried
+                step, merit, share, whole = np.linalg.solve(slope, -torque), now, 1.0, False
+            elif share > SHORTEST:
                 share *= 0.5
-            y[:] = tried
-            size = np.abs(torque).max()
+            else:
+                share, whole = 1.0, True
             done += 1
+        y[:] = tried
         angles[i], left[i], steps[i] = y, size, done
         if not size <= tolerance:
             return False
