@@ -110,7 +110,7 @@ def add_sphere(
     sliding = along(n, plus(v, cross(whole, n), -radius))
     told[0], told[1], told[2], told[3], told[4], told[5] = radius - height, -dot(n, v), 0.0, 0.0, 0.0, 0.0
     told[6], told[7], told[8] = c
-    told[9] = np.sqrt(dot(sliding, sliding))
+    told[9], told[10], told[11] = sliding
     if not radius - height > 0.0:
         return
     force, per_pressing, direction, slopes, rubbing, speed = sphere_force(

@@ -26,7 +26,8 @@ from geocontact.prosthesis.keel.sole import Sole
 
 TOLERANCE = 1e-8
 """N m; torque about a joint that is left."""
-TOLD = 10
+TOLD = 12
+"""Numbers of a sphere: depth, its rate, pressing, force, centre, sliding."""
 LIGHT = (0.0, -9.80665, 0.0)
 
 
@@ -43,7 +44,7 @@ class KeelMotion:
     rate
         Of the depth of each sphere [m/s], 0 without rates of the pose.
     sliding
-        Speed of each sphere's lowest point along the ground [m/s], likewise.
+        Velocity of each sphere's lowest point along the ground, in its frame [m/s], likewise.
     steps
         Of Newton in each frame.
     """
@@ -51,7 +52,7 @@ class KeelMotion:
     angles: Float[np.ndarray, "t m"]
     loads: SphereLoads
     rate: Float[np.ndarray, "t n"]
-    sliding: Float[np.ndarray, "t n"]
+    sliding: Float[np.ndarray, "t n 3"]
     steps: Int[np.ndarray, " t"]
 
     @property
@@ -101,19 +102,9 @@ class QuasiStaticKeel:
         """
         if (rate is None) != (time is None):
             raise ValueError("rates of the poses and times are given both or neither")
-        matrices = poses.as_matrix().reshape(-1, 4, 4)
-        R, frames, count = matrices[:, :3, :3], len(matrices), len(self.sole.spheres)
-        upwards = np.asarray(ground.normal, float) / np.linalg.norm(ground.normal)
-        heights = (matrices[:, :3, 3] - np.asarray(ground.point, float)) @ upwards
-        planes = np.column_stack([np.einsum("tij,i->tj", R, upwards), heights])
-        twists, per_time = np.zeros((frames, 6)), np.zeros(frames)
-        if rate is not None and time is not None:
-            spin = np.einsum("tji,tjk->tik", R, rate[:, :3, :3])
-            twists[:, :3] = 0.5 * np.stack(
-                [spin[:, 2, 1] - spin[:, 1, 2], spin[:, 0, 2] - spin[:, 2, 0], spin[:, 1, 0] - spin[:, 0, 1]], axis=1
-            )
-            twists[:, 3:] = np.einsum("tji,tj->ti", R, rate[:, :3, 3])
-            per_time[1:] = 1.0 / np.diff(time)
+        seen = _seen(poses, ground, gravity, rate)
+        frames, count = len(seen.planes), len(self.sole.spheres)
+        per_time = np.zeros(frames) if time is None else np.concatenate([[0.0], 1.0 / np.diff(time)])
         joints = self.keel.joints + int(self.torsion)
         angles, left = np.empty((frames, joints)), np.empty(frames)
         told, steps = np.empty((frames, count, TOLD)), np.zeros(frames, np.int64)
@@ -121,9 +112,9 @@ class QuasiStaticKeel:
             np.zeros(joints) if start is None else np.asarray(start, float),
             per_time,
             *self.arrays(static=rate is None),
-            planes,
-            twists,
-            np.ascontiguousarray(np.einsum("tij,i->tj", R, np.asarray(gravity, float))),
+            seen.planes,
+            seen.twists,
+            seen.gravities,
             TOLERANCE,
             angles,
             told,
@@ -133,10 +124,39 @@ class QuasiStaticKeel:
         if not found:
             bad = int(np.argmax(~(left <= TOLERANCE)))
             raise ArithmeticError(f"the keel has no equilibrium in frame {bad + 1}: {left[bad]:.3g} N m is left")
-        return _told(angles, told, steps, R, matrices[:, :3, 3], upwards, heights, static=rate is None)
+        return _told(angles, told, steps, seen, moving=rate is not None)
 
-    def arrays(self, *, static: bool) -> tuple[np.ndarray, ...]:
-        """Springs, joints, spheres, law and weights as the kernel takes them; `static` leaves damping and friction."""
+    def at(
+        self,
+        angles: Float[np.ndarray, "t m"],
+        speeds: Float[np.ndarray, "t m"],
+        poses: RigidTransform,
+        ground: HalfSpace,
+        rate: Float[np.ndarray, "t 4 4"],
+    ) -> KeelMotion:
+        """What the spheres do at given angles and their rates [rad/s], as of a simulation: nothing is sought.
+
+        Friction with both coefficients of the law.
+        """
+        seen, joints = _seen(poses, ground, LIGHT, rate), angles.shape[1]
+        told = np.empty((len(angles), len(self.sole.spheres), TOLD))
+        torque, slope, arrays = np.empty(joints), np.empty((joints, joints)), self.arrays(static=False, falling=True)
+        for i, (y, u) in enumerate(zip(angles, speeds, strict=True)):
+            balance_kernel.balance(
+                y, y - u, 1.0, *arrays, seen.planes[i], seen.twists[i], seen.gravities[i], torque, slope, told[i]
+            )
+        return _told(angles, told, np.zeros(len(angles), np.int64), seen, moving=True)
+
+    def arrays(self, *, static: bool, falling: bool = False) -> tuple[np.ndarray, ...]:
+        """Springs, joints, spheres, law and weights as the kernel takes them.
+
+        Parameters
+        ----------
+        static
+            Without damping and friction.
+        falling
+            Whether friction falls from the static to the kinetic coefficient.
+        """
         keel, spheres, law, more = self.keel, self.sole.spheres, self.law, int(self.torsion)
         forward, right = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
         places = np.concatenate([keel.places[:more], keel.places])
@@ -149,7 +169,7 @@ class QuasiStaticKeel:
                 spheres.radius,
                 law.stiffness,
                 moving * law.damping,
-                np.broadcast_to(moving * np.asarray(law.kinetic), n),
+                np.broadcast_to(moving * np.asarray(law.static if falling else law.kinetic), n),
                 np.broadcast_to(moving * np.asarray(law.kinetic), n),
             ],
             axis=1,
@@ -165,25 +185,56 @@ class QuasiStaticKeel:
         )  # fmt: skip
 
 
+@dataclass(frozen=True)
+class _Seen:
+    """Plane, motion and gravity as the keel's frame sees them, and the frame itself in the ground's."""
+
+    planes: Float[np.ndarray, "t four"]
+    twists: Float[np.ndarray, "t six"]
+    gravities: Float[np.ndarray, "t 3"]
+    rotation: Float[np.ndarray, "t 3 3"]
+    origin: Float[np.ndarray, "t 3"]
+    upwards: Float[np.ndarray, " 3"]
+
+
+def _seen(
+    poses: RigidTransform,
+    ground: HalfSpace,
+    gravity: tuple[float, float, float],
+    rate: Float[np.ndarray, "t 4 4"] | None,
+) -> _Seen:
+    matrices = poses.as_matrix().reshape(-1, 4, 4)
+    R, origin = matrices[:, :3, :3], matrices[:, :3, 3]
+    upwards = np.asarray(ground.normal, float) / np.linalg.norm(ground.normal)
+    heights = (origin - np.asarray(ground.point, float)) @ upwards
+    twists = np.zeros((len(R), 6))
+    if rate is not None:
+        turning = np.einsum("tji,tjk->tik", R, rate[:, :3, :3])
+        turning = 0.5 * (turning - turning.swapaxes(1, 2))
+        twists[:, :3] = turning[:, (2, 0, 1), (1, 2, 0)]
+        twists[:, 3:] = np.einsum("tji,tj->ti", R, rate[:, :3, 3])
+    planes = np.column_stack([np.einsum("tij,i->tj", R, upwards), heights])
+    gravities = np.ascontiguousarray(np.einsum("tij,i->tj", R, np.asarray(gravity, float)))
+    return _Seen(planes, twists, gravities, R, origin, upwards)
+
+
 def _told(
     angles: Float[np.ndarray, "t m"],
     told: Float[np.ndarray, "t n told"],
     steps: Int[np.ndarray, " t"],
-    R: Float[np.ndarray, "t 3 3"],
-    origin: Float[np.ndarray, "t 3"],
-    upwards: Float[np.ndarray, " 3"],
-    heights: Float[np.ndarray, " t"],
+    seen: _Seen,
     *,
-    static: bool,
+    moving: bool,
 ) -> KeelMotion:
     """From the keel's frame to the ground's."""
-    depth, rate, pressing, sliding = told[..., 0], told[..., 1], told[..., 2], told[..., 9]
-    centre = np.einsum("tij,tnj->tni", R, told[..., 6:9]) + origin[:, None]
-    force = np.einsum("tij,tnj->tni", R, told[..., 3:6])
+    depth, rate, pressing = told[..., 0], told[..., 1], told[..., 2]
+    own = told[..., 3:].reshape(*depth.shape, 3, 3)
+    force, arm, sliding = np.moveaxis(np.einsum("tij,tnkj->tnki", seen.rotation, own), 2, 0)
+    centre = arm + seen.origin[:, None]
+    height = np.einsum("tnj,tj->tn", told[..., 6:9], seen.planes[:, :3]) + seen.planes[:, None, 3]
     touching = (depth > 0.0)[..., None]
-    above = heights[:, None] + np.einsum("tni,i->tn", centre - origin[:, None], upwards)
-    point = np.where(touching, centre - above[..., None] * upwards, np.nan)
-    normal = np.where(touching, np.broadcast_to(upwards, centre.shape), np.nan)
-    moved = 0.0 if static else 1.0
+    point = np.where(touching, centre - height[..., None] * seen.upwards, np.nan)
+    normal = np.where(touching, np.broadcast_to(seen.upwards, centre.shape), np.nan)
     loads = SphereLoads(pressing, force, point, centre, normal, depth)
+    moved = float(moving)
     return KeelMotion(angles, loads, moved * rate, moved * sliding, steps)

@@ -31,7 +31,12 @@ ROWS: tuple[tuple[str, float, Source, str], ...] = (
     ("breadth", 0.060, "invented", "of the sole; the outer quarter lies outside of the spheres' centres"),
     ("heel_stiffness", 15e3, "invented", "of a sphere: body weight presses six of them 9 mm deep"),
     ("midfoot_stiffness", 15e3, "invented", "of a sphere"),
-    ("forefoot_stiffness", 46e3, "derived", "of a sphere: the last row gives what is in series with the keel, 92 N/mm"),
+    (
+        "forefoot_stiffness",
+        46e3,
+        "derived",
+        "of a sphere: its last row is what is in series, 92 N/mm; `vsf_foot` fits it",
+    ),
     ("damping", 300.0, "invented", "of a sphere"),
     ("exponent", 1.0, "invented", "the study does not tell it; a series stiffness is linear"),
     ("full_depth", 2e-3, "invented", "the law's library has such a depth, the study does not tell it"),

@@ -64,7 +64,7 @@ def torques(one: QuasiStaticKeel, at: dict[str, Any]) -> tuple[np.ndarray, np.nd
         at["y"],
         at["before"],
         at["per_time"],
-        *one.arrays(static=False),
+        *one.arrays(static=False, falling=True),
         at["plane"],
         at["twist"],
         at["gravity"],
