@@ -37,9 +37,7 @@ def test_friction_that_grows_with_the_stiffness_predicts_the_loops_work_better(
     found: dict[str, Any], support: str
 ) -> None:
     """Neither crosses itself as the loops do, whose foot changes cams; so the torque gains a few per cent only."""
-    keel, base = (
-        found[f"{name}; dry_friction.stroke"]["predicted"] for name in (f"keel, {support}", "elastic_joint")
-    )
+    keel, base = (found[f"{name}; dry_friction.stroke"]["predicted"] for name in (f"keel, {support}", "elastic_joint"))
     missed = [sum(abs(two - one) for one, two in each[WORK].values()) for each in (keel, base)]
     assert missed[0] < 0.6 * missed[1]
     assert keel["rmse [N m]"] < base["rmse [N m]"]

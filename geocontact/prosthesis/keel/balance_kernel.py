@@ -16,8 +16,10 @@ from geocontact.dynamics.sphere_contact import STILL
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.prosthesis.keel.chain_kernel import Vector, along, carried, chain, cross, dot, plus, row
 
-MOST, SHORTEST = 200, 0.02
-"""Trials in a frame, and least share of a step that is tried for torques that shrink; then it is taken whole."""
+MOST, HALVINGS, TURN = 200, 4, 0.3
+"""Trials in a frame, how often a step of Newton is halved before it is damped, most that a joint turns in one [rad]."""
+FIRST, SOFTER, HARDER, LEAST = 1e-3, 0.1, 4.0, 1e-7
+"""Marquardt's damping to begin with, its factors after a success and a failure, and below it none."""
 RADIUS, K, B, STATIC, KINETIC = range(5)
 """Rows of the spheres' numbers."""
 EXPONENT, FULL_DEPTH, THRESHOLD = range(3)
@@ -224,6 +226,21 @@ def balance(
 
 
 @kernel
+def damped_step(
+    slope: Float[np.ndarray, "m m"], torque: Float[np.ndarray, " m"], damping: float
+) -> Float[np.ndarray, " m"]:
+    """Newton's step, or Marquardt's where it is damped; shortened where a joint would turn too far."""
+    if damping == 0.0:
+        step = np.linalg.solve(slope, -torque)
+    else:
+        squares = slope.T @ slope
+        for j in range(torque.size):
+            squares[j, j] *= 1.0 + damping
+        step = np.linalg.solve(squares, -(slope.T @ torque))
+    return step * min(1.0, TURN / np.abs(step).max())
+
+
+@kernel
 def solve_frames(
     start: Float[np.ndarray, " m"],
     per_time: Float[np.ndarray, " t"],
@@ -248,16 +265,14 @@ def solve_frames(
 ) -> Bool[np.ndarray, ""]:
     """Frame by frame from the one before; whether all ended below the tolerance."""
     m = start.size
-    y, tried, before = start.copy(), np.empty(m), np.empty(m)
-    torque, slope = np.empty(m), np.empty((m, m))
+    y, tried, before, step, left_over = start.copy(), np.empty(m), np.empty(m), np.empty(m), np.empty(m)
+    torque, slope, kept = np.empty(m), np.empty((m, m)), np.empty((m, m))
     for i in range(planes.shape[0]):
         before[:] = y
-        tried[:] = y
-        share, merit, whole = 0.0, np.inf, False
-        step = np.zeros(m)
-        done = 0
+        step[:] = 0.0
+        merit, damping, done, failed = np.inf, 0.0, 0, 0
         while True:
-            tried[:] = y + share * step
+            tried[:] = y + step
             balance(
                 tried,
                 before,
@@ -282,13 +297,16 @@ def solve_frames(
             now, size = (torque * torque).sum(), np.abs(torque).max()
             if size <= tolerance or done == MOST:
                 break
-            if whole or now < merit * (1.0 - 0.1 * share):
-                y[:] = tried
-                step, merit, share, whole = np.linalg.solve(slope, -torque), now, 1.0, False
-            elif share > SHORTEST:
-                share *= 0.5
+            if now < merit:
+                y[:], left_over[:], kept[:] = tried, torque, slope
+                merit, damping, failed = now, damping * SOFTER if damping * SOFTER > LEAST else 0.0, 0
+                step[:] = damped_step(kept, left_over, damping)
+            elif damping == 0.0 and failed < HALVINGS:
+                step *= 0.5
+                failed += 1
             else:
-                share, whole = 1.0, True
+                damping = max(damping * HARDER, FIRST)
+                step[:] = damped_step(kept, left_over, damping)
             done += 1
         y[:] = tried
         angles[i], left[i], steps[i] = y, size, done
