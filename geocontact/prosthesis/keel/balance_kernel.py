@@ -2,8 +2,9 @@
 
 Everything is in the frame K that carries the chain. A joint j stands at P and turns about A; what moves with it goes by
 J(p) = A × (p - P) per rate. For a point that joint k carries as well, dJ_j/dy_k is A_k × J_j for k <= j and A_j × J_k
-for k > j. Rates of the joints are backward differences, so that each frame is a step of the implicit Euler rule without
-inertia; 1/dt = 0 leaves them out.
+for k > j. Rates of the joints are those of the backward differentiation formula of second order for uneven steps (BDF2;
+Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, sec. III.5), in the first step of Euler's rule;
+1/dt = 0 leaves them out.
 """
 
 from __future__ import annotations
@@ -266,9 +267,16 @@ def solve_frames(
     """Frame by frame from the one before; whether all ended below the tolerance."""
     m = start.size
     y, tried, before, step, left_over = start.copy(), np.empty(m), np.empty(m), np.empty(m), np.empty(m)
+    last_but_one = start.copy()
     torque, slope, kept = np.empty(m), np.empty((m, m)), np.empty((m, m))
     for i in range(planes.shape[0]):
+        per_step = per_time[i]
         before[:] = y
+        if i > 1 and per_time[i] > 0.0:
+            w = per_time[i - 1] / per_time[i]
+            before[:] = ((1.0 + w) ** 2 * y - w**2 * last_but_one) / (1.0 + 2.0 * w)
+            per_step *= (1.0 + 2.0 * w) / (1.0 + w)
+        last_but_one[:] = y
         step[:] = 0.0
         merit, damping, done, failed = np.inf, 0.0, 0, 0
         while True:
@@ -276,7 +284,7 @@ def solve_frames(
             balance(
                 tried,
                 before,
-                per_time[i],
+                per_step,
                 springs,
                 rest,
                 axes,

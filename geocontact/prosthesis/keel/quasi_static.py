@@ -2,7 +2,7 @@
 
 Springs and dampers of the joints, weight of the segments, spheres by `contact.sphere_foot` with damping and friction.
 Without rates of the pose the frames do not know each other: elastic, without friction. With them each frame is a step
-of the implicit Euler rule for the joints, from the frame before; the first has joints at rest.
+of a formula of second order for the joints, from the two before (`balance_kernel`); the first has joints at rest.
 
 Deviation from the law: the kinetic coefficient of friction holds at all speeds beyond the threshold. Where friction
 falls with speed, from the static to the kinetic coefficient, a keel without inertia has several equilibria or jumps.
