@@ -10,6 +10,9 @@ EDITABLE := $(PIP) install --quiet --no-deps --no-build-isolation -e .
 COMPILE := $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-emit-index-url \
 	--no-annotate --no-header --group build --extra all --extra test
 
+# Modules are compiled once and kept, whatever the shell says: tests read them in hundreds of processes.
+export PYTHONDONTWRITEBYTECODE :=
+
 TOGETHER := -rs --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope --no-loadscope-reorder
 
 .DELETE_ON_ERROR:

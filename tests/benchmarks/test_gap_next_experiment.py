@@ -32,6 +32,7 @@ def test_a_delay_and_a_filter_are_told_apart_by_what_is_proposed(elsewhere: Else
     assert after > TIMES * max(before, NOTHING)
 
 
+@pytest.mark.slow
 def test_of_a_long_delay_only_one_is_in_question(elsewhere: Elsewhere) -> None:
     ambiguity, told = elsewhere(tried, 0.12)
     assert ambiguity == ("time_shift",)

@@ -27,6 +27,7 @@ def test_clip_of_one_triangle_in_every_way_of_cutting_it() -> None:
             assert above == pytest.approx(0.5 * c**2, rel=1e-14)
 
 
+@pytest.mark.slow
 def test_small_run_agrees_with_libigl(tmp_path: Path) -> None:
     options = ["--faces", "3000", "--frames", "5", "--rounds", "1", "--no-memory", "--only", "libigl", "--out"]
     command = [sys.executable, "-m", "benchmarks.peers", *options, str(tmp_path)]

@@ -48,6 +48,7 @@ def test_what_python_wrote_is_run_again_too(tmp_path: Path) -> None:
     assert done(call("rerun", tmp_path / "out")).out.splitlines()[-1] == "5 of 5 files of the results are equal"
 
 
+@pytest.mark.slow
 def test_several_motions_are_compared_folder_by_folder(tmp_path: Path) -> None:
     motions = [poses(tmp_path, (0, 20, 0), name=f"{name}.csv") for name in ("slow", "fast")]
     out = tmp_path / "out"

@@ -41,6 +41,7 @@ def found(wrong: tuple[str, ...]) -> tuple[str, tuple[str, ...], int]:
 
 
 @pytest.mark.parametrize("wrong", [("t02",), ("t01", "ut03"), ("t01", "t02", "ut01", "ut02", "ut03")])
+@pytest.mark.slow
 def test_a_wrong_unit_in_some_of_many_trials(elsewhere: Elsewhere, wrong: tuple[str, ...]) -> None:
     label, trials, tried = elsewhere(found, wrong)
     assert label.startswith("unit_error.force")

@@ -28,6 +28,7 @@ def exchanged_sides() -> tuple[tuple[str, ...], bool, list[str]]:
     return planted.label.effects, gross, [one.label for one in hidden]
 
 
+@pytest.mark.slow
 def test_exchanged_channels_take_part_where_nothing_is_gross(elsewhere: Elsewhere) -> None:
     planted, gross, hidden = elsewhere(exchanged_sides)
     assert planted == ("side_swap",) and not gross

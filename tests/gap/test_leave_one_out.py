@@ -32,5 +32,6 @@ def test_a_delay_helps_in_every_trial(elsewhere: Elsewhere) -> None:
     assert all(nats > 3.0 for _, nats in found)
 
 
+@pytest.mark.slow
 def test_there_is_nothing_to_hold_where_nothing_is_named(elsewhere: Elsewhere) -> None:
     assert elsewhere(gains, None) == []

@@ -27,6 +27,7 @@ def test_the_elbows_parameters_swallow_offsets_and_slow_loads(elsewhere: Elsewhe
         pytest.xfail("0.82 of a slow load is swallowed since bounds are relative to the device")
 
 
+@pytest.mark.slow
 def test_a_filter_is_a_delay_where_movement_is_slow_and_not_where_it_is_fast(elsewhere: Elsewhere) -> None:
     slow, fast = (elsewhere(lag_against_delay, times) for times in (1.0, 4.0))
     assert max(slow) < 10.0

@@ -100,6 +100,7 @@ def test_cube_pushed_into_a_larger_one(depth, swapped):
     assert found.max_penetration_fixed / MM == pytest.approx(depth, abs=DEEP / MM)
 
 
+@pytest.mark.slow
 def test_depth_in_the_middle_of_a_large_face():
     """The plate is open, so only its own points can be deep: none of its corners is near the wedge that enters it.
 

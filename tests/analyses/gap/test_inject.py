@@ -53,6 +53,7 @@ def test_a_gap_that_is_there_is_not_called_imitated_because_another_variant_is()
     assert not imitated("damping", 1e-4, ("sensor_gain",))
 
 
+@pytest.mark.slow
 def test_python_and_command_write_the_same_files(tmp_path: Path) -> None:
     case = damped_elbow(tmp_path / "elbow", damping=0.0)
     with known(), unchecked():

@@ -95,6 +95,7 @@ def test_a_study_from_files_is_that_of_the_arrays(tmp_path: Path) -> None:
     assert set(read.table("held_out")["person"]) == {"P1", "P2"}
 
 
+@pytest.mark.slow
 def test_limits_and_aims_reach_the_program() -> None:
     limited = gc.shoulder.optimise(force_limit=30.0, rate_limit=40.0, reserve=0.1, draws=DRAWS)
     outcomes = limited.table("outcomes")

@@ -33,6 +33,8 @@ from tests.view.page.conftest import DESKTOP, PHONE, Open, Opened, set_range
 from tests.view.page.examples import curves_page, small_page
 from tests.view.page.pictures import pixels
 
+pytestmark = pytest.mark.slow
+
 DEVICES = pytest.mark.parametrize("device", [DESKTOP, PHONE], ids=["1280x800", "390x844"])
 RESERVATIONS = ("bodies overlap by 3 mm in frame 7", "the fixed body is open", "markers were filled over 0.4 s")
 DRAWING = b"""<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 300" width="400" height="300">

@@ -10,6 +10,8 @@ from tests.view.page.conftest import Open, set_range
 from tests.view.page.pictures import pixels
 from tests.view.page.test_linkage import pendulum
 
+pytestmark = pytest.mark.slow
+
 BONE = np.array([0x4A, 0x55, 0x60])
 
 

@@ -16,6 +16,8 @@ from tests.view.page.conftest import DESKTOP, PHONE, Open, Opened, rows, set_ran
 from tests.view.page.examples import small_page
 from tests.view.page.pictures import pixels
 
+pytestmark = pytest.mark.slow
+
 M = layer_modulus(5e8, 0.46)
 
 SHOWN = {

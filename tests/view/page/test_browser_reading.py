@@ -13,6 +13,8 @@ from geocontact.view.page.content import Curve, Curves, Page, Scene, Strip, Tabl
 from tests.view.page.conftest import DESKTOP, PHONE, Open, Opened
 from tests.view.page.examples import small_page
 
+pytestmark = pytest.mark.slow
+
 TIED = "distance without sign (other body open)"
 
 

@@ -15,6 +15,8 @@ from tests.cli.calls import FEMUR, INSERT, PLATE, SPHERE, Call, area, done, gait
 from tests.view.page.conftest import DESKTOP, PHONE, Open, rows
 from tests.view.page.hostile import HOSTILE
 
+pytestmark = pytest.mark.slow
+
 SHOWN = {
     "area of the fixed body": ("area_fixed [mm^2]", 2),
     "certainly at least": ("area_fixed_lower [mm^2]", 2),

@@ -186,6 +186,7 @@ def test_a_render_that_fails_after_the_probe_passed(
     assert "because pyvista cannot render here" in said_and_drawn(tmp_path, "matplotlib")
 
 
+@pytest.mark.slow
 def test_nothing_is_left_behind(rendering: None, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     (tmp_path / "tmp").mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "tmp"))
