@@ -29,7 +29,11 @@ TOLERANCE = 1e-8
 """N m; torque about a joint that is left."""
 TOLD = 12
 """Numbers of a sphere: depth, its rate, pressing, force, centre, sliding."""
-LIGHT = (0.0, -9.80665, 0.0)
+Array = np.ndarray
+ChainArrays = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array, Array]
+"""Springs, rest, axes, points, last, numbers, law, weights, centres and bearer of `balance_kernel.balance`."""
+DOWNWARDS = (0.0, -9.80665, 0.0)
+"""Gravity [m/s²] where y is up."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +89,7 @@ class QuasiStaticKeel:
         *,
         rate: Float[np.ndarray, "t 4 4"] | None = None,
         time: Float[np.ndarray, " t"] | None = None,
-        gravity: tuple[float, float, float] = LIGHT,
+        gravity: tuple[float, float, float] = DOWNWARDS,
         start: Float[np.ndarray, " m"] | None = None,
     ) -> KeelMotion:
         """Along poses `X_GK` of the keel's frame in the ground's.
@@ -139,14 +143,14 @@ class QuasiStaticKeel:
 
         Friction with both coefficients of the law.
         """
-        seen, joints = _seen(poses, ground, LIGHT, rate), angles.shape[1]
+        seen, joints = _seen(poses, ground, DOWNWARDS, rate), angles.shape[1]
         told = np.empty((len(angles), len(self.sole.spheres), TOLD))
         torque, slope, arrays = np.empty(joints), np.empty((joints, joints)), self.arrays(static=False, falling=True)
         for i, (y, u) in enumerate(zip(angles, speeds, strict=True)):
             balance(y, y - u, 1.0, *arrays, seen.planes[i], seen.twists[i], seen.gravities[i], torque, slope, told[i])
         return _told(angles, told, np.zeros(len(angles), np.int64), seen, moving=True)
 
-    def arrays(self, *, static: bool, falling: bool = False) -> tuple[np.ndarray, ...]:
+    def arrays(self, *, static: bool, falling: bool = False) -> ChainArrays:
         """Springs, joints, spheres, law and weights as the kernel takes them.
 
         Parameters
