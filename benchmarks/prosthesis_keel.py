@@ -275,24 +275,24 @@ def zones() -> dict[str, Any]:
 
 
 def torsion() -> dict[str, Any]:
-    """A foot rolled outwards by 3 degrees at the forefoot: force, centre across and turn, without and with torsion."""
+    """A forefoot rolled by 3 degrees under 800 N, without and with torsion: its centre across, twist and height."""
     import numpy as np
     from scipy.spatial.transform import RigidTransform, Rotation
 
-    from benchmarks.keel_stance import LEVEL
+    from benchmarks.keel_stance import LEVEL, heights
     from geocontact.loads.centre_of_pressure import centre_of_pressure
     from geocontact.prosthesis.keel.vsf import fulcrum_of
     from geocontact.prosthesis.keel.vsf_foot import vsf_foot
 
-    turn = Rotation.from_euler("zx", np.radians([[-20.0, 3.0]]))
-    found: dict[str, Any] = {}
+    turn, found = Rotation.from_euler("zx", np.radians([[-20.0, 3.0]])), {}
     for setting in ("low", "medium", "high"):
         for twisting in (False, True):
             one = vsf_foot().at(fulcrum_of(setting), torsion=twisting)
-            pose = RigidTransform.from_components(np.array([[0.0, 0.075, 0.0]]), turn)
-            moved = one.solve(pose, LEVEL)
+            height = heights(one, turn, np.array([800.0]))
+            moved = one.solve(RigidTransform.from_components(height[:, None] * [0.0, 1.0, 0.0], turn), LEVEL)
             found[f"{setting}, {'with' if twisting else 'without'}"] = {
                 "force [N]": float(moved.force[0, 1]),
+                "height [mm]": 1e3 * float(height[0]),
                 "centre across [mm]": float(1e3 * centre_of_pressure(moved.loads, gate=1.0).centre[0, 2]),
                 "twist [deg]": float(np.degrees(moved.angles[0, 0])) if twisting else 0.0,
             }
