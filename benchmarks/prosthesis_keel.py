@@ -101,7 +101,7 @@ def convergence() -> dict[str, Any]:
     from geocontact.loads.sphere_set import SoleLaw, SphereSet
     from geocontact.prosthesis.keel.elastica import elastica
     from geocontact.prosthesis.keel.quasi_static import QuasiStaticKeel
-    from geocontact.prosthesis.keel.sole import Sole
+    from geocontact.prosthesis.keel.sole import KeelSole
     from geocontact.prosthesis.keel.vsf import fulcrum_of, vsf_keel
 
     law, radius = SoleLaw(np.array([1e9]), np.zeros(1), 1.0, 1.0, np.zeros(1), np.zeros(1), 1.0), np.array([1e-9])
@@ -114,7 +114,7 @@ def convergence() -> dict[str, Any]:
                 keel = vsf_keel(joints=count)
                 tip = SphereSet(np.array([[keel.length, 0.0, 0.0]]), radius, ("tip",))
                 pose = RigidTransform.from_translation([[0.0, -bent.y[-1] - force / 1e9, 0.0]])
-                one = QuasiStaticKeel(keel, fulcrum, Sole(tip, (count,)), law)
+                one = QuasiStaticKeel(keel, fulcrum, KeelSole(tip, (count,)), law)
                 moved = one.solve(pose, HalfSpace(), gravity=(0.0, 0.0, 0.0))
                 turn = np.cumsum(moved.angles[0])
                 hinges = np.cumsum(np.append(0.0, keel.pitch * np.sin(turn)))[:-1]

@@ -23,7 +23,7 @@ from geocontact.prosthesis.keel.balance_kernel import balance
 from geocontact.prosthesis.keel.elastica import elastica
 from geocontact.prosthesis.keel.on_tree import along_keel, coordinates, joint_numbers, keel_bodies, sole_wrenches
 from geocontact.prosthesis.keel.quasi_static import TOLD, QuasiStaticKeel
-from geocontact.prosthesis.keel.sole import Sole, law_of, sole_of
+from geocontact.prosthesis.keel.sole import KeelSole, law_of, sole_of
 from geocontact.prosthesis.keel.vsf import vsf_keel
 
 FULCRUM, SLOPE = 0.1, HalfSpace((0.0, 0.002, 0.0), (0.05, 1.0, -0.03))
@@ -42,7 +42,7 @@ def on_tip(joints: int, series: float = 1e9) -> QuasiStaticKeel:
     keel = vsf_keel(joints=joints)
     tip = SphereSet(np.array([[keel.length, 0.0, 0.0]]), np.array([1e-9]), ("tip",))
     law = SoleLaw(np.array([series]), np.zeros(1), 1.0, 1e-3, np.zeros(1), np.zeros(1), 0.01)
-    return QuasiStaticKeel(keel, 0.066, Sole(tip, (joints,)), law)
+    return QuasiStaticKeel(keel, 0.066, KeelSole(tip, (joints,)), law)
 
 
 def state(rng: np.random.Generator) -> dict[str, Any]:
