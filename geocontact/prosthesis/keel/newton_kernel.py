@@ -86,7 +86,7 @@ def newton_step(
         state[FAILED] += 1.0
         for j in range(m):
             step[j] *= 0.5
-    over = state[FAILED] > HALVINGS
+    over = bool(state[FAILED] > HALVINGS)
     for j in range(m):
         y[j] = start[j] if over else reached[j] + step[j]
         if over:
@@ -118,7 +118,7 @@ def path_step(
         state[STRIDE], state[TAKEN] = 0.25 * state[STRIDE], 0.0
         for j in range(m):
             y[j] = reached[j]
-        return state[STRIDE] < SHORTEST
+        return bool(state[STRIDE] < SHORTEST)
     state[TAKEN] += 1.0
     eliminate(slope, torque)
     for j in range(m):
