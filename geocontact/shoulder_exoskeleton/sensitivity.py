@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.data.sourced_number import Source
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.arm_numbers import PADDED
 from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
-from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Source, Wearer
+from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 
 SHARE, TURN, SHIFT = 0.1, np.radians(5.0), 0.01
