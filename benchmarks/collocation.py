@@ -73,9 +73,9 @@ def phase_a_of_one_trial(intervals: int) -> dict[str, Any]:
     from geocontact.sit_to_stand.chain import TURNING, Subject
     from geocontact.sit_to_stand.feet import PARAMETERS, PLANTED, feet_on_ground
     from geocontact.sit_to_stand.phase_a import phase_a
-    from geocontact.sit_to_stand.trials import Noise, recorded, standing_up
+    from geocontact.sit_to_stand.trials import StandingNoise, recorded, standing_up
 
-    subject, noise = Subject(), Noise()
+    subject, noise = Subject(), StandingNoise()
     feet = feet_on_ground(subject)
     _, truth = standing_up(feet, subject, intervals=intervals)
     trial = recorded(feet, truth.motions[0], truth.p, 100.0, noise, 34)

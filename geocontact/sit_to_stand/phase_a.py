@@ -19,14 +19,16 @@ from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlProblem, Course
 from geocontact.sit_to_stand.chain import JOINTS, Subject
 from geocontact.sit_to_stand.feet import PARAMETERS, FeetOnGround
-from geocontact.sit_to_stand.trials import N, Noise, StandingTrial, problem_scales, standing_trial
+from geocontact.sit_to_stand.trials import N, StandingNoise, StandingTrial, problem_scales, standing_trial
 
 LOWER, UPPER = np.array([-2.5, -0.08, 0.08]), np.array([2.5, -0.01, 0.2])
 START = np.array([-0.5, -0.03, 0.11])
 LITTLE_TORQUE, LITTLE_JERK = 1e-6, 1e-4
 
 
-def phase_a(feet: FeetOnGround, subject: Subject, trials: Sequence[StandingTrial], noise: Noise) -> ControlProblem:
+def phase_a(
+    feet: FeetOnGround, subject: Subject, trials: Sequence[StandingTrial], noise: StandingNoise
+) -> ControlProblem:
     """The problem whose solution has the parameters."""
     from casadi import SX, sumsqr, vertcat
 

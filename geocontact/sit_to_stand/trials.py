@@ -1,6 +1,6 @@
 """A synthetic passive trial: the feet's model itself stands up, so that what is planted can be found again.
 
-Not a recording, and no test of the model's form: calibration and truth share their equations. Noise is white; its
+Not a recording, and no test of the model's form: calibration and truth share their equations. StandingNoise is white; its
 sizes and the course of the angles are invented.
 """
 
@@ -52,7 +52,7 @@ class StandingTrial:
 
 
 @dataclass(frozen=True)
-class Noise:
+class StandingNoise:
     """Standard deviations: of lengths [m], angles [rad], rates [m/s, rad/s], force [N] and centre [m]."""
 
     length: float = 5e-4
@@ -141,7 +141,12 @@ def problem_scales(
 
 
 def recorded(
-    feet: FeetOnGround, motion: CollocatedMotion, p: Float[np.ndarray, " p"], rate: float, noise: Noise, seed: int
+    feet: FeetOnGround,
+    motion: CollocatedMotion,
+    p: Float[np.ndarray, " p"],
+    rate: float,
+    noise: StandingNoise,
+    seed: int,
 ) -> StandingTrial:
     """What encoders and a plate record of a motion, `rate` samples a second."""
     from casadi import Function

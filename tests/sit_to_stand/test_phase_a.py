@@ -12,7 +12,7 @@ from geocontact.dynamics.simulate import Stepper
 from geocontact.sit_to_stand.chain import TURNING, Subject, leg_chain
 from geocontact.sit_to_stand.feet import PLANTED, feet_on_ground
 from geocontact.sit_to_stand.phase_a import START, phase_a
-from geocontact.sit_to_stand.trials import Noise, recorded, standing_up
+from geocontact.sit_to_stand.trials import StandingNoise, recorded, standing_up
 
 
 def test_chain_weighs_what_the_subject_weighs() -> None:
@@ -33,7 +33,7 @@ def test_chain_weighs_what_the_subject_weighs() -> None:
 @pytest.mark.slow
 def test_one_trial_gives_its_parameters_back() -> None:
     """Phase A on 50 intervals: solved, certified, each parameter nearer to the planted one than where it started."""
-    subject, noise = Subject(), Noise()
+    subject, noise = Subject(), StandingNoise()
     feet = feet_on_ground(subject)
     _, truth = standing_up(feet, subject)
     problem = phase_a(feet, subject, [recorded(feet, truth.motions[0], truth.p, 100.0, noise, 34)], noise)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Block:
+class ProgramBlock:
     """A piece of a problem and where it stands.
 
     Parameters
@@ -75,7 +75,7 @@ class SparseProgram:
     upper: Float[np.ndarray, " c"]
 
 
-def sparse_program(blocks: Sequence[Block], size: int) -> SparseProgram:
+def sparse_program(blocks: Sequence[ProgramBlock], size: int) -> SparseProgram:
     """The blocks' costs added and their constraints one after the other."""
     from casadi import MX, Function, vertcat
 
@@ -137,7 +137,7 @@ class _Entries:
 class _Piece:
     """A block's functions mapped over its places, of the problem's variables."""
 
-    def __init__(self, block: Block, z: MX) -> None:
+    def __init__(self, block: ProgramBlock, z: MX) -> None:
         from casadi import SX, Function, densify, gradient, hessian, jacobian, triu, vertcat
 
         b = self.block = block

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.dynamics.collocation.blocks import Block
+from geocontact.dynamics.collocation.blocks import ProgramBlock
 from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem, Course
 from geocontact.dynamics.collocation.scheme import Scheme
@@ -81,7 +81,7 @@ class Transcription:
         parts = [np.r_[1.0, np.tile(step, len(mesh) - 1), scales.x] for mesh in meshes]
         self.scale = np.concatenate([scales.p, *parts])
 
-    def blocks(self) -> list[Block]:
+    def blocks(self) -> list[ProgramBlock]:
         """Intervals, starts, ends and the prior."""
         from casadi import SX
 
@@ -95,7 +95,9 @@ class Transcription:
         cost = self._of([s.p, s.duration, s.x], [p, duration, x], s.end_cost)
         cost = cost + self._of([s.p], [p], s.prior) / len(ends)
         none = np.zeros(0)
-        blocks.append(Block(local, SX.sym("none", 0), cost, SX(0, 1), index, np.zeros((0, len(ends))), none, none))
+        blocks.append(
+            ProgramBlock(local, SX.sym("none", 0), cost, SX(0, 1), index, np.zeros((0, len(ends))), none, none)
+        )
         return blocks
 
     def bounds(self) -> tuple[Vector, Vector]:
@@ -177,7 +179,7 @@ class Transcription:
         result: SX = function(*values)
         return result
 
-    def _intervals(self) -> Block:
+    def _intervals(self) -> ProgramBlock:
         from casadi import SX, horzcat, mtimes, vertcat
 
         s, d, c = self.problem.system, self.scheme.degree, self.scheme
@@ -207,9 +209,9 @@ class Transcription:
             w = self._inputs(trial, points.ravel()).reshape(len(points), -1)
             values.append(np.vstack([w.T, np.diff(mesh)]))
         zero = np.zeros(rows.numel())
-        return Block(local, data, cost, rows, np.hstack(index), np.hstack(values), zero, zero)
+        return ProgramBlock(local, data, cost, rows, np.hstack(index), np.hstack(values), zero, zero)
 
-    def _starts(self) -> Block:
+    def _starts(self) -> ProgramBlock:
         from casadi import SX, mtimes
 
         s, d = self.problem.system, self.scheme.degree
@@ -225,7 +227,7 @@ class Transcription:
             index.append(np.r_[np.arange(self.np), own])
             values.append(self._inputs(trial, np.zeros(1))[0])
         zero = np.zeros(rows.numel())
-        return Block(local, data, SX(0), rows, np.stack(index, 1), np.stack(values, 1), zero, zero)
+        return ProgramBlock(local, data, SX(0), rows, np.stack(index, 1), np.stack(values, 1), zero, zero)
 
     def _inputs(self, trial: ControlledTrial, fractions: Vector) -> Float[np.ndarray, "t w"]:
         return trial.inputs(trial.begin + trial.guessed_duration * fractions)
