@@ -1,6 +1,6 @@
 """A synthetic passive trial: the feet's model itself stands up, so that what is planted can be found again.
 
-Not a recording, and no test of the model's form: calibration and truth share their equations. StandingNoise is white; its
+Not a recording, and no test of the model's form: calibration and truth share their equations. Noise is white; its
 sizes and the course of the angles are invented.
 """
 
