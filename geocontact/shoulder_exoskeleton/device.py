@@ -7,15 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.data.sourced_number import Number
 from geocontact.shoulder_exoskeleton.cylinder import piston_area
 
-Source = Literal["paper", "derived", "invented"]
-SOURCES: tuple[Source, ...] = ("paper", "derived", "invented")
 JOINTS = ("passive_1", "passive_2", "elevation")
 """Coordinates from the frame outwards; the last is the active one."""
 
@@ -112,15 +110,6 @@ QUANTITIES: Mapping[str, DeviceQuantity] = {
     "rounding": _length("over which friction's kink on the axis is rounded", 1e-7),
 }
 """All numbers of a device."""
-
-
-@dataclass(frozen=True)
-class Number:
-    """A number in SI, where it is from, and why it is so."""
-
-    value: float
-    source: Source
-    note: str = ""
 
 
 @dataclass(frozen=True)

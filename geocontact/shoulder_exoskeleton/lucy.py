@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from math import radians
 
-from geocontact.shoulder_exoskeleton.device import JOINTS, Device, Number, Source
+from geocontact.data.sourced_number import Number, Source
+from geocontact.shoulder_exoskeleton.device import JOINTS, Device
 
 AXES = {"passive_1": (0.0, 0.0, 1.0), "passive_2": (0.0, 0.0, 1.0), "elevation": (-1.0, 0.0, 0.0)}
 LINKS = {1: (-0.07, -0.02, 0.0), 2: (0.0, -0.10, 0.04)}

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from geocontact.data.sourced_number import SOURCES
 from geocontact.shoulder_exoskeleton.cylinder import cylinder_length, lever, piston_area
-from geocontact.shoulder_exoskeleton.device import QUANTITIES, SOURCES
+from geocontact.shoulder_exoskeleton.device import QUANTITIES
 from geocontact.shoulder_exoskeleton.lucy import BUILT_IN, lucy, lucy_new_cylinder
 
 

@@ -9,8 +9,9 @@ import numpy as np
 
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
+from geocontact.data.sourced_number import SOURCES, Number, Source
 from geocontact.io.recordings.shoulder_device import read_device_file, read_person_file
-from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, SOURCES, Device, Number, Source, Wearer
+from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer
 from geocontact.shoulder_exoskeleton.lucy import BUILT_IN
 
 LENGTHS = ("upper_arm", "shoulder_width", "torso")

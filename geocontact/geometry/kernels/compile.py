@@ -28,6 +28,7 @@ ROOMS = (
     "chain",
     "axis_misalignment",
     "shoulder_exoskeleton",
+    "prosthesis",
     "systems",
     "effects",
     "gap",
