@@ -13,11 +13,11 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import PchipInterpolator, make_interp_spline
 from scipy.ndimage import gaussian_filter1d
-from scipy.optimize import brentq
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.pose_rate import pose_rate
+from geocontact.prosthesis.keel.quasi_static import QuasiStaticKeel
 from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot
 
 MASS, GRAVITY, LASTING, RATE = 84.0, 9.80665, 0.7, 200.0
@@ -29,6 +29,8 @@ PITCH = ((-0.2, 22.0), (0.0, 18.0), (0.15, 2.0), (0.5, -4.0), (0.8, -18.0), (1.0
 """Share of the stance and pitch of the foot, toes up [deg]."""
 FORWARD = 0.18
 """Most of the braking and pushing force over body weight."""
+DEEPEST, HALVINGS = 0.06, 30
+"""m, and of the interval in which heights are sought."""
 SMOOTH = 2.0
 """Samples; standard deviation of the smoothing of height and shift."""
 
@@ -49,7 +51,7 @@ def stance(foot: VariableStiffnessFoot, fulcrum: float) -> Stance:
     load = WEIGHT * PchipInterpolator(*np.transpose(VERTICAL))(share)
     pitch = np.radians(PchipInterpolator(*np.transpose(PITCH))(share))
     turn = Rotation.from_euler("z", pitch[:, None])
-    height = gaussian_filter1d([_height(still, each, one) for each, one in zip(turn, load, strict=True)], SMOOTH)
+    height = gaussian_filter1d(_heights(still, turn, load), SMOOTH)
     law = foot.law
     ratio = FORWARD * WEIGHT * -np.sin(2.0 * np.pi * share) / np.maximum(load, 0.1 * WEIGHT)
     wanted, speed = -ratio * law.threshold_speed / law.kinetic, np.zeros(len(time))
@@ -81,14 +83,14 @@ def finer(one: Stance, factor: int) -> Stance:
     return Stance(time, at(time), rate)
 
 
-def _height(still: object, turn: Rotation, load: float) -> float:
-    """Of the keel's origin above the ground [m] where the foot carries that load, or just touches."""
-    lowest = float((turn.apply(still.sole.spheres.centre)[:, 1] - still.sole.spheres.radius).min())
-    if load <= 0.0:
-        return -lowest
-
-    def off(deep: float) -> float:
-        pose = RigidTransform.from_components(np.array([[0.0, -lowest - deep, 0.0]]), Rotation.concatenate([turn]))
-        return float(still.solve(pose, LEVEL).force[0, 1]) - load
-
-    return -lowest - brentq(off, -0.001, 0.06, xtol=1e-10)
+def _heights(still: QuasiStaticKeel, turn: Rotation, load: np.ndarray) -> np.ndarray:
+    """Of the keel's origin above the ground [m] where the foot carries that load, or just touches; by bisection."""
+    centres = np.einsum("tij,nj->tni", turn.as_matrix(), still.sole.spheres.centre)
+    lowest = (centres[..., 1] - still.sole.spheres.radius).min(axis=1)
+    low, high = np.zeros(len(load)), np.full(len(load), DEEPEST)
+    for _ in range(HALVINGS):
+        deep = 0.5 * (low + high)
+        origin = np.stack([0.0 * deep, -lowest - deep, 0.0 * deep], axis=1)
+        carried = still.solve(RigidTransform.from_components(origin, turn), LEVEL).force[:, 1]
+        low, high = np.where(carried < load, deep, low), np.where(carried < load, high, deep)
+    return -lowest - np.where(load > 0.0, 0.5 * (low + high), 0.0)

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from geocontact.data.sourced_number import Source
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.arm_numbers import PADDED
 from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
-from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Source, Wearer
+from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 
 SHARE, TURN, SHIFT = 0.1, np.radians(5.0), 0.01

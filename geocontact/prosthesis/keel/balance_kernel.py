@@ -1,25 +1,20 @@
-"""Torques about the hinges of a chain whose spheres press on a plane, their exact derivatives, and Newton's steps.
+"""Torques about the hinges of a chain whose spheres press on a plane, their exact derivatives.
 
 Everything is in the frame K that carries the chain. A joint j stands at P and turns about A; what moves with it goes by
 J(p) = A × (p - P) per rate. For a point that joint k carries as well, dJ_j/dy_k is A_k × J_j for k <= j and A_j × J_k
-for k > j. Rates of the joints are backward differences, so that each frame is a step of the implicit Euler rule without
-inertia; 1/dt = 0 leaves them out.
+for k > j.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float, Int
 
 from geocontact.contact import sphere_foot
 from geocontact.dynamics.sphere_contact import STILL
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.prosthesis.keel.chain_kernel import Vector, along, carried, chain, cross, dot, plus, row
 
-MOST, HALVINGS, TURN = 200, 4, 0.3
-"""Trials in a frame, how often a step of Newton is halved before it is damped, most that a joint turns in one [rad]."""
-FIRST, SOFTER, HARDER, LEAST = 1e-3, 0.1, 4.0, 1e-7
-"""Marquardt's damping to begin with, its factors after a success and a failure, and below it none."""
 RADIUS, K, B, STATIC, KINETIC = range(5)
 """Rows of the spheres' numbers."""
 EXPONENT, FULL_DEPTH, THRESHOLD = range(3)
@@ -194,11 +189,13 @@ def balance(
     told: Float[np.ndarray, "n told"],
 ) -> None:
     """Torques about the joints and their derivatives, and what the spheres do."""
-    speeds = per_time * (y - before)
+    speeds = np.empty(y.size)
     place, axis, turned = chain(y, rest, axes)
     goes = np.empty((y.size, 3))
-    slope[:] = 0.0
     for j in range(y.size):
+        speeds[j] = per_time * (y[j] - before[j])
+        for k in range(y.size):
+            slope[j, k] = 0.0
         torque[j] = -springs[0, j] * y[j] - springs[1, j] * speeds[j]
         slope[j, j] = -springs[0, j] - springs[1, j] * per_time
     for i in range(weights.size):
@@ -223,93 +220,3 @@ def balance(
             turned,
             goes,
         )
-
-
-@kernel
-def damped_step(
-    slope: Float[np.ndarray, "m m"], torque: Float[np.ndarray, " m"], damping: float
-) -> Float[np.ndarray, " m"]:
-    """Newton's step, or Marquardt's where it is damped; shortened where a joint would turn too far."""
-    if damping == 0.0:
-        step = np.linalg.solve(slope, -torque)
-    else:
-        squares = slope.T @ slope
-        for j in range(torque.size):
-            squares[j, j] *= 1.0 + damping
-        step = np.linalg.solve(squares, -(slope.T @ torque))
-    return step * min(1.0, TURN / np.abs(step).max())
-
-
-@kernel
-def solve_frames(
-    start: Float[np.ndarray, " m"],
-    per_time: Float[np.ndarray, " t"],
-    springs: Float[np.ndarray, "two m"],
-    rest: Float[np.ndarray, "m 3"],
-    axes: Float[np.ndarray, "m 3"],
-    points: Float[np.ndarray, "n 3"],
-    last: Int[np.ndarray, " n"],
-    numbers: Float[np.ndarray, "n five"],
-    law: Float[np.ndarray, " three"],
-    weights: Float[np.ndarray, " w"],
-    centres: Float[np.ndarray, "w 3"],
-    bearer: Int[np.ndarray, " w"],
-    planes: Float[np.ndarray, "t four"],
-    twists: Float[np.ndarray, "t six"],
-    gravities: Float[np.ndarray, "t 3"],
-    tolerance: float,
-    angles: Float[np.ndarray, "t m"],
-    told: Float[np.ndarray, "t n told"],
-    left: Float[np.ndarray, " t"],
-    steps: Int[np.ndarray, " t"],
-) -> Bool[np.ndarray, ""]:
-    """Frame by frame from the one before; whether all ended below the tolerance."""
-    m = start.size
-    y, tried, before, step, left_over = start.copy(), np.empty(m), np.empty(m), np.empty(m), np.empty(m)
-    torque, slope, kept = np.empty(m), np.empty((m, m)), np.empty((m, m))
-    for i in range(planes.shape[0]):
-        before[:] = y
-        step[:] = 0.0
-        merit, damping, done, failed = np.inf, 0.0, 0, 0
-        while True:
-            tried[:] = y + step
-            balance(
-                tried,
-                before,
-                per_time[i],
-                springs,
-                rest,
-                axes,
-                points,
-                last,
-                numbers,
-                law,
-                weights,
-                centres,
-                bearer,
-                planes[i],
-                twists[i],
-                gravities[i],
-                torque,
-                slope,
-                told[i],
-            )
-            now, size = (torque * torque).sum(), np.abs(torque).max()
-            if size <= tolerance or done == MOST:
-                break
-            if now < merit:
-                y[:], left_over[:], kept[:] = tried, torque, slope
-                merit, damping, failed = now, damping * SOFTER if damping * SOFTER > LEAST else 0.0, 0
-                step[:] = damped_step(kept, left_over, damping)
-            elif damping == 0.0 and failed < HALVINGS:
-                step *= 0.5
-                failed += 1
-            else:
-                damping = max(damping * HARDER, FIRST)
-                step[:] = damped_step(kept, left_over, damping)
-            done += 1
-        y[:] = tried
-        angles[i], left[i], steps[i] = y, size, done
-        if not size <= tolerance:
-            return False
-    return True

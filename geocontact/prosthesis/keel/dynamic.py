@@ -22,12 +22,10 @@ from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.sphere_set import SoleLaw
 from geocontact.prosthesis.keel.keel import Keel
 from geocontact.prosthesis.keel.on_tree import along_keel, coordinates, joint_numbers, keel_bodies, sole_wrenches
-from geocontact.prosthesis.keel.quasi_static import LIGHT
+from geocontact.prosthesis.keel.quasi_static import DOWNWARDS
 from geocontact.prosthesis.keel.sole import Sole
 
 FOOT = "foot"
-TURNS = "XYZ"
-"""Angles of the foot's root, as a gimbal turns."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +55,7 @@ class DynamicKeel:
         tolerance: float = 1e-6,
     ) -> SimulatedMotion:
         """Along poses `X_GK` at some times [s], by splines of degree 5, from angles at rest."""
-        turns = np.unwrap(poses.rotation.as_euler(TURNS), axis=0)
+        turns = np.unwrap(poses.rotation.as_euler("XYZ"), axis=0)
         inputs = recorded_inputs(time, np.hstack([turns, poses.translation]), derivatives=2)
         numbers = np.concatenate(joint_numbers(self.keel, fulcrum, torsion=self.torsion))
         at_rest = (np.asarray(start, float), np.zeros(len(start)), np.zeros(0))
@@ -71,7 +69,7 @@ def dynamic_keel(
     ground: HalfSpace,
     *,
     torsion: bool = False,
-    gravity: tuple[float, float, float] = LIGHT,
+    gravity: tuple[float, float, float] = DOWNWARDS,
     machine_code: bool = True,
 ) -> DynamicKeel:
     """A keel on its sole above a plane; `gravity` in the ground's frame [m/s²]."""

@@ -2,7 +2,7 @@
 
 Springs and dampers of the joints, weight of the segments, spheres by `contact.sphere_foot` with damping and friction.
 Without rates of the pose the frames do not know each other: elastic, without friction. With them each frame is a step
-of the implicit Euler rule for the joints, from the frame before; the first has joints at rest.
+of a formula of second order for the joints, from the two before (`newton_kernel`); the first has joints at rest.
 
 Deviation from the law: the kinetic coefficient of friction holds at all speeds beyond the threshold. Where friction
 falls with speed, from the static to the kinetic coefficient, a keel without inertia has several equilibria or jumps.
@@ -19,7 +19,8 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.sphere_loads import SphereLoads
 from geocontact.loads.sphere_set import SoleLaw
-from geocontact.prosthesis.keel import balance_kernel
+from geocontact.prosthesis.keel import newton_kernel
+from geocontact.prosthesis.keel.balance_kernel import balance
 from geocontact.prosthesis.keel.keel import Keel
 from geocontact.prosthesis.keel.on_tree import joint_numbers
 from geocontact.prosthesis.keel.sole import Sole
@@ -28,7 +29,11 @@ TOLERANCE = 1e-8
 """N m; torque about a joint that is left."""
 TOLD = 12
 """Numbers of a sphere: depth, its rate, pressing, force, centre, sliding."""
-LIGHT = (0.0, -9.80665, 0.0)
+Array = np.ndarray
+ChainArrays = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array, Array]
+"""Springs, rest, axes, points, last, numbers, law, weights, centres and bearer of `balance_kernel.balance`."""
+DOWNWARDS = (0.0, -9.80665, 0.0)
+"""Gravity [m/s²] where y is up."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +89,7 @@ class QuasiStaticKeel:
         *,
         rate: Float[np.ndarray, "t 4 4"] | None = None,
         time: Float[np.ndarray, " t"] | None = None,
-        gravity: tuple[float, float, float] = LIGHT,
+        gravity: tuple[float, float, float] = DOWNWARDS,
         start: Float[np.ndarray, " m"] | None = None,
     ) -> KeelMotion:
         """Along poses `X_GK` of the keel's frame in the ground's.
@@ -108,7 +113,7 @@ class QuasiStaticKeel:
         joints = self.keel.joints + int(self.torsion)
         angles, left = np.empty((frames, joints)), np.empty(frames)
         told, steps = np.empty((frames, count, TOLD)), np.zeros(frames, np.int64)
-        found = balance_kernel.solve_frames(
+        found = newton_kernel.solve_frames(
             np.zeros(joints) if start is None else np.asarray(start, float),
             per_time,
             *self.arrays(static=rate is None),
@@ -138,16 +143,14 @@ class QuasiStaticKeel:
 
         Friction with both coefficients of the law.
         """
-        seen, joints = _seen(poses, ground, LIGHT, rate), angles.shape[1]
+        seen, joints = _seen(poses, ground, DOWNWARDS, rate), angles.shape[1]
         told = np.empty((len(angles), len(self.sole.spheres), TOLD))
         torque, slope, arrays = np.empty(joints), np.empty((joints, joints)), self.arrays(static=False, falling=True)
         for i, (y, u) in enumerate(zip(angles, speeds, strict=True)):
-            balance_kernel.balance(
-                y, y - u, 1.0, *arrays, seen.planes[i], seen.twists[i], seen.gravities[i], torque, slope, told[i]
-            )
+            balance(y, y - u, 1.0, *arrays, seen.planes[i], seen.twists[i], seen.gravities[i], torque, slope, told[i])
         return _told(angles, told, np.zeros(len(angles), np.int64), seen, moving=True)
 
-    def arrays(self, *, static: bool, falling: bool = False) -> tuple[np.ndarray, ...]:
+    def arrays(self, *, static: bool, falling: bool = False) -> ChainArrays:
         """Springs, joints, spheres, law and weights as the kernel takes them.
 
         Parameters
