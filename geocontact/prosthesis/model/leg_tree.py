@@ -37,7 +37,7 @@ def recorded_tree(leg: Leg) -> Multibody:
 
 def whole_tree(leg: Leg, keel: Keel) -> Multibody:
     """With masses, the socket's six directions, the foot and its keel; loads are not part of it."""
-    joints, (bodies, below) = _upper_joints(leg), keel_bodies(keel, "foot", RigidTransform.identity())
+    joints, (bodies, below) = _upper_joints(leg), keel_bodies(keel, "foot", RigidTransform.identity(), name="keel")
     mass = keel.posterior_mass + keel.joints * keel.segment_mass
     ball = np.zeros((3, 3))
     upper = (
