@@ -70,8 +70,8 @@ def stance_errors(found: Stance, plate: PlateStance) -> StanceErrors:
     share = np.linspace(0.0, 1.0, SAMPLES)
     time = span[0] + share * (span[1] - span[0])
     step = float(found.time[1] - found.time[0])
-    own = _at(time, found.time, zero_lag(found.force, step, CUTOFF)) / weight
-    seen = _at(time, plate.time, plate.force) / weight
+    own = at_times(time, found.time, zero_lag(found.force, step, CUTOFF)) / weight
+    seen = at_times(time, plate.time, plate.force) / weight
     curves = {"resultant": (np.linalg.norm(own, axis=1), np.linalg.norm(seen, axis=1))}
     for name, axis in (("vertical", 1), ("fore_aft", 0), ("medio_lateral", 2)):
         curves[name] = (own[:, axis], seen[:, axis])
@@ -99,7 +99,8 @@ def longest_stance(time: Float[np.ndarray, " t"], load: Float[np.ndarray, " t"])
     return float(longest.start), float(longest.end)
 
 
-def _at(
+def at_times(
     wanted: Float[np.ndarray, " s"], time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t 3"]
 ) -> Float[np.ndarray, "s 3"]:
+    """Columns at other times [s], linear between samples."""
     return np.column_stack([np.interp(wanted, time, column) for column in values.T])
