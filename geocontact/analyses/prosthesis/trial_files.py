@@ -20,7 +20,7 @@ def trial_files(trial: GaitTrial) -> dict[str, str]:
     truth = {
         "time [s]": s.time,
         **{f"force_{axis} [N]": s.force[:, k] for k, axis in enumerate("xyz")},
-        "cop along foot [%]": 1e2 * s.along_foot("ground"),
+        "cop along foot [-]": s.along_foot("ground"),
         "ankle moment [N m]": s.ankle_moment,
         "stored [J]": s.stored,
     }

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import Expression, Fraction, Length, Options, TimeSpan
+from geocontact.analyses.options import Expression, Fraction, Length, Options, Spelled, TimeSpan
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import KG, Plausible
 from geocontact.data.ranges import CUTOFF, GAP
@@ -84,7 +84,7 @@ class ProsthesisSimulateOptions(Options):
     mass: Annotated[float | None, PERSON] = None
     side: Literal["right", "left"] = "right"
     sex: Literal["male", "female"] = "male"
-    residual: Annotated[Fraction, RESIDUAL] = 0.45
+    residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     functional: Path | None = None
     setting: Literal["low", "medium", "high"] = "medium"
     fulcrum: Annotated[Length | None, FULCRUM] = None

@@ -99,24 +99,19 @@ def _lines(s: Stance, o: ProsthesisSimulateOptions, shown: Int[np.ndarray, " k"]
     keel = _keel(s)[shown]
     centre = s.centre("ground")[shown]
     force = np.stack([centre, centre + METRES_PER_NEWTON * s.force[shown]], axis=1)
-    path = np.broadcast_to(s.centre("ground")[None, :: max(1, len(s.time) // 60)], (len(shown), *_thin(s).shape))
+    thin = s.centre("ground")[:: max(1, len(s.time) // 60)]
+    path = np.broadcast_to(thin, (len(shown), *thin.shape))
     edge = np.array([[x, 0.0, z] for x in (-0.5, 0.7) for z in (-0.15, 0.25)])[[0, 1, 3, 2]]
     floor = np.broadcast_to(edge, (len(shown), 4, 3))
-    chain = _chain
-    found = [
-        Linkage("pelvis, thigh, residual limb", place(limb), chain(3), "bone", JOINT, LIMB),
-        Linkage("socket and pylon", place(below), chain(2), "model", JOINT, LIMB),
-        Linkage("keel", place(keel), chain(keel.shape[1]), "model", 0.0, KEEL),
+    return [
+        Linkage("pelvis, thigh, residual limb", place(limb), _chain(3), "bone", JOINT, LIMB),
+        Linkage("socket and pylon", place(below), _chain(2), "model", JOINT, LIMB),
+        Linkage("keel", place(keel), _chain(keel.shape[1]), "model", 0.0, KEEL),
         Linkage("spheres", place(s.loads.centre[shown]), np.zeros((0, 2), np.int64), "seen", SPHERE, 0.0),
-        Linkage("path of the centre of pressure", place(path), chain(path.shape[1]), "force", 0.0, 0.5 * ARROW),
-        Linkage("force of the ground, 0.6 m for 1 kN", place(force), chain(2), "force", 0.0, ARROW),
+        Linkage("path of the centre of pressure", place(path), _chain(path.shape[1]), "force", 0.0, 0.5 * ARROW),
+        Linkage("force of the ground, 0.6 m for 1 kN", place(force), _chain(2), "force", 0.0, ARROW),
         Linkage("floor", place(floor), np.array([(0, 1), (1, 2), (2, 3), (3, 0)]), "floor", 0.0, 0.5 * ARROW),
     ]
-    return found
-
-
-def _thin(s: Stance) -> Float[np.ndarray, "n 3"]:
-    return s.centre("ground")[:: max(1, len(s.time) // 60)]
 
 
 def _keel(s: Stance) -> Float[np.ndarray, "t n 3"]:

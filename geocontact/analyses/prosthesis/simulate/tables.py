@@ -16,7 +16,8 @@ from geocontact.prosthesis.model.leg_tree import SOCKET
 from geocontact.prosthesis.simulate import Stance
 from geocontact.prosthesis.stance_errors import StanceErrors
 
-UNITS = {"impulse": "BW s", "cop_ground": "foot length", "cop_sphere": "foot length"}
+UNITS = {"impulse": "s"}
+"""Of quantities that are not shares: forces are over body weight, centres of pressure over the foot's length."""
 
 
 def stance_table(s: Stance, side: Side) -> pd.DataFrame:
@@ -28,8 +29,8 @@ def stance_table(s: Stance, side: Side) -> pd.DataFrame:
             **{f"force_{axis} [N]": column for axis, column in zip("xyz", force.T, strict=True)},
             **{f"cop_{axis} [mm]": 1e3 * column for axis, column in zip("xz", ground[:, ::2].T, strict=True)},
             **{f"sphere_cop_{axis} [mm]": 1e3 * column for axis, column in zip("xz", sphere[:, ::2].T, strict=True)},
-            "cop along foot [%]": 1e2 * s.along_foot("ground"),
-            "sphere cop along foot [%]": 1e2 * s.along_foot("sphere"),
+            "cop along foot [-]": s.along_foot("ground"),
+            "sphere cop along foot [-]": s.along_foot("sphere"),
             "ankle moment [N m]": s.ankle_moment,
             "stored [J]": s.stored,
             "lost [J]": s.lost,
@@ -44,16 +45,16 @@ def stance_table(s: Stance, side: Side) -> pd.DataFrame:
 
 def errors_table(errors: StanceErrors) -> pd.DataFrame:
     """R² and root mean square error by quantity, and the stance's length."""
-    rows = [(name, UNITS.get(name, "BW"), r2, off) for name, (r2, off) in errors.table.items()]
+    rows = [(name, UNITS.get(name, "-"), r2, off) for name, (r2, off) in errors.table.items()]
     rows.append(("stance", "s", np.nan, errors.stance[0] - errors.stance[1]))
     return pd.DataFrame(rows, columns=["quantity", "unit", "r2 [-]", "rmse"])
 
 
 def curves_table(errors: StanceErrors) -> pd.DataFrame:
     """Simulated and measured curves over 101 points of the plate's stance."""
-    columns = {"stance [%]": 1e2 * errors.share}
+    columns = {"stance [-]": errors.share}
     for name, (model, measured) in errors.curves.items():
-        unit = UNITS.get(name, "BW")
+        unit = UNITS.get(name, "-")
         columns |= {f"{name} [{unit}]": model, f"{name} measured [{unit}]": measured}
     return pd.DataFrame(columns)
 
