@@ -20,7 +20,7 @@ from geocontact.prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.prosthesis.keel.vsf import fulcrum_of
 from geocontact.prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.prosthesis.model.leg_tree import GRAVITY
-from geocontact.prosthesis.simulate import GATE, Stance, simulate_stance
+from geocontact.prosthesis.simulate import Stance, simulate_stance
 from geocontact.prosthesis.synthetic.course import Course, course
 from geocontact.prosthesis.synthetic.persons import PARTICIPANTS, STANCE, true_leg
 
@@ -46,13 +46,17 @@ def driven(person: int, setting: str) -> tuple[Course, float]:
     return course(leg, foot, fulcrum, STANCE[setting]), fulcrum
 
 
-def timings(person: int, setting: str, *, machine_code: bool, tolerances: tuple[float, ...] = TOLERANCES) -> list[Timing]:
+def timings(
+    person: int, setting: str, *, machine_code: bool, tolerances: tuple[float, ...] = TOLERANCES
+) -> list[Timing]:
     """Of one setting and person."""
     one, fulcrum = driven(person, setting)
     weight = PARTICIPANTS[person].mass * GRAVITY
 
     def run(tolerance: float) -> Stance:
-        return simulate_stance(one.motion, vsf_foot(), fulcrum, one.push, one.span, tolerance=tolerance, machine_code=machine_code)
+        return simulate_stance(
+            one.motion, vsf_foot(), fulcrum, one.push, one.span, tolerance=tolerance, machine_code=machine_code
+        )
 
     reference = run(REFERENCE)
     lasting, found = one.span[1] - one.span[0], []

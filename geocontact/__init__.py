@@ -122,7 +122,12 @@ _PLACES = {
     "Result": "analyses.result",
 }
 
-_ROOMS = {"misalignment": "analyses.misalignment", "prosthesis": "analyses.prosthesis", "shoulder": "analyses.shoulder", "chain": "chain"}
+_ROOMS = {
+    "misalignment": "analyses.misalignment",
+    "prosthesis": "analyses.prosthesis",
+    "shoulder": "analyses.shoulder",
+    "chain": "chain",
+}
 """Modules with names of their own."""
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""One stance of the prosthetic side along a recorded motion: pelvis free fore and aft and vertically, socket and keel."""
+"""One stance of the prosthetic side along a recorded motion: place of the pelvis, socket and keel are found."""
 
 from __future__ import annotations
 
@@ -209,5 +209,3 @@ def _rate(told: dict[str, Float[np.ndarray, "t _"]]) -> Float[np.ndarray, "t 4 4
     rate[:, :3, :3] = np.cross(told["spin"][:, None], turn.swapaxes(1, 2)).swapaxes(1, 2)
     rate[:, :3, 3] = told["speed"]
     return rate
-
-

@@ -22,9 +22,7 @@ def landing() -> Stance:
     """From before touch-down into the loading of a person of 77 kg."""
     leg = true_leg(PARTICIPANTS[0], BELOW)
     one = course(leg, vsf_foot(), FULCRUM, 0.72)
-    return simulate_stance(
-        one.motion, vsf_foot(), FULCRUM, one.push, (-0.06, 0.16), tolerance=1e-4, machine_code=False
-    )
+    return simulate_stance(one.motion, vsf_foot(), FULCRUM, one.push, (-0.06, 0.16), tolerance=1e-4, machine_code=False)
 
 
 @pytest.mark.slow

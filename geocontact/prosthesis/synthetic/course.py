@@ -1,4 +1,4 @@
-"""An invented stance: angles of pelvis and leg with which the foot, in equilibrium, would carry a usual ground reaction.
+"""An invented stance: angles with which the foot, in equilibrium, would carry a usual ground reaction.
 
 Vertical and fore-aft forces of both legs are given as functions of the share of their stance; the body's mass centre
 moves by them. The leg then reaches from the hip to a foot that rolls on the floor without slipping, pressed as deep as
@@ -46,8 +46,8 @@ SWAY = 0.015
 SWING = {"before": (3.0, 0.0, 0.0, 24.0), "after": (4.0, 0.0, 0.0, 24.0)}
 """deg; what hip and knee change by in swing, to its start and to its end."""
 LOWEST, LOWER, DEEPEST, UNDER = 0.12, 0.005, 0.09, 0.13
-"""m; most that the pelvis is lowered so that the leg reaches the floor, in which steps; deepest that the foot is pressed;
-from the keel's end forward to below the hip at mid-stance."""
+"""m; most that the pelvis is lowered so that the leg reaches the floor, in which steps; deepest that the foot is
+pressed; from the keel's end forward to below the hip at mid-stance."""
 STRAIGHTEST = np.radians(3.0)
 """rad; of the knee in stance."""
 CUTOFF = 10.0

@@ -27,7 +27,7 @@ SPINES = {
 }
 """In the pelvis' frame [m]; invented."""
 KNEE_RADIUS, TOE_OUT, HEEL = 0.052, np.radians(6.0), 0.065
-"""m, rad; half the distance of the epicondyles, turn of the foot, and from the keel's end to below the ankle; invented."""
+"""m, rad; half the distance of the epicondyles, turn of the foot, from the keel's end to below the ankle; invented."""
 
 
 @dataclass(frozen=True)

@@ -117,9 +117,7 @@ def _seen(
     """Markers of the walk: pelvis and thigh by the given angles and the pelvis' free place, the socket where it is."""
     kept = slice(None, None, CAMERAS)
     time = truth.time[kept]
-    values = np.column_stack(
-        [np.interp(time, driven.motion.time, driven.motion.of(name)) for name in RECORDED]
-    )
+    values = np.column_stack([np.interp(time, driven.motion.time, driven.motion.of(name)) for name in RECORDED])
     for k in range(2):
         values[:, 3 + k] = truth.found.q[kept, k]
     poses = recorded_tree(leg).poses(values)
@@ -127,10 +125,8 @@ def _seen(
     found = {}
     for body, of in places.items():
         for name, place in of.items():
-            if body == "shank":
-                at = keel.apply(leg.turn.inv().apply(place - leg.keel))
-            else:
-                at = poses[body].apply(place)
+            on_keel = leg.turn.inv().apply(place - leg.keel)
+            at = keel.apply(on_keel) if body == "shank" else poses[body].apply(place)
             found[name] = at + _skin(body, len(time), float(time[1] - time[0]), rng)
     return time, np.stack([found[name] for name in STANDING], axis=1)
 
@@ -165,7 +161,3 @@ def _of_side(
 ) -> MarkerTrajectories:
     names = STANDING if side == "right" else tuple(mirrored_name(name) for name in STANDING)
     return MarkerTrajectories(seen[0], of_side(seen[1], side), names, f"synthetic {what}")
-
-
-
-

@@ -101,6 +101,8 @@ def test_a_wrong_unit_or_axis_is_refused(standing: MarkerTrajectories, spoil: ob
 def test_markers_on_a_line_are_refused(standing: MarkerTrajectories) -> None:
     places = standing.positions.copy()
     at = [STANDING.index(name) for name in ("RTH1", "RTH2", "RTH3", "RKNE")]
-    places[:, at] = places[:, at[:1]] + (places[:, at[3:]] - places[:, at[:1]]) * np.array([0.0, 0.4, 0.7, 1.0])[:, None]
+    places[:, at] = (
+        places[:, at[:1]] + (places[:, at[3:]] - places[:, at[:1]]) * np.array([0.0, 0.4, 0.7, 1.0])[:, None]
+    )
     with pytest.raises(InputError, match="lie on a line"):
         standing_leg(replace(standing, positions=places), Person(77.0), vsf_keel(), BELOW)

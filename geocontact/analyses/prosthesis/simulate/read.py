@@ -81,9 +81,7 @@ def _markers(
     return as_right(seen, o.side)
 
 
-def _hip(
-    o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Record
-) -> Float[np.ndarray, " 3"] | None:
+def _hip(o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Record) -> Float[np.ndarray, " 3"] | None:
     if o.functional is None:
         record.warn("the hip's centre is that of a regression; a `functional` trial tells it better")
         return None
@@ -104,11 +102,15 @@ def _own(o: ProsthesisSimulateOptions, plates: tuple[ForcePlate, ...], found: Wa
     centre = of_side(plate.centre_of_pressure(GATE), o.side)
     span = longest_stance(plate.time, force[:, 1])
     if span is None:
-        raise InputError(file, "`plate`", f"{plate.name} carries no whole stance above {GATE:g} N", "give another plate")
+        raise InputError(
+            file, "`plate`", f"{plate.name} carries no whole stance above {GATE:g} N", "give another plate"
+        )
     start, stop = found.motion.time[[0, -1]]
     if span[0] < start + LATE or span[1] > stop:
         what = f"the stance on {plate.name} is from {span[0]:.2f} to {span[1]:.2f} s, the markers from {start:.2f} to"
-        raise InputError(file, "`plate`", f"{what} {stop:.2f} s", "markers must begin before touch-down and end after it")
+        raise InputError(
+            file, "`plate`", f"{what} {stop:.2f} s", "markers must begin before touch-down and end after it"
+        )
     _require_under_the_foot(file, plate.name, PlateStance(plate.time, force, centre), found)
     return PlateStance(plate.time, force, centre)
 

@@ -45,9 +45,7 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     if errors is not None:
         record.say(_said(errors))
         record.results["errors"] = plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()})
-    return ProsthesisSimulateResult(
-        record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers
-    )
+    return ProsthesisSimulateResult(record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers)
 
 
 def _simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
@@ -98,7 +96,9 @@ def _warn(found: Stance, record: Record) -> None:
         record.warn(f"the socket turns by {np.degrees(turned):.0f} degrees on its bushing")
     sunk = loads.depth > found.foot.sole.spheres.radius
     if sunk.any():
-        record.warn(f"{int(sunk.any(axis=0).sum())} spheres sink beyond their radius, up to {1e3 * loads.depth.max():.0f} mm")
+        record.warn(
+            f"{int(sunk.any(axis=0).sum())} spheres sink beyond their radius, up to {1e3 * loads.depth.max():.0f} mm"
+        )
     idle = [zone for zone, of in found.foot.sole.spheres.zones.items() if not (loads.pressing[:, of] > 0.0).any()]
     if idle:
         record.warn(f"never loaded: {', '.join(idle)}; its numbers stay unknown")
