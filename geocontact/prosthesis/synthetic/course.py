@@ -113,8 +113,8 @@ class _Reach:
         self.keel = _keel_pose(leg)
         pitches = heights.grid[0]
         unloaded = heights(np.column_stack([pitches, 0.0 * pitches]))
-        self.rolled = np.interp(0.0, pitches, cumulative_trapezoid(unloaded, pitches, initial=0.0))
-        self.rolling = pitches, cumulative_trapezoid(unloaded, pitches, initial=0.0) - self.rolled
+        self.rolled = np.interp(0.0, pitches, cumulative_trapezoid(unloaded, pitches, initial=0))
+        self.rolling = pitches, cumulative_trapezoid(unloaded, pitches, initial=0) - self.rolled
 
     @property
     def standing(self) -> float:
@@ -178,10 +178,10 @@ def _pelvis(
     turn = 2.0 * np.pi * (time - 0.5 * stance) / (2.0 * stance)
     (a, fa), (b, fb), (mean, c) = PELVIS
     turns = [a * np.sin(turn + fa + phase), b * np.sin(turn + fb - phase), mean + c * np.sin(2.0 * turn + phase)]
-    rate = cumulative_trapezoid(driving[:, :2] - np.array([0.0, GRAVITY]), time, axis=0, initial=0.0)
+    rate = cumulative_trapezoid(driving[:, :2] - np.array([0.0, GRAVITY]), time, axis=0, initial=0)
     on = (time >= 0.0) & (time <= stance)
     rate = rate - rate[on].mean(axis=0) + np.array([SPEED, 0.0])
-    place = cumulative_trapezoid(rate, time, axis=0, initial=0.0)
+    place = cumulative_trapezoid(rate, time, axis=0, initial=0)
     middle = int(np.argmin(np.abs(time - 0.5 * stance)))
     place[:, 0] -= place[middle, 0] + reach.leg.hip[0]
     place[:, 1] += reach.standing - place[on, 1].max()

@@ -21,7 +21,7 @@ from geocontact.prosthesis.from_markers.sides import of_side
 from geocontact.prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.prosthesis.keel.vsf import fulcrum_of
 from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
-from geocontact.prosthesis.model.leg import Leg
+from geocontact.prosthesis.model.leg import Leg, Side
 from geocontact.prosthesis.model.leg_tree import RECORDED, recorded_tree
 from geocontact.prosthesis.simulate import Stance, simulate_stance
 from geocontact.prosthesis.synthetic.course import Course, course
@@ -157,7 +157,7 @@ def _standing(
 
 
 def _of_side(
-    seen: tuple[Float[np.ndarray, " t"], Float[np.ndarray, "t m 3"]], side: str, what: str
+    seen: tuple[Float[np.ndarray, " t"], Float[np.ndarray, "t m 3"]], side: Side, what: str
 ) -> MarkerTrajectories:
     names = STANDING if side == "right" else tuple(mirrored_name(name) for name in STANDING)
     return MarkerTrajectories(seen[0], of_side(seen[1], side), names, f"synthetic {what}")
