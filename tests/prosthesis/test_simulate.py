@@ -22,7 +22,7 @@ def landing() -> Stance:
     """From before touch-down into the loading of a person of 77 kg."""
     leg = true_leg(PARTICIPANTS[0], BELOW)
     one = course(leg, vsf_foot(), FULCRUM, 0.72)
-    return simulate_stance(one.motion, vsf_foot(), FULCRUM, one.push, (-0.06, 0.16), tolerance=1e-4, machine_code=False)
+    return simulate_stance(one.motion, vsf_foot(), FULCRUM, one.push, (-0.06, 0.16), tolerance=3e-5, machine_code=False)
 
 
 @pytest.mark.slow
@@ -41,6 +41,17 @@ def test_momentum_is_what_the_forces_leave(landing: Stance) -> None:
     given = cumulative_trapezoid(acting, s.time, axis=0, initial=0.0)
     assert s.force[:, 1].max() > 0.8 * whole.mass * GRAVITY
     np.testing.assert_allclose(gained[5:-5, :2], given[5:-5, :2], atol=0.6)  # of about 100 N s
+
+
+@pytest.mark.slow
+def test_force_is_within_a_hundredth_of_body_weight_of_a_finer_tolerance(landing: Stance) -> None:
+    """Short form of `benchmarks/prosthesis_stance.py`, at touch-down, where steps are hardest."""
+    s = landing
+    fine = simulate_stance(
+        s.motion, s.foot, s.fulcrum, s.push, (s.time[0], s.time[-1]), tolerance=1e-6, machine_code=False
+    )
+    off = np.linalg.norm(fine.force - s.force, axis=1) / (77.3 * GRAVITY)
+    assert off.max() < 0.01
 
 
 def test_share_of_foot_turns_with_the_foot() -> None:
