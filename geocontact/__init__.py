@@ -13,14 +13,16 @@ column's name.
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from geocontact.data.version import VERSION
 
 if TYPE_CHECKING:
     from geocontact import chain
-    from geocontact.analyses import misalignment, shoulder
+    from geocontact.analyses import misalignment, prosthesis, shoulder
     from geocontact.analyses.area.job import area, pressure
     from geocontact.analyses.cop.job import centre_of_pressure
     from geocontact.analyses.gap.diagnose.job import diagnose
@@ -122,7 +124,12 @@ _PLACES = {
     "Result": "analyses.result",
 }
 
-_ROOMS = {"misalignment": "analyses.misalignment", "shoulder": "analyses.shoulder", "chain": "chain"}
+_ROOMS = {
+    "misalignment": "analyses.misalignment",
+    "prosthesis": "analyses.prosthesis",
+    "shoulder": "analyses.shoulder",
+    "chain": "chain",
+}
 """Modules with names of their own."""
 
 __all__ = [
@@ -175,6 +182,7 @@ __all__ = [
     "ms",
     "percent",
     "pressure",
+    "prosthesis",
     "read_gap_case",
     "read_mesh",
     "read_motion",
@@ -189,6 +197,18 @@ __all__ = [
     "system_of",
     "virtual_markers",
 ]
+
+
+class _FrontDoor(ModuleType):
+    """Rooms of analyses before sub-packages of the same name, which importing one would put here."""
+
+    def __getattribute__(self, name: str) -> Any:
+        if name == "prosthesis":
+            return import_module("geocontact.analyses.prosthesis")
+        return super().__getattribute__(name)
+
+
+sys.modules[__name__].__class__ = _FrontDoor
 
 
 def __getattr__(name: str) -> Any:

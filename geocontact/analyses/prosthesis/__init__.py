@@ -1,0 +1,15 @@
+"""A below-knee prosthesis with a variable-stiffness foot: `gc.prosthesis.simulate(...)`."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from geocontact.analyses.package_of_jobs import PackageOfJobs
+
+if TYPE_CHECKING:
+    from geocontact.analyses.prosthesis.simulate.job import simulate
+
+__all__ = ["simulate"]
+
+sys.modules[__name__].__class__ = PackageOfJobs

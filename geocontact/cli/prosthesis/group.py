@@ -1,0 +1,11 @@
+"""`geocontact prosthesis`: a below-knee prosthesis with a foot of variable stiffness."""
+
+from __future__ import annotations
+
+from cyclopts import App
+
+prosthesis = App(
+    name="prosthesis",
+    help="Below-knee prosthesis with a variable-stiffness foot: ground reaction along a recorded walk.",
+)
+prosthesis.command("geocontact.cli.prosthesis.simulate:simulate", name="simulate")
