@@ -52,8 +52,8 @@ class FeetOnGround:
 def feet_on_ground(subject: Subject) -> FeetOnGround:
     """The chain with a heel and a toe sphere, by OpenSim's law.
 
-    Not by the printed one: its friction starts as the cube of the speed, so that a foot which stands slips freely, and
-    the search for a motion with it came to no end.
+    With the printed one the search for a motion came to no end. Its friction starts as the cube of the speed, so that a
+    foot which stands slips freely; whether that is the cause was not tried by itself.
     """
     from casadi import SX, exp, vertcat
 
