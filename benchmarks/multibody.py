@@ -139,14 +139,16 @@ def motion(rounds: int) -> list[dict[str, Any]]:
 
     from geocontact.dynamics.equations import equations_of_motion
     from geocontact.dynamics.simulate import Stepper
-    from geocontact.dynamics.sphere_contact import SphereLaw, sphere_wrench
+    from geocontact.dynamics.sphere_contact import SphereLaw, sole_wrench
     from geocontact.dynamics.tree import tree_of
     from geocontact.geometry.shapes import HalfSpace
+    from geocontact.loads.sphere_set import SphereSet
     from tests.dynamics.models import free_ball
 
     tree = tree_of(free_ball())
     law = SphereLaw(1e5, 1.5, 100.0, 1e-3, 0.01, 0.5, 0.4)
-    loads = {"ball": sphere_wrench(tree.bodies["ball"], np.zeros(3), 0.05, law, HalfSpace())}
+    ball = SphereSet(np.zeros((1, 3)), np.array([0.05]), ("ball",))
+    loads = {"ball": sole_wrench(tree.bodies["ball"], ball, [law], HalfSpace())}
     equations = equations_of_motion(tree, loads=loads)
     fast, slow = Stepper(equations), Stepper(equations, machine_code=False)
     start, speed, wanted = np.zeros(6), np.zeros(6), np.linspace(0.0, FALL, 101)

@@ -8,6 +8,7 @@ from typing import Any
 
 from geocontact.contact.area_hertz import cap_force, disc_force, discs_force, strip_force, threshold_force
 from geocontact.contact.bristle_friction import bristle_force, deflection_rate
+from geocontact.contact.bushing import bushing_force
 from geocontact.contact.elastic_foundation import (
     linear_pair_pressure,
     linear_pressure,
@@ -95,4 +96,9 @@ FRICTION: tuple[ForceLaw, ...] = (
 )
 """How they resist sliding: odd in all variables together."""
 
-LAWS = PRESSING + FRICTION
+HOLDING: tuple[ForceLaw, ...] = (
+    ForceLaw(bushing_force, (Variable("displacement", "m", 5e-3), Variable("rate", "m/s", 0.05)), (20e3, 10e3)),
+)
+"""How they hold what is displaced: odd in all variables together."""
+
+LAWS = PRESSING + FRICTION + HOLDING

@@ -84,7 +84,7 @@ def sphere_loads(
     velocity = _velocity(rate[frame], lowest)
     sliding = velocity - np.einsum("ci,ci->c", velocity, n)[:, None] * n
     speed = np.linalg.norm(sliding, axis=1)
-    coefficient = friction_coefficient(speed, law.threshold_speed, law.static, law.kinetic)
+    coefficient = friction_coefficient(speed, law.threshold_speed, law.static[sphere], law.kinetic[sphere])
     direction = np.divide(sliding, speed[:, None], out=np.zeros_like(sliding), where=speed[:, None] > 0.0)
     force[touching] = pressing[touching][:, None] * (n - coefficient[:, None] * direction)
     return SphereLoads(pressing, force, point, centre, normal, depth)

@@ -44,7 +44,7 @@ class SphereSet:
 
 @dataclass(frozen=True)
 class SoleLaw:
-    """Numbers of the force law `geocontact.contact.sphere_foot`, stiffness and damping sphere by sphere.
+    """Numbers of the force law `geocontact.contact.sphere_foot`; stiffness, damping and friction sphere by sphere.
 
     Parameters
     ----------
@@ -52,21 +52,23 @@ class SoleLaw:
         k [N/m^n] of each sphere, and n.
     damping, full_depth
         b [N s/m] of each sphere, and the depth [m] from which it acts fully.
-    static, kinetic, threshold_speed
-        Coefficients of friction [-] and the speed [m/s] at which static friction is reached.
+    static, kinetic
+        Coefficients of friction of each sphere [-].
+    threshold_speed
+        Speed [m/s] at which static friction is reached.
     """
 
     stiffness: Float[np.ndarray, " n"]
     damping: Float[np.ndarray, " n"]
     exponent: float
     full_depth: float
-    static: float
-    kinetic: float
+    static: Float[np.ndarray, " n"]
+    kinetic: Float[np.ndarray, " n"]
     threshold_speed: float
 
     def __post_init__(self) -> None:
         positive = (self.exponent, self.full_depth, self.threshold_speed, *self.stiffness)
-        not_negative = (self.static, self.kinetic, *self.damping)
+        not_negative = (*self.static, *self.kinetic, *self.damping)
         if not (np.isfinite([*positive, *not_negative]).all() and min(positive) > 0.0 and min(not_negative) >= 0.0):
             raise ValueError(
                 "stiffness, exponent, depth and threshold speed must be positive, damping and friction not negative"
@@ -75,4 +77,4 @@ class SoleLaw:
     @property
     def needs_velocity(self) -> bool:
         """Whether any force depends on how the foot moves, not only on where it is."""
-        return bool(self.damping.any() or self.static or self.kinetic)
+        return bool(self.damping.any() or self.static.any() or self.kinetic.any())

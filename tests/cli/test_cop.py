@@ -90,6 +90,20 @@ def test_friction_and_damping_come_from_the_motion(tmp_path: Path) -> None:
     np.testing.assert_allclose(table(result)["force_x [N]"], -0.7 * normal, rtol=1e-9)
 
 
+def test_zones_have_their_own_friction(tmp_path: Path) -> None:
+    """Of a foot that slides at 0.4 m/s the toe is braked by 0.2 of its load, the heel by 0.7."""
+    time = np.linspace(0.0, 0.02, 5)
+    rows = "\n".join(f"{t},{400 * t},17,0,1,0,0,0" for t in time)
+    motion = written(tmp_path / "slide.csv", f"time [s], tx [mm], ty [mm], tz [mm], qw, qx, qy, qz\n{rows}\n")
+    text = "k = 5e4\nn = 1.5\nb = 0.0\ndelta_full = 0.002\nv_th = 0.2\nmu_s = 0.9\nmu_k = 0.7\n"
+    law = written(tmp_path / "law.toml", text + "[zone.toe]\nmu_s = 0.3\nmu_k = 0.2\n")
+    result = done(cop(tmp_path, "--law", law, motion=motion))
+    one = 5e4 * 3e-3**1.5
+    np.testing.assert_allclose(table(result)["force_x [N]"], -(0.7 + 0.2) * one, rtol=1e-9)
+    numbers = result.record()["results"]["cop"]["law"]
+    assert (numbers["mu_s"], numbers["mu_k"]) == ([0.3, 0.9], [0.2, 0.7])
+
+
 @pytest.mark.slow
 def test_numbers_of_the_law_by_column_file_and_option_agree(tmp_path: Path) -> None:
     rows = ("0,0,0,0.02,heel,3e5,100", "0.2,0,0,0.02,toe,9e5,200")

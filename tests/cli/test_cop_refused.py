@@ -103,7 +103,7 @@ def test_options(tmp_path: Path, options: tuple[str, ...], words: str) -> None:
         ("k = ", (), "is not TOML"),
         ("n = nan", (), "law.toml n: input should be a finite number"),
         ("[zone.midfoot]\nk = 1e4", (), "zone.midfoot: no sphere is in that zone; zones are: heel, toe"),
-        ("[zone.heel]\nk = 1e4\nmu_s = 0.3", (), "zone.heel.mu_s: is not known here"),
+        ("[zone.heel]\nk = 1e4\nv_th = 0.3", (), "zone.heel.v_th: is not known here"),
         ("k = 1e4", ("--stiffness", "2e4"), "--stiffness: is given a second time by k in"),
         ("n = 1.5", ("--exponent", "1.2"), "--exponent: is given a second time by n in"),
         ("n = -1.5", (), "must be positive"),

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import geocontact.contact as room
-from geocontact.contact.catalogue import FRICTION, LAWS, PRESSING, ForceLaw
+from geocontact.contact.catalogue import FRICTION, HOLDING, LAWS, PRESSING, ForceLaw
 
 SHARES = (-2.0, -1e-6, 0.0, 1e-9, 1e-3, 0.3, 1.0, 1.7, 5.0)
 """Of the typical value of each variable, all combinations."""
@@ -54,8 +54,8 @@ def test_bodies_only_push_and_harder_when_deeper(law: ForceLaw) -> None:
         assert (np.diff(force) >= 0.0).all() and force[-1] > 0.0
 
 
-@pytest.mark.parametrize("law", FRICTION, ids=lambda law: law.name)
-def test_friction_turns_with_the_motion(law: ForceLaw) -> None:
+@pytest.mark.parametrize("law", FRICTION + HOLDING, ids=lambda law: law.name)
+def test_friction_and_bushings_turn_with_the_motion(law: ForceLaw) -> None:
     at = points(law)
     np.testing.assert_array_equal(value(law, -at), -value(law, at))
     assert value(law, 0.0 * typical(law)) == 0.0 and value(law, typical(law)) != 0.0

@@ -16,15 +16,17 @@ from geocontact.data.multibody.model import Body, Multibody
 from geocontact.dynamics import compiled as code
 from geocontact.dynamics.equations import Equations, LawState, equations_of_motion
 from geocontact.dynamics.simulate import Stepper
-from geocontact.dynamics.sphere_contact import SphereLaw, sphere_wrench
+from geocontact.dynamics.sphere_contact import SphereLaw, sole_wrench
 from geocontact.dynamics.tree import tree_of
 from geocontact.geometry.shapes import HalfSpace
+from geocontact.loads.sphere_set import SphereSet
 from tests.dynamics.models import all_kinds, free_ball, pendulum
 from tests.dynamics.test_tree import energy
 
 NONE = np.zeros(0)
 X, Y, Z = np.eye(3)
 GROUND = HalfSpace(normal=(0.0, 2.0, 0.0))
+BALL = SphereSet(np.zeros((1, 3)), np.array([0.05]), ("ball",))
 
 
 def slider(mass: float = 2.0) -> Multibody:
@@ -185,7 +187,7 @@ def test_a_dropped_ball_comes_to_rest_where_the_law_carries_it() -> None:
     """k d^n = m g, from the laws of the foot's spheres."""
     tree = tree_of(free_ball())
     law = SphereLaw(1e5, 1.5, 300.0, 1e-3, 0.01, 0.5, 0.4)
-    loads = {"ball": sphere_wrench(tree.bodies["ball"], np.zeros(3), 0.05, law, GROUND)}
+    loads = {"ball": sole_wrench(tree.bodies["ball"], BALL, [law], GROUND)}
     stepper = Stepper(equations_of_motion(tree, loads=loads))
     start = np.zeros(6)
     start[4] = 0.06
@@ -197,7 +199,7 @@ def test_a_dropped_ball_comes_to_rest_where_the_law_carries_it() -> None:
 def test_a_ball_that_slides_begins_to_roll_at_five_sevenths_of_its_speed() -> None:
     tree = tree_of(free_ball())
     law = SphereLaw(1e9, 1.5, 0.0, 1e-3, 1e-4, 0.4, 0.4)
-    loads = {"ball": sphere_wrench(tree.bodies["ball"], np.zeros(3), 0.05, law, GROUND)}
+    loads = {"ball": sole_wrench(tree.bodies["ball"], BALL, [law], GROUND)}
     start, speed = np.zeros(6), np.zeros(6)
     start[4], speed[3] = 0.05 - (2.0 * 9.81 / 1e9) ** (1 / 1.5), 1.0
     course = Stepper(equations_of_motion(tree, loads=loads)).simulate(

@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def law(count: int, *, b: float = 0.0, mu: float = 0.0, k: float | np.ndarray = 5e4, v_th: float = 0.1) -> SoleLaw:
     """k depth^1.5; frictionless and undamped unless asked for."""
     stiffness = np.broadcast_to(np.asarray(k, float), count).copy()
-    return SoleLaw(stiffness, np.full(count, b), 1.5, 2e-3, mu, 0.8 * mu, v_th)
+    return SoleLaw(stiffness, np.full(count, b), 1.5, 2e-3, np.full(count, mu), np.full(count, 0.8 * mu), v_th)
 
 
 def sole(points: np.ndarray, radius: float | np.ndarray = RADIUS, zone: tuple[str, ...] | None = None) -> SphereSet:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -74,6 +75,14 @@ def test_friction_opposes_the_sliding_of_the_lowest_point() -> None:
         )
 
 
+def test_every_sphere_has_its_own_friction() -> None:
+    """As zones have it whose soles differ."""
+    spheres = sole(np.array([[0.0, RADIUS - 1e-3, 0.0], [0.2, RADIUS - 1e-3, 0.0]]), zone=("heel", "toe"))
+    numbers = replace(law(2, mu=0.6), static=np.array([0.6, 0.9]), kinetic=np.array([0.5, 0.2]))
+    loads = sphere_loads(spheres, numbers, *twist(RigidTransform.identity(), np.array([2.0, 0, 0]), np.zeros(3)), LEVEL)
+    np.testing.assert_allclose(loads.force[0, :, 0], -5e4 * 1e-3**1.5 * np.array([0.5, 0.2]), rtol=1e-12)
+
+
 def test_a_rolling_sphere_feels_no_friction() -> None:
     """Its lowest point, RADIUS below the centre, stands still while the centre moves on."""
     spheres, numbers = sole(np.array([[0.0, RADIUS - 1e-3, 0.0]])), law(1, mu=0.6)
@@ -97,7 +106,8 @@ def sagittal(spheres: SphereSet, n: SoleLaw, pose: np.ndarray, rate: np.ndarray)
     normal *= depth > 0.0
     speed = vx - turning * (height - spheres.radius - y)
     nodes = np.array([-3, -1.5, -1, 1, 1.5, 3]) * n.threshold_speed
-    table = [-n.kinetic, -n.kinetic, -n.static, n.static, n.kinetic, n.kinetic]
+    static, kinetic = n.static[0], n.kinetic[0]
+    table = [-kinetic, -kinetic, -static, static, kinetic, kinetic]
     tangential = -np.interp(speed, nodes, table) * normal
     contact = x + c * px - s * py
     return tangential.sum(), normal.sum(), float((normal * contact).sum() / normal.sum())

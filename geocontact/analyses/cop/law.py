@@ -36,8 +36,8 @@ def sole_law(record: Record, table: SphereTable, o: CopOptions) -> SoleLaw:
             damping=_each(record, one, table, file, "b"),
             exponent=exponent,
             full_depth=one("full_depth", "delta_full", o.full_depth, file.delta_full, FULL_DEPTH),
-            static=one("friction", "mu_s", static, file.mu_s, STATIC),
-            kinetic=one("friction", "mu_k", kinetic, file.mu_k, KINETIC),
+            static=_friction(one, table, file, "mu_s", static, STATIC),
+            kinetic=_friction(one, table, file, "mu_k", kinetic, KINETIC),
             threshold_speed=one("threshold_speed", "v_th", o.threshold_speed, file.v_th, THRESHOLD_SPEED),
         )
     except InputError:
@@ -56,8 +56,8 @@ def _check_sizes(record: Record, o: CopOptions, law: SoleLaw) -> None:
         "b": None if o.damping is not None else (float(law.damping.min()), float(law.damping.max())),
         "n": None if o.exponent is not None else law.exponent,
         "delta_full": None if o.full_depth is not None else law.full_depth,
-        "mu_s": None if o.friction is not None else law.static,
-        "mu_k": None if o.friction is not None else law.kinetic,
+        "mu_s": None if o.friction is not None else (float(law.static.min()), float(law.static.max())),
+        "mu_k": None if o.friction is not None else (float(law.kinetic.min()), float(law.kinetic.max())),
         "v_th": None if o.threshold_speed is not None else law.threshold_speed,
     }
     for name, known, value in numbers_in(LAW, found):
@@ -88,7 +88,7 @@ UNITS = {"n": "", "b": " N s/m", "delta_full": " m", "mu_s": "", "mu_k": "", "v_
 
 def _tell_assumed(record: Record, assumed: dict[str, float], law: SoleLaw) -> None:
     """Say which numbers nobody gave, of those that have an effect."""
-    idle = {"delta_full": not law.damping.any(), "v_th": law.static == 0.0 == law.kinetic}
+    idle = {"delta_full": not law.damping.any(), "v_th": not (law.static.any() or law.kinetic.any())}
     shown = [f"{key} = {assumed[key]:g}{unit}" for key, unit in UNITS.items() if key in assumed and not idle.get(key)]
     if shown:
         record.warn(f"numbers of the force law that were not given are assumed: {', '.join(shown)}")
@@ -111,6 +111,17 @@ def _each(record: Record, one: _Numbers, table: SphereTable, file: LawFile, key:
     if key == "k" and key in one.assumed:
         where = "every sphere" if not zones else f"zone {', '.join(sorted(without))}"
         record.warn(f"no stiffness given for {where}: {default:g} N/m^n is taken; forces are only as good as that")
+    return np.array([zones.get(zone, rest) for zone in table.zone])
+
+
+def _friction(
+    one: _Numbers, table: SphereTable, file: LawFile, key: str, given: float | None, default: float
+) -> Float[np.ndarray, " n"]:
+    """Static or kinetic friction of every sphere."""
+    zones = {name: value for name, zone in file.zone.items() if (value := getattr(zone, key)) is not None}
+    without = set(table.zone) - set(zones)
+    filed = getattr(file, key)
+    rest = one("friction", key, given, filed, default) if without or given is not None or filed is not None else default
     return np.array([zones.get(zone, rest) for zone in table.zone])
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.analyses.cop.force_plate import comparison_table, plate_curves, root_mean_squares
 from geocontact.analyses.cop.options import CopOptions
@@ -74,8 +75,8 @@ def _summarise(r: CopResult) -> None:
             "b": sorted(set(law.damping.tolist())),
             "n": law.exponent,
             "delta_full_m": law.full_depth,
-            "mu_s": law.static,
-            "mu_k": law.kinetic,
+            "mu_s": _one_or_all(law.static),
+            "mu_k": _one_or_all(law.kinetic),
             "v_th_m_per_s": law.threshold_speed,
         },
     }
@@ -84,6 +85,12 @@ def _summarise(r: CopResult) -> None:
     )
     if r.comparison is not None:
         _tell_comparison(r, root_mean_squares(r.comparison))
+
+
+def _one_or_all(values: Float[np.ndarray, " n"]) -> float | list[float]:
+    """The value that all spheres share, else all that occur."""
+    found = sorted(set(values.tolist()))
+    return found[0] if len(found) == 1 else found
 
 
 def _tell_comparison(r: CopResult, differences: dict[str, float | None]) -> None:

@@ -53,11 +53,13 @@ class SphereTable:
 
 
 class ZoneLaw(BaseModel):
-    """Stiffness [N/m^n] and damping [N s/m] of a zone."""
+    """Stiffness [N/m^n], damping [N s/m] and friction, static and kinetic, of a zone."""
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
     k: float | None = None
     b: float | None = None
+    mu_s: float | None = None
+    mu_k: float | None = None
 
 
 class LawFile(BaseModel):
@@ -101,7 +103,7 @@ def read_spheres(path: str | PathLike[str]) -> SphereTable:
 
 
 def read_law(path: str | PathLike[str]) -> LawFile:
-    """Numbers of a force law in a .toml: k, b, n, delta_full, mu_s, mu_k, v_th (SI), and k, b of zones."""
+    """Numbers of a force law in a .toml: k, b, n, delta_full, mu_s, mu_k, v_th (SI), and k, b, mu_s, mu_k of zones."""
     file = fspath(path)
     try:
         return LawFile.model_validate(tomllib.loads(_text(path)))
@@ -111,7 +113,7 @@ def read_law(path: str | PathLike[str]) -> LawFile:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
         what = "is not known here" if first["type"] == "extra_forbidden" else first["msg"].lower()
-        remedy = "known are k, b, n, delta_full, mu_s, mu_k, v_th, and k, b in [zone.NAME]"
+        remedy = "known are k, b, n, delta_full, mu_s, mu_k, v_th, and k, b, mu_s, mu_k in [zone.NAME]"
         raise InputError(file, place, what, remedy) from error
 
 
