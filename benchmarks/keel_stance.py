@@ -54,7 +54,7 @@ def stance(foot: VariableStiffnessFoot, fulcrum: float) -> Stance:
     height = gaussian_filter1d(_heights(still, turn, load), SMOOTH)
     law = foot.law
     ratio = FORWARD * WEIGHT * -np.sin(2.0 * np.pi * share) / np.maximum(load, 0.1 * WEIGHT)
-    wanted, speed = -ratio * law.threshold_speed / law.kinetic, np.zeros(len(time))
+    wanted, speed = -ratio * law.threshold_speed / law.kinetic[0], np.zeros(len(time))
     for _ in range(4):
         shift = cumulative_trapezoid(speed, time, initial=0.0)
         poses = RigidTransform.from_components(np.stack([shift, height, 0.0 * shift], axis=1), turn)

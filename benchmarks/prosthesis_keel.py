@@ -103,7 +103,7 @@ def convergence() -> dict[str, Any]:
     from geocontact.prosthesis.keel.sole import Sole
     from geocontact.prosthesis.keel.vsf import fulcrum_of, vsf_keel
 
-    law, radius = SoleLaw(np.array([1e9]), np.zeros(1), 1.0, 1.0, 0.0, 0.0, 1.0), np.array([1e-9])
+    law, radius = SoleLaw(np.array([1e9]), np.zeros(1), 1.0, 1.0, np.zeros(1), np.zeros(1), 1.0), np.array([1e-9])
     found: dict[str, Any] = {}
     for setting in ("low", "medium", "high"):
         fulcrum = fulcrum_of(setting)

@@ -31,7 +31,7 @@ FOREFOOT = "forefoot"
 def pressed_tip(keel: Keel, fulcrum: float, series: float, travel: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
     """Force [N] of a level plate on the tip through a spring of `series` [N/m], along its travel [m]."""
     tip = SphereSet(np.array([[keel.length, 0.0, 0.0]]), np.array([1e-9]), ("tip",))
-    law = SoleLaw(np.array([series]), np.zeros(1), 1.0, 1.0, 0.0, 0.0, 1.0)
+    law = SoleLaw(np.array([series]), np.zeros(1), 1.0, 1.0, np.zeros(1), np.zeros(1), 1.0)
     return _pressed(QuasiStaticKeel(keel, fulcrum, Sole(tip, (keel.joints,)), law), travel, 0.0)
 
 

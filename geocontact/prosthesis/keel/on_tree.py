@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +13,7 @@ from geocontact.data.multibody.joint_kinds import revolute
 from geocontact.data.multibody.model import Body
 from geocontact.dynamics.body_contact import together
 from geocontact.dynamics.inverse_dynamics import Wrenches
-from geocontact.dynamics.sphere_contact import SphereLaw, sphere_wrench
+from geocontact.dynamics.sphere_contact import laws_of, sole_wrench
 from geocontact.dynamics.tree import Tree
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.sphere_set import SoleLaw
@@ -107,20 +108,14 @@ def sole_wrenches(
     name: str = "keel",
 ) -> Wrenches:
     """Loads of a plane ground on the parent and the segments through the spheres that each carries."""
-    loads = []
-    for k, (segment, centre, radius) in enumerate(
-        zip(sole.segment, sole.spheres.centre, sole.spheres.radius, strict=True)
-    ):
+    laws, loads = laws_of(law), []
+    for segment in range(keel.joints + 1):
+        spheres = sole.on(segment, keel)
+        if spheres is None:
+            continue
+        own = [one for one, each in zip(laws, sole.segment, strict=True) if each == segment]
+        if not segment:
+            spheres = replace(spheres, centre=X_PK.apply(spheres.centre))
         body = f"{name}_{segment}" if segment else parent
-        here = centre - np.array([keel.places[segment - 1], 0.0, 0.0]) if segment else X_PK.apply(centre)
-        numbers = SphereLaw(
-            k=float(law.stiffness[k]),
-            n=law.exponent,
-            b=float(law.damping[k]),
-            delta_full=law.full_depth,
-            v_th=law.threshold_speed,
-            mu_s=law.static,
-            mu_k=law.kinetic,
-        )
-        loads.append({body: sphere_wrench(tree.bodies[body], here, float(radius), numbers, ground)})
+        loads.append({body: sole_wrench(tree.bodies[body], spheres, own, ground)})
     return together(*loads)

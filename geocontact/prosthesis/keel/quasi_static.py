@@ -166,14 +166,14 @@ class QuasiStaticKeel:
         axes = np.array([forward] * more + [right] * keel.joints)
         segment = np.array(self.sole.segment)
         last = np.where(segment > 0, segment - 1 + more, -1).astype(np.int64)
-        moving, n = 0.0 if static else 1.0, len(spheres)
+        moving = 0.0 if static else 1.0
         numbers = np.stack(
             [
                 spheres.radius,
                 law.stiffness,
                 moving * law.damping,
-                np.broadcast_to(moving * np.asarray(law.static if falling else law.kinetic), n),
-                np.broadcast_to(moving * np.asarray(law.kinetic), n),
+                moving * (law.static if falling else law.kinetic),
+                moving * law.kinetic,
             ],
             axis=1,
         )

@@ -116,8 +116,8 @@ def law_of(sole: Sole) -> SoleLaw:
         damping=value["damping"] * share,
         exponent=value["exponent"],
         full_depth=value["full_depth"],
-        static=value["static"],
-        kinetic=value["kinetic"],
+        static=np.full(len(share), value["static"]),
+        kinetic=np.full(len(share), value["kinetic"]),
         threshold_speed=value["threshold_speed"],
     )
 

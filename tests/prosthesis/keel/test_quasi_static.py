@@ -41,7 +41,7 @@ def on_tip(joints: int, series: float = 1e9) -> QuasiStaticKeel:
     """A plate that presses on the tip through a spring."""
     keel = vsf_keel(joints=joints)
     tip = SphereSet(np.array([[keel.length, 0.0, 0.0]]), np.array([1e-9]), ("tip",))
-    law = SoleLaw(np.array([series]), np.zeros(1), 1.0, 1e-3, 0.0, 0.0, 0.01)
+    law = SoleLaw(np.array([series]), np.zeros(1), 1.0, 1e-3, np.zeros(1), np.zeros(1), 0.01)
     return QuasiStaticKeel(keel, 0.066, Sole(tip, (joints,)), law)
 
 
