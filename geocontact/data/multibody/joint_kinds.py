@@ -1,9 +1,11 @@
-"""Joints of a tree made in Python: revolute, prismatic, gimbal, free, weld.
+"""Joints of a tree made in Python: revolute, prismatic, gimbal, free, cardan, weld.
 
 Files have these and more (`io.opensim.osim`).
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 from jaxtyping import Float
@@ -68,6 +70,32 @@ def free(
     """
     shifts = [(k + 3, _AXES[k], f"{name}_t{'xyz'[k]}") for k in range(3)]
     return _joint(name, parent, child, [*_turns(name), *shifts], at, child_at)
+
+
+def cardan(
+    name: str,
+    parent: str,
+    child: str,
+    turns: Sequence[tuple[str, Vector]],
+    shifts: Sequence[tuple[str, Vector]] = (),
+    at: RigidTransform | None = None,
+    child_at: RigidTransform | None = None,
+) -> JointModel:
+    """Up to three turns, each about an axis that the ones before it have turned, and up to three shifts.
+
+    Parameters
+    ----------
+    turns, shifts
+        Names of the coordinates [rad, m] and their axes in the joint's frame; shifts are along those of the parent.
+    at, child_at
+        As for `revolute`.
+
+    ValueError for more than three of either.
+    """
+    if max(len(turns), len(shifts)) > 3:
+        raise ValueError(f"joint {name}: {len(turns)} turns and {len(shifts)} shifts; three of each at most")
+    moves = [(first + k, axis, each) for first, of in ((0, turns), (3, shifts)) for k, (each, axis) in enumerate(of)]
+    return _joint(name, parent, child, moves, at, child_at)
 
 
 def weld(

@@ -1,0 +1,1 @@
+"""The prosthetic leg: segments, bodies and joints, equations of one stance."""

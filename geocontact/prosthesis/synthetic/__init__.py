@@ -1,0 +1,1 @@
+"""Synthetic walking trials of persons who were not there."""
