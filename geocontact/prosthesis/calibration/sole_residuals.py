@@ -1,0 +1,105 @@
+"""What recorded stances leave over at given numbers of the zones, in units of the noise, and its derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.identify.optimise.least_squares import divided
+from geocontact.prosthesis.calibration.recorded_stance import CHANNELS, RecordedStance
+from geocontact.prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
+from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot
+
+STEP = 1e-5
+"""Of a logarithm, for differences."""
+NO_BALANCE = 100.0
+"""Residual, in units of the noise, of a stance along which the keel finds no equilibrium."""
+
+PAUSE = 1000.0
+"""Lengths of a stance between channels, so that none remembers another."""
+
+
+@dataclass(eq=False)
+class SoleResiduals:
+    """Residuals of all stances as functions of the logarithms of the numbers over the usual ones.
+
+    Parameters
+    ----------
+    noise
+        Of each stance, in the channels' units.
+    solved
+        How often the keel was solved along a stance.
+    """
+
+    stances: Sequence[RecordedStance]
+    foot: VariableStiffnessFoot
+    zones: ZoneParameters
+    noise: list[Float[np.ndarray, "t c"]]
+    solved: int = 0
+    _last: tuple[Float[np.ndarray, " p"], Float[np.ndarray, " n"]] | None = field(default=None, repr=False)
+
+    @classmethod
+    def of(cls, stances: Sequence[RecordedStance], foot: VariableStiffnessFoot) -> SoleResiduals:
+        """Around the foot's law, with the noise at it."""
+        noise = [stance.noise(foot.at(stance.fulcrum)) for stance in stances]
+        return cls(stances, foot, ZoneParameters(foot.sole, foot.law), noise)
+
+    def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
+        """The numbers."""
+        return np.asarray(self.zones.values_of(self.zones.usual) * np.exp(z))
+
+    def keel(self, z: Float[np.ndarray, " p"], stance: RecordedStance) -> QuasiStaticKeel:
+        """With these numbers at the stance's fulcrum."""
+        law = self.zones.law(self.values(z))
+        return QuasiStaticKeel(self.foot.keel, stance.fulcrum, self.foot.sole, law)
+
+    def motion(self, z: Float[np.ndarray, " p"], stance: RecordedStance) -> KeelMotion:
+        """ArithmeticError where the keel finds no equilibrium."""
+        self.solved += 1
+        return stance.solved(self.keel(z, stance))
+
+    def of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
+        """Predicted less measured over the noise, stance by stance, frame by frame."""
+        parts = []
+        for stance, noise in zip(self.stances, self.noise, strict=True):
+            measured = stance.measured / noise
+            try:
+                predicted = stance.predicted(self.keel(z, stance), self.motion(z, stance)) / noise
+                parts.append(divided(predicted, measured, np.ones(len(CHANNELS))))
+            except ArithmeticError:
+                parts.append(np.full(int(np.isfinite(measured).sum()), NO_BALANCE))
+        return np.concatenate(parts)
+
+    def __call__(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " m"]:
+        """Those of the data, then what the numbers differ from the usual ones in standard deviations beforehand."""
+        data = self.of_data(z)
+        self._last = (z.copy(), data)
+        return np.concatenate([data, z / self.zones.sd])
+
+    def slope(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "m p"]:
+        """Derivatives of `__call__` by the logarithms."""
+        return np.vstack([self.slope_of_data(z), np.diag(1.0 / self.zones.sd)])
+
+    def slope_of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
+        """Derivatives of `of_data` by the logarithms, by one-sided differences."""
+        known = self._last is not None and np.array_equal(self._last[0], z)
+        base = self._last[1] if known and self._last is not None else self.of_data(z)
+        return np.stack([(self.of_data(z + STEP * unit) - base) / STEP for unit in np.eye(len(z))], axis=1)
+
+    def channel_by_channel(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+        """Times [s] of the data's residuals in that order, a long pause after each channel, and the residuals' places."""
+        times, places, first, late = [], [], 0, 0.0
+        for stance in self.stances:
+            there = np.isfinite(stance.measured)
+            number = np.full(there.shape, -1)
+            number[there] = first + np.arange(int(there.sum()))
+            first += int(there.sum())
+            for column, on in zip(number.T, there.T, strict=True):
+                times.append(stance.time[on] - stance.time[0] + late)
+                places.append(column[on])
+                late += PAUSE * float(stance.time[-1] - stance.time[0])
+        return np.concatenate(times), np.concatenate(places)
