@@ -20,7 +20,7 @@ from geocontact.data.version import VERSION
 
 if TYPE_CHECKING:
     from geocontact import chain
-    from geocontact.analyses import misalignment, shoulder
+    from geocontact.analyses import misalignment, prosthesis, shoulder
     from geocontact.analyses.area.job import area, pressure
     from geocontact.analyses.cop.job import centre_of_pressure
     from geocontact.analyses.gap.diagnose.job import diagnose
@@ -122,7 +122,12 @@ _PLACES = {
     "Result": "analyses.result",
 }
 
-_ROOMS = {"misalignment": "analyses.misalignment", "shoulder": "analyses.shoulder", "chain": "chain"}
+_ROOMS = {
+    "misalignment": "analyses.misalignment",
+    "prosthesis": "analyses.prosthesis",
+    "shoulder": "analyses.shoulder",
+    "chain": "chain",
+}
 """Modules with names of their own."""
 
 __all__ = [
@@ -175,6 +180,7 @@ __all__ = [
     "ms",
     "percent",
     "pressure",
+    "prosthesis",
     "read_gap_case",
     "read_mesh",
     "read_motion",

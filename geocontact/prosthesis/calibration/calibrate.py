@@ -2,8 +2,8 @@
 
 From each of several starts, spread over the bounds (Latin hypercube), a few turns of solving the keel and fitting
 stiffness and damping at its depths (`linear_turn`); the best of them are finished over all numbers by damped
-Gauss-Newton steps. What is made least is the sum of squares of force and centre of pressure, each in units of its noise,
-and of the numbers' logarithms about the usual ones, in units of what is believed beforehand.
+Gauss-Newton steps. What is made least is the sum of squares of force and centre of pressure, each in units of its
+noise, and of the numbers' logarithms about the usual ones, in units of what is believed beforehand.
 
 Deviation from the study of the variable-stiffness foot, which fits the size of the force only, in newtons, without
 beliefs: the direction of the force and the centre are recorded as well, and tell zones apart that the size does not.

@@ -91,7 +91,7 @@ class SoleResiduals:
         return np.stack([(self.of_data(z + STEP * unit) - base) / STEP for unit in np.eye(len(z))], axis=1)
 
     def channel_by_channel(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
-        """Times [s] of the data's residuals in that order, a long pause after each channel, and the residuals' places."""
+        """Times of the data's residuals in that order [s], a pause after each channel, and the residuals' places."""
         times, places, first, late = [], [], 0, 0.0
         for stance in self.stances:
             there = np.isfinite(stance.measured)

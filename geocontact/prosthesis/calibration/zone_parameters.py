@@ -71,7 +71,9 @@ class ZoneParameters:
         stiffness, damping, kinetic = (self.by_sphere(row) for row in values.reshape(3, -1))
         count = len(self.sole.spheres)
         static, usual = (np.broadcast_to(each, count) for each in (self.usual.static, self.usual.kinetic))
-        return replace(self.usual, stiffness=stiffness, damping=damping, kinetic=kinetic, static=kinetic * static / usual)
+        return replace(
+            self.usual, stiffness=stiffness, damping=damping, kinetic=kinetic, static=kinetic * static / usual
+        )
 
     def by_sphere(self, values: Float[np.ndarray, " zones"]) -> Float[np.ndarray, " n"]:
         """Of each sphere its zone's."""
