@@ -133,10 +133,8 @@ class Stance:
 
 
 def share_of_foot(poses: RigidTransform, length: float, point: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, " t"]:
-    """Place of points of the ground along the foot's long axis as seen from above, from heel 0 to toes 1."""
+    """Place of points along the keel's straight axis, from its posterior end 0 to its anterior one 1."""
     forward = poses.rotation.apply([1.0, 0.0, 0.0])
-    forward[:, 1] = 0.0
-    forward /= np.linalg.norm(forward, axis=1, keepdims=True)
     return np.asarray(np.einsum("ti,ti->t", point - poses.translation, forward) / length)
 
 

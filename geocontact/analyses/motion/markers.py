@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.analyses.quantities import turned_axes
+from geocontact.analyses.quantities import named_file, turned_axes
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
+from geocontact.io.mocap.marker_map import marker_map_typed, read_marker_map
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.opensim.osim_multibody import read_marker_set
 
@@ -47,6 +48,24 @@ def _refuse_absurd(seen: MarkerTrajectories) -> None:
         likely = "mm" if size > LARGEST else "m"
         what = f"markers span {size:.3g} m in a frame"
         raise InputError(seen.source, "", what, f"is the unit in the file's head right? perhaps it is {likely}")
+
+
+def renamed_as_told(record: Record, seen: MarkerTrajectories, given: str | None) -> MarkerTrajectories:
+    """Markers by new names, as `markers_map` says; InputError where one of them was not recorded."""
+    if given is None:
+        return seen
+    file = named_file(given)
+    names = marker_map_typed(given, "`markers_map`") if file is None else read_marker_map(file)
+    if file is not None:
+        record.add_input("`markers_map`", file, markers=len(names))
+    lost = [name for name in names if name not in seen.names]
+    if lost:
+        what = f"{lost[0]} was not recorded"
+        raise InputError(seen.source, "`markers_map`", what, f"recorded are {', '.join(seen.names[:30])}")
+    try:
+        return seen.renamed(names)
+    except ValueError as error:
+        raise InputError(seen.source, "`markers_map`", str(error), "map that one too, or leave it out") from error
 
 
 def with_marker_set(record: Record, model: Multibody, osim: Path, file: Path | None) -> Multibody:

@@ -1,4 +1,4 @@
-"""A below-knee prosthesis on the ground: `gc.prosthesis.calibrate(...)` and more."""
+"""A below-knee prosthesis with a variable-stiffness foot: `gc.prosthesis.simulate(...)` and more."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from geocontact.analyses.package_of_jobs import PackageOfJobs
 
 if TYPE_CHECKING:
     from geocontact.analyses.prosthesis.calibrate.job import calibrate
+    from geocontact.analyses.prosthesis.simulate.job import simulate
 
-__all__ = ["calibrate"]
+__all__ = ["calibrate", "simulate"]
 
 sys.modules[__name__].__class__ = PackageOfJobs

@@ -1,4 +1,4 @@
-"""`geocontact prosthesis`: a below-knee prosthesis with a variable-stiffness foot."""
+"""`geocontact prosthesis`: a below-knee prosthesis with a foot of variable stiffness."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from cyclopts import App
 
 prosthesis = App(
     name="prosthesis",
-    help="Below-knee prosthesis with a variable-stiffness foot: its sole calibrated on recorded stances.",
+    help="Below-knee prosthesis with a variable-stiffness foot: its sole calibrated, its ground reaction along a walk.",
 )
 prosthesis.command("geocontact.cli.prosthesis.calibrate:calibrate", name="calibrate")
+prosthesis.command("geocontact.cli.prosthesis.simulate:simulate", name="simulate")

@@ -1,4 +1,4 @@
-"""Stiffness, damping and friction of each zone: names, what is believed of them beforehand, and their place in a law."""
+"""Numbers of the zones of a sole: names, beliefs beforehand, and their place in a law."""
 
 from __future__ import annotations
 

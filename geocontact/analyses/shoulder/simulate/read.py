@@ -8,16 +8,13 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import Rotation, Slerp
 
-from geocontact.analyses.motion.markers import markers_given
-from geocontact.analyses.quantities import named_file
+from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.devices import device_named, wearer_named
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.tool import tool_runs
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.identify.signals.filled import filled_and_smoothed
-from geocontact.io.mocap.marker_map import marker_map_typed, read_marker_map
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
@@ -56,7 +53,7 @@ def read(o: ShoulderSimulateOptions, record: Record) -> Worn:
 def worn_along(o: ShoulderSimulateOptions, wearer: Wearer, record: Record) -> Worn:
     """The same on a wearer who is known."""
     device = device_named(record, o.device)
-    seen = _renamed(record, markers_given(o.markers, o.axes, o.time), o.markers_map)
+    seen = renamed_as_told(record, markers_given(o.markers, o.axes, o.time), o.markers_map)
     record.add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     found = arm_motions(seen, MarkerSettings(upright=o.upright, gap_limit=o.gap_limit))
     for note in found.notes:
@@ -76,23 +73,6 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer, record: Record) -> Wo
         else tool_runs(record, o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
     )
     return Worn(arms, frame, device, wearer, tool)
-
-
-def _renamed(record: Record, seen: MarkerTrajectories, given: str | None) -> MarkerTrajectories:
-    if given is None:
-        return seen
-    file = named_file(given)
-    names = marker_map_typed(given, "`markers_map`") if file is None else read_marker_map(file)
-    if file is not None:
-        record.add_input("`markers_map`", file, markers=len(names))
-    lost = [name for name in names if name not in seen.names]
-    if lost:
-        what = f"{lost[0]} was not recorded"
-        raise InputError(seen.source, "`markers_map`", what, f"recorded are {', '.join(seen.names[:30])}")
-    try:
-        return seen.renamed(names)
-    except ValueError as error:
-        raise InputError(seen.source, "`markers_map`", str(error), "map that one too, or leave it out") from error
 
 
 def _smoothed(arm: ArmMotion, o: ShoulderSimulateOptions) -> ArmMotion:

@@ -1,0 +1,1 @@
+"""A stance of the prosthetic side along a recorded walk."""

@@ -1,0 +1,111 @@
+"""What a simulation of a prosthetic stance may be asked for."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal
+
+from geocontact.analyses.options import Expression, Fraction, Length, Options, Spelled, TimeSpan
+from geocontact.data.errors import InputError
+from geocontact.data.plausible import KG, Plausible
+from geocontact.data.ranges import CUTOFF, GAP
+from geocontact.data.units import mm, percent
+
+FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
+PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
+RESIDUAL = Plausible("the share of the shank that is left", percent, (5.0, 95.0), (25.0, 80.0))
+
+
+@dataclass(frozen=True)
+class ProsthesisSimulateOptions(Options):
+    """Ground reaction under a variable-stiffness prosthetic foot along a recorded walk, prosthetic side alone.
+
+    Parameters
+    ----------
+    markers
+        Walking trial (.trc, .c3d, .csv): markers of pelvis, thigh, socket and foot.
+
+    The person
+    ----------
+    static
+        Standing trial with all markers, the foot flat on the floor.
+    mass
+        Of the body with the prosthesis [kg].
+    side
+        Of the prosthesis.
+    sex
+        Row of the table of segment masses.
+    residual
+        Share of the shank's length that is left; 45% unless given, which is invented.
+    functional
+        Trial in which the thigh swings in all directions: gives the hip's centre, else a regression does.
+
+    The foot
+    ----------
+    setting
+        Stiffness of the foot: low, medium or high, 10, 19 or 32 N/mm.
+    fulcrum
+        Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
+    socket
+        Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
+
+    Force plates
+    ----------
+    plates
+        Ground reactions in the markers' axes (.mot, .sto, .c3d).
+    other_plate
+        Name or number of the plate under the other foot: its force stands for the other leg.
+    plate
+        Name or number of the plate under the prosthetic foot, to compare with.
+
+    The motion
+    ----------
+    cutoff
+        Zero-lag low-pass of the recorded coordinates [Hz]; 0 leaves them as they are.
+    gap_limit
+        Longest time for which a coordinate may be unknown [s].
+    machine_code
+        Compile the equations first: the first run takes half a minute longer, every one after it is faster.
+    markers_map
+        Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
+    axes
+        Which of the markers' axes are x (forward along the walk), y (upwards) and z: x,z,-y where the laboratory's z
+        is up.
+    time
+        First and last time [s]: 0.4:1.6. It has to begin before touch-down.
+    """
+
+    over_time: ClassVar[bool] = True
+
+    markers: Path
+    _: KW_ONLY
+    static: Path | None = None
+    mass: Annotated[float | None, PERSON] = None
+    side: Literal["right", "left"] = "right"
+    sex: Literal["male", "female"] = "male"
+    residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
+    functional: Path | None = None
+    setting: Literal["low", "medium", "high"] = "medium"
+    fulcrum: Annotated[Length | None, FULCRUM] = None
+    socket: Literal["as_meant", "as_printed"] = "as_meant"
+    plates: Path | None = None
+    other_plate: str | None = None
+    plate: str | None = None
+    cutoff: Annotated[float, CUTOFF] = 6.0
+    gap_limit: Annotated[float, GAP] = 0.2
+    machine_code: bool = False
+    markers_map: str | None = None
+    axes: Expression | None = None
+    time: TimeSpan | None = None
+
+    def refuse_impossible(self) -> None:
+        """Nothing to scale with, or nothing that stands for the other leg."""
+        if self.static is None:
+            what = "no standing trial: the leg's lengths and the markers' places are not known"
+            raise InputError(self.markers, "`static`", what, "give a trial of quiet standing with all markers")
+        if self.mass is None:
+            raise InputError("", "`mass`", "the mass of the person is not known", "give for example 77.3")
+        if self.plates is None or self.other_plate is None:
+            what = "the force under the other foot is not known: the pelvis, free to fall, would"
+            raise InputError("", "`other_plate`", what, "give `plates` and the name of the plate under the other foot")

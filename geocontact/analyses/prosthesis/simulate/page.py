@@ -1,0 +1,147 @@
+"""The page of a stance: moving leg and foot with the ground's force and the centre of pressure, curves, numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float, Int
+
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
+from geocontact.analyses.run_record import Record
+from geocontact.prosthesis.from_markers.sides import of_side
+from geocontact.prosthesis.model.leg_tree import GRAVITY, recorded_tree
+from geocontact.prosthesis.simulate import Stance
+from geocontact.prosthesis.stance_errors import PlateStance, at_times
+from geocontact.view.page.content import Curve, Curves, Page, Section, Words
+from geocontact.view.page.linkage import Linkage
+from geocontact.view.page.scene import Scene
+from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
+
+FRAMES = 300  # that the page shows at most
+METRES_PER_NEWTON = 6e-4
+"""A force of 1 kN is drawn 0.6 m long."""
+JOINT, LIMB, KEEL, SPHERE, ARROW = 0.02, 0.03, 0.008, 0.012, 0.008
+"""Radius of joints, thickness of limbs and keel, radius of the spheres' centres, thickness of forces [m]."""
+DIRECTIONS = {
+    "right (+z)": (0.0, 0.0, 1.0),
+    "left (−z)": (0.0, 0.0, -1.0),
+    "front (+x)": (1.0, 0.0, 0.0),
+    "above (+y)": (0.0, 1.0, 0.0),
+}
+ALONE = (
+    "Only the prosthetic side is modelled: trunk, arms and the other leg are one mass on the pelvis, the measured force "
+    "under the other foot acts on it, and the other leg's swing does not. Turns of the pelvis, hip and knee are as "
+    "recorded; the pelvis' height and advance, the socket and the keel are found."
+)
+SOLE = (
+    "The foot is a keel of eight hinges on spheres. Where the spheres are, and what they press with, is invented but for "
+    "stiffness in compression; nothing was fitted to this person."
+)
+TWICE = (
+    "Markers on the socket see the socket's own turn against the residual limb, so that it is in the knee angle as well as "
+    "in the bushing."
+)
+
+
+def write_stance_page(
+    path: Path,
+    record: Record,
+    o: ProsthesisSimulateOptions,
+    s: Stance,
+    plate: PlateStance | None,
+    tables: Mapping[str, pd.DataFrame],
+) -> int:
+    """Write the self-contained page; returns its size in bytes."""
+    shown = np.arange(0, len(s.time), -(-len(s.time) // FRAMES))
+    sections: list[Section] = [
+        Scene(directions=DIRECTIONS, up=(0.0, 1.0, 0.0), view=(0.3, 0.2, 1.0), linkages=_lines(s, o, shown)),
+        *_curves(s, plate, shown),
+        *([frame_table("Beside the force plate", tables["errors"])] if "errors" in tables else []),
+        frame_table("Numbers of leg and foot in SI, and where they are from", tables["numbers"]),
+        inputs_table(record.inputs),
+        options_table(record),
+        Words("What the numbers do not contain", [ALONE, SOLE, TWICE, NOT_A_DEVICE]),
+    ]
+    page = Page(
+        title=f"Prosthetic stance along {o.markers.name}",
+        subtitle=f"Fulcrum at {1e3 * s.fulcrum:.0f} mm, {s.motion.leg.person.mass:g} kg, {o.side} side; x forward, y up",
+        time=s.time[shown],
+        time_label="time [s]",
+        headline=headline(record.sentences, most=2),
+        facts=[
+            ("Vertical force up to", f"{s.force[:, 1].max():.0f} N"),
+            ("Ankle moment up to", f"{s.ankle_moment.max():.0f} N m"),
+        ],
+        reservations=tuple(record.warnings),
+        sections=tuple(sections),
+        numbers=shown + 1,
+        total=len(s.time),
+    )
+    return write_page(page, path)
+
+
+def _lines(s: Stance, o: ProsthesisSimulateOptions, shown: Int[np.ndarray, " k"]) -> list[Linkage]:
+    def place(points: Float[np.ndarray, "k n 3"]) -> Float[np.ndarray, "k n 3"]:
+        return of_side(points, o.side)
+
+    motion = s.motion
+    values = np.column_stack([np.interp(s.time[shown], motion.time, column) for column in motion.values.T])
+    values[:, 3:5] = s.found.q[shown, :2]
+    poses = recorded_tree(motion.leg).poses(values)
+    limb = np.stack([poses["pelvis"].translation, poses["thigh"].translation, poses["shank"].translation], axis=1)
+    below = np.stack([poses["shank"].apply(motion.leg.bushing), s.ankle[shown]], axis=1)
+    keel = _keel(s)[shown]
+    centre = s.centre("ground")[shown]
+    force = np.stack([centre, centre + METRES_PER_NEWTON * s.force[shown]], axis=1)
+    thin = s.centre("ground")[:: max(1, len(s.time) // 60)]
+    path = np.broadcast_to(thin, (len(shown), *thin.shape))
+    edge = np.array([[x, 0.0, z] for x in (-0.5, 0.7) for z in (-0.15, 0.25)])[[0, 1, 3, 2]]
+    floor = np.broadcast_to(edge, (len(shown), 4, 3))
+    return [
+        Linkage("pelvis, thigh, residual limb", place(limb), _chain(3), "bone", JOINT, LIMB),
+        Linkage("socket and pylon", place(below), _chain(2), "model", JOINT, LIMB),
+        Linkage("keel", place(keel), _chain(keel.shape[1]), "model", 0.0, KEEL),
+        Linkage("spheres", place(s.loads.centre[shown]), np.zeros((0, 2), np.int64), "seen", SPHERE, 0.0),
+        Linkage("path of the centre of pressure", place(path), _chain(path.shape[1]), "force", 0.0, 0.5 * ARROW),
+        Linkage("force of the ground, 0.6 m for 1 kN", place(force), _chain(2), "force", 0.0, ARROW),
+        Linkage("floor", place(floor), np.array([(0, 1), (1, 2), (2, 3), (3, 0)]), "floor", 0.0, 0.5 * ARROW),
+    ]
+
+
+def _keel(s: Stance) -> Float[np.ndarray, "t n 3"]:
+    """The keel's end, joints and tip in the laboratory [m]."""
+    keel = s.foot.keel
+    angle = np.cumsum(s.keel_angles, axis=1)
+    steps = keel.pitch * np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=2)
+    first = np.broadcast_to([keel.posterior, 0.0, 0.0], (len(s.time), 1, 3))
+    points = np.concatenate([np.zeros_like(first), first, first + np.cumsum(steps, axis=1)], axis=1)
+    turned = np.einsum("tij,tnj->tni", s.poses.rotation.as_matrix(), points)
+    return np.asarray(turned + s.poses.translation[:, None])
+
+
+def _chain(points: int) -> Int[np.ndarray, "k 2"]:
+    return np.array([(i, i + 1) for i in range(points - 1)], np.int64)
+
+
+def _curves(s: Stance, plate: PlateStance | None, shown: Int[np.ndarray, " k"]) -> list[Curves]:
+    def panel(title: str, unit: str, curves: Sequence[tuple[str, Float[np.ndarray, " t"]]]) -> Curves:
+        return Curves(title, unit, [Curve(name, values[shown]) for name, values in curves])
+
+    weight = s.motion.leg.person.mass * GRAVITY
+    seen = None if plate is None else at_times(s.time, plate.time, plate.force) / weight
+    found = []
+    for title, axis in (("Vertical force", 1), ("Fore-aft force, forward positive", 0)):
+        curves = [("simulated", s.force[:, axis] / weight)]
+        found.append(panel(title, "BW", curves if seen is None else [*curves, ("plate", seen[:, axis])]))
+    along = [(f"{name} point", 1e2 * s.along_foot(name)) for name in ("ground", "sphere")]
+    found.append(panel("Centre of pressure from heel to toe", "% of the foot", along))
+    found.append(panel("Ankle moment", "N m", [("against dorsiflexion", s.ankle_moment)]))
+    found.append(panel("Energy of the keel", "J", [("stored", s.stored), ("lost", s.lost)]))
+    found.append(panel("Pistoning of the socket", "mm", [("along the residual limb", 1e3 * s.pistoning)]))
+    return found

@@ -1,0 +1,114 @@
+"""What a simulation starts from: the leg, its motion, the force that stands for the other leg, the plate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.motion.markers import markers_given, renamed_as_told
+from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
+from geocontact.prosthesis.from_markers.marker_names import PELVIS
+from geocontact.prosthesis.from_markers.sides import as_right, of_side
+from geocontact.prosthesis.from_markers.standing import pelvis_frame, standing_leg
+from geocontact.prosthesis.from_markers.walking import Walked, functional_hip, walked
+from geocontact.prosthesis.keel.sole import numbers as sole_numbers
+from geocontact.prosthesis.keel.vsf import fulcrum_of
+from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.prosthesis.model.leg import Leg, Person
+from geocontact.prosthesis.simulate import GATE, Push
+from geocontact.prosthesis.stance_errors import PlateStance, longest_stance
+
+LATE = 0.02
+"""s; least time before touch-down that the recording must begin."""
+
+
+@dataclass(frozen=True, eq=False)
+class Walk:
+    """A person who walks on a foot, as of a right leg.
+
+    Parameters
+    ----------
+    walked
+        Recorded motion.
+    push
+        Of the other leg.
+    plate
+        Under the prosthetic foot; None where it is not named.
+    """
+
+    leg: Leg
+    walked: Walked
+    foot: VariableStiffnessFoot
+    fulcrum: float
+    push: Push
+    plate: PlateStance | None
+
+
+def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
+    """Everything the options name."""
+    foot = vsf_foot()
+    fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
+    standing = _markers(o, cast(Path, o.static), record, "`static`", None)
+    person = Person(cast(float, o.mass), o.sex, o.residual)
+    leg = standing_leg(standing, person, foot.keel, sole_numbers()["below"].value, _hip(o, standing, record))
+    seen = _markers(o, o.markers, record, "markers", o.time)
+    found = walked(seen, leg, cutoff=None if o.cutoff == 0.0 else o.cutoff, gap_limit=o.gap_limit)
+    plates = read_force_plates(cast(Path, o.plates))
+    record.add_input("`plates`", cast(Path, o.plates), plates=len(plates))
+    other = plate_named(plates, o.other_plate, cast(Path, o.plates), "`other_plate`")
+    push = Push(other.time, of_side(np.nan_to_num(other.wrench.force), o.side))
+    _require_clock(o, found.motion.time, other)
+    return Walk(leg, found, foot, fulcrum, push, _own(o, plates, found))
+
+
+def _markers(
+    o: ProsthesisSimulateOptions, file: Path, record: Record, name: str, time: tuple[float, float] | None
+) -> MarkerTrajectories:
+    seen = renamed_as_told(record, markers_given(file, o.axes, time), o.markers_map)
+    record.add_input(name, file, frames=len(seen), markers=len(seen.names))
+    return as_right(seen, o.side)
+
+
+def _hip(
+    o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Record
+) -> Float[np.ndarray, " 3"] | None:
+    if o.functional is None:
+        record.warn("the hip's centre is that of a regression; a `functional` trial tells it better")
+        return None
+    places = np.nanmedian(standing.of(PELVIS), axis=0)
+    frame = pelvis_frame(dict(zip(PELVIS, places, strict=True)), standing.source)
+    found = functional_hip(_markers(o, o.functional, record, "`functional`", None), frame.inv().apply(places))
+    record.say(f"hip centre from the functional trial, {1e3 * found.rms:.1f} mm off itself")
+    return found.first
+
+
+def _own(o: ProsthesisSimulateOptions, plates: tuple[ForcePlate, ...], found: Walked) -> PlateStance | None:
+    """Force and centre of pressure under the prosthetic foot; InputError where it is not the foot that stands there."""
+    if o.plate is None:
+        return None
+    file = cast(Path, o.plates)
+    plate = plate_named(plates, o.plate, file, "`plate`")
+    force = of_side(np.nan_to_num(plate.wrench.force), o.side)
+    centre = of_side(plate.centre_of_pressure(GATE), o.side)
+    span = longest_stance(plate.time, force[:, 1])
+    if span is None:
+        raise InputError(file, "`plate`", f"{plate.name} carries no whole stance above {GATE:g} N", "give another plate")
+    start, stop = found.motion.time[[0, -1]]
+    if span[0] < start + LATE or span[1] > stop:
+        what = f"the stance on {plate.name} is from {span[0]:.2f} to {span[1]:.2f} s, the markers from {start:.2f} to"
+        raise InputError(file, "`plate`", f"{what} {stop:.2f} s", "markers must begin before touch-down and end after it")
+    return PlateStance(plate.time, force, centre)
+
+
+def _require_clock(o: ProsthesisSimulateOptions, time: Float[np.ndarray, " t"], plate: ForcePlate) -> None:
+    if plate.time[0] > time[0] + LATE or plate.time[-1] < time[-1] - LATE:
+        what = f"plates are from {plate.time[0]:.2f} to {plate.time[-1]:.2f} s, markers from {time[0]:.2f} to"
+        raise InputError(cast(Path, o.plates), "", f"{what} {time[-1]:.2f} s", "both need one clock; cut with `time`")

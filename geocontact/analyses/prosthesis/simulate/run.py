@@ -1,0 +1,130 @@
+"""A prosthetic stance along a recorded walk, and what is to be said of it."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+
+from geocontact.analyses.json_file import plain
+from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
+from geocontact.analyses.prosthesis.simulate.read import Walk
+from geocontact.analyses.prosthesis.simulate.result import ProsthesisSimulateResult
+from geocontact.analyses.prosthesis.simulate.tables import all_numbers
+from geocontact.analyses.run_record import Record
+from geocontact.contact.bushing import PISTONING, PRINTED, SOCKET
+from geocontact.data.errors import InputError
+from geocontact.prosthesis.model.leg_tree import GRAVITY
+from geocontact.prosthesis.simulate import GATE, Stance, share_of_foot, simulate_stance
+from geocontact.prosthesis.stance_errors import StanceErrors, longest_stance, stance_errors
+
+BEFORE, AFTER = 0.12, 0.1
+"""s; simulated before the plate's touch-down and after its toe-off, as far as the markers go."""
+INSIDE = 2
+"""Frames that are left out at both ends: the splines bend there."""
+UNDER = (-0.5, 1.5)
+"""Share of the foot between which its plate's centre of pressure is believed to be under it."""
+TURNED = np.radians(20.0)
+"""rad; of the socket, beyond which its bushing is doubted."""
+
+
+def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisSimulateResult:
+    """From before touch-down to after toe-off."""
+    numbers = all_numbers(walk.leg, walk.fulcrum)
+    invented = sum(number.source == "invented" for number in numbers.values())
+    record.warn(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
+    record.warn("the socket's own turn is in the recorded knee angle as well, by up to what its bushing turns")
+    found = _simulated(walk, o)
+    if not found.on.any():
+        raise InputError(o.markers, "", "the foot never touches the floor", "is y = 0 the floor, and `mass` right?")
+    errors = _compared(walk, found, o, record)
+    _warn(found, record)
+    told = summary(found)
+    record.results["stance"] = plain(told)
+    record.say(
+        f"stance of {told['stance_s']:.2f} s at the fulcrum of {1e3 * walk.fulcrum:.0f} mm: vertical force up to "
+        f"{told['vertical_max_BW']:.2f} BW, ankle moment up to {told['ankle_moment_max_N_m']:.0f} N m, keel "
+        f"stores {told['stored_max_J']:.1f} J"
+    )
+    if errors is not None:
+        record.say(_said(errors))
+        record.results["errors"] = plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()})
+    return ProsthesisSimulateResult(
+        record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers
+    )
+
+
+def _simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
+    time = walk.walked.motion.time
+    span = (float(time[INSIDE]), float(time[-1 - INSIDE]))
+    if walk.plate is not None:
+        seen = longest_stance(walk.plate.time, walk.plate.force[:, 1])
+        if seen is not None:
+            span = max(span[0], seen[0] - BEFORE), min(span[1], seen[1] + AFTER)
+    bushing = SOCKET if o.socket == "as_meant" else PRINTED
+    try:
+        return simulate_stance(
+            walk.walked.motion, walk.foot, walk.fulcrum, walk.push, span, bushing=bushing, machine_code=o.machine_code
+        )
+    except ArithmeticError as error:
+        remedy = "check `mass`, `side`, `axes` and the names of the markers; as_printed no gait can be walked"
+        raise InputError(o.markers, "", str(error), remedy) from error
+
+
+def _compared(walk: Walk, found: Stance, o: ProsthesisSimulateOptions, record: Record) -> StanceErrors | None:
+    if walk.plate is None:
+        return None
+    poses, length, plate = found.poses, walk.foot.keel.length, walk.plate
+    centre = np.column_stack([np.interp(found.time, plate.time, column) for column in plate.centre.T])
+    share = share_of_foot(poses, length, centre)
+    middle = float(np.nanmedian(np.where(found.on, share, np.nan)))
+    if not UNDER[0] <= middle <= UNDER[1]:
+        what = f"its centre of pressure is {1e3 * middle * length:.0f} mm in front of the heel in the median"
+        raise InputError(cast(str, o.plates), "`plate`", f"no plate under the foot: {what}", "name another plate")
+    return stance_errors(found, plate)
+
+
+def _said(errors: StanceErrors) -> str:
+    r2, off = errors.table["resultant"]
+    along = errors.table["cop_ground"]
+    return (
+        f"against the plate: R² {r2:.2f}, {off:.1%} BW; centre of pressure R² {along[0]:.2f}, {along[1]:.1%} of the "
+        f"foot; stance {1e3 * (errors.stance[0] - errors.stance[1]):+.0f} ms"
+    )
+
+
+def _warn(found: Stance, record: Record) -> None:
+    time, loads = found.time, found.loads
+    if loads.pressing[0].sum() > GATE:
+        record.warn(f"the foot is on the floor at the start, with {loads.pressing[0].sum():.0f} N: begin earlier")
+    far, fast = found.beyond
+    if far.any():
+        most, limit = 1e3 * np.abs(found.pistoning).max(), 1e3 * PISTONING.travel
+        record.warn(f"the socket pistons by {most:.0f} mm, past {limit:.0f} mm, first at {time[far][0]:.2f} s")
+    if fast.any():
+        limit = 1e3 * PISTONING.speed
+        record.warn(f"the socket pistons faster than {limit:.0f} mm/s, first at {time[fast][0]:.2f} s")
+    turned = np.abs(found.found.q[:, 2:5]).max()
+    if turned > TURNED:
+        record.warn(f"the socket turns by {np.degrees(turned):.0f} degrees on its bushing")
+    sunk = loads.depth > found.foot.sole.spheres.radius
+    if sunk.any():
+        record.warn(f"{int(sunk.any(axis=0).sum())} spheres sink beyond their radius, up to {1e3 * loads.depth.max():.0f} mm")
+    idle = [zone for zone, of in found.foot.sole.spheres.zones.items() if not (loads.pressing[:, of] > 0.0).any()]
+    if idle:
+        record.warn(f"never loaded: {', '.join(idle)}; its numbers stay unknown")
+
+
+def summary(found: Stance) -> dict[str, float]:
+    """Numbers of the whole stance."""
+    weight = found.motion.leg.person.mass * GRAVITY
+    span = longest_stance(found.time, found.force[:, 1])
+    return {
+        "stance_s": float("nan") if span is None else span[1] - span[0],
+        "vertical_max_BW": float(found.force[:, 1].max() / weight),
+        "ankle_moment_max_N_m": float(found.ankle_moment.max()),
+        "stored_max_J": float(found.stored.max()),
+        "lost_J": float(found.lost[-1]),
+        "pistoning_max_mm": float(1e3 * np.abs(found.pistoning).max()),
+        "steps": float(found.found.steps),
+    }

@@ -1,0 +1,73 @@
+"""Tables of a simulated stance, of its errors, and of all numbers with their sources."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+from geocontact.data.sourced_number import Number
+from geocontact.prosthesis.from_markers.sides import of_side
+from geocontact.prosthesis.keel.sole import numbers as sole_numbers
+from geocontact.prosthesis.keel.vsf import numbers as keel_numbers
+from geocontact.prosthesis.model.leg import Leg, Side
+from geocontact.prosthesis.model.leg_tree import SOCKET
+from geocontact.prosthesis.simulate import Stance
+from geocontact.prosthesis.stance_errors import StanceErrors
+
+UNITS = {"impulse": "s"}
+"""Of quantities that are not shares: forces are over body weight, centres of pressure over the foot's length."""
+
+
+def stance_table(s: Stance, side: Side) -> pd.DataFrame:
+    """Over time; forces and places in the laboratory's frame."""
+    force, ground, sphere = (of_side(each, side) for each in (s.force, s.centre("ground"), s.centre("sphere")))
+    return pd.DataFrame(
+        {
+            "time [s]": s.time,
+            **{f"force_{axis} [N]": column for axis, column in zip("xyz", force.T, strict=True)},
+            **{f"cop_{axis} [mm]": 1e3 * column for axis, column in zip("xz", ground[:, ::2].T, strict=True)},
+            **{f"sphere_cop_{axis} [mm]": 1e3 * column for axis, column in zip("xz", sphere[:, ::2].T, strict=True)},
+            "cop along foot [-]": s.along_foot("ground"),
+            "sphere cop along foot [-]": s.along_foot("sphere"),
+            "ankle moment [N m]": s.ankle_moment,
+            "stored [J]": s.stored,
+            "lost [J]": s.lost,
+            **{f"{name} [deg]": np.degrees(column) for name, column in zip(SOCKET[:3], s.found.q[:, 2:5].T, strict=True)},
+            **{f"{name} [mm]": 1e3 * column for name, column in zip(SOCKET[3:], s.found.q[:, 5:8].T, strict=True)},
+            **{f"{name} moment [N m]": column for name, column in zip(SOCKET[:3], s.socket[:, :3].T, strict=True)},
+            **{f"{name} force [N]": column for name, column in zip(SOCKET[3:], s.socket[:, 3:].T, strict=True)},
+            **{f"{zone} [N]": s.loads.pressing[:, of].sum(axis=1) for zone, of in s.foot.sole.spheres.zones.items()},
+        }
+    )
+
+
+def errors_table(errors: StanceErrors) -> pd.DataFrame:
+    """R² and root mean square error by quantity, and the stance's length."""
+    rows = [(name, UNITS.get(name, "-"), r2, off) for name, (r2, off) in errors.table.items()]
+    rows.append(("stance", "s", np.nan, errors.stance[0] - errors.stance[1]))
+    return pd.DataFrame(rows, columns=["quantity", "unit", "r2 [-]", "rmse"])
+
+
+def curves_table(errors: StanceErrors) -> pd.DataFrame:
+    """Simulated and measured curves over 101 points of the plate's stance."""
+    columns = {"stance [-]": errors.share}
+    for name, (model, measured) in errors.curves.items():
+        unit = UNITS.get(name, "-")
+        columns |= {f"{name} [{unit}]": model, f"{name} measured [{unit}]": measured}
+    return pd.DataFrame(columns)
+
+
+def all_numbers(leg: Leg, fulcrum: float) -> Mapping[str, Number]:
+    """Of leg, keel and sole, in SI."""
+    own = {f"leg {name}": number for name, number in leg.numbers().items()}
+    own["fulcrum"] = Number(fulcrum, "derived", "chosen")
+    own |= {f"keel {name}": number for name, number in keel_numbers("pinned").items()}
+    return own | {f"sole {name}": number for name, number in sole_numbers().items()}
+
+
+def numbers_table(numbers: Mapping[str, Number]) -> pd.DataFrame:
+    """Every number in SI, and where it is from."""
+    rows = [(name, number.value, number.source, number.note) for name, number in numbers.items()]
+    return pd.DataFrame(rows, columns=["number", "value", "source", "note"])

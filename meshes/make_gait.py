@@ -1,0 +1,32 @@
+"""Write the synthetic gait trial that the documentation of `geocontact prosthesis` runs on: `python meshes/make_gait.py`.
+
+It takes half a minute, for the truth is a stance on a finer foot.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from geocontact.analyses.prosthesis.trial_files import trial_files
+from geocontact.prosthesis.synthetic.persons import PARTICIPANTS
+from geocontact.prosthesis.synthetic.trial import synthetic_trial
+
+PERSON, SETTING = 0, "medium"
+
+
+def gait_files() -> dict[str, bytes]:
+    """One trial of one participant, by name."""
+    trial = synthetic_trial(PARTICIPANTS[PERSON], SETTING, machine_code=False)
+    return {f"gait_{trial.name}/{name}": text.encode("ascii") for name, text in trial_files(trial).items()}
+
+
+def main() -> None:
+    """Write the files beside this script."""
+    for name, data in gait_files().items():
+        path = Path(__file__).parent / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+
+
+if __name__ == "__main__":
+    main()
