@@ -116,8 +116,8 @@ def balancing(residuals: SoleResiduals, z: Float[np.ndarray, " p"]) -> Float[np.
     """The logarithms, or so much of them that the keel balances in every frame; none of them where it never does."""
     for share in SHARES:
         try:
-            for stance in residuals.stances:
-                residuals.motion(share * z, stance)
+            for place in range(len(residuals.stances)):
+                residuals.motion(share * z, place)
         except ArithmeticError:
             continue
         return np.asarray(share * z)
@@ -141,8 +141,8 @@ def turned(
             break
         try:
             rows = [
-                linear_rows(stance, residuals.keel(now, stance), residuals.motion(now, stance), noise)
-                for stance, noise in zip(residuals.stances, residuals.noise, strict=True)
+                linear_rows(stance, residuals.keel(now, stance), residuals.motion(now, place)[0], noise)
+                for place, (stance, noise) in enumerate(zip(residuals.stances, residuals.noise, strict=True))
             ]
         except ArithmeticError:
             return best, lowest

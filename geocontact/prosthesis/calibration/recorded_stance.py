@@ -32,7 +32,7 @@ class Errors:
     height, pitch
         Of the foot [m, rad], each constant over the stance.
     speed
-        Of the foot, forward and upward [m/s], each constant over the stance.
+        Of the foot along each axis [m/s]; along the floor from frame to frame (`slip`), upward constant over the stance.
     """
 
     force: float = 3.0
@@ -86,7 +86,8 @@ class RecordedStance:
     def noise(self, keel: QuasiStaticKeel) -> Float[np.ndarray, "t c"]:
         """Standard deviation of measured less predicted, were the model right.
 
-        The plate's, and what errors of height, pitch and speed make of the predicted channels, each by one difference.
+        The plate's, and what errors of height, pitch and upward speed make of the predicted channels, each by one
+        difference.
         """
         e = self.errors
         pressing = np.maximum(self.force[:, 1], 1.0)
@@ -104,9 +105,6 @@ class RecordedStance:
         middle = np.array([0.11, 0.0, 0.0])
         turn = Rotation.from_euler("z", e.pitch)
         pitched = self.poses * RigidTransform.from_components(middle - turn.apply(middle), turn)
-        faster = []
-        for axis in (0, 1):
-            rate = self.rate.copy()
-            rate[:, axis, 3] += e.speed
-            faster.append(replace(self, rate=rate))
-        return [replace(self, poses=raised), replace(self, poses=pitched), *faster]
+        rate = self.rate.copy()
+        rate[:, 1, 3] += e.speed
+        return [replace(self, poses=raised), replace(self, poses=pitched), replace(self, rate=rate)]

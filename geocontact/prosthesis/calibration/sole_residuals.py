@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.identify.optimise.least_squares import divided
-from geocontact.prosthesis.calibration.recorded_stance import CHANNELS, RecordedStance
+from geocontact.prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.prosthesis.calibration.slip import slipping, with_slip
 from geocontact.prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
 from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot
 
 STEP = 1e-5
 """Of a logarithm, for differences."""
+FIRST, AGAIN = 6, 2
+"""Turns of the search for the slip, to begin with and at other numbers."""
 NO_BALANCE = 100.0
 """Residual, in units of the noise, of a stance along which the keel finds no equilibrium."""
 
@@ -30,7 +33,9 @@ class SoleResiduals:
     Parameters
     ----------
     noise
-        Of each stance, in the channels' units.
+        Of each stance, in the channels' units, the two of the slip last.
+    slips
+        Correction of each stance's speed along the floor at the last numbers that were asked for [m/s].
     solved
         How often the keel was solved along a stance.
     """
@@ -39,14 +44,19 @@ class SoleResiduals:
     foot: VariableStiffnessFoot
     zones: ZoneParameters
     noise: list[Float[np.ndarray, "t c"]]
+    slips: list[Float[np.ndarray, "t 2"]]
     solved: int = 0
-    _last: tuple[Float[np.ndarray, " p"], Float[np.ndarray, " n"]] | None = field(default=None, repr=False)
 
     @classmethod
     def of(cls, stances: Sequence[RecordedStance], foot: VariableStiffnessFoot) -> SoleResiduals:
         """Around the foot's law, with the noise at it."""
-        noise = [stance.noise(foot.at(stance.fulcrum)) for stance in stances]
-        return cls(stances, foot, ZoneParameters(foot.sole, foot.law), noise)
+        noise, slips = [], []
+        for stance in stances:
+            keel = foot.at(stance.fulcrum)
+            still = np.zeros((len(stance.time), 2))
+            slips.append(slipping(stance, keel, still, FIRST)[1])
+            noise.append(np.hstack([with_slip(stance, slips[-1]).noise(keel), still + stance.errors.speed]))
+        return cls(stances, foot, ZoneParameters(foot.sole, foot.law), noise, slips)
 
     def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
         """The numbers."""
@@ -57,27 +67,40 @@ class SoleResiduals:
         law = self.zones.law(self.values(z))
         return QuasiStaticKeel(self.foot.keel, stance.fulcrum, self.foot.sole, law)
 
-    def motion(self, z: Float[np.ndarray, " p"], stance: RecordedStance) -> KeelMotion:
-        """ArithmeticError where the keel finds no equilibrium."""
-        self.solved += 1
-        return stance.solved(self.keel(z, stance))
+    def motion(self, z: Float[np.ndarray, " p"], place: int) -> tuple[KeelMotion, Float[np.ndarray, "t 2"]]:
+        """Along one stance, and its slip [m/s]; ArithmeticError where the keel finds no equilibrium."""
+        self.solved += 1 + AGAIN
+        stance = self.stances[place]
+        return slipping(stance, self.keel(z, stance), self.slips[place], AGAIN)
 
     def of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
         """Predicted less measured over the noise, stance by stance, frame by frame."""
-        parts = []
-        for stance, noise in zip(self.stances, self.noise, strict=True):
-            measured = stance.measured / noise
+        return self._of_data(z)[0]
+
+    def _of_data(self, z: Float[np.ndarray, " p"]) -> tuple[Float[np.ndarray, " n"], list[Float[np.ndarray, "t 2"]]]:
+        """The same, and the slips."""
+        parts, slips = [], []
+        for place, (stance, noise) in enumerate(zip(self.stances, self.noise, strict=True)):
+            measured = self.measured(place) / noise
             try:
-                predicted = stance.predicted(self.keel(z, stance), self.motion(z, stance)) / noise
-                parts.append(divided(predicted, measured, np.ones(len(CHANNELS))))
+                motion, slip = self.motion(z, place)
             except ArithmeticError:
                 parts.append(np.full(int(np.isfinite(measured).sum()), NO_BALANCE))
-        return np.concatenate(parts)
+                slips.append(self.slips[place])
+                continue
+            predicted = np.hstack([stance.predicted(self.keel(z, stance), motion), slip]) / noise
+            parts.append(divided(predicted, measured, np.ones(noise.shape[1])))
+            slips.append(slip)
+        return np.concatenate(parts), slips
+
+    def measured(self, place: int) -> Float[np.ndarray, "t c"]:
+        """Channels of one stance, no slip last."""
+        stance = self.stances[place]
+        return np.hstack([stance.measured, np.zeros((len(stance.time), 2))])
 
     def __call__(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " m"]:
         """Those of the data, then what the numbers differ from the usual ones in standard deviations beforehand."""
-        data = self.of_data(z)
-        self._last = (z.copy(), data)
+        data, self.slips = self._of_data(z)
         return np.concatenate([data, z / self.zones.sd])
 
     def slope(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "m p"]:
@@ -86,15 +109,14 @@ class SoleResiduals:
 
     def slope_of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
         """Derivatives of `of_data` by the logarithms, by one-sided differences."""
-        known = self._last is not None and np.array_equal(self._last[0], z)
-        base = self._last[1] if known and self._last is not None else self.of_data(z)
+        base = self.of_data(z)
         return np.stack([(self.of_data(z + STEP * unit) - base) / STEP for unit in np.eye(len(z))], axis=1)
 
     def channel_by_channel(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
         """Times of the data's residuals in that order [s], a pause after each channel, and the residuals' places."""
         times, places, first, late = [], [], 0, 0.0
-        for stance in self.stances:
-            there = np.isfinite(stance.measured)
+        for place, stance in enumerate(self.stances):
+            there = np.isfinite(self.measured(place))
             number = np.full(there.shape, -1)
             number[there] = first + np.arange(int(there.sum()))
             first += int(there.sum())
