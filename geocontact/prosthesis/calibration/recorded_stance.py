@@ -39,7 +39,7 @@ class Errors:
     couple: float = 1.0
     height: float = 0.5e-3
     pitch: float = np.radians(0.2)
-    speed: float = 5e-3
+    speed: float = 20e-3
 
 
 @dataclass(frozen=True, eq=False)

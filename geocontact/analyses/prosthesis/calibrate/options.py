@@ -57,7 +57,7 @@ class ProsthesisCalibrateOptions(Options):
     pitch_error
         Of the foot's pitch, constant over the stance.
     speed_error
-        Of the foot's speed, forward and upward [m/s].
+        Of the foot's speed [m/s]: what markers and their filter leave of it.
     """
 
     motion: Path
@@ -75,7 +75,7 @@ class ProsthesisCalibrateOptions(Options):
     force_noise: Annotated[float, NOISE] = 3.0
     height_error: Annotated[Length, SHIFT, Spelled(default="0.5mm")] = 0.5e-3
     pitch_error: Annotated[Degrees, TILT, Spelled(default=0.2)] = 0.0034906585
-    speed_error: Annotated[float, SPEED] = 5e-3
+    speed_error: Annotated[float, SPEED] = 20e-3
 
     def refuse_impossible(self) -> None:
         """No starts at all, a probability that is none, a force without noise."""

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 FIGURE = "Grey the plate, coloured the foot with the numbers below, along the recorded poses."
 MODEL = [
     "The keel is in equilibrium in every frame: its inertia is left out.",
+    "The foot may slip beside its recorded speed, within its error, so that the force along the floor is the plate's.",
+    "Friction is therefore told only where the foot slips in earnest.",
     "Poses are taken as they were recorded; what their errors do to each sample is in its weight.",
     "Known: the data at least halve the width of what was believed beforehand. Believed: they do not.",
     "Unknown: the stance never loaded the zone, and the value is the usual one.",

@@ -16,10 +16,10 @@ from geocontact.analyses.prosthesis.calibrate.law_file import law_toml
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.calibrate.page import write_calibration_page
 from geocontact.analyses.result import Result
+from geocontact.identify.signals.agreement import Agreement
 from geocontact.io.text.results import write_table
 from geocontact.prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.prosthesis.calibration.recorded_stance import RecordedStance
-from geocontact.prosthesis.calibration.stance_curves import CurveAgreement
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -39,15 +39,19 @@ class ProsthesisCalibrateResult(Result):
         What was found.
     predicted
         Force in the ground's frame [N] and centre of pressure from the heel (share of the foot) with the numbers found.
-    agreement
-        Of these with the plate, filtered, over the stance.
+    slip
+        Along the floor, beside the recorded speed [m/s].
+    vertical, centre
+        Agreement of the vertical force over body weight, and of the centre, with the plate's.
     """
 
     options: ProsthesisCalibrateOptions
     stance: RecordedStance
     calibration: SoleCalibration
     predicted: Float[ndarray, "t 4"]
-    agreement: CurveAgreement
+    slip: Float[ndarray, "t 2"]
+    vertical: Agreement
+    centre: Agreement
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`numbers`, `stance`."""

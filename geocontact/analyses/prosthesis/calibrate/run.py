@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections import Counter
 
+import numpy as np
+
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.calibrate.read import FootOnPlate
 from geocontact.analyses.prosthesis.calibrate.result import ProsthesisCalibrateResult
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
+from geocontact.identify.signals.agreement import agreement
 from geocontact.prosthesis.calibration.calibrate import calibrate
-from geocontact.prosthesis.calibration.stance_curves import curve_agreement, stance_curves, stance_span
 from geocontact.prosthesis.calibration.zone_parameters import BELIEVED
 
 SHARE_OF_DEPTH = 1.0
@@ -27,20 +29,19 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> Pr
         remedy = "check height and pitch of the foot; the sole must press and not sink"
         raise InputError(o.motion, "", str(error), remedy) from error
     keel = found.foot.at(stance.fulcrum)
-    motion = stance.solved(keel)
+    motion, slip = found.residuals.motion(found.logarithms, 0)
     predicted = stance.predicted(keel, motion)
-    span = stance_span(stance.time, stance.force)
-    model, measured = (
-        stance_curves(stance.time, each[:, :3], each[:, 3], stance.weight, span)
-        for each in (predicted, stance.measured)
-    )
+    step = float(np.median(np.diff(stance.time)))
+    model, measured = predicted / stance.weight, stance.measured / stance.weight
     result = ProsthesisCalibrateResult(
         record=record,
         options=o,
         stance=stance,
         calibration=found,
         predicted=predicted,
-        agreement=curve_agreement(model, measured),
+        slip=slip,
+        vertical=agreement(model[:, 1], measured[:, 1], step, 0.0),
+        centre=agreement(predicted[:, 3], stance.centre, step, 0.0),
     )
     if (motion.loads.depth > SHARE_OF_DEPTH * foot.sole.spheres.radius).any():
         record.warn("a sphere sinks beyond its radius: the foot is recorded too low, or the sole is too soft")
@@ -49,7 +50,7 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> Pr
 
 
 def _say(r: ProsthesisCalibrateResult) -> None:
-    record, found, told = r.record, r.calibration, r.agreement
+    record, found = r.record, r.calibration
     verdicts = Counter(number.verdict for number in found.knowledge.numbers)
     unknown = [number.name for number in found.knowledge.numbers if number.verdict == "unknown"]
     if unknown:
@@ -58,8 +59,9 @@ def _say(r: ProsthesisCalibrateResult) -> None:
         record.warn("the search stopped before it settled; give more `starts`")
     apart = found.knowledge.told_apart
     record.say(
-        f"force within {100.0 * told.force_rmse:.1f} % of body weight (R² {told.force_r2:.3f}), centre of pressure "
-        f"within {100.0 * told.centre_rmse:.1f} % of the foot (R² {told.centre_r2:.2f})"
+        f"vertical force within {100.0 * r.vertical.rmsd:.1f} % of body weight (R² {r.vertical.r2:.3f}), centre of "
+        f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor is "
+        f"met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s beside the recorded speed"
     )
     record.say(
         f"{verdicts['known']} of {len(found.knowledge.numbers)} numbers are known, {verdicts['believed']} are little "
@@ -69,10 +71,10 @@ def _say(r: ProsthesisCalibrateResult) -> None:
     factors = ", ".join(f"{kind} a factor {sd:g}" for kind, (sd, _) in BELIEVED.items())
     record.say(f"believed beforehand (invented), as one standard deviation about the usual number: {factors}")
     record.results["calibrate"] = {
-        "force_rmse_of_body_weight": told.force_rmse,
-        "force_r2": told.force_r2,
-        "centre_rmse_of_foot": told.centre_rmse,
-        "centre_r2": told.centre_r2,
+        "vertical_rmse_of_body_weight": r.vertical.rmsd,
+        "vertical_r2": r.vertical.r2,
+        "centre_rmse_of_foot": r.centre.rmsd,
+        "centre_r2": r.centre.r2,
         "condition": apart.condition,
         "solved": found.solved,
         "numbers": {number.name: number.value for number in found.knowledge.numbers},
