@@ -1,4 +1,4 @@
-"""Calibration of the sole on one synthetic stance: `python -m benchmarks.prosthesis_calibration [P1 ...] [--samples N]`.
+"""Calibration of the sole: `python -m benchmarks.prosthesis_calibration [P1 ...] [--samples N] [--trials N]`.
 
 Truth is a finer foot (`synthetic.trial`): more joints, twice the rows of spheres. Numbers are found along poses from
 markers, with the keel without inertia, and judged by the simulation of the stance, which gets the other leg's force and

@@ -26,9 +26,9 @@ from geocontact.prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.prosthesis.calibration.sole_residuals import SoleResiduals
 from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot
 
-STARTS, TURNS, FINISHED = 12, 4, 3
+STARTS, TURNS, FINISHED = 8, 4, 2
 """Starts beside the usual numbers, linear turns of each, and how many are finished."""
-ROUNDS, ENOUGH = 40, 1e-3
+ROUNDS, ENOUGH = 30, 1e-2
 """Evaluations of a search, and the cost that is not worth another."""
 SHARES = (1.0, 0.7, 0.5, 0.35, 0.2)
 """Of the way from the usual numbers to a start along which the keel may find no balance."""

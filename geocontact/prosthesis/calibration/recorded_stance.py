@@ -32,7 +32,7 @@ class Errors:
     height, pitch
         Of the foot [m, rad], each constant over the stance.
     speed
-        Of the foot along each axis [m/s]; along the floor from frame to frame (`slip`), upward constant over the stance.
+        Of the foot along each axis [m/s]; along the floor from frame to frame (`slip`), upward constant.
     """
 
     force: float = 3.0

@@ -1,4 +1,4 @@
-"""A recorded stance from markers on the socket and a plate: the foot's pose is that of the cluster, no joint between."""
+"""A recorded stance from markers on the socket and a plate: the foot moves as the cluster does."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from geocontact.prosthesis.stance_errors import PlateStance, longest_stance
 
 RATE, AROUND = 200.0, 0.04
 """Hz, and s before and after the stance that are taken along."""
+USUAL = Errors()
 SMOOTH = 5
 """Degree of the splines through the markers."""
 
@@ -34,7 +35,7 @@ def stance_from_markers(
     *,
     cutoff: float | None,
     gap_limit: float,
-    errors: Errors = Errors(),
+    errors: Errors = USUAL,
 ) -> RecordedStance:
     """Of a right leg.
 

@@ -69,7 +69,7 @@ class ProsthesisCalibrateOptions(Options):
     ] = None
     fulcrum: Annotated[Length | None, FULCRUM] = None
     plate: str | None = None
-    starts: int = 12
+    starts: int = 8
     seed: int = 0
     level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
     force_noise: Annotated[float, NOISE] = 3.0

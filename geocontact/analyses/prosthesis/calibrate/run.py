@@ -60,8 +60,8 @@ def _say(r: ProsthesisCalibrateResult) -> None:
     apart = found.knowledge.told_apart
     record.say(
         f"vertical force within {100.0 * r.vertical.rmsd:.1f} % of body weight (R² {r.vertical.r2:.3f}), centre of "
-        f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor is "
-        f"met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s beside the recorded speed"
+        f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor "
+        f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s beside the recorded speed"
     )
     record.say(
         f"{verdicts['known']} of {len(found.knowledge.numbers)} numbers are known, {verdicts['believed']} are little "
