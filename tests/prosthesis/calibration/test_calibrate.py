@@ -86,7 +86,7 @@ def test_command_writes_a_law_that_is_read_again(tmp_path: Path) -> None:
     [
         (("--fulcrum", "200mm"), "out of its range"),
         (("--starts", "-1"), "is not 0 to 1000"),
-        (("--level", "1"), "is not between 0 and 1"),
+        (("--level", "100%"), "is not between 0 and 1"),
         (("--force-noise", "0"), "gives samples no limit"),
         (("--setting", "low", "--fulcrum", "100mm"), "tells where the fulcrum is as well"),
         (("--plate", "9"), "9"),
