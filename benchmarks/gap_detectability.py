@@ -64,7 +64,7 @@ def statements(source: str, place: int, options: argparse.Namespace) -> Iterator
     from benchmarks.gap_sources import bare_case, name_of
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.case.admission import admitted
-    from geocontact.gap.case.problem import problem_of
+    from geocontact.gap.case.preparation import problem_of
     from geocontact.gap.identifiability.detectability import competitors_of, detectabilities, power
     from geocontact.gap.identifiability.signatures import base_state_of, reach_of, rest_of, sized
     from geocontact.gap.selection.model_comparison import base_contender

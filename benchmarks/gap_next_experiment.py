@@ -116,7 +116,7 @@ def in_question(case: Any, system: Any, pair: tuple[str, ...]) -> Any:
     """The two as they are fitted, both in question where their evidence differs by less than one that is out needs."""
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.attribute import Attribution
-    from geocontact.gap.case.problem import problem_of
+    from geocontact.gap.case.preparation import problem_of
     from geocontact.gap.selection.model_comparison import base_contender, singles
     from geocontact.gap.selection.verdict import ALIVE, Answer
 

@@ -84,7 +84,7 @@ def _simulated(folder: str, effect: str, nats: float, seed: int, place: int) -> 
     from benchmarks.gap_simulated import case_of
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.case.admission import admitted
-    from geocontact.gap.case.problem import problem_of
+    from geocontact.gap.case.preparation import problem_of
     from geocontact.gap.identifiability.signatures import base_state_of
     from geocontact.gap.selection.model_comparison import base_contender
     from geocontact.systems.catalogue import system_of

@@ -51,7 +51,7 @@ def stance(foot: VariableStiffnessFoot, fulcrum: float) -> Stance:
     load = WEIGHT * PchipInterpolator(*np.transpose(VERTICAL))(share)
     pitch = np.radians(PchipInterpolator(*np.transpose(PITCH))(share))
     turn = Rotation.from_euler("z", pitch[:, None])
-    height = gaussian_filter1d(_heights(still, turn, load), SMOOTH)
+    height = gaussian_filter1d(heights(still, turn, load), SMOOTH)
     law = foot.law
     ratio = FORWARD * WEIGHT * -np.sin(2.0 * np.pi * share) / np.maximum(load, 0.1 * WEIGHT)
     wanted, speed = -ratio * law.threshold_speed / law.kinetic[0], np.zeros(len(time))
@@ -83,7 +83,7 @@ def finer(one: Stance, factor: int) -> Stance:
     return Stance(time, at(time), rate)
 
 
-def _heights(still: QuasiStaticKeel, turn: Rotation, load: np.ndarray) -> np.ndarray:
+def heights(still: QuasiStaticKeel, turn: Rotation, load: np.ndarray) -> np.ndarray:
     """Of the keel's origin above the ground [m] where the foot carries that load, or just touches; by bisection."""
     centres = np.einsum("tij,nj->tni", turn.as_matrix(), still.sole.spheres.centre)
     lowest = (centres[..., 1] - still.sole.spheres.radius).min(axis=1)

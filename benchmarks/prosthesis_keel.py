@@ -42,6 +42,7 @@ def main() -> None:
         "elastica": convergence(),
         "without and with inertia": stances(options.rounds),
         "spheres": soles(options.rounds),
+        "zone numbers": zones(),
         "torsion": torsion(),
     }
     (options.out / "prosthesis_keel.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
@@ -100,7 +101,7 @@ def convergence() -> dict[str, Any]:
     from geocontact.loads.sphere_set import SoleLaw, SphereSet
     from geocontact.prosthesis.keel.elastica import elastica
     from geocontact.prosthesis.keel.quasi_static import QuasiStaticKeel
-    from geocontact.prosthesis.keel.sole import Sole
+    from geocontact.prosthesis.keel.sole import KeelSole
     from geocontact.prosthesis.keel.vsf import fulcrum_of, vsf_keel
 
     law, radius = SoleLaw(np.array([1e9]), np.zeros(1), 1.0, 1.0, np.zeros(1), np.zeros(1), 1.0), np.array([1e-9])
@@ -113,7 +114,7 @@ def convergence() -> dict[str, Any]:
                 keel = vsf_keel(joints=count)
                 tip = SphereSet(np.array([[keel.length, 0.0, 0.0]]), radius, ("tip",))
                 pose = RigidTransform.from_translation([[0.0, -bent.y[-1] - force / 1e9, 0.0]])
-                one = QuasiStaticKeel(keel, fulcrum, Sole(tip, (count,)), law)
+                one = QuasiStaticKeel(keel, fulcrum, KeelSole(tip, (count,)), law)
                 moved = one.solve(pose, HalfSpace(), gravity=(0.0, 0.0, 0.0))
                 turn = np.cumsum(moved.angles[0])
                 hinges = np.cumsum(np.append(0.0, keel.pitch * np.sin(turn)))[:-1]
@@ -226,25 +227,72 @@ def soles(rounds: int) -> dict[str, Any]:
     return {str(finer): each for finer, each in found.items()}
 
 
+def zones() -> dict[str, Any]:
+    """Ten planted numbers of the sole from one stance at medium, without and with noise, and the load they predict."""
+    import numpy as np
+
+    from benchmarks.keel_stance import LEVEL, WEIGHT, stance
+    from geocontact.prosthesis.keel.vsf import fulcrum_of
+    from geocontact.prosthesis.keel.vsf_foot import vsf_foot
+    from geocontact.prosthesis.keel.zone_numbers import zone_numbers
+
+    foot, rng = vsf_foot(), np.random.default_rng(33)
+    factor = dict(zip(foot.sole.spheres.zones, np.exp(rng.normal(0.0, 0.3, (5, 2))), strict=True))
+    by = np.array([factor[zone] for zone in foot.sole.spheres.zone])
+    law = replace(foot.law, stiffness=by[:, 0] * foot.law.stiffness, damping=by[:, 1] * foot.law.damping)
+    planted, rows = replace(foot, law=law), {n: stance(foot, fulcrum_of(n)) for n in ("low", "medium", "high")}
+
+    def load(one: Any, setting: str) -> Any:
+        at = rows[setting]
+        return one.at(fulcrum_of(setting)).solve(at.poses, LEVEL, rate=at.rate, time=at.time).force[:, 1]
+
+    found: dict[str, Any] = {}
+    for noise in (0.0, 0.01):
+        at = rows["medium"]
+        seen = load(planted, "medium") + noise * WEIGHT * rng.normal(size=len(at.time))
+        started = time.process_time()
+        result = zone_numbers(foot.at(fulcrum_of("medium")), at.poses, at.rate, at.time, LEVEL, seen)
+        taken = time.process_time() - started
+        fitted = replace(foot, law=result.law)
+        missed = [
+            np.abs(getattr(result.law, name) / getattr(law, name) - 1.0).max() for name in ("stiffness", "damping")
+        ]
+        found[f"noise of {100.0 * noise:g} % BW"] = {
+            "CPU [s]": taken,
+            "turns": len(result.residual),
+            "converged": result.converged,
+            "stiffness, worst relative error": float(missed[0]),
+            "damping, worst relative error": float(missed[1]),
+            "load rms [% BW]": {
+                n: [
+                    100.0 * float(np.sqrt(np.mean((load(each, n) - load(planted, n)) ** 2))) / WEIGHT
+                    for each in (foot, fitted)
+                ]
+                for n in rows
+            },
+        }
+    return found
+
+
 def torsion() -> dict[str, Any]:
-    """A foot rolled outwards by 3 degrees at the forefoot: force, centre across and turn, without and with torsion."""
+    """A forefoot rolled by 3 degrees under 800 N, without and with torsion: its centre across, twist and height."""
     import numpy as np
     from scipy.spatial.transform import RigidTransform, Rotation
 
-    from benchmarks.keel_stance import LEVEL
+    from benchmarks.keel_stance import LEVEL, heights
     from geocontact.loads.centre_of_pressure import centre_of_pressure
     from geocontact.prosthesis.keel.vsf import fulcrum_of
     from geocontact.prosthesis.keel.vsf_foot import vsf_foot
 
-    turn = Rotation.from_euler("zx", np.radians([[-20.0, 3.0]]))
-    found: dict[str, Any] = {}
+    turn, found = Rotation.from_euler("zx", np.radians([[-20.0, 3.0]])), {}
     for setting in ("low", "medium", "high"):
         for twisting in (False, True):
             one = vsf_foot().at(fulcrum_of(setting), torsion=twisting)
-            pose = RigidTransform.from_components(np.array([[0.0, 0.075, 0.0]]), turn)
-            moved = one.solve(pose, LEVEL)
+            height = heights(one, turn, np.array([800.0]))
+            moved = one.solve(RigidTransform.from_components(height[:, None] * [0.0, 1.0, 0.0], turn), LEVEL)
             found[f"{setting}, {'with' if twisting else 'without'}"] = {
                 "force [N]": float(moved.force[0, 1]),
+                "height [mm]": 1e3 * float(height[0]),
                 "centre across [mm]": float(1e3 * centre_of_pressure(moved.loads, gate=1.0).centre[0, 2]),
                 "twist [deg]": float(np.degrees(moved.angles[0, 0])) if twisting else 0.0,
             }

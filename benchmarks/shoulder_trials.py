@@ -1,8 +1,9 @@
 """The files of a synthetic study of a shoulder exoskeleton: `python -m benchmarks.shoulder_trials OUT`.
 
 Three synthetic participants, two tasks, two support levels; motion with the device and without it; logger and mat by
-the finer truth of `benchmarks.shoulder_truth`. OUT/study.toml is what `geocontact shoulder study` takes. A quarter of a
-minute of processor time for each of the twelve trials.
+the finer truth of `benchmarks.shoulder_truth`; what the mat's cells read goes through `geocontact mat`, whose resultant
+is the recorded force. OUT/study.toml is what `geocontact shoulder study` takes. A quarter of a minute of processor time
+for each of the twelve trials.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from zlib import crc32
 import numpy as np
 import pandas as pd
 
+from benchmarks.shoulder_mat import lifting_force, readings, with_noise, write_mat
 from benchmarks.shoulder_truth import NOTHING, Measured, Truth, Withheld, measure
 from geocontact.analyses.shoulder.trial_files import trial_files
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
@@ -80,7 +82,11 @@ def write_trial(folder: Path, made: tuple[Participant, OverheadTask, Condition])
     if condition.level is None:
         return part(lines)
     found = measured(trial, TRUE)
-    columns = {"time [s]": found.time, "elevation [deg]": np.degrees(found.logger), "force [N]": found.mat}
+    pressure = with_noise(readings(lucy(), found.cells), crc32(f"mat {trial.name}".encode()))
+    write_mat(place, found.time, pressure)
+    at, force = lifting_force(place)
+    shown = np.interp(found.time, at, force)
+    columns = {"time [s]": found.time, "elevation [deg]": np.degrees(found.logger), "force [N]": shown}
     pd.DataFrame(columns).round(4).to_csv(place / "recorded.csv", index=False)
     lines |= {
         "level": f"{100 * condition.level:g}%",

@@ -1,4 +1,4 @@
-"""Write the synthetic gait trial that the documentation of `geocontact prosthesis` runs on: `python meshes/make_gait.py`.
+"""Write the synthetic gait trial that the documentation runs on: `python meshes/make_gait.py`.
 
 It takes half a minute, for the truth is a stance on a finer foot.
 """

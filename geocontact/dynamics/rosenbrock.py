@@ -39,7 +39,7 @@ def rosenbrock_step(equations: Equations) -> Function:
     mass, force, growth = parts(*e.state)
     start = solved(mass, force)
     rest = [(e.u, force, growth)] * 2
-    linear = _Linear(e, start, mass, h)
+    linear = _Linear(e, start, mass, h, slope)
     stages: list[SX] = []
     for stage, (drift, earlier) in enumerate(zip(DRIFT, MEMORY, strict=True)):
         if stage >= 2:
@@ -48,8 +48,8 @@ def rosenbrock_step(equations: Equations) -> Function:
             own, acting, grown = parts(*at, later, e.p)
             rest.append((at[1], mass @ solved(own, acting), grown))
         right = list(rest[stage])
-        right[1] = right[1] + drift * h * linear.drift_force(slope)
-        right[2] = right[2] + drift * h * linear.drift_growth(slope)
+        right[1] = right[1] + drift * h * linear.drift_force
+        right[2] = right[2] + drift * h * linear.drift_growth
         for weight, one in zip(earlier, stages, strict=True):
             of_q, of_u, of_z = _split(one, n)
             right[0] = right[0] + weight / h * of_q
@@ -83,10 +83,13 @@ def _split(x: SX, n: int) -> tuple[SX, SX, SX]:
 
 
 class _Linear:
-    """(1/(h γ) - J) K = F at the start of a step, the row of the rates times the mass matrix."""
+    """(1/(h γ) - J) K = F at the start of a step, the row of the rates times the mass matrix.
 
-    def __init__(self, e: Equations, start: SX, mass: SX, h: SX) -> None:
-        from casadi import SX, blockcat, jacobian, substitute
+    `drift_force` and `drift_growth` are what the inputs' derivative `slope` adds to force and growth per second.
+    """
+
+    def __init__(self, e: Equations, start: SX, mass: SX, h: SX, slope: SX) -> None:
+        from casadi import SX, blockcat, jacobian, jtimes, substitute
 
         def there(of: SX, by: SX) -> SX:
             return substitute(jacobian(of, by), e.a, start)
@@ -94,19 +97,12 @@ class _Linear:
         self.n, self.hg = e.q.numel(), GAMMA * h
         self.force_q, force_u, force_z = (there(e.balance, by) for by in (e.q, e.u, e.z))
         self.growth_q, growth_u, growth_z = (jacobian(e.growth, by) for by in (e.q, e.u, e.z))
-        self.force_w, self.growth_w = there(e.balance, e.w), jacobian(e.growth, e.w)
+        along = [jtimes(of, e.w, slope) for of in (e.balance, e.growth)]  # one direction, not a column for each input
+        self.drift_force, self.drift_growth = substitute(along[0], e.a, start), along[1]
         rates = mass / self.hg - force_u - self.hg * self.force_q
         memories = SX.eye(e.z.numel()) / self.hg - growth_z
         matrix = blockcat([[rates, -force_z], [-growth_u - self.hg * self.growth_q, memories]])
         self.factors = _Factors(matrix)
-
-    def drift_force(self, slope: SX) -> SX:
-        """What the inputs' derivative adds to the force per second."""
-        return self.force_w @ slope
-
-    def drift_growth(self, slope: SX) -> SX:
-        """What it adds to the growth of the memories per second."""
-        return self.growth_w @ slope
 
     def solved(self, speed: SX, force: SX, growth: SX) -> SX:
         """K of the right-hand sides of coordinates, rates (times the mass matrix) and memories."""

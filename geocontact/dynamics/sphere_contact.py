@@ -2,7 +2,7 @@
 
 The laws of `contact.sphere_foot` run unchanged, each number of them a number or a symbol, sphere by sphere or zone by
 zone. They are written in the ground's frame, where the normal of level ground has one entry and half of each product
-is left out: 24 spheres take 2 200 operations, in the body's own frame 3 000.
+is left out: 24 spheres of one body take 2 200 operations on level ground, 3 100 on a slope.
 """
 
 from __future__ import annotations
@@ -102,19 +102,18 @@ def sole_wrench(body: Moving, spheres: SphereSet, laws: Sequence[ContactLaw], gr
     from casadi import SX, cross, dot, mtimes, sqrt, sumsqr
 
     upwards = np.asarray(ground.normal, float)
-    up = constant(upwards / np.linalg.norm(upwards))
-    above = dot(body.place - constant(np.asarray(ground.point, float)), up)
+    upwards = upwards / np.linalg.norm(upwards)
+    up, level = constant(upwards), float(upwards @ np.asarray(ground.point, float))
     turning = cross(body.spin, up)
     force, moment = SX(3, 1), SX(3, 1)
     for centre, radius, law in zip(spheres.centre, spheres.radius, laws, strict=True):
         arm = mtimes(body.rotation, constant(centre))
-        height = above + dot(arm, up)
-        carried = body.speed + cross(body.spin, arm)
-        rising = dot(carried, up)
-        pressing = law.pressing(radius - height, -rising)
+        place, carried = body.place + arm, body.speed + cross(body.spin, arm)
+        height, rising = dot(place, up), dot(carried, up)
+        pressing = law.pressing(radius + level - height, -rising)
         sliding = carried - rising * up - radius * turning
         fast = sqrt(sumsqr(sliding) + STILL**2)
         acting = pressing * (up - law.friction(fast) / fast * sliding)
         force += acting
-        moment += cross(arm - height * up, acting)
-    return force, moment + cross(body.place, force)
+        moment += cross(place - height * up + level * up, acting)  # of level ground the upward part falls out
+    return force, moment

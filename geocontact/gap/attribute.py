@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
 from geocontact.data.gap.case import GapCase
-from geocontact.gap.case.problem import Problem, problem_of
+from geocontact.gap.case.preparation import problem_of
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.data_errors.correction import corrected
 from geocontact.gap.data_errors.gross import DataError, data_error_of, recognised
 from geocontact.gap.data_errors.hidden import hidden_mistakes, undone

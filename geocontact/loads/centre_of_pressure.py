@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -16,6 +17,8 @@ GROUND_POINT = "ground"
 SPHERE_CENTRE = "sphere"
 POINTS = (GROUND_POINT, SPHERE_CENTRE)
 """What is weighted with the normal forces: the points on the ground, or the centres of the spheres."""
+Smooth = Callable[[Float[np.ndarray, "t k"]], Float[np.ndarray, "t k"]]
+"""Columns over time, each filtered."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +46,9 @@ class CentreOfPressure:
     wrench: Wrench
 
 
-def centre_of_pressure(loads: SphereLoads, point: str = GROUND_POINT, gate: float = 0.0) -> CentreOfPressure:
+def centre_of_pressure(
+    loads: SphereLoads, point: str = GROUND_POINT, gate: float = 0.0, smooth: Smooth | None = None
+) -> CentreOfPressure:
     """Centre of the normal forces, sum of F_n x over sum of F_n.
 
     On one plane the ground-point centre is what a force plate in that plane shows. On uneven ground no single point
@@ -56,16 +61,23 @@ def centre_of_pressure(loads: SphereLoads, point: str = GROUND_POINT, gate: floa
         variable-stiffness foot. On level ground the two differ along the normal; on a slope or step also beside it.
     gate
         Normal force [N] below which there is no centre.
+    smooth
+        A linear filter over time of forces and moments, as plates are filtered: the centre is that of what it leaves.
     """
     if point not in POINTS:
         raise ValueError(f"point must be {' or '.join(POINTS)}, not {point!r}")
     x = loads.point if point == GROUND_POINT else loads.centre
-    pressing = loads.pressing.sum(axis=1)
+    pressing, wrench = loads.pressing.sum(axis=1), resultant(loads.force, loads.point, "ground")
+    push = np.einsum("tn,tni->ti", loads.pressing, np.nan_to_num(loads.normal))
+    touching, own = pressing > 0.0, np.zeros((len(pressing), 3))
+    own[touching] = weighted_centre(x[touching], loads.pressing[touching], "centre of pressure")
+    if smooth is not None:
+        first, moment, push = smooth(pressing[:, None]), smooth(pressing[:, None] * own), smooth(push)
+        wrench = replace(wrench, force=smooth(wrench.force), moment=smooth(wrench.moment))
+        pressing, own = first[:, 0], np.divide(moment, first, out=np.zeros_like(own), where=first > 0.0)
     loaded = (pressing >= gate) & (pressing > 0.0)
-    wrench = resultant(loads.force, loads.point, "ground")
     centre, normal, free = (np.full(shape, np.nan) for shape in ((len(loaded), 3), (len(loaded), 3), len(loaded)))
-    centre[loaded] = weighted_centre(x[loaded], loads.pressing[loaded], "centre of pressure")
-    push = np.einsum("tn,tni->ti", loads.pressing[loaded], np.nan_to_num(loads.normal[loaded]))
-    normal[loaded] = push / np.linalg.norm(push, axis=1, keepdims=True)
+    centre[loaded] = own[loaded]
+    normal[loaded] = push[loaded] / np.linalg.norm(push[loaded], axis=1, keepdims=True)
     free[loaded] = np.einsum("ti,ti->t", wrench.moved_to(centre).moment[loaded], normal[loaded])
     return CentreOfPressure(centre, pressing, normal, free, wrench)

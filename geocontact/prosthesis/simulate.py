@@ -1,4 +1,4 @@
-"""One stance of the prosthetic side along a recorded motion: pelvis free fore and aft and vertically, socket and keel."""
+"""One stance of the prosthetic side along a recorded motion: place of the pelvis, socket and keel are found."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot
 from geocontact.prosthesis.model.leg_motion import LegMotion, driving_inputs
 from geocontact.prosthesis.model.stance_model import OUTPUTS, StanceModel, stance_model, stance_numbers
 
-TOLERANCE, FIRST = 1e-5, 1e-4
+TOLERANCE, FIRST = 3e-5, 1e-4
 """Error allowed in a step [m, rad, m/s, rad/s], plus as much of each one's size, and first step [s]."""
 SAMPLING = 500.0
 """Hz; at which the stance is told."""
@@ -50,6 +50,8 @@ class Stance:
         Recorded coordinates that drove it.
     foot, fulcrum, bushing
         What it stood on.
+    push
+        Of the other leg.
     time, found
         [s], and coordinates and rates of pelvis, socket and keel.
     poses
@@ -64,6 +66,7 @@ class Stance:
     foot: VariableStiffnessFoot
     fulcrum: float
     bushing: Bushing
+    push: Push
     time: Float[np.ndarray, " t"]
     found: SimulatedMotion
     poses: RigidTransform
@@ -182,7 +185,7 @@ def simulate_stance(
     told = _told(model, found, inputs.at(time), p)
     poses = RigidTransform.from_components(told["place"], Rotation.from_matrix(told["rotation"].reshape(-1, 3, 3)))
     moved = foot.at(fulcrum).at(found.q[:, 8:], found.u[:, 8:], poses, FLOOR, _rate(told))
-    return Stance(motion, foot, fulcrum, bushing, time, found, poses, moved.loads, told["socket"])
+    return Stance(motion, foot, fulcrum, bushing, push, time, found, poses, moved.loads, told["socket"])
 
 
 def recorded_speed(motion: LegMotion) -> Float[np.ndarray, "t 3"]:
@@ -206,5 +209,3 @@ def _rate(told: dict[str, Float[np.ndarray, "t _"]]) -> Float[np.ndarray, "t 4 4
     rate[:, :3, :3] = np.cross(told["spin"][:, None], turn.swapaxes(1, 2)).swapaxes(1, 2)
     rate[:, :3, 3] = told["speed"]
     return rate
-
-

@@ -75,7 +75,8 @@ def stance_errors(found: Stance, plate: PlateStance) -> StanceErrors:
     curves = {"resultant": (np.linalg.norm(own, axis=1), np.linalg.norm(seen, axis=1))}
     for name, axis in (("vertical", 1), ("fore_aft", 0), ("medio_lateral", 2)):
         curves[name] = (own[:, axis], seen[:, axis])
-    curves["impulse"] = tuple(cumulative_trapezoid(each, time, initial=0.0) for each in curves["resultant"])
+    sums = [np.asarray(cumulative_trapezoid(each, time, initial=0)) for each in curves["resultant"]]
+    curves["impulse"] = (sums[0], sums[1])
     poses, length = found.poses, found.foot.keel.length
     across = np.column_stack([np.interp(found.time, plate.time, column) for column in plate.centre.T])
     seen_centre = np.interp(time, found.time, share_of_foot(poses, length, across))

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.data.sourced_number import Source
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
@@ -53,10 +54,18 @@ class Influence:
 
 
 def influences(
-    motion: ArmMotion, device: Device, wearer: Wearer, level: float, cuff: Cuff = "point"
+    motion: ArmMotion,
+    device: Device,
+    wearer: Wearer,
+    level: float,
+    cuff: Cuff = "point",
+    factor: Float[np.ndarray, " t"] | None = None,
 ) -> Iterator[Influence]:
-    """One by one, in the device's order; a number with which nothing rests at the start changes all by infinity."""
-    usual = simulate_arm(motion, device, wearer, level, cuff=cuff)
+    """One by one, in the device's order; a number with which nothing rests at the start changes all by infinity.
+
+    `factor` is that of `simulate_arm`; it stays as it is.
+    """
+    usual = simulate_arm(motion, device, wearer, level, factor=factor, cuff=cuff)
     for name, number in device.numbers.items():
         if name in (*IDLE[cuff], *STANDING):
             continue
@@ -65,7 +74,7 @@ def influences(
             continue
         lower, upper = QUANTITIES[name].lower, QUANTITIES[name].upper
         values = [v for v in (number.value - step, number.value + step) if lower <= v <= upper]
-        changed = [_changed(usual, device.having(**{name: value})) for value in values]
+        changed = [_changed(usual, device.having(**{name: value}), factor) for value in values]
         most = np.max(changed, axis=0)
         yield Influence(name, number.source, step, *map(float, most))
 
@@ -79,9 +88,9 @@ def _step(name: str, value: float) -> float:
     return abs(SHARE * value)
 
 
-def _changed(usual: ArmSimulation, device: Device) -> tuple[float, ...]:
+def _changed(usual: ArmSimulation, device: Device, factor: Float[np.ndarray, " t"] | None) -> tuple[float, ...]:
     try:
-        other = simulate_arm(usual.motion, device, usual.wearer, usual.level, cuff=usual.cuff)
+        other = simulate_arm(usual.motion, device, usual.wearer, usual.level, factor=factor, cuff=usual.cuff)
     except ArithmeticError:
         return (np.inf,) * 4
     pairs = ((usual.elevation, other.elevation), (usual.supporting, other.supporting), (usual.shear, other.shear))

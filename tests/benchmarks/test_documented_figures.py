@@ -51,6 +51,24 @@ def test_coverage_of_the_modulus() -> None:
     assert max(told["noise_free_largest_relative_error"].values()) < 1e-3
 
 
+def test_the_shoulder_s_study() -> None:
+    for one in results("shoulder_study")["rows"]:
+        if one["paper"] is not None or one["figure"] == "force, lower: MAE [N]":
+            cells = row("theory/shoulder_exoskeleton.md", one["figure"])
+            assert near(cells[1], one["ours"]), cells
+            assert one["paper"] is None or float(cells[0]) == one["paper"]
+
+
+def test_the_shoulder_s_planted_effects() -> None:
+    for kind, one in results("shoulder_gap")["answers"].items():
+        said, _, exo, force, full, _ = row("theory/shoulder_exoskeleton.md", kind)
+        assert said.startswith(one["verdict"]) and all(name.replace("_", " ") in said for name in one["named"])
+        for cell, channel in ((exo, "exo"), (force, "force")):
+            assert cell == "-" or near(cell.split("%")[0], one["reduction"][channel][0], 100.0), cell
+        before, after = full.split(" → ")
+        assert near(before, one["full_model"]["before_N"]) and near(after, one["full_model"]["after_N"])
+
+
 def test_force_beside_a_refined_mesh() -> None:
     for one in results("pressure")["refinement"]["rows"]:
         cells = row("how-to/pressure.md", f"1e{len(str(one['faces_asked'])) - 1}", one["facets"])

@@ -6,16 +6,18 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.calls import MESHES, call
+from tests.cli.calls import MESHES, call, written
 
 TRIAL = MESHES / "overhead_P1T1S100"
 BORE = "[numbers]\nbore = { "
 
 
-def spoilt(folder: Path, name: str, text: str) -> Path:
-    file = folder / name
-    file.write_text(text, encoding="utf-8")
-    return file
+def refused(folder: Path, words: str, *options: object, command: str = "simulate") -> None:
+    """One complaint that says so, code 2, nothing written."""
+    markers = (TRIAL / "markers.trc",) if command == "simulate" else ()
+    told = call("shoulder", command, *markers, *options, "--out", folder / "out")
+    assert told.code == 2 and words in told.err, told.err
+    assert len(told.complaints) == 1 and not (folder / "out").exists()
 
 
 DEVICES = {
@@ -45,10 +47,7 @@ DEVICES = {
 @pytest.mark.parametrize("name", DEVICES)
 def test_a_device_that_cannot_be(tmp_path: Path, name: str) -> None:
     text, words = DEVICES[name]
-    file = spoilt(tmp_path, "device.toml", text)
-    told = call("shoulder", "simulate", TRIAL / "markers.trc", "--device", file, "--out", tmp_path / "out")
-    assert told.code == 2 and words in told.err, told.err
-    assert len(told.complaints) == 1 and not (tmp_path / "out").exists()
+    refused(tmp_path, words, "--device", written(tmp_path / "device.toml", text))
 
 
 OPTIONS = {
@@ -56,6 +55,7 @@ OPTIONS = {
     "per cent": (("--level", "50"), "'50' may be meant in per cent; write 50% or 0.5"),
     "device": (("--device", "lucie"), "'lucie' is neither a file nor a built-in device"),
     "lone current": (("--tool-current", "2"), "--tool-current: has no effect without --tool"),
+    "lone task": (("--task", "T1"), "--task: has no effect without --profile"),
     "map": (("--markers-map", "R_UP=humerus_rup"), "R_UP was not recorded"),
     "upright": (("--upright", "90:95"), "no frame with all reference markers from 90 to 95 s"),
 }
@@ -64,9 +64,7 @@ OPTIONS = {
 @pytest.mark.parametrize("name", OPTIONS)
 def test_options_that_cannot_be(tmp_path: Path, name: str) -> None:
     options, words = OPTIONS[name]
-    told = call("shoulder", "simulate", TRIAL / "markers.trc", *options, "--out", tmp_path / "out")
-    assert told.code == 2 and words in told.err, told.err
-    assert len(told.complaints) == 1
+    refused(tmp_path, words, *options)
 
 
 @pytest.mark.parametrize(
@@ -79,19 +77,13 @@ def test_options_that_cannot_be(tmp_path: Path, name: str) -> None:
     ],
 )
 def test_a_tool_that_cannot_be(tmp_path: Path, text: str, words: str) -> None:
-    file = spoilt(tmp_path, "tool.csv", text)
-    told = call("shoulder", "simulate", TRIAL / "markers.trc", "--tool", file, "--out", tmp_path / "out")
-    assert told.code == 2 and words in told.err, told.err
-    assert len(told.complaints) == 1
+    refused(tmp_path, words, "--tool", written(tmp_path / "tool.csv", text))
 
 
 def test_no_rest_at_the_start(tmp_path: Path) -> None:
     """Shoulders half a metre behind: the cuff is not where the arm is."""
     text = '[numbers]\nlink_1_y = { value = 450, unit = "mm" }\n'
-    file = spoilt(tmp_path, "device.toml", text)
-    told = call("shoulder", "simulate", TRIAL / "markers.trc", "--device", file, "--out", tmp_path / "out")
-    assert told.code == 2 and "right arm: at the start" in told.err, told.err
-    assert len(told.complaints) == 1
+    refused(tmp_path, "right arm: at the start", "--device", written(tmp_path / "device.toml", text))
 
 
 @pytest.mark.parametrize(
@@ -102,10 +94,7 @@ def test_no_rest_at_the_start(tmp_path: Path) -> None:
     ],
 )
 def test_a_person_that_cannot_be(tmp_path: Path, text: str, words: str) -> None:
-    file = spoilt(tmp_path, "p1.toml", text)
-    told = call("shoulder", "simulate", TRIAL / "markers.trc", "--person", file, "--out", tmp_path / "out")
-    assert told.code == 2 and words in told.err, told.err
-    assert len(told.complaints) == 1
+    refused(tmp_path, words, "--person", written(tmp_path / "p1.toml", text))
 
 
 def test_help_lists_the_commands() -> None:
@@ -122,10 +111,9 @@ def test_angles_beyond_all_stops_at_the_start(tmp_path: Path) -> None:
         for end, angle in zip(("lower", "upper"), ends, strict=True)
     ]
     text = "\n".join(["[numbers]", *lines, 'stop_stiffness = { value = 0.5, unit = "N m/rad" }'])
-    file = spoilt(tmp_path, "device.toml", text)
-    told = call("shoulder", "simulate", TRIAL / "markers.trc", "--device", file, "--out", tmp_path / "out")
-    assert told.code == 2 and "at the start all joints are beyond their stops" in told.err, told.err
-    assert len(told.complaints) == 1
+    refused(
+        tmp_path, "at the start all joints are beyond their stops", "--device", written(tmp_path / "device.toml", text)
+    )
 
 
 @pytest.mark.parametrize(
@@ -138,6 +126,4 @@ def test_angles_beyond_all_stops_at_the_start(tmp_path: Path) -> None:
     ],
 )
 def test_support_that_cannot_be_asked_for(tmp_path: Path, options: tuple[str, str], words: str) -> None:
-    told = call("shoulder", "optimise", *options, "--out", tmp_path / "out")
-    assert told.code == 2 and words in told.err, told.err
-    assert len(told.complaints) == 1 and not (tmp_path / "out").exists()
+    refused(tmp_path, words, *options, command="optimise")

@@ -83,7 +83,7 @@ class Coulomb(SphereLaw):
 
 @pytest.mark.parametrize("speed", [1e-7, 1e-6, 1e-5, 1e-3, 0.05, 0.12, 1.0])
 def test_slow_sliding_is_smoothed_as_far_as_is_stated(speed: float) -> None:
-    """Not at all below the threshold, by (STILL / v_th)² above; friction that jumps at rest by v / sqrt(v² + STILL²)."""
+    """Not at all below the threshold, by (STILL / v_th)² above; a jump at rest by v / sqrt(v² + STILL²)."""
     ball = SphereSet(np.zeros((1, 3)), np.array([0.02]), ("heel",))
     q, u = np.array([0.0, 0.0, 0.0, 0.0, 0.019, 0.0]), np.array([0.0, 0.0, 0.0, speed, 0.0, 0.0])
     pressing, table, v_th = 5e4 * 1e-3**1.5, SphereLaw(5e4, 1.5, 0.0, 2e-3, 0.1, 0.8, 0.64), 0.1

@@ -18,7 +18,8 @@ from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import Noise, Problem, problem_of
+from geocontact.gap.case.preparation import problem_of
+from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.refit import Measured, Refit
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.localise.gap_map import Window, gap_map, windows

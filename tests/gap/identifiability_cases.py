@@ -17,7 +17,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution
-from geocontact.gap.case.problem import problem_of
+from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.experiment.menu import menu
 from geocontact.gap.experiment.proposal import TELLS, first_of, next_experiment
 from geocontact.gap.identifiability.detectability import SURE, detectabilities, power

@@ -14,7 +14,7 @@ from geocontact.chain.system import System
 from geocontact.data.gap.diagnosis import Diagnosis
 from geocontact.data.parameter import Parameter
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import problem_of
+from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.diagnose import diagnose, estimates, on_bounds
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.systems.catalogue import system_of

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import Problem, problem_of
+from geocontact.gap.case.preparation import problem_of
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.whitening import sensitivity
 from geocontact.gap.reduction.error_reduction import WIDE, between, error_reduction
 from geocontact.gap.reduction.raw_input_errors import directions, passed_on, raw_input_errors

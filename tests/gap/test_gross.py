@@ -10,7 +10,7 @@ import pytest
 from geocontact.data.gap.case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import problem_of
+from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.data_errors import gross as faults
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere

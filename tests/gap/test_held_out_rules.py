@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import evaluated, problem_of
+from geocontact.gap.case.preparation import problem_of
+from geocontact.gap.case.problem import evaluated
 from geocontact.gap.selection.held_out_rules import FEW, HeldOutRules, TrialWeight, amplitude, trimmed
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.systems.catalogue import system_of

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import problem_of
+from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.refit import refit
 from geocontact.gap.data_errors.gross import data_error_of
 from geocontact.gap.data_errors.hidden import hidden_mistakes, undone

@@ -7,7 +7,8 @@ import pytest
 
 from geocontact.data.gap.case import GapCase
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import Problem, problem_of
+from geocontact.gap.case.preparation import problem_of
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.inject import chosen, inject, visible
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import Problem, problem_of
+from geocontact.gap.case.preparation import problem_of
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.experiment.proposal import first_of
 from geocontact.gap.identifiability.non_identifiable import (
     UNSEEN,

@@ -13,7 +13,7 @@ from geocontact.data.gap.case import GapCase
 from geocontact.data.gap.cell_channels import CellChannels, CellTrial
 from geocontact.data.gap.surface_gap import SurfaceGap
 from geocontact.gap.case.admission import admitted
-from geocontact.gap.case.problem import problem_of
+from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.localise.on_surface import on_surface
 from geocontact.systems.catalogue import system_of

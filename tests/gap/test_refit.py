@@ -7,8 +7,9 @@ import pytest
 
 from geocontact.chain.candidate import Candidate
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import Plain, base_starts, rough_noise
+from geocontact.gap.case.plain_fit import Plain, base_starts
 from geocontact.gap.case.refit import Measured, derivatives, free, magnitude, moved_at_once, refit
+from geocontact.gap.case.rough_noise import rough_noise
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import NOISE, TRUE, elbow_case, lost
 from tests.systems.examples import example

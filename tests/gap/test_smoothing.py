@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.case.problem import Problem, evaluated, problem_of
+from geocontact.gap.case.preparation import problem_of
+from geocontact.gap.case.problem import Problem, evaluated
 from geocontact.gap.case.refit import at
 from geocontact.gap.selection.evidence import by_smoothing
 from geocontact.gap.selection.model_comparison import base_contender

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geocontact.gap.case.problem import problem_of
+from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.selection.evidence import judged
 from geocontact.gap.selection.model_comparison import base_contender
 from geocontact.gap.selection.surrogate import chosen, surrogate

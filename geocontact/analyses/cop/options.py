@@ -18,10 +18,12 @@ from geocontact.analyses.options import (
     Typed,
 )
 from geocontact.data.plausible import PLAIN, ByName, Plausible
-from geocontact.data.ranges import DAMPING, DEPTH, FORCE, FRICTION, SPEED
+from geocontact.data.ranges import CUTOFF, DAMPING, DEPTH, FORCE, FRICTION, SPEED
+from geocontact.data.units import mm
 
 EXPONENT = Plausible("the exponent of a force over depth", PLAIN, (0.1, 10.0), (0.8, 3.0))
 STIFFNESS = Plausible("the stiffness k of a sphere, in N/m^n", PLAIN, (1.0, 1e9), (1e3, 1e7))
+FOOT_LENGTH = Plausible("the length of a foot", mm, (10.0, 1000.0), (100.0, 400.0))
 LAW = ByName(
     (
         ("k", STIFFNESS),
@@ -62,6 +64,19 @@ class CopOptions(Options):
         What the normal forces weigh: the points on the ground, or the centres of the spheres.
     gate
         Normal force [N] below which there is no centre of pressure.
+    toe
+        Axis of the foot's frame that points from heel to toe: adds the centre in the foot, from the heel.
+    foot_length
+        From heel to toe [m]; from the rearmost to the foremost point of the spheres unless given.
+    stances
+        Add every complete stance, from where the normal force reaches the gate until it falls below, at 0, 1, … 100 %.
+
+    Filters
+    -------
+    motion_cutoff
+        Zero-lag low-pass of the motion [Hz], 6 in the study of the variable-stiffness foot; none unless given.
+    force_cutoff
+        Zero-lag low-pass of forces and moments, the plate's as well [Hz], 40 there; none unless given.
 
     The force law
     -------------
@@ -114,6 +129,11 @@ class CopOptions(Options):
     unit: MeshUnit | None = None
     point: Literal["ground", "sphere"] = "ground"
     gate: Annotated[float, FORCE] = 20.0
+    toe: Literal["x", "-x", "y", "-y", "z", "-z"] | None = None
+    foot_length: Annotated[Length | None, Requires("toe", "say where the toe is"), FOOT_LENGTH] = None
+    stances: bool = False
+    motion_cutoff: Annotated[float | None, CUTOFF] = None
+    force_cutoff: Annotated[float | None, CUTOFF] = None
     law: Path | None = None
     stiffness: Annotated[float | None, STIFFNESS] = None
     damping: Annotated[float | None, DAMPING] = None

@@ -10,6 +10,7 @@ from jaxtyping import Float, Int
 from geocontact.analyses.cop.foot_loads import FootLoads
 from geocontact.analyses.cop.page_answer import NO_MOMENT, facts, headline
 from geocontact.analyses.cop.page_plans import MM, butterfly, foot_plan
+from geocontact.analyses.cop.page_stances import foot_curves, stance_pictures
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_frames import thinned
 from geocontact.analyses.page_words import NOT_A_DEVICE
@@ -40,6 +41,8 @@ def cop_page(r: FootLoads) -> Page:
         Readout(_rows(r, shown)),
         *([] if forces is None else [forces]),
         *_curves(r, shown),
+        *foot_curves(r, shown),
+        *stance_pictures(r),
         *_comparison(r),
         Words("What the numbers rest on", [LAW, NOT_A_DEVICE]),
         inputs_table(r.record.inputs),
@@ -79,8 +82,8 @@ def _rows(r: FootLoads, shown: Int[np.ndarray, " k"]) -> list[Row]:
 
 def _curves(r: FootLoads, shown: Int[np.ndarray, " k"]) -> list[Curves]:
     """Forces, force of each zone, centre and free moment; each beside the plate's where there is one."""
-    c, zones = r.centre, r.foot.sole.zones
-    of_zones = [Curve(name, r.loads.pressing[shown][:, which].sum(axis=1)) for name, which in zones.items()]
+    c, zones = r.centre, r.zones
+    of_zones = [Curve(name, force[shown]) for name, force in zones.items()]
     centre = [Curve(axis, c.centre[shown, k] * MM) for k, axis in enumerate("xyz")]
     plate = r.plate
     if plate is None:

@@ -64,7 +64,7 @@ def facts(r: FootLoads) -> list[tuple[str, str]]:
     if touching.any():
         first, last = time[np.flatnonzero(touching)[[0, -1]]]
         lines.append(("On the ground", f"{_at(first)} to {_at(last)}"))
-        zones = {name: float(r.loads.pressing[:, which].sum()) for name, which in r.foot.sole.zones.items()}
+        zones = {name: float(force.sum()) for name, force in r.zones.items()}
         most = max(zones, key=lambda name: zones[name])
         lines.append(("Zone that bears most", f"{most}, {zones[most] / sum(zones.values()):.0%} of all force"))
     if found.any():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from geocontact.analyses.body_motion import read_body_motion
+from geocontact.analyses.cop.filters import smoothed_motion, smoothed_plate
 from geocontact.analyses.cop.force_plate import chosen_plate
 from geocontact.analyses.cop.ground import ground_of
 from geocontact.analyses.cop.law import sole_law
@@ -36,5 +37,8 @@ def read(o: CopOptions, record: Record) -> Foot:
     record.add_input("spheres", o.spheres, spheres=len(table.radius))
     sole = SphereSet(table.centre, table.radius, table.zone)
     law = sole_law(record, table, o)
-    motion = read_body_motion(record, o.motion, o)
-    return Foot(o.spheres.name, sole, law, motion, ground, chosen_plate(record, o))
+    motion = smoothed_motion(read_body_motion(record, o.motion, o), o.motion_cutoff, o.motion)
+    plate = chosen_plate(record, o)
+    if plate is not None and o.compare is not None:
+        plate = smoothed_plate(plate, o.force_cutoff, o.compare)
+    return Foot(o.spheres.name, sole, law, motion, ground, plate)

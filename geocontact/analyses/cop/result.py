@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
 import pandas as pd
 
+from geocontact.analyses.cop.along_foot import along_foot, stance_table
 from geocontact.analyses.cop.figure import LoadCurves, cop_figure
-from geocontact.analyses.cop.foot_loads import FootLoads
+from geocontact.analyses.cop.foot_loads import FootLoads, loads_table
 from geocontact.analyses.cop.page import write_cop_report
 from geocontact.analyses.figure_files import save_both
 from geocontact.io.text.results import write_table
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 FRAME = "ground"
 WORDS = "the frame in which the motion gives the foot's pose; forces are those on the foot"
+FOOT_WORDS = "distance from the heel along the foot's own axis, and that over the length of the foot"
 CENTRES = {"ground": "centre of the ground points", "sphere": "centre of the sphere centres"}
 
 
@@ -28,9 +29,16 @@ class CopResult(FootLoads):
     """Loads on a foot over its motion, with tables, figure and page."""
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`cop`, `zones`, and `comparison` with a plate."""
-        found = {"cop": self._loads_table(), "zones": self._zones_table()}
-        return found if self.comparison is None else {**found, "comparison": self.comparison}
+        """`cop`, `zones`; `comparison` with a plate, `along_foot` with `toe`, `stances` where asked for."""
+        found = {"cop": loads_table(self), "zones": self._zones_table()}
+        if self.comparison is not None:
+            found["comparison"] = self.comparison
+        within = along_foot(self)
+        if within is not None:
+            found["along_foot"] = within
+        if self.options.stances:
+            found["stances"] = stance_table(self, found["cop"])
+        return found
 
     def figure(self) -> Figure:
         """Forces, centre and free moment over time, and the path seen from above."""
@@ -46,6 +54,8 @@ class CopResult(FootLoads):
         for name, table in self.tables().items():
             write_table(table, folder, name)
             told = {"frame": FRAME, "words": WORDS, "cop": CENTRES[self.options.point]}
+            if name == "along_foot":
+                told = {"frame": "foot", "words": FOOT_WORDS}
             self.record.tables[f"{name}.csv"] = told
         save_both(self.figure(), folder, "cop")
         write_cop_report(self, folder / "report.html")
@@ -54,27 +64,7 @@ class CopResult(FootLoads):
         """The path under the foot, the forces along it, and their numbers in every frame."""
         write_cop_report(self, file)
 
-    def _loads_table(self) -> pd.DataFrame:
-        """Force, centre and free moment of every frame; centre and free moment are empty below the gate."""
-        c = self.centre
-        vectors = {
-            f"{name}_{axis} [{unit}]": values[:, k]
-            for name, unit, values in (("force", "N", c.wrench.force), ("cop", "m", c.centre))
-            for k, axis in enumerate("xyz")
-        }
-        return pd.DataFrame(
-            {
-                "time [s]": self.foot.motion.time,
-                **vectors,
-                "free_moment [N m]": c.free_moment,
-                "normal [N]": c.pressing,
-                "spheres [-]": np.count_nonzero(self.loads.depth > 0.0, axis=1),
-                "max_depth [m]": np.maximum(self.loads.depth.max(axis=1), 0.0),
-            }
-        )
-
     def _zones_table(self) -> pd.DataFrame:
         """Normal force of every zone."""
-        zones = self.foot.sole.zones.items()
-        forces = {f"{name} [N]": self.loads.pressing[:, which].sum(axis=1) for name, which in zones}
+        forces = {f"{name} [N]": force for name, force in self.zones.items()}
         return pd.DataFrame({"time [s]": self.foot.motion.time, **forces})

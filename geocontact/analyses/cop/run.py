@@ -5,13 +5,16 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.analyses.cop.along_foot import NAMES, SHARE, along_foot, stances
+from geocontact.analyses.cop.filters import low_passed
 from geocontact.analyses.cop.force_plate import comparison_table, plate_curves, root_mean_squares
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.cop.read import Foot
 from geocontact.analyses.cop.result import CopResult
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.loads.centre_of_pressure import centre_of_pressure
+from geocontact.loads.along_foot import FootAxis, axis_of_sole
+from geocontact.loads.centre_of_pressure import POINTS, centre_of_pressure
 from geocontact.loads.pose_rate import pose_rate
 from geocontact.loads.sphere_loads import SphereLoads, sphere_loads
 
@@ -22,15 +25,37 @@ REMEDY = "check the frame, the unit and which way is up; see `ground`"
 def run(foot: Foot, o: CopOptions, record: Record) -> CopResult:
     """Load of every frame, and the plate's beside it."""
     loads = _loads(record, foot, o)
-    centre = centre_of_pressure(loads, o.point, o.gate)
     time = foot.motion.time
+
+    def smooth(values: Float[np.ndarray, "t k"]) -> Float[np.ndarray, "t k"]:
+        if not o.force_cutoff:
+            return values
+        return low_passed(time, values, o.force_cutoff, o.motion, "`force_cutoff`")
+
+    found = {point: centre_of_pressure(loads, point, o.gate, smooth if o.force_cutoff else None) for point in POINTS}
+    centre = found[o.point]
     curves = None if foot.plate is None else plate_curves(foot.plate, time, centre, o)
     comparison = None if curves is None else comparison_table(time, centre, curves)
     result = CopResult(
-        record=record, options=o, foot=foot, loads=loads, centre=centre, plate=curves, comparison=comparison
+        record=record,
+        options=o,
+        foot=foot,
+        loads=loads,
+        centre=centre,
+        centres={point: each.centre for point, each in found.items()},
+        axis=None if o.toe is None else _axis(foot, o.toe, o.foot_length),
+        zones={zone: smooth(loads.pressing[:, own]).sum(axis=1) for zone, own in foot.sole.zones.items()},
+        plate=curves,
+        comparison=comparison,
     )
     _summarise(result)
     return result
+
+
+def _axis(foot: Foot, toe: str, length: float | None) -> FootAxis:
+    """`toe` is an axis with its sign: x, -z."""
+    direction = np.eye(3)["xyz".index(toe[-1])] * (-1.0 if toe.startswith("-") else 1.0)
+    return axis_of_sole(foot.sole, direction, length)
 
 
 def _loads(record: Record, foot: Foot, o: CopOptions) -> SphereLoads:
@@ -83,8 +108,33 @@ def _summarise(r: CopResult) -> None:
     record.say(
         f"normal force up to {c.pressing.max():.1f} N; a centre of pressure in {found.sum()} of {len(found)} frames"
     )
+    _tell_foot(r)
     if r.comparison is not None:
         _tell_comparison(r, root_mean_squares(r.comparison))
+
+
+def _tell_foot(r: CopResult) -> None:
+    """Length of the foot and where the centre goes along it; how many stances are complete."""
+    within = along_foot(r)
+    if within is not None and r.axis is not None:
+        told: dict[str, float | None] = {"length_mm": round(r.axis.length * 1e3, 6)}
+        for name in within.columns:
+            if str(name).endswith(SHARE):
+                known = within[name].dropna()
+                for end, value in (("from", known.min()), ("to", known.max())):
+                    told[f"{str(name).removesuffix(SHARE)}_{end}"] = round(float(value), 9) if len(known) else None
+        r.record.results["along_foot"] = told
+        least, most = (told[f"{NAMES[r.options.point]}_{end}"] for end in ("from", "to"))
+        if least is not None and most is not None:
+            length = f"foot of {r.axis.length * 1e3:.0f} mm"
+            r.record.say(f"centre of pressure at {least:.0%} to {most:.0%} of the {length}, from the heel")
+    if r.options.stances:
+        count = len(stances(r))
+        r.record.results["stances"] = count
+        if not count:
+            r.record.warn(
+                f"no complete stance: the normal force does not rise through {r.options.gate:g} N and fall again"
+            )
 
 
 def _one_or_all(values: Float[np.ndarray, " n"]) -> float | list[float]:

@@ -41,6 +41,12 @@ def tool_current(record: Record, file: Path, time: Float[np.ndarray, " t"]) -> F
     return np.asarray(np.interp(time, table.time, current))
 
 
+def current_at(file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+    """The same of a file that is an input already."""
+    table, current, _ = _current(file)
+    return np.asarray(np.interp(time, table.time, current))
+
+
 def _current(file: Path) -> tuple[TextTable, Float[np.ndarray, " s"], bool]:
     """The table, its current [A], and whether that stands for events of 0 and 1."""
     table = read_table(file)

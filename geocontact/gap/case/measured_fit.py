@@ -10,7 +10,8 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap.case.problem import Plain, Problem
+from geocontact.gap.case.plain_fit import Plain
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Refit, refit
 
 ROUNDS = 20

@@ -15,7 +15,8 @@ import numpy as np
 
 from geocontact.chain.candidate import Candidate
 from geocontact.chain.system import System
-from geocontact.gap.case.problem import Plain, Problem, base_starts
+from geocontact.gap.case.plain_fit import Plain, base_starts
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, Refit, refit
 
 GROSS = 0.3  # residual over measured, root mean squares of a channel in a trial

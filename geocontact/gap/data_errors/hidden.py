@@ -14,7 +14,9 @@ import numpy as np
 
 from geocontact.chain.candidate import Candidate
 from geocontact.data.gap.case import GapCase
-from geocontact.gap.case.problem import Problem, base_starts, problem_of
+from geocontact.gap.case.plain_fit import base_starts
+from geocontact.gap.case.preparation import problem_of
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, Refit, Whiten, refit
 from geocontact.gap.data_errors.correction import corrected
 from geocontact.gap.data_errors.gross import gross, recognised

@@ -14,7 +14,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.chain.candidate import Candidate
-from geocontact.gap.case.problem import Plain, Problem, base_starts
+from geocontact.gap.case.plain_fit import Plain, base_starts
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Measured, derivatives, refit
 from geocontact.gap.data_errors.correction import exchanged
 

@@ -12,7 +12,8 @@ from jaxtyping import Float
 
 from geocontact.chain.system import System
 from geocontact.gap.case.measured_fit import measured_fit
-from geocontact.gap.case.problem import Plain, Problem, differences, noise_variance
+from geocontact.gap.case.plain_fit import Plain
+from geocontact.gap.case.problem import Problem, differences, noise_variance
 from geocontact.gap.case.refit import refit
 from geocontact.gap.data_errors.correction import put_back
 from geocontact.gap.data_errors.gross import DataError

@@ -23,7 +23,8 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from geocontact.gap.case.measured_fit import measured_fit
-from geocontact.gap.case.problem import Noise, Plain, Problem
+from geocontact.gap.case.plain_fit import Plain
+from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.selection.calibration_share import changes
 from geocontact.gap.selection.evidence import Judged, prior_spread

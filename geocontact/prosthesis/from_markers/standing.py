@@ -144,7 +144,9 @@ def _require_lengths(seen: MarkerTrajectories, leg: Leg, at: dict[str, Vector], 
     for name, value, (low, high) in told:
         if not low <= value <= high:
             what = f"the {name} would measure {value:.3g} m, not {low:g} to {high:g} m"
-            raise InputError(seen.source, "`static`", what, "is the unit in the file right? are the markers named right?")
+            raise InputError(
+                seen.source, "`static`", what, "is the unit in the file right? are the markers named right?"
+            )
 
 
 def _frame(origin: Vector, up: Vector, across: Vector) -> RigidTransform:

@@ -52,7 +52,9 @@ def walked(seen: MarkerTrajectories, leg: Leg, *, cutoff: float | None, gap_limi
         values = found.values[:, columns]
         time, smooth = filled_and_smoothed(seen.time, values, cutoff=cutoff, longest_gap=gap_limit)
     except ValueError as error:
-        raise InputError(seen.source, "", str(error), "fill the gaps, or give another `cutoff` or `gap_limit`") from error
+        raise InputError(
+            seen.source, "", str(error), "fill the gaps, or give another `cutoff` or `gap_limit`"
+        ) from error
     motion = LegMotion(leg, time, smooth)
     speed = float((motion.of("pelvis_tx")[-1] - motion.of("pelvis_tx")[0]) / (time[-1] - time[0]))
     if speed < SLOWEST:
@@ -72,4 +74,6 @@ def functional_hip(seen: MarkerTrajectories, pelvis: Float[np.ndarray, "4 3"]) -
         both = known & known_too
         return functional_centre(one[both[known]], other[both[known_too]])
     except ValueError as error:
-        raise InputError(seen.source, "`functional`", str(error), "swing the leg in all directions, markers seen") from error
+        raise InputError(
+            seen.source, "`functional`", str(error), "swing the leg in all directions, markers seen"
+        ) from error

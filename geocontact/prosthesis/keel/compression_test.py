@@ -21,7 +21,7 @@ from geocontact.loads.sphere_set import SoleLaw, SphereSet
 from geocontact.prosthesis.keel.compression import Compressed
 from geocontact.prosthesis.keel.keel import Keel
 from geocontact.prosthesis.keel.quasi_static import QuasiStaticKeel
-from geocontact.prosthesis.keel.sole import Sole
+from geocontact.prosthesis.keel.sole import KeelSole
 
 TILT, TRAVEL = radians(20.0), 5e-3
 WEIGHTLESS = (0.0, 0.0, 0.0)
@@ -32,18 +32,24 @@ def pressed_tip(keel: Keel, fulcrum: float, series: float, travel: Float[np.ndar
     """Force [N] of a level plate on the tip through a spring of `series` [N/m], along its travel [m]."""
     tip = SphereSet(np.array([[keel.length, 0.0, 0.0]]), np.array([1e-9]), ("tip",))
     law = SoleLaw(np.array([series]), np.zeros(1), 1.0, 1.0, np.zeros(1), np.zeros(1), 1.0)
-    return _pressed(QuasiStaticKeel(keel, fulcrum, Sole(tip, (keel.joints,)), law), travel, 0.0)
+    return _pressed(QuasiStaticKeel(keel, fulcrum, KeelSole(tip, (keel.joints,)), law), travel, 0.0)
 
 
 def pressed_sole(
-    keel: Keel, fulcrum: float, sole: Sole, law: SoleLaw, travel: Float[np.ndarray, " t"], *, tilt: float = TILT
+    keel: Keel, fulcrum: float, sole: KeelSole, law: SoleLaw, travel: Float[np.ndarray, " t"], *, tilt: float = TILT
 ) -> Float[np.ndarray, " t"]:
     """Force along y [N] of a plate on the sole, tilted by `tilt` [rad], along its travel [m] from first touch."""
     return _pressed(QuasiStaticKeel(keel, fulcrum, sole, law), travel, tilt)
 
 
 def calibrated_on_sole(
-    keel: Keel, sole: Sole, law: SoleLaw, measured: Sequence[Compressed], *, travel: float = TRAVEL, tilt: float = TILT
+    keel: Keel,
+    sole: KeelSole,
+    law: SoleLaw,
+    measured: Sequence[Compressed],
+    *,
+    travel: float = TRAVEL,
+    tilt: float = TILT,
 ) -> tuple[Keel, SoleLaw]:
     """The same with EI and the forefoot's stiffness such that compressions of the sole are nearest to measured ones.
 

@@ -23,7 +23,7 @@ from geocontact.loads.sphere_set import SoleLaw
 from geocontact.prosthesis.keel.keel import Keel
 from geocontact.prosthesis.keel.on_tree import along_keel, coordinates, joint_numbers, keel_bodies, sole_wrenches
 from geocontact.prosthesis.keel.quasi_static import DOWNWARDS
-from geocontact.prosthesis.keel.sole import Sole
+from geocontact.prosthesis.keel.sole import KeelSole
 
 FOOT = "foot"
 
@@ -64,7 +64,7 @@ class DynamicKeel:
 
 def dynamic_keel(
     keel: Keel,
-    sole: Sole,
+    sole: KeelSole,
     law: SoleLaw,
     ground: HalfSpace,
     *,

@@ -1,8 +1,13 @@
-"""Frames of the chain in balance, by steps of Newton that are halved or damped where the torques do not shrink.
+"""Frames of the chain in balance: by Newton's steps, and along a path where they do not arrive.
+
+The path leads from the last frame's angles y0, where the torques are g0, through g(y) = r g0, r from 1 to 0: it meets
+the edges of contact, of loading and of sliding one after the other, between which Newton's steps go to and fro (the
+homotopy of Davidenko; Allgower & Georg, Introduction to Numerical Continuation Methods, ch. 1). A foot that wedges
+itself, with friction of about 1 on a steep toe, may have no path: then the frame is refused.
 
 Rates of the joints are those of the backward differentiation formula of second order for uneven steps (BDF2; Hairer,
 Nørsett & Wanner, Solving Ordinary Differential Equations I, sec. III.5), in the first step of Euler's rule; 1/dt = 0
-leaves them out. Damping as Marquardt (1963), SIAM J. Appl. Math. 11, 431.
+leaves them out.
 """
 
 from __future__ import annotations
@@ -13,10 +18,14 @@ from jaxtyping import Float, Int
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.prosthesis.keel.balance_kernel import balance
 
-MOST, HALVINGS, TURN = 200, 4, 0.3
-"""Trials in a frame, how often a step of Newton is halved before it is damped, most that a joint turns in one [rad]."""
-FIRST, SOFTER, HARDER, LEAST = 1e-3, 0.1, 4.0, 1e-7
-"""Marquardt's damping to begin with, its factors after a success and a failure, and below it none."""
+MOST, HALVINGS = 2000, 4
+"""Evaluations in a frame, and how often a step of Newton is halved for torques that shrink before the path is taken."""
+FIRST, PATIENCE, SHORTEST = 0.25, 6, 1e-5
+"""Stride to begin with, steps of Newton in it, and shortest stride."""
+NEAR = 1e-3
+"""Of a stride: torque that may be left on the way."""
+RATIO, STRIDE, TAKEN, MERIT, FAILED, ON_PATH = range(6)
+"""How a search stands: r that was reached, stride, steps in it; least sum of squares, halvings, whether on the path."""
 
 
 @kernel
@@ -46,69 +55,121 @@ def eliminate(matrix: Float[np.ndarray, "m m"], right: Float[np.ndarray, " m"]) 
 
 
 @kernel
-def damped_step(
-    step: Float[np.ndarray, " m"],
-    slope: Float[np.ndarray, "m m"],
-    torque: Float[np.ndarray, " m"],
-    damping: float,
-    spare: Float[np.ndarray, "m m"],
-) -> None:
-    """Newton's step, or Marquardt's where it is damped; shortened where a joint would turn too far."""
-    m = torque.size
-    for i in range(m):
-        step[i] = -torque[i] if damping == 0.0 else 0.0
-        for j in range(m):
-            spare[i, j] = slope[i, j] if damping == 0.0 else 0.0
-            if damping > 0.0:
-                step[i] -= slope[j, i] * torque[j]
-                for k in range(m):
-                    spare[i, j] += slope[k, i] * slope[k, j]
-        if damping > 0.0:
-            spare[i, i] *= 1.0 + damping
-    eliminate(spare, step)
-    longest = 0.0
-    for i in range(m):
-        longest = max(longest, abs(step[i]))
-    if longest > TURN:
-        for i in range(m):
-            step[i] *= TURN / longest
+def largest(values: Float[np.ndarray, " m"]) -> float:
+    """Magnitude of the largest."""
+    found = 0.0
+    for value in values:
+        found = max(found, abs(value))
+    return found
 
 
 @kernel
-def tried_out(
-    found: Float[np.ndarray, " m"],
-    merit: float,
+def newton_step(
+    y: Float[np.ndarray, " m"],
+    step: Float[np.ndarray, " m"],
+    reached: Float[np.ndarray, " m"],
+    start: Float[np.ndarray, " m"],
+    state: Float[np.ndarray, " six"],
     torque: Float[np.ndarray, " m"],
     slope: Float[np.ndarray, "m m"],
-    tried: Float[np.ndarray, " m"],
-    step: Float[np.ndarray, " m"],
-    kept: Float[np.ndarray, "one m"],
-    spare: Float[np.ndarray, "m m"],
-    state: Float[np.ndarray, " two"],
-) -> float:
-    """What a trial leads to: a new place, its merit and next step where it is better; else a shorter or damped step.
-
-    Kept are slope and, in the last row, torque of the best place; the state is damping, and steps that failed.
-    """
-    m, now = torque.size, 0.0
+) -> bool:
+    """Newton's next place, or one at half of the step; whether the path has to be taken instead, from the start."""
+    m, merit = y.size, 0.0
     for j in range(m):
-        now += torque[j] ** 2
-    if now < merit:
+        merit += torque[j] ** 2
+    if merit < state[MERIT]:
+        eliminate(slope, torque)
         for j in range(m):
-            found[j], kept[m, j] = tried[j], torque[j]
-            for k in range(m):
-                kept[j, k] = slope[j, k]
-        state[0], state[1] = state[0] * SOFTER if state[0] * SOFTER > LEAST else 0.0, 0.0
-        merit = now
-    elif state[0] == 0.0 and state[1] < HALVINGS:
+            reached[j], step[j] = y[j], -torque[j]
+        state[MERIT], state[FAILED] = merit, 0.0
+    else:
+        state[FAILED] += 1.0
         for j in range(m):
             step[j] *= 0.5
-        state[1] += 1.0
-        return merit
-    else:
-        state[0] = max(state[0] * HARDER, FIRST)
-    damped_step(step, kept[:m], kept[m], state[0], spare)
-    return merit
+    over = bool(state[FAILED] > HALVINGS)
+    for j in range(m):
+        y[j] = start[j] if over else reached[j] + step[j]
+        if over:
+            reached[j] = start[j]
+    return over
+
+
+@kernel
+def path_step(
+    y: Float[np.ndarray, " m"],
+    reached: Float[np.ndarray, " m"],
+    first: Float[np.ndarray, " m"],
+    state: Float[np.ndarray, " six"],
+    torque: Float[np.ndarray, " m"],
+    slope: Float[np.ndarray, "m m"],
+    tolerance: float,
+) -> bool:
+    """The next place on the path; whether it ends without hope. Torque and slope are overwritten."""
+    m, goal = y.size, max(state[RATIO] - state[STRIDE], 0.0)
+    for j in range(m):
+        torque[j] -= goal * first[j]
+    left = largest(torque)
+    if left <= max(tolerance, NEAR * state[STRIDE] * largest(first)) and goal > 0.0:
+        state[RATIO], state[STRIDE], state[TAKEN] = goal, min(2.0 * state[STRIDE], goal), 0.0
+        for j in range(m):
+            reached[j] = y[j]
+            torque[j] += min(state[STRIDE], goal) * first[j]
+    elif state[TAKEN] >= PATIENCE or not np.isfinite(left):
+        state[STRIDE], state[TAKEN] = 0.25 * state[STRIDE], 0.0
+        for j in range(m):
+            y[j] = reached[j]
+        return bool(state[STRIDE] < SHORTEST)
+    state[TAKEN] += 1.0
+    eliminate(slope, torque)
+    for j in range(m):
+        y[j] -= torque[j]
+    return False
+
+
+@kernel
+def begin(
+    y: Float[np.ndarray, " m"],
+    older: Float[np.ndarray, " m"],
+    before: Float[np.ndarray, " m"],
+    reached: Float[np.ndarray, " m"],
+    state: Float[np.ndarray, " six"],
+    per_time: float,
+    ratio: float,
+) -> float:
+    """A new search: what rates are differences from, and by what factor.
+
+    The ratio is that of this step in time to the one before; 0 for Euler's rule.
+    """
+    newer, old = (1.0 + ratio) ** 2 / (1.0 + 2.0 * ratio), ratio**2 / (1.0 + 2.0 * ratio)
+    for j in range(y.size):
+        before[j] = newer * y[j] - old * older[j]
+        older[j] = reached[j] = y[j]
+    state[RATIO], state[STRIDE], state[TAKEN] = 1.0, FIRST, 0.0
+    state[MERIT], state[FAILED], state[ON_PATH] = np.inf, 0.0, 0.0
+    return per_time * (1.0 + 2.0 * ratio) / (1.0 + ratio)
+
+
+@kernel
+def advanced(
+    y: Float[np.ndarray, " m"],
+    step: Float[np.ndarray, " m"],
+    reached: Float[np.ndarray, " m"],
+    older: Float[np.ndarray, " m"],
+    first: Float[np.ndarray, " m"],
+    state: Float[np.ndarray, " six"],
+    torque: Float[np.ndarray, " m"],
+    slope: Float[np.ndarray, "m m"],
+    tolerance: float,
+) -> bool:
+    """One step of either way; False where the path ends without hope."""
+    if state[MERIT] == np.inf:
+        for j in range(y.size):
+            first[j] = torque[j]
+    if state[ON_PATH] > 0.0:
+        return not path_step(y, reached, first, state, torque, slope, tolerance)
+    if newton_step(y, step, reached, older, state, torque, slope):
+        state[ON_PATH] = 1.0
+    return True
 
 
 @kernel
@@ -136,29 +197,15 @@ def solve_frames(
 ) -> bool:
     """Frame by frame from those before; whether all ended below the tolerance."""
     m = start.size
-    y, older, before, tried, step = start.copy(), start.copy(), np.empty(m), np.empty(m), np.empty(m)
-    torque, slope, kept, spare, state = (
-        np.empty(m),
-        np.empty((m, m)),
-        np.empty((m + 1, m)),
-        np.empty((m, m)),
-        np.zeros(2),
-    )
+    y, older, before, reached, step = start.copy(), start.copy(), np.empty(m), np.empty(m), np.empty(m)
+    first, torque, slope, state = np.empty(m), np.empty(m), np.empty((m, m)), np.empty(6)
     for i in range(planes.shape[0]):
-        per_step, newer, old = per_time[i], 1.0, 0.0
-        if i > 1 and per_step > 0.0:
-            w = per_time[i - 1] / per_step
-            newer, old = (1.0 + w) ** 2 / (1.0 + 2.0 * w), -(w**2) / (1.0 + 2.0 * w)
-            per_step *= (1.0 + 2.0 * w) / (1.0 + w)
-        for j in range(m):
-            before[j] = newer * y[j] + old * older[j]
-            older[j], step[j] = y[j], 0.0
-        merit, state[0], state[1], steps[i] = np.inf, 0.0, 0.0, 0
-        while True:
-            for j in range(m):
-                tried[j] = y[j] + step[j]
+        ratio = per_time[i - 1] / per_time[i] if i > 1 and per_time[i] > 0.0 else 0.0
+        per_step = begin(y, older, before, reached, state, per_time[i], ratio)
+        for trial in range(MOST):
+            steps[i] = trial
             balance(
-                tried,
+                y,
                 before,
                 per_step,
                 springs,
@@ -178,15 +225,10 @@ def solve_frames(
                 slope,
                 told[i],
             )
-            left[i] = 0.0
-            for j in range(m):
-                left[i] = max(left[i], abs(torque[j]))
-            if left[i] <= tolerance or steps[i] == MOST:
+            left[i] = largest(torque)
+            if left[i] <= tolerance or not advanced(y, step, reached, older, first, state, torque, slope, tolerance):
                 break
-            merit = tried_out(y, merit, torque, slope, tried, step, kept, spare, state)
-            steps[i] += 1
         for j in range(m):
-            y[j] = tried[j]
             angles[i, j] = y[j]
         if not left[i] <= tolerance:
             return False

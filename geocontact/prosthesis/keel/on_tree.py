@@ -18,7 +18,7 @@ from geocontact.dynamics.tree import Tree
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.sphere_set import SoleLaw
 from geocontact.prosthesis.keel.keel import Keel
-from geocontact.prosthesis.keel.sole import Sole
+from geocontact.prosthesis.keel.sole import KeelSole
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -101,7 +101,7 @@ def sole_wrenches(
     parent: str,
     X_PK: RigidTransform,
     keel: Keel,
-    sole: Sole,
+    sole: KeelSole,
     law: SoleLaw,
     ground: HalfSpace,
     *,

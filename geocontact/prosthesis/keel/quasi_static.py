@@ -23,7 +23,7 @@ from geocontact.prosthesis.keel import newton_kernel
 from geocontact.prosthesis.keel.balance_kernel import balance
 from geocontact.prosthesis.keel.keel import Keel
 from geocontact.prosthesis.keel.on_tree import joint_numbers
-from geocontact.prosthesis.keel.sole import Sole
+from geocontact.prosthesis.keel.sole import KeelSole
 
 TOLERANCE = 1e-8
 """N m; torque about a joint that is left."""
@@ -78,7 +78,7 @@ class QuasiStaticKeel:
 
     keel: Keel
     fulcrum: float
-    sole: Sole
+    sole: KeelSole
     law: SoleLaw
     torsion: bool = False
 
@@ -189,7 +189,7 @@ class QuasiStaticKeel:
 
 
 @dataclass(frozen=True)
-class _Seen:
+class _InKeel:
     """Plane, motion and gravity as the keel's frame sees them, and the frame itself in the ground's."""
 
     planes: Float[np.ndarray, "t four"]
@@ -205,7 +205,7 @@ def _seen(
     ground: HalfSpace,
     gravity: tuple[float, float, float],
     rate: Float[np.ndarray, "t 4 4"] | None,
-) -> _Seen:
+) -> _InKeel:
     matrices = poses.as_matrix().reshape(-1, 4, 4)
     R, origin = matrices[:, :3, :3], matrices[:, :3, 3]
     upwards = np.asarray(ground.normal, float) / np.linalg.norm(ground.normal)
@@ -218,14 +218,14 @@ def _seen(
         twists[:, 3:] = np.einsum("tji,tj->ti", R, rate[:, :3, 3])
     planes = np.column_stack([np.einsum("tij,i->tj", R, upwards), heights])
     gravities = np.ascontiguousarray(np.einsum("tij,i->tj", R, np.asarray(gravity, float)))
-    return _Seen(planes, twists, gravities, R, origin, upwards)
+    return _InKeel(planes, twists, gravities, R, origin, upwards)
 
 
 def _told(
     angles: Float[np.ndarray, "t m"],
     told: Float[np.ndarray, "t n told"],
     steps: Int[np.ndarray, " t"],
-    seen: _Seen,
+    seen: _InKeel,
     *,
     moving: bool,
 ) -> KeelMotion:

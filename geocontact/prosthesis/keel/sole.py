@@ -48,7 +48,7 @@ ROWS: tuple[tuple[str, float, Source, str], ...] = (
 
 
 @dataclass(frozen=True)
-class Sole:
+class KeelSole:
     """Spheres under a keel.
 
     Parameters
@@ -80,7 +80,7 @@ def numbers() -> dict[str, Number]:
     return {name: Number(value, source, note) for name, value, source, note in ROWS}
 
 
-def sole_of(keel: Keel, *, finer: int = 1, columns: int = COLUMNS) -> Sole:
+def sole_of(keel: Keel, *, finer: int = 1, columns: int = COLUMNS) -> KeelSole:
     """Spheres in rows across the sole.
 
     Parameters
@@ -101,10 +101,10 @@ def sole_of(keel: Keel, *, finer: int = 1, columns: int = COLUMNS) -> Sole:
                 zones.append(zone)
     place = np.array(centres)
     spheres = SphereSet(place, np.full(len(place), value["radius"]), tuple(zones))
-    return Sole(spheres, tuple(keel.segment_of(place[:, 0])))
+    return KeelSole(spheres, tuple(keel.segment_of(place[:, 0])))
 
 
-def law_of(sole: Sole) -> SoleLaw:
+def law_of(sole: KeelSole) -> SoleLaw:
     """The numbers above, stiffness and damping shared so that every zone has the same of both at any count."""
     value = {name: number.value for name, number in numbers().items()}
     usual = {zone: COLUMNS * rows for zone, (_, _, rows) in ZONES.items()}
@@ -123,7 +123,7 @@ def law_of(sole: Sole) -> SoleLaw:
 
 
 def force_bases(
-    depth: Float[np.ndarray, "t n"], rate: Float[np.ndarray, "t n"], sole: Sole, exponent: float, full_depth: float
+    depth: Float[np.ndarray, "t n"], rate: Float[np.ndarray, "t n"], sole: KeelSole, exponent: float, full_depth: float
 ) -> tuple[Float[np.ndarray, "t zones"], Float[np.ndarray, "t zones"]]:
     """What stiffness and damping of each zone are multiplied by in the sum of the normal forces, zones in their order.
 

@@ -11,7 +11,7 @@ from geocontact.prosthesis.keel.compression import Compressed
 from geocontact.prosthesis.keel.compression_test import calibrated_on_sole
 from geocontact.prosthesis.keel.keel import Keel
 from geocontact.prosthesis.keel.quasi_static import QuasiStaticKeel
-from geocontact.prosthesis.keel.sole import COLUMNS, Sole, law_of, sole_of
+from geocontact.prosthesis.keel.sole import COLUMNS, KeelSole, law_of, sole_of
 from geocontact.prosthesis.keel.vsf import SETTINGS, fulcrum_of, vsf_keel
 
 
@@ -20,7 +20,7 @@ class VariableStiffnessFoot:
     """A keel on its sole, at no fulcrum in particular."""
 
     keel: Keel
-    sole: Sole
+    sole: KeelSole
     law: SoleLaw
 
     def at(self, fulcrum: float, *, torsion: bool = False) -> QuasiStaticKeel:

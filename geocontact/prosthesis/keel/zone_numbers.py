@@ -16,7 +16,7 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.sphere_set import SoleLaw
 from geocontact.prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
-from geocontact.prosthesis.keel.sole import Sole, force_bases
+from geocontact.prosthesis.keel.sole import KeelSole, force_bases
 
 SHARE, FLOOR, MOST = 0.7, 1e-3, 100
 """Of the way to the linear fit that a turn goes (of the logarithms), least factor of a turn, and turns."""
@@ -90,11 +90,11 @@ def zone_numbers(
     return ZoneNumbers(law, found[0], found[1], motion, np.array(residual), converged)
 
 
-def _by_zone(sole: Sole, values: Float[np.ndarray, " n"]) -> Float[np.ndarray, " zones"]:
+def _by_zone(sole: KeelSole, values: Float[np.ndarray, " n"]) -> Float[np.ndarray, " zones"]:
     return np.array([values[chosen][0] for chosen in sole.spheres.zones.values()])
 
 
-def _by_sphere(sole: Sole, values: Float[np.ndarray, " zones"]) -> Float[np.ndarray, " n"]:
+def _by_sphere(sole: KeelSole, values: Float[np.ndarray, " zones"]) -> Float[np.ndarray, " n"]:
     found = np.empty(len(sole.spheres))
     for chosen, value in zip(sole.spheres.zones.values(), values, strict=True):
         found[chosen] = value

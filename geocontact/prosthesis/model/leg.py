@@ -98,7 +98,7 @@ class Leg:
         return float(-self.ankle[1])
 
     @property
-    def X_SB(self) -> RigidTransform:
+    def X_SB(self) -> RigidTransform:  # noqa: N802 the pose's own name
         """The bushing's frame B in the shank's: its middle, with the axes of the keel's frame."""
         return RigidTransform.from_components(self.bushing, self.turn)
 

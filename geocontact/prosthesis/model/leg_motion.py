@@ -8,6 +8,7 @@ against it. That is exact, and leaves a much smaller tree to the equations (`sta
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from jaxtyping import Float
@@ -17,7 +18,7 @@ from geocontact.dynamics.recorded_inputs import SMOOTH, RecordedInputs, recorded
 from geocontact.prosthesis.model.leg import Leg
 from geocontact.prosthesis.model.leg_tree import PELVIS, RECORDED, recorded_tree
 
-TURNS = "XYZ"
+TURNS: Final = "XYZ"
 """Of the bushing's frame in the ground, as `joint_kinds.free` turns."""
 
 

@@ -30,7 +30,7 @@ GRAVITY = 9.80665
 
 
 def recorded_tree(leg: Leg) -> Multibody:
-    """Pelvis, thigh and shank with their markers and without masses, for inverse kinematics: the socket does not give."""
+    """Pelvis, thigh and shank with their markers and without masses: the socket does not give."""
     bodies = tuple(Body(name, 0.0, np.zeros(3), np.zeros((3, 3))) for name in ("pelvis", "thigh", "shank"))
     return Multibody("prosthetic leg", bodies, _upper_joints(leg), leg.markers, np.zeros(3))
 
@@ -64,5 +64,3 @@ def _upper_joints(leg: Leg) -> tuple[JointModel, ...]:
         cardan("hip", "pelvis", "thigh", hip, at=RigidTransform.from_translation(leg.hip)),
         revolute("knee_flexion", "thigh", "shank", -RIGHT, knee),
     )
-
-

@@ -1,4 +1,4 @@
-"""An invented stance: angles of pelvis and leg with which the foot, in equilibrium, would carry a usual ground reaction.
+"""An invented stance: angles with which the foot, in equilibrium, would carry a usual ground reaction.
 
 Vertical and fore-aft forces of both legs are given as functions of the share of their stance; the body's mass centre
 moves by them. The leg then reaches from the hip to a foot that rolls on the floor without slipping, pressed as deep as
@@ -46,8 +46,8 @@ SWAY = 0.015
 SWING = {"before": (3.0, 0.0, 0.0, 24.0), "after": (4.0, 0.0, 0.0, 24.0)}
 """deg; what hip and knee change by in swing, to its start and to its end."""
 LOWEST, LOWER, DEEPEST, UNDER = 0.12, 0.005, 0.09, 0.13
-"""m; most that the pelvis is lowered so that the leg reaches the floor, in which steps; deepest that the foot is pressed;
-from the keel's end forward to below the hip at mid-stance."""
+"""m; most that the pelvis is lowered so that the leg reaches the floor, in which steps; deepest that the foot is
+pressed; from the keel's end forward to below the hip at mid-stance."""
 STRAIGHTEST = np.radians(3.0)
 """rad; of the knee in stance."""
 CUTOFF = 10.0
@@ -113,8 +113,8 @@ class _Reach:
         self.keel = _keel_pose(leg)
         pitches = heights.grid[0]
         unloaded = heights(np.column_stack([pitches, 0.0 * pitches]))
-        self.rolled = np.interp(0.0, pitches, cumulative_trapezoid(unloaded, pitches, initial=0.0))
-        self.rolling = pitches, cumulative_trapezoid(unloaded, pitches, initial=0.0) - self.rolled
+        self.rolled = np.interp(0.0, pitches, cumulative_trapezoid(unloaded, pitches, initial=0))
+        self.rolling = pitches, cumulative_trapezoid(unloaded, pitches, initial=0) - self.rolled
 
     @property
     def standing(self) -> float:
@@ -178,10 +178,10 @@ def _pelvis(
     turn = 2.0 * np.pi * (time - 0.5 * stance) / (2.0 * stance)
     (a, fa), (b, fb), (mean, c) = PELVIS
     turns = [a * np.sin(turn + fa + phase), b * np.sin(turn + fb - phase), mean + c * np.sin(2.0 * turn + phase)]
-    rate = cumulative_trapezoid(driving[:, :2] - np.array([0.0, GRAVITY]), time, axis=0, initial=0.0)
+    rate = cumulative_trapezoid(driving[:, :2] - np.array([0.0, GRAVITY]), time, axis=0, initial=0)
     on = (time >= 0.0) & (time <= stance)
     rate = rate - rate[on].mean(axis=0) + np.array([SPEED, 0.0])
-    place = cumulative_trapezoid(rate, time, axis=0, initial=0.0)
+    place = cumulative_trapezoid(rate, time, axis=0, initial=0)
     middle = int(np.argmin(np.abs(time - 0.5 * stance)))
     place[:, 0] -= place[middle, 0] + reach.leg.hip[0]
     place[:, 1] += reach.standing - place[on, 1].max()

@@ -22,12 +22,12 @@ HIP = np.array([-0.050, -0.082, 0.086])
 SPINES = {
     "RASI": (0.0, 0.0, 0.125),
     "LASI": (0.0, 0.0, -0.125),
-    "RPSI": (-0.155, 0.005, 0.045),
-    "LPSI": (-0.155, 0.005, -0.045),
+    "RPSI": (-0.155, 0.0, 0.045),
+    "LPSI": (-0.155, 0.0, -0.045),
 }
 """In the pelvis' frame [m]; invented."""
 KNEE_RADIUS, TOE_OUT, HEEL = 0.052, np.radians(6.0), 0.065
-"""m, rad; half the distance of the epicondyles, turn of the foot, and from the keel's end to below the ankle; invented."""
+"""m, rad; half the distance of the epicondyles, turn of the foot, from the keel's end to below the ankle; invented."""
 
 
 @dataclass(frozen=True)

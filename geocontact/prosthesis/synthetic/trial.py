@@ -21,7 +21,7 @@ from geocontact.prosthesis.from_markers.sides import of_side
 from geocontact.prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.prosthesis.keel.vsf import fulcrum_of
 from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
-from geocontact.prosthesis.model.leg import Leg
+from geocontact.prosthesis.model.leg import Leg, Side
 from geocontact.prosthesis.model.leg_tree import RECORDED, recorded_tree
 from geocontact.prosthesis.simulate import Stance, simulate_stance
 from geocontact.prosthesis.synthetic.course import Course, course
@@ -117,9 +117,7 @@ def _seen(
     """Markers of the walk: pelvis and thigh by the given angles and the pelvis' free place, the socket where it is."""
     kept = slice(None, None, CAMERAS)
     time = truth.time[kept]
-    values = np.column_stack(
-        [np.interp(time, driven.motion.time, driven.motion.of(name)) for name in RECORDED]
-    )
+    values = np.column_stack([np.interp(time, driven.motion.time, driven.motion.of(name)) for name in RECORDED])
     for k in range(2):
         values[:, 3 + k] = truth.found.q[kept, k]
     poses = recorded_tree(leg).poses(values)
@@ -127,10 +125,8 @@ def _seen(
     found = {}
     for body, of in places.items():
         for name, place in of.items():
-            if body == "shank":
-                at = keel.apply(leg.turn.inv().apply(place - leg.keel))
-            else:
-                at = poses[body].apply(place)
+            on_keel = leg.turn.inv().apply(place - leg.keel)
+            at = keel.apply(on_keel) if body == "shank" else poses[body].apply(place)
             found[name] = at + _skin(body, len(time), float(time[1] - time[0]), rng)
     return time, np.stack([found[name] for name in STANDING], axis=1)
 
@@ -161,11 +157,7 @@ def _standing(
 
 
 def _of_side(
-    seen: tuple[Float[np.ndarray, " t"], Float[np.ndarray, "t m 3"]], side: str, what: str
+    seen: tuple[Float[np.ndarray, " t"], Float[np.ndarray, "t m 3"]], side: Side, what: str
 ) -> MarkerTrajectories:
     names = STANDING if side == "right" else tuple(mirrored_name(name) for name in STANDING)
     return MarkerTrajectories(seen[0], of_side(seen[1], side), names, f"synthetic {what}")
-
-
-
-

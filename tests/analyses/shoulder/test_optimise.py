@@ -11,11 +11,15 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.shoulder.optimise.read import support_of
 from geocontact.analyses.shoulder.optimise.result import ShoulderOptimiseResult
+from geocontact.analyses.shoulder.support_profiles import read_profiles
 from geocontact.analyses.shoulder.trial_files import trial_files
 from geocontact.data.errors import InputError
+from geocontact.io.text.results import write_table
 from geocontact.shoulder_exoskeleton.lucy import lucy, lucy_new_cylinder
+from geocontact.shoulder_exoskeleton.support.phases import SCREW
 from geocontact.shoulder_exoskeleton.synthetic.design import PARTICIPANTS, TASKS, condition
 from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
+from tests.analyses.shoulder.test_simulate import simulated
 
 DRAWS = 20
 pytestmark = pytest.mark.filterwarnings("ignore::geocontact.data.errors.InputWarning")  # of synthetic persons
@@ -64,6 +68,20 @@ def test_files_are_written(synthetic: ShoulderOptimiseResult, tmp_path: Path) ->
 PERSON = '[persons.{name}]\nmass = {{ value = {mass}, unit = "kg" }}\nsex = "{sex}"\ndominant = "{dominant}"\n'
 TASK = '[tasks.{name}]\ntool = {{ value = {tool}, unit = "kg" }}\npush = {{ value = {push}, unit = "N" }}\n'
 TRIAL = '[[trials]]\nperson = "{p}"\ntask = "{t}"\nmarkers = "{p}{t}.trc"\ntool = "{p}{t}.csv"\nupright = [0.0, 0.25]\n'
+
+
+def test_the_profiles_that_are_written_are_read_back(synthetic: ShoulderOptimiseResult, tmp_path: Path) -> None:
+    """And lead a simulation, each hand with its own factors."""
+    write_table(synthetic.table("factors"), tmp_path, "factors")
+    read = read_profiles(tmp_path / "factors.csv")
+    assert list(read) == [each.name for each in synthetic.profiles]
+    for each in synthetic.profiles:
+        assert read[each.name] == pytest.approx(each.factors, abs=1e-5)
+    led = simulated(profile=tmp_path / "factors.csv", profile_name="P1 alone", task="T1")
+    assert led.record.results["profile"] == {"name": "P1 alone", "task": "T1"}
+    for arm, hand in zip(led.arms, ("dominant", "other"), strict=True):
+        (wanted,) = (v for k, v in read["P1 alone"].items() if (k.task, k.hand, k.phase) == ("T1", hand, "screw-in"))
+        assert arm.factor is not None and arm.factor[arm.phase == SCREW].max() == pytest.approx(wanted)
 
 
 def study(folder: Path, persons: int = 2) -> Path:

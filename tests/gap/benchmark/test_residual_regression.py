@@ -23,7 +23,7 @@ from geocontact.effects.catalogue import candidates
 from geocontact.gap_benchmark.confounding import confounding
 from geocontact.gap_benchmark.synthetic import synthetic_case
 from geocontact.gap_benchmark.residual_regression import residual_regression
-from geocontact.gap.case.problem import problem_of
+from geocontact.gap.case.preparation import problem_of
 from geocontact.systems.catalogue import system_of
 
 def regressed(planted, *ways):

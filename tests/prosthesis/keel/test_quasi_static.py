@@ -23,7 +23,7 @@ from geocontact.prosthesis.keel.balance_kernel import balance
 from geocontact.prosthesis.keel.elastica import elastica
 from geocontact.prosthesis.keel.on_tree import along_keel, coordinates, joint_numbers, keel_bodies, sole_wrenches
 from geocontact.prosthesis.keel.quasi_static import TOLD, QuasiStaticKeel
-from geocontact.prosthesis.keel.sole import Sole, law_of, sole_of
+from geocontact.prosthesis.keel.sole import KeelSole, law_of, sole_of
 from geocontact.prosthesis.keel.vsf import vsf_keel
 
 FULCRUM, SLOPE = 0.1, HalfSpace((0.0, 0.002, 0.0), (0.05, 1.0, -0.03))
@@ -42,7 +42,7 @@ def on_tip(joints: int, series: float = 1e9) -> QuasiStaticKeel:
     keel = vsf_keel(joints=joints)
     tip = SphereSet(np.array([[keel.length, 0.0, 0.0]]), np.array([1e-9]), ("tip",))
     law = SoleLaw(np.array([series]), np.zeros(1), 1.0, 1e-3, np.zeros(1), np.zeros(1), 0.01)
-    return QuasiStaticKeel(keel, 0.066, Sole(tip, (joints,)), law)
+    return QuasiStaticKeel(keel, 0.066, KeelSole(tip, (joints,)), law)
 
 
 def state(rng: np.random.Generator) -> dict[str, Any]:
@@ -53,7 +53,7 @@ def state(rng: np.random.Generator) -> dict[str, Any]:
         "before": rng.normal(0.0, 0.04, 9),
         "per_time": 3.0,
         "plane": np.append(n, 0.027),
-        "twist": rng.normal(0.0, 0.3, 6),
+        "twist": rng.normal(0.0, 0.3, 6) - np.array([0.0, 0.0, 0.0, 0.0, 0.5, 0.0]),
         "gravity": GRAVITY,
     }
 
@@ -79,7 +79,7 @@ def torques(one: QuasiStaticKeel, at: dict[str, Any]) -> tuple[np.ndarray, np.nd
 def test_derivatives_are_exact(seed: int) -> None:
     one, at, step = foot(), state(np.random.default_rng(seed)), 1e-7
     _, slope, told = torques(one, at)
-    assert (told[:, 0] > 0.0).sum() >= 4
+    assert ((told[:, 0] > 0.0) & (told[:, 1] > 0.0)).sum() >= 4
     differences = []
     for unit in np.eye(9):
         ends = [torques(one, at | {"y": at["y"] + sign * step * unit})[0] for sign in (1.0, -1.0)]

@@ -19,7 +19,10 @@ def a_leg(mass: float = 77.3) -> Leg:
 def a_motion(leg: Leg) -> LegMotion:
     time = np.arange(0.0, 0.4, 0.01)
     rng = np.random.default_rng(3)
-    waves = [a * np.sin(w * time + f) for a, w, f in zip(rng.uniform(0.05, 0.4, 10), rng.uniform(2, 8, 10), range(10))]
+    waves = [
+        a * np.sin(w * time + f)
+        for a, w, f in zip(rng.uniform(0.05, 0.4, 10), rng.uniform(2, 8, 10), range(10), strict=True)
+    ]
     values = np.column_stack(waves)
     values[:, RECORDED.index("pelvis_ty")] += 0.95
     return LegMotion(leg, time, values)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial.transform import RigidTransform
 
 from geocontact.contact.bushing import SOCKET as BUSHING
 from geocontact.dynamics.equations import equations_of_motion
@@ -15,7 +16,6 @@ from geocontact.prosthesis.model.leg_motion import driving_inputs
 from geocontact.prosthesis.model.leg_tree import RECORDED, SOCKET, whole_tree
 from geocontact.prosthesis.model.stance_model import stance_model, stance_numbers
 from tests.prosthesis.model.legs import a_leg, a_motion
-from scipy.spatial.transform import RigidTransform
 
 FULCRUM = 0.11
 
@@ -35,9 +35,7 @@ def test_accelerations_are_those_of_the_whole_tree() -> None:
     along |= {"pelvis_tx": pushing[0], "pelvis_ty": pushing[1]}
     held = [name for name in RECORDED if name not in ("pelvis_tx", "pelvis_ty")]
     ground = HalfSpace()
-    loads = sole_wrenches(
-        tree, "foot", RigidTransform.identity(), foot.keel, foot.sole, foot.law, ground
-    )
+    loads = sole_wrenches(tree, "foot", RigidTransform.identity(), foot.keel, foot.sole, foot.law, ground)
     whole = equations_of_motion(tree, loads=loads, along=along, prescribed=held, inputs=[pushing])
     small = stance_model(foot, machine_code=False).equations
     p = stance_numbers(leg, foot, FULCRUM, BUSHING)

@@ -13,7 +13,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.gap.case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.admission import admitted
-from geocontact.gap.case.problem import problem_of
+from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.inject import Injected, chosen, inject
 
 

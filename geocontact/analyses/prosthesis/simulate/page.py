@@ -14,7 +14,7 @@ from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
 from geocontact.prosthesis.from_markers.sides import of_side
-from geocontact.prosthesis.model.leg_tree import GRAVITY, recorded_tree
+from geocontact.prosthesis.model.leg_tree import GRAVITY, RECORDED, recorded_tree
 from geocontact.prosthesis.simulate import Stance
 from geocontact.prosthesis.stance_errors import PlateStance, at_times
 from geocontact.view.page.content import Curve, Curves, Page, Section, Words
@@ -35,17 +35,17 @@ DIRECTIONS = {
     "above (+y)": (0.0, 1.0, 0.0),
 }
 ALONE = (
-    "Only the prosthetic side is modelled: trunk, arms and the other leg are one mass on the pelvis, the measured force "
-    "under the other foot acts on it, and the other leg's swing does not. Turns of the pelvis, hip and knee are as "
+    "Only the prosthetic side is modelled: trunk, arms and the other leg are one mass on the pelvis, the measured "
+    "force under the other foot acts on it, and the other leg's swing does not. Turns of pelvis, hip and knee are as "
     "recorded; the pelvis' height and advance, the socket and the keel are found."
 )
 SOLE = (
-    "The foot is a keel of eight hinges on spheres. Where the spheres are, and what they press with, is invented but for "
-    "stiffness in compression; nothing was fitted to this person."
+    "The foot is a keel of eight hinges on spheres. Where the spheres are, and what they press with, is invented but "
+    "for stiffness in compression; nothing was fitted to this person."
 )
 TWICE = (
-    "Markers on the socket see the socket's own turn against the residual limb, so that it is in the knee angle as well as "
-    "in the bushing."
+    "Markers on the socket see the socket's own turn against the residual limb, so that it is in the knee angle as "
+    "well as in the bushing."
 )
 
 
@@ -70,7 +70,7 @@ def write_stance_page(
     ]
     page = Page(
         title=f"Prosthetic stance along {o.markers.name}",
-        subtitle=f"Fulcrum at {1e3 * s.fulcrum:.0f} mm, {s.motion.leg.person.mass:g} kg, {o.side} side; x forward, y up",
+        subtitle=f"Fulcrum at {1e3 * s.fulcrum:.0f} mm, {s.motion.leg.person.mass:g} kg, {o.side} side; x forward",
         time=s.time[shown],
         time_label="time [s]",
         headline=headline(record.sentences, most=2),
@@ -91,7 +91,7 @@ def _lines(s: Stance, o: ProsthesisSimulateOptions, shown: Int[np.ndarray, " k"]
         return of_side(points, o.side)
 
     motion = s.motion
-    values = np.column_stack([np.interp(s.time[shown], motion.time, column) for column in motion.values.T])
+    values = np.column_stack([np.interp(s.time[shown], motion.time, motion.of(name)) for name in RECORDED])
     values[:, 3:5] = s.found.q[shown, :2]
     poses = recorded_tree(motion.leg).poses(values)
     limb = np.stack([poses["pelvis"].translation, poses["thigh"].translation, poses["shank"].translation], axis=1)

@@ -8,6 +8,7 @@ from typing import cast
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
@@ -23,9 +24,12 @@ from geocontact.prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.prosthesis.keel.vsf import fulcrum_of
 from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
 from geocontact.prosthesis.model.leg import Leg, Person
+from geocontact.prosthesis.model.leg_tree import recorded_tree
 from geocontact.prosthesis.simulate import GATE, Push
-from geocontact.prosthesis.stance_errors import PlateStance, longest_stance
+from geocontact.prosthesis.stance_errors import PlateStance, at_times, longest_stance
 
+FARTHEST = 0.4
+"""m; of the centre of pressure from the heel, seen from above."""
 LATE = 0.02
 """s; least time before touch-down that the recording must begin."""
 
@@ -77,9 +81,7 @@ def _markers(
     return as_right(seen, o.side)
 
 
-def _hip(
-    o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Record
-) -> Float[np.ndarray, " 3"] | None:
+def _hip(o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Record) -> Float[np.ndarray, " 3"] | None:
     if o.functional is None:
         record.warn("the hip's centre is that of a regression; a `functional` trial tells it better")
         return None
@@ -100,12 +102,27 @@ def _own(o: ProsthesisSimulateOptions, plates: tuple[ForcePlate, ...], found: Wa
     centre = of_side(plate.centre_of_pressure(GATE), o.side)
     span = longest_stance(plate.time, force[:, 1])
     if span is None:
-        raise InputError(file, "`plate`", f"{plate.name} carries no whole stance above {GATE:g} N", "give another plate")
+        raise InputError(
+            file, "`plate`", f"{plate.name} carries no whole stance above {GATE:g} N", "give another plate"
+        )
     start, stop = found.motion.time[[0, -1]]
     if span[0] < start + LATE or span[1] > stop:
         what = f"the stance on {plate.name} is from {span[0]:.2f} to {span[1]:.2f} s, the markers from {start:.2f} to"
-        raise InputError(file, "`plate`", f"{what} {stop:.2f} s", "markers must begin before touch-down and end after it")
+        raise InputError(
+            file, "`plate`", f"{what} {stop:.2f} s", "markers must begin before touch-down and end after it"
+        )
+    _require_under_the_foot(file, plate.name, PlateStance(plate.time, force, centre), found)
     return PlateStance(plate.time, force, centre)
+
+
+def _require_under_the_foot(file: Path, name: str, plate: PlateStance, found: Walked) -> None:
+    motion, leg = found.motion, found.motion.leg
+    keel = recorded_tree(leg).poses(motion.values)["shank"] * RigidTransform.from_components(leg.keel, leg.turn)
+    centre = at_times(motion.time, plate.time, plate.centre)
+    away = float(np.nanmedian(np.linalg.norm((centre - keel.translation)[:, ::2], axis=1)))
+    if away > FARTHEST:
+        what = f"no plate under the foot: the centre of pressure of {name} is {away:.2f} m from its heel in the median"
+        raise InputError(file, "`plate`", what, "name another plate; are plates and markers in the same axes?")
 
 
 def _require_clock(o: ProsthesisSimulateOptions, time: Float[np.ndarray, " t"], plate: ForcePlate) -> None:

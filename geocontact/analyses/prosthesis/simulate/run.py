@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import cast
-
 import numpy as np
 
 from geocontact.analyses.json_file import plain
@@ -15,15 +13,13 @@ from geocontact.analyses.run_record import Record
 from geocontact.contact.bushing import PISTONING, PRINTED, SOCKET
 from geocontact.data.errors import InputError
 from geocontact.prosthesis.model.leg_tree import GRAVITY
-from geocontact.prosthesis.simulate import GATE, Stance, share_of_foot, simulate_stance
+from geocontact.prosthesis.simulate import GATE, Stance, simulate_stance
 from geocontact.prosthesis.stance_errors import StanceErrors, longest_stance, stance_errors
 
 BEFORE, AFTER = 0.12, 0.1
 """s; simulated before the plate's touch-down and after its toe-off, as far as the markers go."""
 INSIDE = 2
 """Frames that are left out at both ends: the splines bend there."""
-UNDER = (-0.5, 1.5)
-"""Share of the foot between which its plate's centre of pressure is believed to be under it."""
 TURNED = np.radians(20.0)
 """rad; of the socket, beyond which its bushing is doubted."""
 
@@ -37,7 +33,7 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     found = _simulated(walk, o)
     if not found.on.any():
         raise InputError(o.markers, "", "the foot never touches the floor", "is y = 0 the floor, and `mass` right?")
-    errors = _compared(walk, found, o, record)
+    errors = _compared(walk, found)
     _warn(found, record)
     told = summary(found)
     record.results["stance"] = plain(told)
@@ -49,9 +45,7 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     if errors is not None:
         record.say(_said(errors))
         record.results["errors"] = plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()})
-    return ProsthesisSimulateResult(
-        record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers
-    )
+    return ProsthesisSimulateResult(record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers)
 
 
 def _simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
@@ -71,17 +65,10 @@ def _simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
         raise InputError(o.markers, "", str(error), remedy) from error
 
 
-def _compared(walk: Walk, found: Stance, o: ProsthesisSimulateOptions, record: Record) -> StanceErrors | None:
+def _compared(walk: Walk, found: Stance) -> StanceErrors | None:
     if walk.plate is None:
         return None
-    poses, length, plate = found.poses, walk.foot.keel.length, walk.plate
-    centre = np.column_stack([np.interp(found.time, plate.time, column) for column in plate.centre.T])
-    share = share_of_foot(poses, length, centre)
-    middle = float(np.nanmedian(np.where(found.on, share, np.nan)))
-    if not UNDER[0] <= middle <= UNDER[1]:
-        what = f"its centre of pressure is {1e3 * middle * length:.0f} mm in front of the heel in the median"
-        raise InputError(cast(str, o.plates), "`plate`", f"no plate under the foot: {what}", "name another plate")
-    return stance_errors(found, plate)
+    return stance_errors(found, walk.plate)
 
 
 def _said(errors: StanceErrors) -> str:
@@ -109,7 +96,9 @@ def _warn(found: Stance, record: Record) -> None:
         record.warn(f"the socket turns by {np.degrees(turned):.0f} degrees on its bushing")
     sunk = loads.depth > found.foot.sole.spheres.radius
     if sunk.any():
-        record.warn(f"{int(sunk.any(axis=0).sum())} spheres sink beyond their radius, up to {1e3 * loads.depth.max():.0f} mm")
+        record.warn(
+            f"{int(sunk.any(axis=0).sum())} spheres sink beyond their radius, up to {1e3 * loads.depth.max():.0f} mm"
+        )
     idle = [zone for zone, of in found.foot.sole.spheres.zones.items() if not (loads.pressing[:, of] > 0.0).any()]
     if idle:
         record.warn(f"never loaded: {', '.join(idle)}; its numbers stay unknown")

@@ -34,7 +34,10 @@ def stance_table(s: Stance, side: Side) -> pd.DataFrame:
             "ankle moment [N m]": s.ankle_moment,
             "stored [J]": s.stored,
             "lost [J]": s.lost,
-            **{f"{name} [deg]": np.degrees(column) for name, column in zip(SOCKET[:3], s.found.q[:, 2:5].T, strict=True)},
+            **{
+                f"{name} [deg]": np.degrees(column)
+                for name, column in zip(SOCKET[:3], s.found.q[:, 2:5].T, strict=True)
+            },
             **{f"{name} [mm]": 1e3 * column for name, column in zip(SOCKET[3:], s.found.q[:, 5:8].T, strict=True)},
             **{f"{name} moment [N m]": column for name, column in zip(SOCKET[:3], s.socket[:, :3].T, strict=True)},
             **{f"{name} force [N]": column for name, column in zip(SOCKET[3:], s.socket[:, 3:].T, strict=True)},

@@ -16,17 +16,14 @@ from geocontact.analyses.result import Result
 from geocontact.analyses.shoulder.optimise.figure import profile_figure
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.optimise.page import write_profile_page
+from geocontact.analyses.shoulder.support_profiles import factors_written
 from geocontact.io.text.results import write_table
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome
-from geocontact.shoulder_exoskeleton.support.phases import SUPPORTED
-from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, SupportCase
-from geocontact.shoulder_exoskeleton.work_phases import PHASES
+from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-WORKING = tuple(PHASES[k] for k in SUPPORTED)
 
 
 @dataclass(frozen=True)
@@ -77,7 +74,7 @@ class ShoulderOptimiseResult(Result):
     def tables(self) -> dict[str, pd.DataFrame]:
         """`factors`, `outcomes`, `held_out`, `front`."""
         return {
-            "factors": self._factors(),
+            "factors": factors_written({each.name: each.factors for each in self.profiles}),
             "outcomes": self._outcomes(),
             "held_out": self._held_out(),
             "front": pd.DataFrame(
@@ -100,14 +97,6 @@ class ShoulderOptimiseResult(Result):
     def write_page(self, file: Path) -> None:
         """Torques, factors, what they do, held-out persons, fronts."""
         write_profile_page(file, self.record, self.figure(), self.tables(), list(self.sentences))
-
-    def _factors(self) -> pd.DataFrame:
-        rows = []
-        for profile in self.profiles:
-            for task, hand in dict.fromkeys((key.task, key.hand) for key in profile.factors):
-                own = {phase: profile.factors[FactorKey(task, hand, phase)] for phase in WORKING}
-                rows.append({"profile": profile.name, "task": task, "hand": hand, **own})
-        return pd.DataFrame(rows)
 
     def _outcomes(self) -> pd.DataFrame:
         rows = []

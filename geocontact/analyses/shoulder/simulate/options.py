@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import Expression, Options, Requires, Spelled, TimeSpan, Typed
+from geocontact.analyses.options import Expression, Needs, Options, Requires, Spelled, TimeSpan, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import Plausible
 from geocontact.data.ranges import CUTOFF, GAP
@@ -35,6 +35,15 @@ class ShoulderSimulateOptions(Options):
         Lengths of the wearer (.toml) to which the device is adjusted: upper_arm, shoulder_width, torso.
     level
         Support level: share of the cylinder's force, 0 to 100%.
+    profile
+        Support profile (factors.csv of `geocontact shoulder optimise`): a factor on the level in each work phase, as
+        the device's controller detects it from its own arm and the tool's current.
+    profile_name
+        Which of its profiles; the first unless given.
+    task
+        Task whose factors count, where the profile has several.
+    dominant
+        Side of the dominant hand; right unless given.
     side
         Arms that are simulated.
     cuff
@@ -71,6 +80,10 @@ class ShoulderSimulateOptions(Options):
     device: str = "lucy"
     person: Path | None = None
     level: Level = 1.0
+    profile: Annotated[Path | None, Needs("tool", "give the tool's current, which the controller needs")] = None
+    profile_name: Annotated[str | None, Requires("profile")] = None
+    task: Annotated[str | None, Requires("profile")] = None
+    dominant: Annotated[Literal["right", "left"] | None, Requires("profile")] = None
     side: Literal["both", "right", "left"] = "both"
     cuff: Literal["point", "surface"] = "point"
     sensitivity: bool = False

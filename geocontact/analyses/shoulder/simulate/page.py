@@ -64,7 +64,7 @@ def write_simulation_page(
     sections: list[Section] = [
         Scene(directions=DIRECTIONS, up=(0.0, 0.0, 1.0), view=(-0.8, 1.0, 0.5), linkages=_lines(arms, shown)),
         *_curves(arms, shown),
-        Readout([_phases(each, shown) for each in arms]),
+        Readout([row for each in arms for row in _phases(each, shown)]),
         *(frame_table("What each number of the device changes, root mean square", table) for table in changed),
         frame_table("Numbers of the device, and where they are from", tables["numbers"]),
         inputs_table(record.inputs),
@@ -139,6 +139,9 @@ def _curves(arms: Sequence[SimulatedArm], shown: Int[np.ndarray, " k"]) -> list[
         panel("Slip along the cuff's wall", "mm", [(e.side, 1e3 * e.simulation.slip) for e in arms]),
         panel("Support torque", "N m", [(e.side, e.simulation.told["support"][:, 0]) for e in arms]),
     ]
+    led = [(each.side, each.factor) for each in arms if each.factor is not None]
+    if led:
+        found.append(panel("Factor of the support", "-", led))
     passive = [
         (f"{joint}, {each.side}", np.degrees(each.simulation.angles[:, k]))
         for each in arms
@@ -148,8 +151,11 @@ def _curves(arms: Sequence[SimulatedArm], shown: Int[np.ndarray, " k"]) -> list[
     return found
 
 
-def _phases(each: SimulatedArm, shown: Int[np.ndarray, " k"]) -> Row:
-    return Row(f"phase, {each.side}", "", [PHASES[k] for k in each.phase[shown]])
+def _phases(each: SimulatedArm, shown: Int[np.ndarray, " k"]) -> list[Row]:
+    rows = [Row(f"phase, {each.side}", "", [PHASES[k] for k in each.phase[shown]])]
+    if each.detected is not None:
+        rows.append(Row(f"detected phase, {each.side}", "", [PHASES[k] for k in each.detected[shown]]))
+    return rows
 
 
 def _facts(each: SimulatedArm) -> list[tuple[str, str]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,14 +12,16 @@ from scipy.spatial.transform import Rotation, Slerp
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.devices import device_named, wearer_named
+from geocontact.analyses.shoulder.simulate.control import controllers
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.tool import tool_runs
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.filled import filled_and_smoothed
-from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
+from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller
 
 CURRENT = 1.0
 """A; a tool that idles takes less."""
@@ -36,6 +39,8 @@ class Worn:
         The device in the laboratory at the same times.
     tool
         Whether the tool runs; None where nobody told.
+    controllers
+        By side; None where the support is constant.
     """
 
     arms: tuple[ArmMotion, ...]
@@ -43,6 +48,7 @@ class Worn:
     device: Device
     wearer: Wearer
     tool: Bool[np.ndarray, " t"] | None
+    controllers: Mapping[Side, Controller] | None
 
 
 def read(o: ShoulderSimulateOptions, record: Record) -> Worn:
@@ -72,7 +78,7 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer, record: Record) -> Wo
         if o.tool is None
         else tool_runs(record, o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
     )
-    return Worn(arms, frame, device, wearer, tool)
+    return Worn(arms, frame, device, wearer, tool, controllers(o, time, record))
 
 
 def _smoothed(arm: ArmMotion, o: ShoulderSimulateOptions) -> ArmMotion:

@@ -52,7 +52,7 @@ class ShoulderSimulateResult(Result):
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`right` and `left` over time, `numbers` of the device, `sensitivity` where it was asked for."""
-        told: dict[str, pd.DataFrame] = {e.side: arm_table(e.simulation, e.phase) for e in self.arms}
+        told: dict[str, pd.DataFrame] = {each.side: arm_table(each) for each in self.arms}
         told["numbers"] = numbers_table(self.device)
         if self.influences:
             parts = [sensitivity_table(side, each) for side, each in self.influences.items()]
@@ -81,7 +81,8 @@ class ShoulderSimulateResult(Result):
         write_external_loads(folder, simulations, self.frame)
         write_lines(folder / "paraview", simulations)
         for each in self.arms:
-            write_plane(folder / "plane", each)
+            if each.factor is None:  # the base model's support has a level for the whole trial
+                write_plane(folder / "plane", each)
         save_both(self.figure(), folder, "shoulder")
         self.write_page(folder / "report.html")
 

@@ -15,6 +15,7 @@ from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.sensitivity import influences
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
+from geocontact.shoulder_exoskeleton.support.controlled_arm import controlled_arm
 from geocontact.shoulder_exoskeleton.work_phases import PHASES, work_phases
 
 
@@ -30,7 +31,7 @@ def run(worn: Worn, o: ShoulderSimulateOptions, record: Record) -> ShoulderSimul
     arms = tuple(_simulated(worn, arm, o, record) for arm in worn.arms)
     record.results["arms"] = plain({each.side: _summary(each) for each in arms})
     found = {
-        each.side: tuple(influences(each.simulation.motion, worn.device, worn.wearer, o.level, o.cuff))
+        each.side: tuple(influences(each.simulation.motion, worn.device, worn.wearer, o.level, o.cuff, each.factor))
         for each in (arms if o.sensitivity else ())
     }
     return ShoulderSimulateResult(
@@ -45,8 +46,14 @@ def run(worn: Worn, o: ShoulderSimulateOptions, record: Record) -> ShoulderSimul
 
 
 def _simulated(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, record: Record) -> SimulatedArm:
+    control = None if worn.controllers is None else worn.controllers[arm.side]
+    detected, factor = None, None
     try:
-        found = simulate_arm(arm, worn.device, worn.wearer, o.level, cuff=o.cuff)
+        if control is None:
+            found = simulate_arm(arm, worn.device, worn.wearer, o.level, cuff=o.cuff)
+        else:
+            led = controlled_arm(arm, worn.device, worn.wearer, o.level, control, o.cuff)
+            found, detected, factor = led.simulation, led.phase, led.factor
     except ArithmeticError as error:
         remedy = "check `person`, `device`, and the unit and names of the markers"
         raise InputError(o.markers, "", f"{arm.side} arm: {error}", remedy) from error
@@ -55,13 +62,16 @@ def _simulated(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, record: R
     except ValueError as error:
         raise InputError(o.tool or o.markers, "`tool`", f"{arm.side} arm: {error}", "check its clock") from error
     _warn(found, record)
-    one = SimulatedArm(found, phase)
+    one = SimulatedArm(found, phase, detected, factor)
     told = _summary(one)
     record.say(
         f"{arm.side} arm: elevation up to {told['elevation_max_deg']:.1f} deg (shoulder "
         f"{told['shoulder_max_deg']:.1f}), supporting force {told['supporting_min_N']:.1f} … "
         f"{told['supporting_max_N']:.1f} N, slip {told['slip_mm']:.0f} mm"
     )
+    if control is not None and detected is not None:
+        shares = ", ".join(f"{name} {share:.2f}" for name, share in zip(PHASES, control.factors, strict=True))
+        record.say(f"{arm.side} arm: support by phase: {shares}; {np.count_nonzero(np.diff(detected))} changes")
     return one
 
 

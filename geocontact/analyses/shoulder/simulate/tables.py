@@ -6,24 +6,28 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Int
 
+from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
 from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device
 from geocontact.shoulder_exoskeleton.sensitivity import Influence
-from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 WAYS = ("distal", "medial", "raising")
 """Axes of the cuff."""
 
 
-def arm_table(s: ArmSimulation, phase: Int[np.ndarray, " t"]) -> pd.DataFrame:
+def arm_table(arm: SimulatedArm) -> pd.DataFrame:
     """Angles, forces and slip over time; forces of the cuff on the arm, in the device's frame and in the cuff's."""
+    s = arm.simulation
     told, motion = s.told, s.motion
+    led = {}
+    if arm.detected is not None and arm.factor is not None:
+        led = {"detected phase": np.array(PHASES)[arm.detected], "factor [-]": arm.factor}
     slide = 1e3 * told["sliding"]
     columns = {
         "time [s]": motion.time,
-        "phase": np.array(PHASES)[phase],
+        "phase": np.array(PHASES)[arm.phase],
+        **led,
         "shoulder elevation [deg]": np.degrees(motion.elevation),
         **{f"{joint} [deg]": np.degrees(column) for joint, column in zip(JOINTS, s.angles.T, strict=True)},
         "support torque [N m]": told["support"][:, 0],

@@ -1,0 +1,56 @@
+"""A base model fitted by plain least squares, every channel divided by one number."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.chain.system import System
+from geocontact.gap.case.refit import Measured, Refit, free, refit
+
+STARTS = 4  # of the base fit, besides the case's own
+
+
+@dataclass(frozen=True)
+class Plain:
+    """Weighing by a standard deviation per channel only."""
+
+    present: np.ndarray
+    floor: Float[np.ndarray, " c"]
+    log_scale: float = 0.0
+
+    def __call__(self, values: Float[np.ndarray, "t c p"]) -> Float[np.ndarray, "n p"]:
+        """Rows of measured samples, divided by the floor."""
+        return np.asarray((values / self.floor[:, None]).reshape(-1, values.shape[-1])[self.present.ravel()])
+
+
+def plain_fit(
+    system: System,
+    measured: Measured,
+    floor: Float[np.ndarray, " c"],
+    starts: Sequence[Mapping[str, float]],
+    rounds: int,
+) -> Refit:
+    """The base model refitted to measured trials, every channel divided by `floor`, the best of several starts."""
+    return refit(system, measured, [Plain(there, floor) for there in measured.present], starts, rounds)
+
+
+def base_starts(system: System) -> list[dict[str, float]]:
+    """The parameters' own start, and points spread evenly over their bounds."""
+    from scipy.stats import qmc
+
+    parameters = [p for p in free(system) if np.isfinite(p.upper - p.lower)]
+    spread = qmc.Sobol(len(parameters), seed=0).random(STARTS) if parameters else np.zeros((0, 0))
+    return [
+        {},
+        *(
+            {
+                p.name: float(p.lower + (0.1 + 0.8 * u) * (p.upper - p.lower))
+                for p, u in zip(parameters, row, strict=True)
+            }
+            for row in spread
+        ),
+    ]

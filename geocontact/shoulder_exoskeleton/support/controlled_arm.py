@@ -1,0 +1,68 @@
+"""An exoskeleton's arm whose support follows the work phases that its controller detects.
+
+The controller sees the device's own arm, which its support moves. Phases and motion are therefore found together: the
+arm is simulated with the phases of the pass before until they are those of its own elevation. The controller looks back
+only, so each pass is right at least one change of phase longer than the one before.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
+from geocontact.shoulder_exoskeleton.device import Device, Wearer
+from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
+from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds, detected
+
+PASSES = 50
+"""Simulations until the phases must have settled; the shipped trial takes two or three."""
+
+
+@dataclass(frozen=True, eq=False)
+class Controller:
+    """What gives the support its factor.
+
+    Parameters
+    ----------
+    factors
+        By the number of the phase (`work_phases.PHASES`), 0 to 1.
+    current
+        Of the tool at the motion's frames [A].
+    thresholds
+        When phases change.
+    """
+
+    factors: Float[np.ndarray, " 4"]
+    current: Float[np.ndarray, " t"]
+    thresholds: Thresholds
+
+
+@dataclass(frozen=True, eq=False)
+class ControlledArm:
+    """The arm, and phase and factor that its controller gives at each frame; sensors are exact and not late."""
+
+    simulation: ArmSimulation
+    phase: Int[np.ndarray, " t"]
+    factor: Float[np.ndarray, " t"]
+
+
+def controlled_arm(
+    motion: ArmMotion, device: Device, wearer: Wearer, level: float, controller: Controller, cuff: Cuff = "point"
+) -> ControlledArm:
+    """Motion of the exoskeleton's arm under a support profile; the cylinder has `level` times the factor's share.
+
+    ArithmeticError as of `simulate_arm`, and where phases do not settle.
+    """
+    phase = detected(motion.time, motion.elevation, controller.current, controller.thresholds)
+    for _ in range(PASSES):
+        factor = controller.factors[phase]
+        found = simulate_arm(motion, device, wearer, level, factor=factor, cuff=cuff)
+        seen = detected(motion.time, found.elevation, controller.current, controller.thresholds)
+        if np.array_equal(seen, phase):
+            return ControlledArm(found, phase, factor)
+        phase = seen
+    raise ArithmeticError(f"the controller's phases have not settled after {PASSES} simulations")

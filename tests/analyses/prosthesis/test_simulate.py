@@ -1,0 +1,77 @@
+"""A stance by the analysis: what is refused at once, and the shipped trial from end to end."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.io.opensim.external_loads import read_external_loads
+from tests.cli.calls import MESHES
+
+TRIAL = MESHES / "gait_P1_medium_1"
+GIVEN: dict[str, Any] = {
+    "static": TRIAL / "standing.trc",
+    "mass": 77.3,
+    "plates": TRIAL / "plates.mot",
+    "other_plate": "other_force",
+    "plate": "own_force",
+}
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"fulcrum": gc.mm(60)}, "66 to 151 mm"),
+        ({"static": None}, "no standing trial"),
+        ({"mass": None}, "mass of the person is not known"),
+        ({"mass": 77.3e3}, "cannot be the mass of a walking person"),
+        ({"other_plate": None}, "the force under the other foot is not known"),
+        ({"plate": "third"}, "no plate 'third'"),
+        ({"plate": "other_force"}, "carries no whole stance"),
+        ({"side": "left"}, "no marker"),
+        ({"time": (0.1, 0.6)}, "the stance on own_force is from"),
+    ],
+)
+def test_refused(changed: dict[str, Any], words: str) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        with pytest.raises(gc.InputError, match=words):
+            gc.prosthesis.simulate(TRIAL / "walking.trc", **(GIVEN | changed))
+
+
+def test_a_plate_elsewhere_is_not_under_the_foot(tmp_path: Path) -> None:
+    head, body = (TRIAL / "plates.mot").read_text().split("endheader\n")
+    names, *rows = body.splitlines()
+    at = names.split("\t").index("own_force_px")
+    moved = [row.split("\t") for row in rows]
+    for row in moved:
+        row[at] = f"{float(row[at]) + 0.8:.4f}"
+    file = tmp_path / "plates.mot"
+    file.write_text(f"{head}endheader\n" + "\n".join([names, *("\t".join(row) for row in moved)]) + "\n")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        with pytest.raises(gc.InputError, match="no plate under the foot"):
+            gc.prosthesis.simulate(TRIAL / "walking.trc", **(GIVEN | {"plates": file}))
+
+
+@pytest.mark.slow
+def test_shipped_trial_from_markers_to_files(tmp_path: Path) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        found = gc.prosthesis.simulate(TRIAL / "walking.trc", **GIVEN)
+    errors = found.table("errors").set_index("quantity")
+    assert errors.loc["resultant", "rmse"] < 0.12  # the study's transfer; nothing is fitted here
+    assert errors.loc["cop_ground", "r2 [-]"] > 0.8
+    assert errors.loc["cop_ground", "rmse"] < 0.10
+    assert abs(errors.loc["stance", "rmse"]) < 0.03
+    found.write(tmp_path / "out")
+    file, loads = read_external_loads(tmp_path / "out" / "ground_reaction.xml")
+    assert file.name == "ground_reaction.mot"
+    assert len(loads) == 1
+    told = np.genfromtxt(tmp_path / "out" / "ground_reaction.mot", skip_header=6, names=True)
+    np.testing.assert_allclose(told["ground_right_force_vy"], found.stance.force[:, 1], rtol=1e-8, atol=1e-8)

@@ -1,0 +1,91 @@
+"""A simulation under a support profile: factors of 1 and 0 are known cases, phases those of the device's own arm."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
+from geocontact.analyses.shoulder.tool import current_at
+from geocontact.data.errors import InputError
+from geocontact.shoulder_exoskeleton.support.phase_machine import detected
+from geocontact.shoulder_exoskeleton.support.phases import LIFT, LOWER, SCREW
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
+from tests.analyses.shoulder.test_simulate import TRIAL, simulated
+
+HEAD = "profile,task,hand,lift,screw-in,lower"
+ROWS = "mine,T1,dominant,0.6,1.0,0.3\nmine,T1,other,0.5,0.7,0.2\n"
+
+
+def profile(folder: Path, text: str) -> Path:
+    file = folder / "factors.csv"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def even(folder: Path, factor: float) -> Path:
+    """The same factor always, at rest too."""
+    row = f"mine,T1,dominant,{factor},{factor},{factor},{factor}\n"
+    return profile(folder, f"{HEAD},rest\n{row}{row.replace('dominant', 'other')}")
+
+
+def states(found: ShoulderSimulateResult) -> np.ndarray:
+    s = found.arms[0].simulation
+    return np.column_stack([s.angles, s.rates, s.cylinder, s.told["in_cuff"]])
+
+
+@pytest.mark.parametrize(("factor", "level"), [(1.0, 1.0), (0.0, 0.0), (0.5, 0.5)])
+def test_one_factor_for_all_phases_is_a_level(tmp_path: Path, factor: float, level: float) -> None:
+    led = simulated(profile=even(tmp_path, factor), side="right")
+    np.testing.assert_allclose(states(led), states(simulated(level=level, side="right")), rtol=0.0, atol=1e-12)
+
+
+def test_the_cylinder_follows_the_phases_of_the_device_s_own_arm(tmp_path: Path) -> None:
+    """p' = (factor - p) / lag, exactly, with the phases that the result's own elevation gives."""
+    found = simulated(profile=profile(tmp_path, f"{HEAD}\n{ROWS}"), dominant="left", level=0.8)
+    for arm, factors in zip(found.arms, ((0.0, 0.5, 0.7, 0.2), (0.0, 0.6, 1.0, 0.3)), strict=True):
+        s = arm.simulation
+        time = s.motion.time
+        seen = detected(time, s.elevation, current_at(TRIAL / "tool.csv", time))
+        assert set(seen) >= {LIFT, SCREW, LOWER}
+        table = found.table(arm.side)
+        np.testing.assert_array_equal(table["detected phase"], np.array(PHASES)[seen])
+        np.testing.assert_array_equal(table["factor [-]"], np.array(factors)[seen])
+        decay, target = np.exp(-np.diff(time) / s.device["lag"]), 0.8 * s.device.peak_force * np.array(factors)[seen]
+        following = target[:-1] + (s.cylinder[:-1] - target[:-1]) * decay
+        np.testing.assert_allclose(s.cylinder[1:], following, atol=1e-3)
+    assert any("support by phase: rest 0.00, lift 0.50, screw-in 0.70, lower 0.20" in line for line in found.sentences)
+    out = found.write(tmp_path / "out")
+    assert "detected phase, left" in (out / "report.html").read_text(encoding="utf-8")
+    assert not (out / "plane").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "what"),
+    [
+        (f"{HEAD}\n{ROWS}mine,T2,dominant,1,1,1\n", {}, "`task`: factors of 2 tasks; say which: T1, T2"),
+        (f"{HEAD}\n{ROWS}", {"task": "T3"}, "no factors of 'T3'; there are T1"),
+        (f"{HEAD}\n{ROWS}", {"profile_name": "his"}, "no profile 'his'; there are mine"),
+        (f"{HEAD}\n{ROWS.replace('0.6', '1.6')}", {}, "row 1: factor '1.6' of lift is not 0 to 1"),
+        (f"{HEAD}\n{ROWS.replace('other', 'left')}", {}, "row 2: hand 'left' is not known; write dominant or other"),
+        (f"{HEAD}\n{ROWS}{ROWS}", {}, "row 3: mine, T1, dominant is there twice"),
+        (f"{HEAD}\n{ROWS.splitlines()[0]}\n", {}, "no factors of the other hand for T1"),
+        (f"{HEAD.replace('lower', 'down')}\n{ROWS}", {}, "no column lower"),
+    ],
+)
+def test_a_profile_that_cannot_be_read_is_refused(
+    tmp_path: Path, text: str, options: dict[str, str], what: str
+) -> None:
+    with pytest.raises(InputError) as error:
+        simulated(profile=profile(tmp_path, text), **options)
+    assert what in str(error.value) and "\n" not in str(error.value)
+
+
+def test_a_profile_needs_the_tool(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="`tool`: is missing with `profile`"):
+        gc.shoulder.simulate(TRIAL / "markers.trc", profile=profile(tmp_path, f"{HEAD}\n{ROWS}"))
+    with pytest.raises(InputError, match="`task`"):
+        simulated(task="T1")
