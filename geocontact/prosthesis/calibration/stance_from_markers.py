@@ -17,7 +17,7 @@ from geocontact.prosthesis.from_markers.marker_names import BODIES, MAP
 from geocontact.prosthesis.model.leg import Leg
 from geocontact.prosthesis.model.leg_tree import GRAVITY
 from geocontact.prosthesis.simulate import share_of_foot
-from geocontact.prosthesis.stance_errors import PlateStance, longest_stance
+from geocontact.prosthesis.stance_errors import PlateStance, at_times, longest_stance
 
 RATE, AROUND = 200.0, 0.04
 """Hz, and s before and after the stance that are taken along."""
@@ -59,7 +59,7 @@ def stance_from_markers(
         )
     time = start + np.arange(int((stop - start) * RATE) + 1) / RATE
     poses = _keel_poses(seen, leg, time, cutoff, gap_limit)
-    force, centre = (_at(time, plate.time, each) for each in (plate.force, plate.centre))
+    force, centre = (at_times(time, plate.time, each) for each in (plate.force, plate.centre))
     share = share_of_foot(poses, length, centre)
     return RecordedStance(time, poses, pose_rate(time, poses), fulcrum, force, share, leg.person.mass * GRAVITY, errors)
 
@@ -80,9 +80,3 @@ def _keel_poses(
     by_name = {marker.name: marker.location for marker in leg.markers}
     shank = segment_poses(dense, np.array([by_name[name] for name in names]))[0]
     return shank * RigidTransform.from_components(leg.keel, leg.turn)
-
-
-def _at(
-    wanted: Float[np.ndarray, " s"], time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t 3"]
-) -> Float[np.ndarray, "s 3"]:
-    return np.column_stack([np.interp(wanted, time, column) for column in values.T])

@@ -1,10 +1,9 @@
-"""A stance whose numbers are planted, and the files that a laboratory would have of it."""
+"""A stance whose numbers are planted."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 
@@ -42,26 +41,3 @@ def recorded(noise: float = 1.0) -> RecordedStance:
     force = shown[:, :3] + noise * e.force * rng.standard_normal((frames, 3))
     off = noise * e.couple / np.maximum(force[:, 1], 1.0) / foot.keel.length * rng.standard_normal(frames)
     return replace(blank, force=force, centre=np.where(force[:, 1] > PLATE_GATE, shown[:, 3] + off, np.nan))
-
-
-def laboratory_files(folder: Path, one: RecordedStance) -> tuple[Path, Path]:
-    """Poses (.csv) and the plate (.mot)."""
-    turn, place = one.poses.rotation.as_quat()[:, [3, 0, 1, 2]], 1e3 * one.poses.translation
-    rows = np.column_stack([one.time, place, turn])
-    poses = folder / "poses.csv"
-    head = "time [s], tx [mm], ty [mm], tz [mm], qw, qx, qy, qz"
-    np.savetxt(poses, rows, delimiter=",", header=head, comments="", fmt="%.12g")
-    forward = one.poses.rotation.apply([1.0, 0.0, 0.0])
-    forward[:, 1] = 0.0
-    forward /= np.linalg.norm(forward, axis=1, keepdims=True)
-    length = vsf_foot().keel.length
-    under = one.poses.translation + np.nan_to_num(one.centre)[:, None] * length * forward
-    under[:, 1] = 0.0
-    names = [f"ground_force_{kind}{axis}" for kind in "vp" for axis in "xyz"]
-    names += [f"ground_torque_{axis}" for axis in "xyz"]
-    table = np.column_stack([one.time, one.force, under, np.zeros_like(under)])
-    plate = folder / "plate.mot"
-    text = f"plate\nversion=1\nnRows={len(table)}\nnColumns={table.shape[1]}\ninDegrees=yes\nendheader\n"
-    header = text + "\t".join(["time", *names])
-    np.savetxt(plate, table, delimiter="\t", header=header, comments="", fmt="%.12g")
-    return poses, plate

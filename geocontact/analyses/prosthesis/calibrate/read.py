@@ -1,35 +1,37 @@
-"""What a calibration starts from: the foot, and a stance between the plate's touch-down and toe-off."""
+"""What a calibration starts from: the foot, and a stance on a plate along the markers of the socket."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
+from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
+from geocontact.analyses.prosthesis.foot_law import foot_with_law
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
-from geocontact.data.motion import Motion
-from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
-from geocontact.io.motion.motion import read_motion
-from geocontact.loads.pose_rate import pose_rate
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.prosthesis.calibration.recorded_stance import Errors, RecordedStance
+from geocontact.prosthesis.calibration.stance_from_markers import stance_from_markers
+from geocontact.prosthesis.from_markers.sides import as_right, of_side
+from geocontact.prosthesis.from_markers.standing import standing_leg
+from geocontact.prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.prosthesis.keel.vsf import fulcrum_of
 from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
-from geocontact.prosthesis.model.leg_tree import GRAVITY
-from geocontact.prosthesis.simulate import share_of_foot
+from geocontact.prosthesis.model.leg import Person
+from geocontact.prosthesis.simulate import GATE
+from geocontact.prosthesis.stance_errors import PlateStance
 
-UPRIGHT = 0.999
-"""Least cosine between the plate's normal and y: 2.6 degrees."""
-GATE, AROUND = 20.0, 0.05
-"""N of vertical force in stance, and s around it that are taken along."""
-FEWEST = 30
-"""Frames of a stance: twice the numbers that are sought."""
+BESIDE = 1.0
+"""Lengths of the foot from its middle beyond which a centre of pressure is not its."""
 
 
 @dataclass(frozen=True, eq=False)
 class FootOnPlate:
-    """A foot and its stance."""
+    """A foot and its stance, as of a right leg."""
 
     foot: VariableStiffnessFoot
     stance: RecordedStance
@@ -37,52 +39,37 @@ class FootOnPlate:
 
 def read(o: ProsthesisCalibrateOptions, record: Record) -> FootOnPlate:
     """Everything the options name."""
-    motion = read_motion(o.motion)
-    if motion.time_unit != "s":
-        raise InputError(o.motion, "", "time is in per cent of a cycle", "write its time in s: forces need rates")
-    record.add_input("motion", o.motion, frames=len(motion))
+    with record.listener.preparing():
+        foot = foot_with_law(record, vsf_foot(), o.law)
+    fulcrum = fulcrum_of(o.setting) if o.fulcrum is None else o.fulcrum
+    standing = _markers(o, o.static, record, "`static`")
+    leg = standing_leg(standing, Person(o.mass), foot.keel, sole_numbers()["below"].value)
+    seen = _markers(o, o.markers, record, "markers")
+    stance = stance_from_markers(
+        seen,
+        leg,
+        _plate(o, record),
+        fulcrum,
+        foot.keel.length,
+        cutoff=None if o.cutoff == 0.0 else o.cutoff,
+        gap_limit=o.gap_limit,
+        errors=Errors(force=o.force_noise, height=o.height_error, pitch=o.pitch_error, speed=o.speed_error),
+    )
+    known = stance.centre[np.isfinite(stance.centre)]
+    if not len(known) or np.median(np.abs(known - 0.5)) > BESIDE:
+        what = "its centre of pressure is not under the foot"
+        raise InputError(o.plates, "`plate`", what, "check frame, side and clock, and that this plate is meant")
+    return FootOnPlate(foot, stance)
+
+
+def _markers(o: ProsthesisCalibrateOptions, file: Path, record: Record, name: str) -> MarkerTrajectories:
+    seen = renamed_as_told(record, markers_given(file, o.axes, None), o.markers_map)
+    record.add_input(name, file, frames=len(seen), markers=len(seen.names))
+    return as_right(seen, o.side)
+
+
+def _plate(o: ProsthesisCalibrateOptions, record: Record) -> PlateStance:
     plate = plate_named(read_force_plates(o.plates), o.plate, o.plates, "`plate`")
     record.add_input("`plates`", o.plates, plate=plate.name)
-    if plate.normal[1] < UPRIGHT or abs(plate.point[1]) > 1e-3:
-        what = "the plate does not lie in y = 0 with y up"
-        raise InputError(o.plates, plate.name, what, "turn forces and motion into such a frame")
-    fulcrum = fulcrum_of(o.setting or "medium") if o.fulcrum is None else o.fulcrum
-    with record.listener.preparing():
-        foot = vsf_foot()
-    try:
-        foot.keel.require_range(fulcrum)
-    except ValueError as error:
-        raise InputError("", "`fulcrum`", str(error), "give it from the keel's posterior end") from error
-    return FootOnPlate(foot, _stance(o, motion, plate, fulcrum, foot))
-
-
-def _stance(
-    o: ProsthesisCalibrateOptions, motion: Motion, plate: ForcePlate, fulcrum: float, foot: VariableStiffnessFoot
-) -> RecordedStance:
-    wrench = plate.at(motion.time)
-    load = np.nan_to_num(wrench.force[:, 1])
-    if not (load >= GATE).any():
-        what = f"carries no {GATE:g} N at any time of the motion"
-        raise InputError(o.plates, plate.name, what, "check that both have one clock, and that this plate is meant")
-    on = np.flatnonzero(load >= GATE)
-    first, last = motion.time[on[0]] - AROUND, motion.time[on[-1]] + AROUND
-    inside = np.isfinite(wrench.force[:, 1]) & (motion.time >= first) & (motion.time <= last)
-    if inside.sum() < FEWEST:
-        what = f"{int(inside.sum())} frames of the stance are too few for 15 numbers"
-        raise InputError(o.motion, "", what, "record at 100 Hz or more")
-    rate = pose_rate(motion.time, motion.poses)[inside]
-    poses = motion.poses[inside]
-    centre = wrench.centre_of_pressure(plate.point, plate.normal, GATE)[inside]
-    share = share_of_foot(poses, foot.keel.length, centre)
-    known = share[np.isfinite(share)]
-    if np.median(np.abs(known - 0.5)) > BESIDE:
-        what = f"the centre of pressure lies at {np.median(known):.1f} lengths of the foot from its heel"
-        raise InputError(o.plates, plate.name, what, "no plate is under this foot; check frame, side and clock")
-    errors = Errors(force=o.force_noise, height=o.height_error, pitch=o.pitch_error, speed=o.speed_error)
-    return RecordedStance(
-        motion.time[inside], poses, rate, fulcrum, wrench.force[inside], share, o.mass * GRAVITY, errors
-    )
-
-
-BESIDE = 1.0
-"""Lengths of the foot from its middle beyond which a centre of pressure is not its."""
+    force = of_side(np.nan_to_num(plate.wrench.force), o.side)
+    return PlateStance(plate.time, force, of_side(plate.centre_of_pressure(GATE), o.side))

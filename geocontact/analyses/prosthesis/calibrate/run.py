@@ -27,7 +27,7 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> Pr
             found = calibrate([stance], foot, starts=o.starts, seed=o.seed, level=o.level)
     except ArithmeticError as error:
         remedy = "check height and pitch of the foot; the sole must press and not sink"
-        raise InputError(o.motion, "", str(error), remedy) from error
+        raise InputError(o.markers, "", str(error), remedy) from error
     keel = found.foot.at(stance.fulcrum)
     motion, slip = found.residuals.motion(found.logarithms, 0)
     predicted = stance.predicted(keel, motion)
