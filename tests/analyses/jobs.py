@@ -23,6 +23,7 @@ JOBS: tuple[Job, ...] = (
     gc.misalignment.compare,
     gc.misalignment.design,
     gc.misalignment.population,
+    gc.prosthesis.calibrate,
     gc.prosthesis.simulate,
     gc.shoulder.simulate,
     gc.shoulder.compare,

@@ -1,4 +1,4 @@
-"""A below-knee prosthesis with a variable-stiffness foot: `gc.prosthesis.simulate(...)`."""
+"""A below-knee prosthesis with a variable-stiffness foot: `gc.prosthesis.simulate(...)` and more."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from geocontact.analyses.package_of_jobs import PackageOfJobs
 
 if TYPE_CHECKING:
+    from geocontact.analyses.prosthesis.calibrate.job import calibrate
     from geocontact.analyses.prosthesis.simulate.job import simulate
 
-__all__ = ["simulate"]
+__all__ = ["calibrate", "simulate"]
 
 sys.modules[__name__].__class__ = PackageOfJobs

@@ -6,6 +6,7 @@ from cyclopts import App
 
 prosthesis = App(
     name="prosthesis",
-    help="Below-knee prosthesis with a variable-stiffness foot: ground reaction along a recorded walk.",
+    help="Below-knee prosthesis with a variable-stiffness foot: its sole calibrated, its ground reaction along a walk.",
 )
+prosthesis.command("geocontact.cli.prosthesis.calibrate:calibrate", name="calibrate")
 prosthesis.command("geocontact.cli.prosthesis.simulate:simulate", name="simulate")

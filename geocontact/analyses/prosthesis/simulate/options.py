@@ -48,6 +48,8 @@ class ProsthesisSimulateOptions(Options):
         Stiffness of the foot: low, medium or high, 10, 19 or 32 N/mm.
     fulcrum
         Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
+    law
+        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given.
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
 
@@ -88,7 +90,12 @@ class ProsthesisSimulateOptions(Options):
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     functional: Path | None = None
     setting: Literal["low", "medium", "high"] = "medium"
+<<<<<<< HEAD
     fulcrum: Annotated[Place | None, FULCRUM] = None
+=======
+    fulcrum: Annotated[Length | None, FULCRUM] = None
+    law: Path | None = None
+>>>>>>> calib33
     socket: Literal["as_meant", "as_printed"] = "as_meant"
     plates: Path | None = None
     other_plate: str | None = None

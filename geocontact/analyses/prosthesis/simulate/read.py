@@ -11,6 +11,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
+from geocontact.analyses.prosthesis.foot_law import foot_with_law
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
@@ -58,7 +59,7 @@ class Walk:
 
 def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
     """Everything the options name."""
-    foot = vsf_foot()
+    foot = foot_with_law(record, vsf_foot(), o.law)
     fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
     standing = _markers(o, cast(Path, o.static), record, "`static`", None)
     person = Person(cast(float, o.mass), o.sex, o.residual)

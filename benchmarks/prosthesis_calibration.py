@@ -1,0 +1,176 @@
+"""Calibration of the sole: `python -m benchmarks.prosthesis_calibration [P1 ...] [--samples N] [--trials N]`.
+
+Truth is a finer foot (`synthetic.trial`): more joints, twice the rows of spheres. Numbers are found along poses from
+markers, with the keel without inertia, and judged by the simulation of the stance, which gets the other leg's force and
+the recorded angles, as section 2.5 of the study. Two predictors without any model stand beside: the mean of the other
+trials' plates, and another setting's plate. All data are synthetic. `--samples` draws that many random numbers instead.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from geocontact.identify.signals.agreement import agreement
+from geocontact.prosthesis.calibration.calibrate import SoleCalibration, calibrate
+from geocontact.prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.prosthesis.calibration.sole_residuals import SoleResiduals
+from geocontact.prosthesis.calibration.stance_from_markers import stance_from_markers
+from geocontact.prosthesis.from_markers.sides import as_right, of_side
+from geocontact.prosthesis.from_markers.standing import standing_leg
+from geocontact.prosthesis.from_markers.walking import walked
+from geocontact.prosthesis.keel.sole import numbers as sole_numbers
+from geocontact.prosthesis.keel.vsf import fulcrum_of
+from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.prosthesis.model.leg import Person
+from geocontact.prosthesis.model.leg_motion import LegMotion
+from geocontact.prosthesis.simulate import Push, simulate_stance
+from geocontact.prosthesis.stance_errors import PlateStance, StanceErrors, longest_stance, stance_errors
+from geocontact.prosthesis.synthetic.persons import PARTICIPANTS, Participant
+from geocontact.prosthesis.synthetic.trial import GaitTrial, synthetic_trial
+
+SETTINGS, TRIALS = ("medium", "low", "high"), 3
+CUTOFF, ANGLES_CUTOFF, GAP = 15.0, 6.0, 0.2
+"""Hz; of the markers for the calibration, and of the angles for the simulation; s."""
+CURVES = ("resultant", "vertical", "fore_aft", "impulse", "cop_ground")
+AROUND = 0.1
+"""s; simulated before and after the stance."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recorded:
+    """A trial as the calibration and as the simulation take it."""
+
+    setting: str
+    stance: RecordedStance
+    motion: LegMotion
+    push: Push
+    plate: PlateStance
+
+
+def recorded(trial: GaitTrial, foot: VariableStiffnessFoot) -> Recorded:
+    """Of a right leg."""
+    p = trial.person
+    person = Person(p.mass, p.sex)
+    below = sole_numbers()["below"].value
+    leg = standing_leg(as_right(trial.standing, p.side), person, foot.keel, below)
+    seen = as_right(trial.walking, p.side)
+    plate = PlateStance(trial.time, of_side(trial.own, p.side), of_side(trial.centre, p.side))
+    fulcrum, length = fulcrum_of(trial.setting), foot.keel.length
+    stance = stance_from_markers(seen, leg, plate, fulcrum, length, cutoff=CUTOFF, gap_limit=GAP)
+    motion = walked(seen, leg, cutoff=ANGLES_CUTOFF, gap_limit=GAP).motion
+    return Recorded(trial.setting, stance, motion, Push(trial.time, of_side(trial.other, p.side)), plate)
+
+
+def judged(one: Recorded, foot: VariableStiffnessFoot) -> StanceErrors:
+    """The stance simulated on a foot, beside the plate."""
+    span = longest_stance(one.plate.time, one.plate.force[:, 1])
+    if span is None:
+        raise ValueError("a plate without a stance")
+    ends = max(span[0] - AROUND, one.motion.time[2]), min(span[1] + AROUND, one.motion.time[-3])
+    found = simulate_stance(one.motion, foot, one.stance.fulcrum, one.push, (float(ends[0]), float(ends[1])))
+    return stance_errors(found, one.plate)
+
+
+def best_of_random(residuals: SoleResiduals, samples: int, seed: int = 1) -> float:
+    """Least cost of numbers drawn evenly in their logarithms between the bounds."""
+    rng, reach = np.random.default_rng(seed), residuals.zones.reach
+    lowest = np.inf
+    for _ in range(samples):
+        off = residuals(reach * rng.uniform(-1.0, 1.0, len(reach)))
+        lowest = min(lowest, 0.5 * float(off @ off))
+    return lowest
+
+
+def trivial(
+    found: Mapping[str, StanceErrors], name: str, curve: str
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """R² and RMSE of the mean of the other trials' plates, and of another setting's plate."""
+    measured = found[name].curves[curve][1]
+    others = [each.curves[curve][1] for other, each in found.items() if other != name]
+    setting = name.partition("_")[0]
+    strange = next(each.curves[curve][1] for other, each in found.items() if not other.startswith(setting))
+    told = [agreement(model, measured, 1.0, 0.0) for model in (np.mean(others, axis=0), strange)]
+    return (told[0].r2, told[0].rmsd), (told[1].r2, told[1].rmsd)
+
+
+def numbers_table(found: SoleCalibration) -> None:
+    """Print the numbers with their intervals."""
+    apart = found.knowledge.told_apart
+    print(
+        f"  {apart.verdict}, condition {apart.condition:.3g}; residuals remember {found.knowledge.memory.typical:.3f} s"
+    )
+    for each in found.knowledge.numbers:
+        print(
+            f"  {each.name:22s} {each.value:10.4g} {each.lower:10.4g} {each.upper:10.4g} {each.unit:8s}{each.verdict}"
+        )
+
+
+def transfer_table(trials: Mapping[str, Recorded], foot: VariableStiffnessFoot) -> dict[str, StanceErrors]:
+    """Print the errors of each trial on a foot, with what needs no model beside."""
+    found = {}
+    for name, one in trials.items():
+        try:
+            found[name] = judged(one, foot)
+        except ArithmeticError as error:
+            print(f"  {name}: {error}")
+    for curve in CURVES:
+        print(f"  {curve}: R² and RMSE; of the mean of the others; of another setting")
+        for name, each in found.items():
+            r2, off = each.table[curve]
+            (mean_r2, mean_off), (strange_r2, strange_off) = trivial(found, name, curve)
+            plain = f"{mean_r2:7.3f} {mean_off:6.3f}   {strange_r2:7.3f} {strange_off:6.3f}"
+            print(f"    {name:10s} {r2:7.3f} {off:6.3f}   {plain}")
+    late = [each.stance[0] - each.stance[1] for each in found.values()]
+    print(f"  stance longer by {np.mean(late):+.3f} s (SD {np.std(late):.3f})")
+    return found
+
+
+def participant(person: Participant, samples: int, trials: int) -> None:
+    """All of one person."""
+    foot = vsf_foot()
+    taken = {
+        f"{setting}_{k}": recorded(synthetic_trial(person, setting, k), foot)
+        for setting in SETTINGS
+        for k in range(1, trials + 1)
+    }
+    before, wall = time.process_time(), time.perf_counter()
+    one = calibrate([taken["medium_1"].stance], foot)
+    took, lasted = time.process_time() - before, time.perf_counter() - wall
+    print(f"{person.name}, {person.mass} kg: calibrated on medium_1 in {took:.1f} s of processor ({lasted:.1f} s)")
+    print(
+        f"  cost {one.cost:.1f}, of the usual numbers {one.costs[0]:.1f} after linear turns; solved {one.solved} times"
+    )
+    if samples:
+        before = time.process_time()
+        lowest = best_of_random(SoleResiduals.of([taken["medium_1"].stance], foot), samples)
+        print(f"  best of {samples} random samples {lowest:.1f}, {time.process_time() - before:.1f} s of processor")
+    numbers_table(one)
+    print("usual numbers, not calibrated")
+    transfer_table(taken, foot)
+    print("calibrated on medium_1 alone")
+    transfer_table(taken, one.foot)
+    several = calibrate([taken[f"{setting}_1"].stance for setting in SETTINGS], foot)
+    print("calibrated on one trial of each setting")
+    numbers_table(several)
+    transfer_table(taken, several.foot)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Participants by name, all unless named."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("persons", nargs="*")
+    parser.add_argument("--samples", type=int, default=0)
+    parser.add_argument("--trials", type=int, default=TRIALS)
+    told = parser.parse_args(arguments)
+    for person in PARTICIPANTS:
+        if not told.persons or person.name in told.persons:
+            participant(person, told.samples, told.trials)
+
+
+if __name__ == "__main__":
+    main()

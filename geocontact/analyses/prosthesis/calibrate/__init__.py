@@ -1,0 +1,1 @@
+"""Numbers of a prosthetic foot's sole from a recorded stance."""

@@ -1,0 +1,117 @@
+"""What a calibration of a foot may be asked for."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from geocontact.analyses.options import Degrees, Expression, Fraction, Length, Options, Spelled
+from geocontact.data.errors import InputError
+from geocontact.data.plausible import KG, Plausible
+from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, SPEED, TILT
+from geocontact.data.units import mm
+
+FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
+PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
+MOST_STARTS = 1000
+
+
+@dataclass(frozen=True)
+class ProsthesisCalibrateOptions(Options):
+    """Stiffness, damping and friction of five zones of a variable-stiffness foot from one recorded stance.
+
+    Parameters
+    ----------
+    markers
+        Walking trial (.trc, .c3d, .csv) with the markers of socket, adapter and heel.
+
+    The person
+    ----------
+    static
+        Standing trial with all markers, the foot flat on the floor.
+    mass
+        Of the body with the prosthesis [kg].
+    side
+        Of the prosthesis.
+
+    The foot
+    ----------
+    setting
+        Stiffness of the foot in this trial: low, medium or high, 10, 19 or 32 N/mm.
+    fulcrum
+        Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
+    law
+        Usual numbers of the sole (.toml), about which those of the person are sought; built in unless given.
+
+    Force plates
+    ----------
+    plates
+        Ground reactions in the markers' axes (.mot, .sto, .c3d).
+    plate
+        Name or number of the plate under the prosthetic foot.
+
+    The search
+    ----------
+    starts
+        Starts spread over the bounds, beside the usual numbers.
+    seed
+        Of these starts.
+    level
+        Probability of the intervals.
+
+    What was recorded with which error
+    ----------------------------------
+    force_noise
+        Standard deviation of a component of the plate's force [N].
+    height_error
+        Of the foot's height, constant over the stance [mm].
+    pitch_error
+        Of the foot's pitch, constant over the stance.
+    speed_error
+        Of the foot's speed [m/s]: what markers and their filter leave of it.
+
+    The motion
+    ----------
+    cutoff
+        Zero-lag low-pass of the markers [Hz]; 0 leaves them as they are. 6 Hz would smooth the touch-down away.
+    gap_limit
+        Longest time for which a marker may be out of sight [s].
+    markers_map
+        Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
+    axes
+        Which of the markers' axes are x (forward along the walk), y (upwards) and z: x,z,-y where the laboratory's z
+        is up.
+    """
+
+    markers: Path
+    _: KW_ONLY
+    static: Path
+    mass: Annotated[float, PERSON]
+    plates: Path
+    side: Literal["right", "left"] = "right"
+    setting: Literal["low", "medium", "high"] = "medium"
+    fulcrum: Annotated[Length | None, FULCRUM] = None
+    law: Path | None = None
+    plate: str | None = None
+    starts: int = 8
+    seed: int = 0
+    level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
+    force_noise: Annotated[float, NOISE] = 3.0
+    height_error: Annotated[Length, SHIFT, Spelled(default="0.5mm")] = 0.5e-3
+    pitch_error: Annotated[Degrees, TILT, Spelled(default=0.2)] = 0.0034906585
+    speed_error: Annotated[float, SPEED] = 20e-3
+    cutoff: Annotated[float, CUTOFF] = 15.0
+    gap_limit: Annotated[float, GAP] = 0.2
+    markers_map: str | None = None
+    axes: Expression | None = None
+
+    def refuse_impossible(self) -> None:
+        """No starts at all, a probability that is none, a force without noise."""
+        if not 0 <= self.starts <= MOST_STARTS:
+            what = f"{self.starts} is not 0 to {MOST_STARTS}"
+            raise InputError("", "`starts`", what, "give for example 12")
+        if not 0.0 < self.level < 1.0:
+            raise InputError("", "`level`", f"{self.level:g} is not between 0 and 1", "give for example 0.95")
+        if self.force_noise <= 0.0:
+            raise InputError("", "`force_noise`", "0 N gives samples no limit to their weight", "give for example 3")

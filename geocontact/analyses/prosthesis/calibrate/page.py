@@ -1,0 +1,74 @@
+"""The page of a calibration: curves by the plate and by the model, numbers with intervals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+from jaxtyping import Float
+from numpy import ndarray
+
+from geocontact.analyses.figure_files import drawing
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import headline
+from geocontact.analyses.run_record import Record
+from geocontact.prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
+from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FIGURE = "Grey the plate, coloured the foot with the numbers below, along the recorded poses."
+MODEL = [
+    "The keel is in equilibrium in every frame: its inertia is left out.",
+    "The foot may slip beside its recorded speed, within its error, so that the force along the floor is the plate's.",
+    "Friction is therefore told only where the foot slips in earnest.",
+    "Poses are taken as they were recorded; what their errors do to each sample is in its weight.",
+    "Known: the data at least halve the width of what was believed beforehand. Believed: they do not.",
+    "Unknown: the stance never loaded the zone, and the value is the usual one.",
+    "Intervals count that residuals remember from frame to frame; they hold for this model, not beyond it.",
+]
+
+
+def write_calibration_page(
+    path: Path,
+    record: Record,
+    figure: Figure,
+    stance: RecordedStance,
+    predicted: Float[ndarray, "t 4"],
+    numbers: pd.DataFrame,
+) -> int:
+    """Write the self-contained page; returns its size in bytes."""
+    curves = [
+        Curves(title, unit, [Curve("plate", factor * stance.measured[:, k]), Curve("model", factor * predicted[:, k])])
+        for k, (title, unit, factor) in enumerate(
+            (
+                ("Force along x", "N", 1.0),
+                ("Force along y", "N", 1.0),
+                ("Force along z", "N", 1.0),
+                ("Centre of pressure from the heel", "% of the foot", 100.0),
+            )
+        )
+    ]
+    sections: list[Section] = [
+        Picture("Plate and model", FIGURE, drawing(figure)),
+        *curves,
+        frame_table("Numbers of the zones", numbers, 3),
+        inputs_table(record.inputs),
+        options_table(record),
+        Words("What the numbers mean", MODEL),
+    ]
+    page = Page(
+        title="Calibrated sole of a prosthetic foot",
+        subtitle="Stiffness, damping and friction of five zones from one stance",
+        time=stance.time,
+        time_label="time [s]",
+        headline=headline(list(record.sentences)),
+        reservations=tuple(record.warnings),
+        sections=tuple(sections),
+        plays=False,
+    )
+    return write_page(page, path)

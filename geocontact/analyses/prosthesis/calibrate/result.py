@@ -1,0 +1,90 @@
+"""What a calibration gives: numbers with intervals, curves, and the law as a file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+from jaxtyping import Float
+from numpy import ndarray
+
+from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.prosthesis.calibrate.figure import stance_figure
+from geocontact.analyses.prosthesis.calibrate.law_file import law_toml
+from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
+from geocontact.analyses.prosthesis.calibrate.page import write_calibration_page
+from geocontact.analyses.result import Result
+from geocontact.identify.signals.agreement import Agreement
+from geocontact.io.text.results import write_table
+from geocontact.prosthesis.calibration.calibrate import SoleCalibration
+from geocontact.prosthesis.calibration.recorded_stance import RecordedStance
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+LAW = "law.toml"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class ProsthesisCalibrateResult(Result):
+    """Numbers of the zones, and the stance with them.
+
+    Parameters
+    ----------
+    stance
+        As it was recorded.
+    calibration
+        What was found.
+    predicted
+        Force in the ground's frame [N] and centre of pressure from the heel (share of the foot) with the numbers found.
+    slip
+        Along the floor, beside the recorded speed [m/s].
+    vertical, centre
+        Agreement of the vertical force over body weight, and of the centre, with the plate's.
+    """
+
+    options: ProsthesisCalibrateOptions
+    stance: RecordedStance
+    calibration: SoleCalibration
+    predicted: Float[ndarray, "t 4"]
+    slip: Float[ndarray, "t 2"]
+    vertical: Agreement
+    centre: Agreement
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`numbers`, `stance`."""
+        s = self.stance
+        columns = {"time [s]": s.time}
+        for k, axis in enumerate("xyz"):
+            columns |= {f"force_{axis} [N]": self.predicted[:, k], f"plate_force_{axis} [N]": s.force[:, k]}
+        columns |= {"centre in the foot [-]": self.predicted[:, 3], "plate centre in the foot [-]": s.centre}
+        rows = [
+            {
+                "number": each.name,
+                "unit": each.unit,
+                "value": each.value,
+                "lower": each.lower,
+                "upper": each.upper,
+                "verdict": each.verdict,
+            }
+            for each in self.calibration.knowledge.numbers
+        ]
+        return {"numbers": pd.DataFrame(rows), "stance": pd.DataFrame(columns)}
+
+    def figure(self) -> Figure:
+        """Measured and modelled force and centre of pressure."""
+        return stance_figure(self.stance, self.predicted)
+
+    def write_files(self, folder: Path) -> None:
+        """Tables, law, figure, page."""
+        for name, rows in self.tables().items():
+            write_table(rows, folder, name)
+        (folder / LAW).write_text(law_toml(self.calibration), encoding="utf-8", newline="\n")
+        save_both(self.figure(), folder, "stance")
+        self.write_page(folder / "report.html")
+
+    def write_page(self, file: Path) -> None:
+        """Curves, numbers, inputs."""
+        write_calibration_page(file, self.record, self.figure(), self.stance, self.predicted, self.tables()["numbers"])

@@ -1,0 +1,81 @@
+"""Calibration of the sole on one stance, and what the stance tells of each number."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+
+from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
+from geocontact.analyses.prosthesis.calibrate.read import FootOnPlate
+from geocontact.analyses.prosthesis.calibrate.result import ProsthesisCalibrateResult
+from geocontact.analyses.run_record import Record
+from geocontact.data.errors import InputError
+from geocontact.identify.signals.agreement import agreement
+from geocontact.prosthesis.calibration.calibrate import calibrate
+from geocontact.prosthesis.calibration.zone_parameters import BELIEVED
+
+SHARE_OF_DEPTH = 1.0
+"""Of its radius that a sphere may sink before its centre is under the ground."""
+
+
+def run(given: FootOnPlate, o: ProsthesisCalibrateOptions, record: Record) -> ProsthesisCalibrateResult:
+    """Numbers of the zones, their intervals, and the stance with them."""
+    foot, stance = given.foot, given.stance
+    try:
+        with record.listener.stages("calibrating"):
+            found = calibrate([stance], foot, starts=o.starts, seed=o.seed, level=o.level)
+    except ArithmeticError as error:
+        remedy = "check height and pitch of the foot; the sole must press and not sink"
+        raise InputError(o.markers, "", str(error), remedy) from error
+    keel = found.foot.at(stance.fulcrum)
+    motion, slip = found.residuals.motion(found.logarithms, 0)
+    predicted = stance.predicted(keel, motion)
+    step = float(np.median(np.diff(stance.time)))
+    model, measured = predicted / stance.weight, stance.measured / stance.weight
+    result = ProsthesisCalibrateResult(
+        record=record,
+        options=o,
+        stance=stance,
+        calibration=found,
+        predicted=predicted,
+        slip=slip,
+        vertical=agreement(model[:, 1], measured[:, 1], step, 0.0),
+        centre=agreement(predicted[:, 3], stance.centre, step, 0.0),
+    )
+    if (motion.loads.depth > SHARE_OF_DEPTH * foot.sole.spheres.radius).any():
+        record.warn("a sphere sinks beyond its radius: the foot is recorded too low, or the sole is too soft")
+    _say(result)
+    return result
+
+
+def _say(r: ProsthesisCalibrateResult) -> None:
+    record, found = r.record, r.calibration
+    verdicts = Counter(number.verdict for number in found.knowledge.numbers)
+    unknown = [number.name for number in found.knowledge.numbers if number.verdict == "unknown"]
+    if unknown:
+        record.warn(f"never loaded, so that their usual values say nothing: {', '.join(unknown)}")
+    if not found.converged:
+        record.warn("the search stopped before it settled; give more `starts`")
+    apart = found.knowledge.told_apart
+    record.say(
+        f"vertical force within {100.0 * r.vertical.rmsd:.1f} % of body weight (R² {r.vertical.r2:.3f}), centre of "
+        f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor "
+        f"is met by slips of {1e3 * float(np.sqrt(np.mean(r.slip**2))):.0f} mm/s beside the recorded speed"
+    )
+    record.say(
+        f"{verdicts['known']} of {len(found.knowledge.numbers)} numbers are known, {verdicts['believed']} are little "
+        f"better than believed beforehand, {verdicts['unknown']} unknown; {apart.verdict} "
+        f"(condition {apart.condition:.3g})"
+    )
+    factors = ", ".join(f"{kind} a factor {sd:g}" for kind, (sd, _) in BELIEVED.items())
+    record.say(f"believed beforehand (invented), as one standard deviation about the usual number: {factors}")
+    record.results["calibrate"] = {
+        "vertical_rmse_of_body_weight": r.vertical.rmsd,
+        "vertical_r2": r.vertical.r2,
+        "centre_rmse_of_foot": r.centre.rmsd,
+        "centre_r2": r.centre.r2,
+        "condition": apart.condition,
+        "solved": found.solved,
+        "numbers": {number.name: number.value for number in found.knowledge.numbers},
+    }
