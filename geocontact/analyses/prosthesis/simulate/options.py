@@ -90,12 +90,8 @@ class ProsthesisSimulateOptions(Options):
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     functional: Path | None = None
     setting: Literal["low", "medium", "high"] = "medium"
-<<<<<<< HEAD
     fulcrum: Annotated[Place | None, FULCRUM] = None
-=======
-    fulcrum: Annotated[Length | None, FULCRUM] = None
     law: Path | None = None
->>>>>>> calib33
     socket: Literal["as_meant", "as_printed"] = "as_meant"
     plates: Path | None = None
     other_plate: str | None = None
