@@ -35,7 +35,7 @@ BLOCKS = 16  # per trial
 SURE = 0.975  # one-sided
 HALF = 0.5  # amplitude below which a change makes the error larger
 NOTHING = 1e-12  # of the squared residual, below which a prediction is not changed
-HARM = 0.02  # of a squared error, that it may grow by without being called worse
+HARM = 0.02  # of a channel's squared error, that it may surely grow by; the sum over the channels may not grow at all
 SMALL = 0.005  # of a channel's signal, that a gap must exceed: half of what its calibration varies by
 FEW = 0.02  # of the samples, that no verdict may hang on
 ENOUGH = 6.0  # nats that the others must gain
@@ -233,7 +233,7 @@ class HeldOutRules:
         change = [b - a for b, a in zip(self.before, self._after(one), strict=True)]
         old, new = ([part / self.problem.floor for part in parts] for parts in (self.before, change))
         together = amplitude(old, new)
-        if together is not None and together.grown > HARM:
+        if together is not None and together.grown > 0.0:
             return f"the error on held-out trials grows ({together.words})"
         for c, name in enumerate(self.problem.system.outputs):
             own = amplitude([b[:, c : c + 1] for b in old], [m[:, c : c + 1] for m in new])
