@@ -16,7 +16,7 @@ from geocontact.data.units import mm
 FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
 PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
 Fulcrum = Annotated[float, Typed("m", "length", "gc.mm(100)", "mm unless a unit is written")]
-MOST_STARTS = 1000
+MOST_STARTS, PITCH = 1000, math.radians(0.2)
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ class ProsthesisCalibrateOptions(Options):
     level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
     force_noise: Annotated[float, NOISE] = 3.0
     height_error: Annotated[Length, SHIFT, Spelled(default="0.5mm")] = 0.5e-3
-    pitch_error: Annotated[Degrees, TILT, Spelled(default=0.2)] = math.radians(0.2)
+    pitch_error: Annotated[Degrees, TILT, Spelled(default=0.2)] = PITCH
     speed_error: Annotated[float, SPEED] = 20e-3
     cutoff: Annotated[float, CUTOFF] = 15.0
     gap_limit: Annotated[float, GAP] = 0.2
