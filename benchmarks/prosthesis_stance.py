@@ -21,7 +21,7 @@ from geocontact.prosthesis.keel.vsf import fulcrum_of
 from geocontact.prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.prosthesis.model.leg_tree import GRAVITY
 from geocontact.prosthesis.simulate import Stance, simulate_stance
-from geocontact.prosthesis.synthetic.course import Course, course
+from geocontact.prosthesis.synthetic.course import GaitCourse, course
 from geocontact.prosthesis.synthetic.persons import PARTICIPANTS, STANCE, true_leg
 
 TOLERANCES = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5)
@@ -39,7 +39,7 @@ class Timing:
     most: float
 
 
-def driven(person: int, setting: str) -> tuple[Course, float]:
+def driven(person: int, setting: str) -> tuple[GaitCourse, float]:
     """The course and the fulcrum."""
     foot, fulcrum = vsf_foot(), fulcrum_of(setting, "pinned")
     leg = true_leg(PARTICIPANTS[person], sole_numbers()["below"].value)

@@ -192,3 +192,51 @@ def inverse_kinematics(
         solver.track(state) if k else solver.assemble(state)
         found[k] = [model.getCoordinateSet().get(name).getValue(state) for name in names]
     return time.process_time() - began, found
+
+
+def smooth_sphere(
+    modulus: float,
+    radius: float,
+    dissipation: float,
+    friction: Sequence[float],
+    depth: np.ndarray,
+    velocity: np.ndarray,
+) -> np.ndarray:
+    """Force of a `SmoothSphereHalfSpaceForce` along x and upwards [N], (s, 2), on a sphere that slides and sinks.
+
+    Friction is transition velocity, static, dynamic and viscous coefficient; velocities are along x and upwards.
+    """
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    model = opensim.Model()
+    body = opensim.Body("ball", 1.0, opensim.Vec3(0), opensim.Inertia(1.0, 1.0, 1.0))
+    joint = opensim.PlanarJoint("joint", model.getGround(), body)
+    model.addBody(body)
+    model.addJoint(joint)
+    ground, zero = model.getGround(), opensim.Vec3(0)
+    half = opensim.ContactHalfSpace(zero, opensim.Vec3(0, 0, -np.pi / 2), ground, "ground")
+    sphere = opensim.ContactSphere(radius, zero, body, "sphere")
+    model.addContactGeometry(half)
+    model.addContactGeometry(sphere)
+    force = opensim.SmoothSphereHalfSpaceForce("contact", sphere, half)
+    force.set_stiffness(modulus)
+    force.set_dissipation(dissipation)
+    force.set_transition_velocity(friction[0])
+    force.set_static_friction(friction[1])
+    force.set_dynamic_friction(friction[2])
+    force.set_viscous_friction(friction[3])
+    model.addForce(force)
+    state = model.initSystem()
+    names = [joint.get_coordinates(k).getName() for k in (1, 2)]
+    found = np.zeros((len(depth), 2))
+    for k, (deep, speeds) in enumerate(zip(depth, velocity, strict=True)):
+        _set(model, state, names, np.array([0.0, radius - deep]))
+        for name, speed in zip(names, speeds, strict=True):
+            model.updCoordinateSet().get(name).setSpeedValue(state, float(speed))
+        model.realizeDynamics(state)
+        values, labels = force.getRecordValues(state), force.getRecordLabels()
+        named = [labels.get(i).lower() for i in range(labels.getSize())]
+        at = next(i for i, name in enumerate(named) if "sphere" in name and "force" in name)
+        found[k] = [values.get(at), values.get(at + 1)]
+    return found

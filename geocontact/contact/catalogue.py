@@ -18,6 +18,8 @@ from geocontact.contact.elastic_foundation import (
 from geocontact.contact.hertz_ellipse import ellipse_force
 from geocontact.contact.hertz_line import line_load
 from geocontact.contact.hertz_point import point_force
+from geocontact.contact.smooth_half_space import half_space_coefficient, half_space_force
+from geocontact.contact.smooth_hunt_crossley import smoothed_sphere_force, stribeck_coefficient
 from geocontact.contact.sphere_foot import friction_coefficient, normal_force
 
 
@@ -81,8 +83,18 @@ PRESSING: tuple[ForceLaw, ...] = (
 )
 """How bodies press: 0 unless the first variable is positive, never negative."""
 
+INDENTATION = (Variable("depth", "m", 4e-3), Variable("rate", "m/s", 0.1))
+
+SMOOTHED: tuple[ForceLaw, ...] = (
+    ForceLaw(smoothed_sphere_force, INDENTATION, (1e6, 0.035, 1.5, 1e-3, 300.0, 50.0, 0.5)),
+    ForceLaw(half_space_force, INDENTATION, (1e6, 0.035, 1.5, 300.0, 50.0, 1e-5)),
+)
+"""How they press in a solver that needs derivatives: small, not 0, where the first variable is negative."""
+
 FRICTION: tuple[ForceLaw, ...] = (
     ForceLaw(friction_coefficient, (Variable("speed", "m/s", 0.3),), (0.25, 0.9, 0.7)),
+    ForceLaw(stribeck_coefficient, (Variable("speed", "m/s", 0.3),), (0.2, 0.9, 0.7, 0.4)),
+    ForceLaw(half_space_coefficient, (Variable("speed", "m/s", 0.3),), (0.2, 0.9, 0.7, 0.4)),
     ForceLaw(
         deflection_rate,
         (Variable("deflection", "m", 3e-5), Variable("speed", "m/s", 2e-3)),
@@ -101,4 +113,4 @@ HOLDING: tuple[ForceLaw, ...] = (
 )
 """How they hold what is displaced: odd in all variables together."""
 
-LAWS = PRESSING + FRICTION + HOLDING
+LAWS = PRESSING + SMOOTHED + FRICTION + HOLDING

@@ -55,7 +55,7 @@ CUTOFF = 10.0
 
 
 @dataclass(frozen=True, eq=False)
-class Course:
+class GaitCourse:
     """What drives a synthetic stance.
 
     Parameters
@@ -76,7 +76,7 @@ class Course:
     stance: float
 
 
-def course(leg: Leg, foot: VariableStiffnessFoot, fulcrum: float, stance: float, phase: float = 0.0) -> Course:
+def course(leg: Leg, foot: VariableStiffnessFoot, fulcrum: float, stance: float, phase: float = 0.0) -> GaitCourse:
     """Of one person on one setting.
 
     Parameters
@@ -102,7 +102,7 @@ def course(leg: Leg, foot: VariableStiffnessFoot, fulcrum: float, stance: float,
         raise ArithmeticError("the leg does not reach the floor along this course")
     angles = zero_lag(_with_swing(time, time[on], legs), 1.0 / RATE, CUTOFF)
     motion = LegMotion(leg, time, np.hstack([down, angles]))
-    return Course(motion, Push(time, other), (float(time[5]), float(time[-6])), stance)
+    return GaitCourse(motion, Push(time, other), (float(time[5]), float(time[-6])), stance)
 
 
 class _Reach:

@@ -31,7 +31,7 @@ KNEE_RADIUS, TOE_OUT, HEEL = 0.052, np.radians(6.0), 0.065
 
 
 @dataclass(frozen=True)
-class Participant:
+class Walker:
     """One row of table 1."""
 
     name: str
@@ -42,14 +42,14 @@ class Participant:
 
 
 PARTICIPANTS = (
-    Participant("P1", 77.3, 1.81, "right", "male"),
-    Participant("P2", 111.0, 1.75, "right", "male"),
-    Participant("P3", 83.8, 1.80, "left", "male"),
-    Participant("P4", 63.8, 1.63, "right", "female"),
+    Walker("P1", 77.3, 1.81, "right", "male"),
+    Walker("P2", 111.0, 1.75, "right", "male"),
+    Walker("P3", 83.8, 1.80, "left", "male"),
+    Walker("P4", 63.8, 1.63, "right", "female"),
 )
 
 
-def true_leg(person: Participant, below: float) -> Leg:
+def true_leg(person: Walker, below: float) -> Leg:
     """The leg as it is, which the markers only show; a left one as its mirror image.
 
     `below` is the height of the keel's axis above the sole [m].

@@ -24,8 +24,8 @@ from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
 from geocontact.prosthesis.model.leg import Leg, Side
 from geocontact.prosthesis.model.leg_tree import RECORDED, recorded_tree
 from geocontact.prosthesis.simulate import Stance, simulate_stance
-from geocontact.prosthesis.synthetic.course import Course, course
-from geocontact.prosthesis.synthetic.persons import STANCE, Participant, marker_places, true_leg
+from geocontact.prosthesis.synthetic.course import GaitCourse, course
+from geocontact.prosthesis.synthetic.persons import STANCE, Walker, marker_places, true_leg
 
 JOINTS, FINER, ROWS = 12, 2, 2
 """Of the truth's keel and sole: joints, factor on the rows of spheres, spheres in a row."""
@@ -57,7 +57,7 @@ class GaitTrial:
     """
 
     name: str
-    person: Participant
+    person: Walker
     setting: str
     standing: MarkerTrajectories
     walking: MarkerTrajectories
@@ -74,7 +74,7 @@ def true_foot() -> VariableStiffnessFoot:
     return vsf_foot(joints=JOINTS, finer=FINER, columns=ROWS)
 
 
-def synthetic_trial(person: Participant, setting: str, number: int = 1, *, machine_code: bool = True) -> GaitTrial:
+def synthetic_trial(person: Walker, setting: str, number: int = 1, *, machine_code: bool = True) -> GaitTrial:
     """One trial; the same numbers every time."""
     name = f"{person.name}_{setting}_{number}"
     rng = np.random.default_rng(crc32(name.encode()))
@@ -109,7 +109,7 @@ def synthetic_trial(person: Participant, setting: str, number: int = 1, *, machi
 
 def _seen(
     truth: Stance,
-    driven: Course,
+    driven: GaitCourse,
     leg: Leg,
     places: dict[str, dict[str, Float[np.ndarray, " 3"]]],
     rng: np.random.Generator,

@@ -1,0 +1,161 @@
+"""What a solution is worth between and beyond its points: residual, simulation from every node, open loop.
+
+A small residual at the points says nothing of the polynomials between them. So the equations are evaluated on a five
+times finer grid, and another method of integration follows the same controls: from every node over one interval and
+over a longer window, and once from the start to the end. That last run departs even from an exact solution where the
+motion is unstable (standing up grows a hundredfold in 1.5 s), so it is judged by what the errors of the intervals
+become on their way to the end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.dynamics.collocation.problem import ControlledSystem, ControlledTrial
+from geocontact.dynamics.collocation.residual import residuals
+from geocontact.dynamics.collocation.resimulation import Resimulation
+
+FINER = 5
+MARGIN = 3.0
+"""Times the expected open-loop error that is let pass: it is expected to first order only."""
+
+
+@dataclass(frozen=True)
+class CertificateLimits:
+    """What passes.
+
+    Parameters
+    ----------
+    force, moment
+        Residual between the points [N], [N m].
+    interval, window
+        Departure of a coordinate after one interval and after the window [rad, m].
+    seconds
+        The window.
+    """
+
+    force: float = 5.0
+    moment: float = 1.0
+    interval: float = 1e-3
+    window: float = 1e-2
+    seconds: float = 0.2
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """Of one trial's motion.
+
+    Parameters
+    ----------
+    converged
+        Whether all of it passes.
+    failed
+        What does not, in words.
+    force, moment
+        Largest residual on the finer grid [N], [N m]; the acceleration taken as the state's and as the derivative of
+        the rate's polynomial, whichever is worse.
+    interval, window, open_loop
+        Largest departure of a coordinate from the simulation [rad, m].
+    expected
+        Of the open loop, to first order: the departures of the intervals, grown on their way to the end [rad, m].
+    growth, growth_rate
+        Of the deviation (rad, m and per second, memory in its unit) that grows most from start to end: factor, and its
+        logarithm over the time [1/s].
+    """
+
+    converged: bool
+    failed: tuple[str, ...]
+    force: float
+    moment: float
+    interval: float
+    window: float
+    open_loop: float
+    expected: float
+    growth: float
+    growth_rate: float
+
+
+def certificate(
+    solved: bool,
+    system: ControlledSystem,
+    trial: ControlledTrial,
+    again: Resimulation,
+    turning: Sequence[bool],
+    limits: CertificateLimits | None = None,
+) -> Certificate:
+    """Judge one trial of a jerk-controlled system.
+
+    Parameters
+    ----------
+    solved
+        Whether the solver met its tolerance.
+    turning
+        Of each coordinate: whether it is an angle, so that its balance is in N m.
+    """
+    limit = limits or CertificateLimits()
+    left = fine_residual(system, trial, again)
+    turns = np.array(turning, bool)
+    force, moment = (float(left[:, which].max(initial=0.0)) for which in (~turns, turns))
+    n = len(again.stepper.equations.names)
+    ends, known = _after_intervals(again), again.states()
+    off = ends - known[1:]
+    interval = float(np.abs(off[:, :n]).max())
+    window = _window(again, limit.seconds, n)
+    begin, end = again.motion.breaks[[0, -1]]
+    run = again.after(known[0], again.motion.breaks)
+    open_loop = float(np.abs(run[-1, :n] - known[-1, :n]).max())
+    expected, growth = _grown(off, again.tangents(), n)
+    checks = {
+        "the solver did not meet its tolerance": solved,
+        f"residual between the points {force:.3g} N": force <= limit.force,
+        f"residual between the points {moment:.3g} N m": moment <= limit.moment,
+        f"departure after one interval {interval:.3g} rad or m": interval <= limit.interval,
+        f"departure after {limit.seconds:g} s {window:.3g} rad or m": window <= limit.window,
+        f"open loop {open_loop:.3g}, expected {expected:.3g} rad or m": open_loop <= MARGIN * expected + limit.interval,
+    }
+    failed = tuple(words for words, passed in checks.items() if not passed)
+    rate = float(np.log(growth) / (end - begin))
+    return Certificate(not failed, failed, force, moment, interval, window, open_loop, expected, growth, rate)
+
+
+def fine_residual(system: ControlledSystem, trial: ControlledTrial, again: Resimulation) -> Float[np.ndarray, "t n"]:
+    """Sizes of the balance on the finer grid, with either acceleration, whichever is larger."""
+    from casadi import Function
+
+    motion, n = again.motion, len(again.stepper.equations.names)
+    time = motion.times(FINER * motion.scheme.degree)
+    _, path = residuals(system, trial, motion, again.p, time)
+    x, u = motion.state(time), motion.control(time)
+    x[:, 2 * n : 3 * n] = motion.rate(time)[:, n : 2 * n]
+    balance = Function("balance", [system.x, system.u, system.w, system.p], [system.path]).map(len(time))
+    other = balance(x.T, u.T, trial.inputs(time).T, np.tile(again.p[:, None], (1, len(time)))).full().T
+    larger: Float[np.ndarray, "t n"] = np.maximum(np.abs(path), np.abs(other))
+    return larger
+
+
+def _after_intervals(again: Resimulation) -> Float[np.ndarray, "m s"]:
+    breaks = again.motion.breaks
+    starts = again.states()[:-1]
+    return np.array([again.after(start, breaks[k : k + 2])[-1] for k, start in enumerate(starts)])
+
+
+def _window(again: Resimulation, seconds: float, n: int) -> float:
+    """Largest departure of a coordinate over so many seconds from any node."""
+    breaks, largest = again.motion.breaks, 0.0
+    for begin, start in zip(breaks[:-1], again.states()[:-1], strict=True):
+        time = np.linspace(begin, min(begin + seconds, breaks[-1]), 21)
+        largest = max(largest, float(np.abs(again.after(start, time) - again.known(time))[:, :n].max()))
+    return largest
+
+
+def _grown(off: Float[np.ndarray, "m s"], tangents: Float[np.ndarray, "m s s"], n: int) -> tuple[float, float]:
+    """Departures carried to the end and summed by size [rad, m], and the largest growth of any deviation."""
+    to_end, total = np.eye(off.shape[1]), np.zeros(off.shape[1])
+    for departure, tangent in zip(off[::-1], tangents[::-1], strict=True):
+        total += np.abs(to_end @ departure)
+        to_end = to_end @ tangent
+    return float(total[:n].max()), float(np.linalg.norm(to_end, 2))

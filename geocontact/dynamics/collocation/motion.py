@@ -1,0 +1,80 @@
+"""A motion as collocation gives it: polynomials, interval by interval."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.dynamics.collocation.scheme import Scheme
+from geocontact.dynamics.recorded_inputs import RecordedInputs
+
+Times = Float[np.ndarray, " t"]
+
+
+@dataclass(frozen=True)
+class CollocatedMotion:
+    """States and controls of one trial.
+
+    Parameters
+    ----------
+    name
+        Of the trial.
+    scheme
+        Its points.
+    breaks
+        Where intervals begin and end [s].
+    states
+        At the start and the points of each interval.
+    controls
+        At the points of each interval.
+    end
+        Last state.
+    """
+
+    name: str
+    scheme: Scheme
+    breaks: Float[np.ndarray, " m1"]
+    states: Float[np.ndarray, "m d1 x"]
+    controls: Float[np.ndarray, "m d u"]
+    end: Float[np.ndarray, " x"]
+
+    @property
+    def nodes(self) -> Float[np.ndarray, "m1 x"]:
+        """States where intervals begin, and the last."""
+        return np.vstack([self.states[:, 0], self.end])
+
+    def times(self, each: int) -> Float[np.ndarray, " t"]:
+        """So many times even in every interval, both of its ends left out."""
+        places = (np.arange(each) + 0.5) / each
+        times: Times = (self.breaks[:-1, None] + np.diff(self.breaks)[:, None] * places).ravel()
+        return times
+
+    def state(self, time: Times) -> Float[np.ndarray, "t x"]:
+        """At any times."""
+        piece, where, _ = self._places(time)
+        return np.asarray(np.einsum("ts,tsx->tx", self.scheme.of_states(where), self.states[piece]))
+
+    def rate(self, time: Times) -> Float[np.ndarray, "t x"]:
+        """Derivative of the states' polynomials in time."""
+        piece, where, length = self._places(time)
+        return np.asarray(np.einsum("ts,tsx->tx", self.scheme.of_rates(where), self.states[piece]) / length[:, None])
+
+    def control(self, time: Times) -> Float[np.ndarray, "t u"]:
+        """At any times."""
+        piece, where, _ = self._places(time)
+        return np.asarray(np.einsum("ts,tsu->tu", self.scheme.of_controls(where), self.controls[piece]))
+
+    def as_inputs(self, which: slice) -> RecordedInputs:
+        """Some of the controls as inputs of equations: the same polynomials."""
+        powers = np.arange(self.scheme.degree)[::-1]
+        to_powers = np.linalg.inv(self.scheme.points[:, None] ** powers)
+        lengths = np.diff(self.breaks)[:, None] ** powers
+        coefficients = np.einsum("kd,mdu->muk", to_powers, self.controls[:, :, which]) / lengths[:, None]
+        return RecordedInputs(self.breaks, coefficients)
+
+    def _places(self, time: Times) -> tuple[Int[np.ndarray, " t"], Times, Times]:
+        piece = np.clip(np.searchsorted(self.breaks, time, "right") - 1, 0, len(self.states) - 1)
+        length = np.diff(self.breaks)[piece]
+        return piece, (time - self.breaks[piece]) / length, length

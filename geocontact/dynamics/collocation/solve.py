@@ -1,0 +1,284 @@
+"""The problem solved by IPOPT with MUMPS: progress, time-out, interruption, refinement, and words for how it ended."""
+
+from __future__ import annotations
+
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.dynamics.collocation.blocks import SparseProgram, sparse_program
+from geocontact.dynamics.collocation.motion import CollocatedMotion
+from geocontact.dynamics.collocation.problem import ControlProblem, checked
+from geocontact.dynamics.collocation.residual import interval_residuals
+from geocontact.dynamics.collocation.scheme import scheme
+from geocontact.dynamics.collocation.transcription import Mesh, Transcription, scales_from
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+Vector = Float[np.ndarray, " _"]
+Progress = Callable[[int, float, float], None]
+"""Iteration, objective, largest violation of a scaled constraint."""
+
+ENDINGS = {
+    "Solve_Succeeded": "solved",
+    "Solved_To_Acceptable_Level": "solved, but not to the tolerance",
+    "Infeasible_Problem_Detected": "no motion meets the constraints near where the search ended",
+    "Maximum_Iterations_Exceeded": "out of iterations",
+    "Maximum_CpuTime_Exceeded": "out of time",
+    "Maximum_WallTime_Exceeded": "out of time",
+    "User_Requested_Stop": "interrupted; the last iterate is kept",
+    "Restoration_Failed": "the search found no way back to the constraints",
+    "Search_Direction_Becomes_Too_Small": "the search came to a stop before the tolerance",
+    "Invalid_Number_Detected": "a function or derivative is not a number",
+}
+
+
+@dataclass(frozen=True)
+class SolverOptions:
+    """How a problem is discretised and solved.
+
+    Parameters
+    ----------
+    kind, degree
+        radau or legendre, and how many points an interval has.
+    intervals
+        Of every trial, even, unless meshes are given.
+    tolerance
+        Of the scaled problem.
+    iterations, seconds
+        At most so many, and CPU seconds.
+    refinements
+        How often intervals may be halved.
+    residual
+        Scaled residual between the points above which an interval is halved.
+    """
+
+    kind: str = "radau"
+    degree: int = 3
+    intervals: int = 50
+    tolerance: float = 1e-8
+    iterations: int = 1000
+    seconds: float = 600.0
+    refinements: int = 0
+    residual: float = 1e-3
+
+
+@dataclass(frozen=True)
+class CollocationResult:
+    """What was found, and how the search ended.
+
+    Parameters
+    ----------
+    solved
+        Whether the tolerance was met.
+    ending
+        In words.
+    motions, p
+        One for each trial, and the parameters.
+    objective, violation
+        Cost, and largest violation of a scaled constraint.
+    iterations, seconds
+        Taken, CPU seconds, over all meshes.
+    meshes
+        The last.
+    multipliers
+        Of the last problem: of the bounds and of the constraints, for the next start.
+    """
+
+    solved: bool
+    ending: str
+    motions: tuple[CollocatedMotion, ...]
+    p: Vector
+    objective: float
+    violation: float
+    iterations: int
+    seconds: float
+    meshes: tuple[Mesh, ...]
+    multipliers: tuple[Vector, Vector]
+
+
+def solve(
+    problem: ControlProblem,
+    options: SolverOptions | None = None,
+    *,
+    meshes: tuple[Mesh, ...] | None = None,
+    warm: CollocationResult | None = None,
+    progress: Progress | None = None,
+) -> CollocationResult:
+    """Solve, and halve intervals whose residual is too large as often as the options allow.
+
+    Ctrl-C ends the search after the present iteration and keeps it.
+
+    Parameters
+    ----------
+    warm
+        A result of the same problem on any mesh, from which the search starts instead.
+
+    InputError where the problem cannot be meant.
+    """
+    o = options or SolverOptions()
+    checked(problem)
+    points = scheme(o.kind, o.degree)
+    on = meshes or tuple(np.linspace(0.0, 1.0, o.intervals + 1) for _ in problem.trials)
+    scales, began, iterations = scales_from(problem), time.process_time(), 0
+    for left in range(o.refinements, -1, -1):
+        transcription = Transcription(problem, points, on, scales)
+        found = _solved(transcription, o, warm, progress, o.seconds - (time.process_time() - began))
+        iterations += found.iterations
+        finer = _refined(problem, found, scales.x, scales.path, o.residual)
+        if not left or not found.solved or all(len(a) == len(b) for a, b in zip(on, finer, strict=True)):
+            break
+        warm, on = found, finer
+    seconds = time.process_time() - began
+    return CollocationResult(**{**vars(found), "iterations": iterations, "seconds": seconds})
+
+
+def _solved(
+    on: Transcription, o: SolverOptions, warm: CollocationResult | None, progress: Progress | None, seconds: float
+) -> CollocationResult:
+    program = sparse_program(on.blocks(), on.size)
+    low, high = on.bounds()
+    start = {"x0": on.guess()}
+    if warm is not None:
+        durations = [float(m.breaks[-1] - m.breaks[0]) for m in warm.motions]
+        start["x0"] = on.packed(warm.p, durations, [m.state for m in warm.motions], [m.control for m in warm.motions])
+        if len(warm.multipliers[0]) == on.size:
+            start |= {"lam_x0": warm.multipliers[0], "lam_g0": warm.multipliers[1]}
+    watch = _watch(program, progress)
+    settings = _settings(o, warm is not None, "lam_x0" in start, max(seconds, 1e-3))
+    from casadi import nlpsol
+
+    solver = nlpsol(
+        "solver",
+        "ipopt",
+        program.value,
+        {
+            "grad_f": program.gradient,
+            "jac_g": program.jacobian,
+            "hess_lag": program.hessian,
+            "iteration_callback": watch,
+            "print_time": False,
+            "error_on_fail": False,
+            "ipopt": settings,
+        },
+    )
+    with _stopped_by_ctrl_c(watch):
+        answer = solver(**start, lbx=low, ubx=high, lbg=program.lower, ubg=program.upper)
+    status = solver.stats()["return_status"]
+    z = np.array(answer["x"]).ravel()
+    if status == "User_Requested_Stop" and watch.last is not None:
+        z = watch.last
+    cost, rows = (np.array(each).ravel() for each in program.value(z, []))
+    p, motions = on.unpacked(z)
+    violation = float(np.maximum(program.lower - rows, rows - program.upper).max(initial=0.0))
+    return CollocationResult(
+        status == "Solve_Succeeded",
+        ENDINGS.get(status, status.replace("_", " ").lower()),
+        motions,
+        p,
+        float(cost[0]),
+        violation,
+        int(solver.stats()["iter_count"]),
+        0.0,
+        on.meshes,
+        (np.array(answer["lam_x"]).ravel(), np.array(answer["lam_g"]).ravel()),
+    )
+
+
+def _settings(o: SolverOptions, warm: bool, multipliers: bool, seconds: float) -> dict[str, Any]:
+    settings: dict[str, Any] = {
+        "tol": o.tolerance,
+        "max_iter": o.iterations,
+        "max_cpu_time": seconds,
+        "linear_solver": "mumps",
+        "print_level": 0,
+        "sb": "yes",
+        "nlp_scaling_method": "none",  # variables and constraints have been scaled
+        "mu_strategy": "adaptive",
+    }
+    if warm:
+        settings |= {"mu_init": 1e-6, "mu_strategy": "monotone"}
+    if multipliers:
+        settings |= {
+            "warm_start_init_point": "yes",
+            "warm_start_bound_push": 1e-8,
+            "warm_start_mult_bound_push": 1e-8,
+        }
+    return settings
+
+
+def _refined(
+    problem: ControlProblem, found: CollocationResult, scale_x: Vector, scale_path: Vector, limit: float
+) -> tuple[Mesh, ...]:
+    """Meshes with every interval halved whose scaled residual between the points exceeds the limit."""
+    finer = []
+    for trial, motion, mesh in zip(problem.trials, found.motions, found.meshes, strict=True):
+        size = interval_residuals(problem.system, trial, motion, found.p, scale_x, scale_path)
+        middle = 0.5 * (mesh[:-1] + mesh[1:])
+        finer.append(np.sort(np.r_[mesh, middle[size > limit]]))
+    return tuple(finer)
+
+
+def _watch(program: SparseProgram, progress: Progress | None) -> Any:
+    """Keeps the last iterate, tells the progress, and stops the search when asked."""
+    from casadi import Callback, Sparsity, nlpsol_n_out, nlpsol_out
+
+    class Watch(Callback):
+        def __init__(self) -> None:
+            Callback.__init__(self)
+            self.last: Vector | None = None
+            self.count, self.stop = 0, False
+            self.sizes = {"x": program.size, "lam_x": program.size, "f": 1, "lam_p": 0}
+            self.construct("watch", {})
+
+        def get_n_in(self) -> int:
+            return int(nlpsol_n_out())
+
+        def get_n_out(self) -> int:
+            return 1
+
+        def get_name_in(self, i: int) -> str:
+            return str(nlpsol_out(i))
+
+        def get_name_out(self, i: int) -> str:
+            return "ret"
+
+        def get_sparsity_in(self, i: int) -> Sparsity:
+            return Sparsity.dense(self.sizes.get(nlpsol_out(i), len(program.lower)), 1)
+
+        def eval(self, arguments: Any) -> Any:
+            given = dict(zip(map(nlpsol_out, range(nlpsol_n_out())), arguments, strict=True))
+            self.last = np.array(given["x"]).ravel()
+            if progress is not None:
+                rows = np.array(given["g"]).ravel()
+                off = np.maximum(program.lower - rows, rows - program.upper).max(initial=0.0)
+                progress(self.count, float(given["f"]), float(off))
+            self.count += 1
+            return [int(self.stop)]
+
+    return Watch()
+
+
+@contextmanager
+def _stopped_by_ctrl_c(watch: Any) -> Iterator[None]:
+    """Ctrl-C asks the search to end; outside of the main thread it does what it did."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def ask(number: int, frame: FrameType | None) -> None:
+        watch.stop = True
+
+    before = signal.signal(signal.SIGINT, ask)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)

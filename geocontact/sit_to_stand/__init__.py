@@ -1,0 +1,1 @@
+"""Standing up from a chair: a planar leg chain on spheres, and what recordings say about the spheres."""

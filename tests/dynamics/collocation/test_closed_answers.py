@@ -1,0 +1,160 @@
+"""Collocation on problems with closed answers: orders of convergence, derivatives, refinement, how a search ends."""
+
+from __future__ import annotations
+
+import os
+import signal
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from casadi import SX, sin
+
+from geocontact.data.errors import InputError
+from geocontact.dynamics.collocation.blocks import sparse_program
+from geocontact.dynamics.collocation.problem import ControlProblem
+from geocontact.dynamics.collocation.scheme import scheme
+from geocontact.dynamics.collocation.solve import SolverOptions, solve
+from geocontact.dynamics.collocation.transcription import Transcription, scales_from
+from tests.dynamics.collocation.closed_problems import (
+    brachistochrone,
+    cycloid_time,
+    exponential,
+    move_to_rest,
+    quickest_move,
+    system,
+    trial,
+)
+
+
+@pytest.mark.parametrize(("kind", "degree", "order"), [("radau", 2, 3), ("legendre", 2, 4), ("radau", 3, 5)])
+def test_order_at_the_nodes(kind: str, degree: int, order: int) -> None:
+    """A linear system with a quadratic cost: errors fall with 2 d (Legendre) and 2 d - 1 (Radau)."""
+    problem, exact = exponential()
+    errors = []
+    for count in (2, 4, 8):
+        found = solve(problem, SolverOptions(kind, degree, count, 1e-12))
+        assert found.solved, found.ending
+        errors.append(abs(found.motions[0].end[0] - exact))
+    found = np.log2(errors[:-1]) - np.log2(errors[1:])
+    assert found[-1] == pytest.approx(order, abs=0.3), (found, errors)
+
+
+@pytest.mark.parametrize(("kind", "order"), [("radau", 3), ("legendre", 4)])
+def test_order_of_the_brachistochrone_s_time(kind: str, order: int) -> None:
+    errors = []
+    for count in (4, 8):
+        found = solve(brachistochrone(), SolverOptions(kind, 2, count, 1e-11))
+        assert found.solved, found.ending
+        errors.append(abs(found.objective - cycloid_time()))
+    assert np.log2(errors[0] / errors[1]) > order - 0.3, errors
+
+
+def test_what_is_a_polynomial_is_exact() -> None:
+    """The move to rest is a cubic: one interval of degree 3 has it everywhere."""
+    for kind in ("radau", "legendre"):
+        found = solve(move_to_rest(), SolverOptions(kind, 3, 1, 1e-11))
+        t = np.linspace(0.0, 1.0, 11)
+        np.testing.assert_allclose(found.motions[0].state(t)[:, 0], 3 * t**2 - 2 * t**3, atol=1e-9)
+        np.testing.assert_allclose(found.motions[0].control(t)[:, 0], 6 - 12 * t, atol=1e-7)
+        assert found.objective == pytest.approx(6.0, abs=1e-9)
+
+
+def test_quickest_move_takes_two_seconds() -> None:
+    found = solve(quickest_move(), SolverOptions(intervals=10))
+    assert found.objective == pytest.approx(2.0, abs=1e-6)
+    push = found.motions[0].control(np.array([0.3, 0.9, 1.1, 1.7]))
+    np.testing.assert_allclose(push[:, 0], [1, 1, -1, -1], atol=1e-4)
+
+
+def shared_parameter() -> ControlProblem:
+    """Two trials of x' = p sin(x) + u w + p x^2 with a path that a second control makes up for, p shared."""
+    x, u, p, w = SX.sym("x"), SX.sym("u", 2), SX.sym("p", 2), SX.sym("w")
+    rate = p[0] * sin(x) + u[0] * w + p[1] * x * x
+    path = u[1] - p[0] * x * u[0] + w
+    one = system(x, u, rate, cost=u[0] ** 4 + x * x * p[1] + u[1] ** 2, p=p, w=w, path=path, path_at_start=(0,))
+    one = replace(one, prior=(p[0] - 1) ** 4 + p[1] ** 2, end_cost=x**4 * p[0] * one.duration)
+    bare = [trial([s], [np.nan], (d, d), [0.3, 0.1]) for s, d in ((1, 1.0), (2, 0.7))]
+    each = [replace(one_trial, inputs=lambda t: np.cos(t)[:, None]) for one_trial in bare]
+    return ControlProblem(one, tuple(each), (np.full(2, -9.0), np.full(2, 9.0)), np.array([2.0, 0.5]))
+
+
+def test_gradient_and_hessian_against_differences() -> None:
+    """With shared parameters, inputs, a path and a duration among the variables."""
+    problem = shared_parameter()
+    meshes = np.array([0.0, 0.3, 1.0]), np.array([0.0, 0.5, 0.6, 1.0])
+    on = Transcription(problem, scheme("radau", 2), meshes, scales_from(problem))
+    program = sparse_program(on.blocks(), on.size)
+    rng = np.random.default_rng(0)
+    z, weights, h = on.guess() + 0.1 * rng.normal(size=on.size), rng.normal(size=len(program.lower)), 1e-5
+
+    def lagrangian_slope(at: np.ndarray) -> np.ndarray:
+        slope = np.array(program.gradient(at, [])[1]).ravel()
+        return 0.7 * slope + np.array(program.jacobian(at, [])[1]).T @ weights
+
+    value = lambda at: np.r_[tuple(np.array(each).ravel() for each in program.value(at, []))]  # noqa: E731
+    steps = h * np.eye(on.size)
+    rows = np.array([(value(z + s) - value(z - s)) / (2 * h) for s in steps]).T
+    np.testing.assert_allclose(np.array(program.gradient(z, [])[1]).ravel(), rows[0], atol=1e-8)
+    np.testing.assert_allclose(np.array(program.jacobian(z, [])[1]), rows[1:], atol=1e-8)
+    curves = np.array([(lagrangian_slope(z + s) - lagrangian_slope(z - s)) / (2 * h) for s in steps])
+    upper = np.array(program.hessian(z, [], 0.7, weights).full())
+    assert not np.tril(upper, -1).any()
+    np.testing.assert_allclose(upper + np.triu(upper, 1).T, curves, atol=1e-7)
+
+
+def test_refinement_halves_where_the_residual_is() -> None:
+    """Three intervals of degree 2 leave a residual between their points; halving follows it."""
+    options = SolverOptions(degree=2, intervals=3, refinements=3, residual=1e-6)
+    problem, exact = exponential()
+    coarse, fine = solve(problem, replace(options, refinements=0)), solve(problem, options)
+    assert len(fine.meshes[0]) > len(coarse.meshes[0])
+    assert abs(fine.motions[0].end[0] - exact) < 0.02 * abs(coarse.motions[0].end[0] - exact)
+
+
+def test_a_warm_start_takes_fewer_iterations() -> None:
+    cold = solve(brachistochrone(), SolverOptions(intervals=10))
+    again = solve(brachistochrone(), SolverOptions(intervals=10), warm=cold)
+    assert again.solved and again.iterations < cold.iterations / 2, (cold.iterations, again.iterations)
+    assert again.objective == pytest.approx(cold.objective, rel=1e-7)
+
+
+def test_ctrl_c_keeps_the_last_iterate() -> None:
+    told = []
+
+    def progress(iteration: int, objective: float, violation: float) -> None:
+        told.append((iteration, objective, violation))
+        if iteration == 3:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    before = signal.getsignal(signal.SIGINT)
+    found = solve(brachistochrone(), SolverOptions(intervals=10), progress=progress)
+    assert not found.solved and "interrupted" in found.ending
+    assert 4 <= len(told) <= 6 and found.objective == pytest.approx(told[-1][1]) and found.violation > 0.0
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_how_a_search_ends_is_said_in_words() -> None:
+    late = solve(brachistochrone(), SolverOptions(intervals=40, seconds=1e-3))
+    few = solve(brachistochrone(), SolverOptions(iterations=2))
+    problem = quickest_move()
+    short = replace(problem, trials=(replace(problem.trials[0], duration=(1.0, 1.0)),))
+    never = solve(short, SolverOptions(intervals=5))
+    assert (late.ending, few.ending) == ("out of time", "out of iterations")
+    assert not never.solved and "constraints" in never.ending, never.ending
+
+
+def test_problems_that_cannot_be_meant_are_refused() -> None:
+    problem = quickest_move()
+    one = problem.trials[0]
+    wrong = {
+        "trial u0: the search starts at 7": replace(one, guess_u=lambda t: np.full((len(t), 1), 7.0)),
+        "trial x0: the search starts at no number": replace(one, guess_x=lambda t: np.full((len(t), 2), np.nan)),
+        "trial end x1: no room between 3 and 2": replace(one, end=(np.array([0.0, 3.0]), np.array([0.0, 2.0]))),
+        "trial duration: 2 to 1 s is no time": replace(one, duration=(2.0, 1.0)),
+    }
+    for words, each in wrong.items():
+        with pytest.raises(InputError, match=words):
+            solve(replace(problem, trials=(each,)))
+    with pytest.raises(ValueError, match="not lobatto of degree 3"):
+        solve(problem, SolverOptions(kind="lobatto"))

@@ -1,0 +1,45 @@
+"""The chain's inertia against closed sums, and phase A of one synthetic trial: certified, near what is planted."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from geocontact.dynamics.collocation.certificate import certificate
+from geocontact.dynamics.collocation.resimulation import resimulation
+from geocontact.dynamics.collocation.solve import SolverOptions, solve
+from geocontact.dynamics.simulate import Stepper
+from geocontact.sit_to_stand.chain import TURNING, Subject, leg_chain
+from geocontact.sit_to_stand.feet import PLANTED, feet_on_ground
+from geocontact.sit_to_stand.phase_a import START, phase_a
+from geocontact.sit_to_stand.trials import StandingNoise, recorded, standing_up
+
+
+def test_chain_weighs_what_the_subject_weighs() -> None:
+    """In air, at rest: all of the weight upwards, none forwards; the whole mass along either axis."""
+    from casadi import Function
+
+    subject = Subject(82.0, 1.8)
+    e = feet_on_ground(subject).equations
+    balance = Function("b", [e.q, e.u, e.a, e.w, e.p], [e.balance])
+    high, still = np.r_[0.0, 5.0, 0.0, 0.3, -0.4, 0.2], np.zeros(6)
+    hanging = balance(high, still, still, np.zeros(3), PLANTED).full().ravel()
+    moved = balance(high, still, np.eye(6)[0], np.zeros(3), PLANTED).full().ravel()
+    np.testing.assert_allclose(hanging[:2], [0.0, -82.0 * 9.81], atol=1e-6)
+    assert moved[0] - hanging[0] == pytest.approx(-82.0, rel=1e-9)
+    assert sum(b.mass for b in leg_chain(subject).bodies) == pytest.approx(82.0, rel=1e-12)
+
+
+@pytest.mark.slow
+def test_one_trial_gives_its_parameters_back() -> None:
+    """Phase A on 50 intervals: solved, certified, each parameter nearer to the planted one than where it started."""
+    subject, noise = Subject(), StandingNoise()
+    feet = feet_on_ground(subject)
+    _, truth = standing_up(feet, subject)
+    problem = phase_a(feet, subject, [recorded(feet, truth.motions[0], truth.p, 100.0, noise, 34)], noise)
+    found = solve(problem, SolverOptions("radau", 4, 50, 1e-7))
+    again = resimulation(Stepper(feet.equations), found.motions[0], found.p, lambda t: np.zeros((len(t), 0)), range(3))
+    seen = certificate(found.solved, problem.system, problem.trials[0], again, TURNING)
+    assert seen.converged, seen
+    off = np.abs(found.p - PLANTED)
+    assert (off < 0.1 * np.abs(START - PLANTED)).all(), off
