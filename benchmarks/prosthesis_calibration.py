@@ -30,7 +30,7 @@ from geocontact.prosthesis.model.leg import Person
 from geocontact.prosthesis.model.leg_motion import LegMotion
 from geocontact.prosthesis.simulate import Push, simulate_stance
 from geocontact.prosthesis.stance_errors import PlateStance, StanceErrors, longest_stance, stance_errors
-from geocontact.prosthesis.synthetic.persons import PARTICIPANTS, Participant
+from geocontact.prosthesis.synthetic.persons import PARTICIPANTS, Walker
 from geocontact.prosthesis.synthetic.trial import GaitTrial, synthetic_trial
 
 SETTINGS, TRIALS = ("medium", "low", "high"), 3
@@ -130,7 +130,7 @@ def transfer_table(trials: Mapping[str, Recorded], foot: VariableStiffnessFoot) 
     return found
 
 
-def participant(person: Participant, samples: int, trials: int) -> None:
+def participant(person: Walker, samples: int, trials: int) -> None:
     """All of one person."""
     foot = vsf_foot()
     taken = {

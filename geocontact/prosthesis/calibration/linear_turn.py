@@ -27,7 +27,7 @@ def linear_rows(
     law: SoleLaw = keel.law
     zones = np.stack(list(keel.sole.spheres.zones.values()), axis=1).astype(float)
     depth, rate = motion.loads.depth, motion.rate
-    parts = [normal_force(depth, rate, *each) for each in _units(law)]
+    parts: list[np.ndarray] = [np.asarray(normal_force(depth, rate, *each)) for each in _units(law)]
     pressing = motion.loads.pressing[..., None]
     per_pressing = np.divide(motion.loads.force, pressing, out=np.zeros_like(motion.loads.force), where=pressing > 0.0)
     along = np.stack(

@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from geocontact.data.parameter import Parameter
 from geocontact.loads.sphere_set import SoleLaw
-from geocontact.prosthesis.keel.sole import Sole
+from geocontact.prosthesis.keel.sole import KeelSole
 
 Kind = Literal["stiffness", "damping", "friction"]
 KINDS: tuple[Kind, ...] = ("stiffness", "damping", "friction")
@@ -28,7 +28,7 @@ class ZoneParameters:
     spheres. ValueError where a usual number is 0: there is no factor on it.
     """
 
-    sole: Sole
+    sole: KeelSole
     usual: SoleLaw
 
     def __post_init__(self) -> None:

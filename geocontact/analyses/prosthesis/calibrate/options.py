@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import Degrees, Expression, Fraction, Length, Options, Spelled
+from geocontact.analyses.options import Degrees, Expression, Fraction, Length, Options, Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import KG, Plausible
 from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, SPEED, TILT
@@ -14,7 +15,8 @@ from geocontact.data.units import mm
 
 FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
 PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
-MOST_STARTS = 1000
+Fulcrum = Annotated[float, Typed("m", "length", "gc.mm(100)", "mm unless a unit is written")]
+MOST_STARTS, PITCH = 1000, math.radians(0.2)
 
 
 @dataclass(frozen=True)
@@ -91,7 +93,7 @@ class ProsthesisCalibrateOptions(Options):
     plates: Path
     side: Literal["right", "left"] = "right"
     setting: Literal["low", "medium", "high"] = "medium"
-    fulcrum: Annotated[Length | None, FULCRUM] = None
+    fulcrum: Annotated[Fulcrum | None, FULCRUM] = None
     law: Path | None = None
     plate: str | None = None
     starts: int = 8
@@ -99,7 +101,7 @@ class ProsthesisCalibrateOptions(Options):
     level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
     force_noise: Annotated[float, NOISE] = 3.0
     height_error: Annotated[Length, SHIFT, Spelled(default="0.5mm")] = 0.5e-3
-    pitch_error: Annotated[Degrees, TILT, Spelled(default=0.2)] = 0.0034906585
+    pitch_error: Annotated[Degrees, TILT, Spelled(default=0.2)] = PITCH
     speed_error: Annotated[float, SPEED] = 20e-3
     cutoff: Annotated[float, CUTOFF] = 15.0
     gap_limit: Annotated[float, GAP] = 0.2
