@@ -2,7 +2,8 @@
 
 The foot is taken to store energy in a leaf spring that is held at one end, supported by the slider and bent at the
 other through a cam: the recordings come without a drawing. So at the setting s its compliance is that of
-`prosthesis.keel.beam` with an overhang a - s, and something in series: K(s) = k / ((1 - q) C(s)/C(0) + q). Both the
+`below_knee_prosthesis.keel.beam` with an overhang a - s, and something in series: K(s) = k / ((1 - q) C(s)/C(0) + q).
+Both the
 spring's length and where the slider is at 0 are unknown; pinned at its end, C is proportional to (a - s)² and needs
 neither, clamped the slider is taken to start at the end. The curve over the angle is the mean of the recordings that
 are fitted to, as for the base model `elastic_joint`, which has k exp(growth s + bend s²) instead: three numbers each,
@@ -29,6 +30,7 @@ import numpy as np
 import pandas as pd
 
 from benchmarks import desr
+from geocontact.below_knee_prosthesis.keel.beam import SUPPORTS, Support, tip_compliance
 from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.law_parameters import Source
 from geocontact.chain.links import Law, Values
@@ -39,7 +41,6 @@ from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from geocontact.identify.optimise.least_squares import fit
 from geocontact.io.cases.gap_case import read_gap_case
-from geocontact.prosthesis.keel.beam import SUPPORTS, Support, tip_compliance
 from geocontact.systems.base import require_numbers
 from geocontact.systems.catalogue import system_of
 from geocontact.systems.elastic_joint import model as elastic_joint

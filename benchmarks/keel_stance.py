@@ -15,10 +15,10 @@ from scipy.interpolate import PchipInterpolator, make_interp_spline
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.pose_rate import pose_rate
-from geocontact.prosthesis.keel.quasi_static import QuasiStaticKeel
-from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot
 
 MASS, GRAVITY, LASTING, RATE = 84.0, 9.80665, 0.7, 200.0
 WEIGHT = MASS * GRAVITY

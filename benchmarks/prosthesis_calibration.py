@@ -15,23 +15,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
+from geocontact.below_knee_prosthesis.calibration.stance_from_markers import stance_from_markers
+from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
+from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
+from geocontact.below_knee_prosthesis.from_markers.walking import walked
+from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.below_knee_prosthesis.model.leg_motion import LegMotion
+from geocontact.below_knee_prosthesis.simulate import Push, simulate_stance
+from geocontact.below_knee_prosthesis.stance_errors import PlateStance, StanceErrors, longest_stance, stance_errors
+from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, Walker
+from geocontact.below_knee_prosthesis.synthetic.trial import GaitTrial, synthetic_trial
 from geocontact.identify.signals.agreement import agreement
-from geocontact.prosthesis.calibration.calibrate import SoleCalibration, calibrate
-from geocontact.prosthesis.calibration.recorded_stance import RecordedStance
-from geocontact.prosthesis.calibration.sole_residuals import SoleResiduals
-from geocontact.prosthesis.calibration.stance_from_markers import stance_from_markers
-from geocontact.prosthesis.from_markers.sides import as_right, of_side
-from geocontact.prosthesis.from_markers.standing import standing_leg
-from geocontact.prosthesis.from_markers.walking import walked
-from geocontact.prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.prosthesis.keel.vsf import fulcrum_of
-from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
-from geocontact.prosthesis.model.leg import Person
-from geocontact.prosthesis.model.leg_motion import LegMotion
-from geocontact.prosthesis.simulate import Push, simulate_stance
-from geocontact.prosthesis.stance_errors import PlateStance, StanceErrors, longest_stance, stance_errors
-from geocontact.prosthesis.synthetic.persons import PARTICIPANTS, Walker
-from geocontact.prosthesis.synthetic.trial import GaitTrial, synthetic_trial
 
 SETTINGS, TRIALS = ("medium", "low", "high"), 3
 CUTOFF, ANGLES_CUTOFF, GAP = 15.0, 6.0, 0.2

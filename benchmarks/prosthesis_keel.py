@@ -54,11 +54,11 @@ def compression_table() -> dict[str, Any]:
     """Both ends' numbers, how far rounding moves them, what is told apart, and simulated tests over the range."""
     import numpy as np
 
-    from geocontact.prosthesis.keel.beam import SUPPORTS, tip_compliance
-    from geocontact.prosthesis.keel.compression import Compressed, rounded, told_apart
-    from geocontact.prosthesis.keel.compression_test import TRAVEL, pressed_sole, pressed_tip
-    from geocontact.prosthesis.keel.vsf import SETTINGS, compression, vsf_keel
-    from geocontact.prosthesis.keel.vsf_foot import vsf_foot
+    from geocontact.below_knee_prosthesis.keel.beam import SUPPORTS, tip_compliance
+    from geocontact.below_knee_prosthesis.keel.compression import Compressed, rounded, told_apart
+    from geocontact.below_knee_prosthesis.keel.compression_test import TRAVEL, pressed_sole, pressed_tip
+    from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, compression, vsf_keel
+    from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 
     low, high = Compressed(0.066, SETTINGS["low"]), Compressed(0.151, SETTINGS["high"])
     at, gone = np.linspace(low.fulcrum, high.fulcrum, 35), np.array([TRAVEL])
@@ -97,12 +97,12 @@ def convergence() -> dict[str, Any]:
     import numpy as np
     from scipy.spatial.transform import RigidTransform
 
+    from geocontact.below_knee_prosthesis.keel.elastica import elastica
+    from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel
+    from geocontact.below_knee_prosthesis.keel.sole import KeelSole
+    from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_keel
     from geocontact.geometry.shapes import HalfSpace
     from geocontact.loads.sphere_set import SoleLaw, SphereSet
-    from geocontact.prosthesis.keel.elastica import elastica
-    from geocontact.prosthesis.keel.quasi_static import QuasiStaticKeel
-    from geocontact.prosthesis.keel.sole import KeelSole
-    from geocontact.prosthesis.keel.vsf import fulcrum_of, vsf_keel
 
     law, radius = SoleLaw(np.array([1e9]), np.zeros(1), 1.0, 1.0, np.zeros(1), np.zeros(1), 1.0), np.array([1e-9])
     found: dict[str, Any] = {}
@@ -137,8 +137,8 @@ def convergence() -> dict[str, Any]:
 def stances(rounds: int) -> dict[str, Any]:
     """Along a synthetic stance at low, medium and high: what leaving the inertia out, and the rates as well, costs."""
     from benchmarks.keel_stance import LEVEL
-    from geocontact.prosthesis.keel.dynamic import dynamic_keel
-    from geocontact.prosthesis.keel.vsf_foot import vsf_foot
+    from geocontact.below_knee_prosthesis.keel.dynamic import dynamic_keel
+    from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 
     foot = vsf_foot()
     even = replace(foot, law=replace(foot.law, static=foot.law.kinetic))
@@ -155,7 +155,7 @@ def stances(rounds: int) -> dict[str, Any]:
 def at_setting(setting: str, usual: tuple[Any, Any], even: tuple[Any, Any], rounds: int) -> dict[str, Any]:
     """Of the usual foot and the one with one coefficient of friction, each with its tree."""
     from benchmarks.keel_stance import LEVEL, finer, stance
-    from geocontact.prosthesis.keel.vsf import fulcrum_of
+    from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 
     fulcrum = fulcrum_of(setting)
     still, coarse = even[0].at(fulcrum), stance(even[0], fulcrum)
@@ -209,9 +209,9 @@ def soles(rounds: int) -> dict[str, Any]:
     import numpy as np
 
     from benchmarks.keel_stance import LEVEL, WEIGHT, stance
+    from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
+    from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
     from geocontact.loads.centre_of_pressure import centre_of_pressure
-    from geocontact.prosthesis.keel.vsf import fulcrum_of
-    from geocontact.prosthesis.keel.vsf_foot import vsf_foot
 
     fulcrum, found, centre = fulcrum_of("medium"), {}, {}
     for finer in FINER:
@@ -232,9 +232,9 @@ def zones() -> dict[str, Any]:
     import numpy as np
 
     from benchmarks.keel_stance import LEVEL, WEIGHT, stance
-    from geocontact.prosthesis.keel.vsf import fulcrum_of
-    from geocontact.prosthesis.keel.vsf_foot import vsf_foot
-    from geocontact.prosthesis.keel.zone_numbers import zone_numbers
+    from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
+    from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+    from geocontact.below_knee_prosthesis.keel.zone_numbers import zone_numbers
 
     foot, rng = vsf_foot(), np.random.default_rng(33)
     factor = dict(zip(foot.sole.spheres.zones, np.exp(rng.normal(0.0, 0.3, (5, 2))), strict=True))
@@ -280,9 +280,9 @@ def torsion() -> dict[str, Any]:
     from scipy.spatial.transform import RigidTransform, Rotation
 
     from benchmarks.keel_stance import LEVEL, heights
+    from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
+    from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
     from geocontact.loads.centre_of_pressure import centre_of_pressure
-    from geocontact.prosthesis.keel.vsf import fulcrum_of
-    from geocontact.prosthesis.keel.vsf_foot import vsf_foot
 
     turn, found = Rotation.from_euler("zx", np.radians([[-20.0, 3.0]])), {}
     for setting in ("low", "medium", "high"):

@@ -13,9 +13,7 @@ column's name.
 
 from __future__ import annotations
 
-import sys
 from importlib import import_module
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from geocontact.data.version import VERSION
@@ -197,18 +195,6 @@ __all__ = [
     "system_of",
     "virtual_markers",
 ]
-
-
-class _FrontDoor(ModuleType):
-    """Rooms of analyses before sub-packages of the same name, which importing one would put here."""
-
-    def __getattribute__(self, name: str) -> Any:
-        if name == "prosthesis":
-            return import_module("geocontact.analyses.prosthesis")
-        return super().__getattribute__(name)
-
-
-sys.modules[__name__].__class__ = _FrontDoor
 
 
 def __getattr__(name: str) -> Any:

@@ -8,8 +8,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from geocontact.analyses.prosthesis.trial_files import trial_files
-from geocontact.prosthesis.synthetic.persons import PARTICIPANTS
-from geocontact.prosthesis.synthetic.trial import synthetic_trial
+from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS
+from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
 
 PERSON, SETTING = 0, "medium"
 

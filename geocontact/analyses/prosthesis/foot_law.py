@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.spheres import read_law
 from geocontact.loads.sphere_set import SoleLaw
-from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot
 
 
 def foot_with_law(record: Record, foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:

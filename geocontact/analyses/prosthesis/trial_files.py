@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.below_knee_prosthesis.synthetic.trial import GaitTrial
 from geocontact.io.mocap.trc_writer import trc_text
-from geocontact.prosthesis.synthetic.trial import GaitTrial
 
 DECIMALS = 2
 """Of a millimetre."""

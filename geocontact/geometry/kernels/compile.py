@@ -28,7 +28,7 @@ ROOMS = (
     "chain",
     "axis_misalignment",
     "shoulder_exoskeleton",
-    "prosthesis",
+    "below_knee_prosthesis",
     "systems",
     "effects",
     "gap",

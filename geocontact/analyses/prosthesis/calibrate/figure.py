@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from jaxtyping import Float
 from numpy import ndarray
 
-from geocontact.prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.view.curves.style import DOUBLE, GREY, PALETTE, in_style, panels
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.prosthesis.calibration.calibrate import SoleCalibration
+from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 
 HEAD = """\
 # Force law of the sole, calibrated on one stance; SI units. Numbers marked unknown were never loaded, those marked

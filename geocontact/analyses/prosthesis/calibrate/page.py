@@ -13,7 +13,7 @@ from geocontact.analyses.figure_files import drawing
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import headline
 from geocontact.analyses.run_record import Record
-from geocontact.prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
 from geocontact.view.page.tables import frame_table, inputs_table
 from geocontact.view.page.write import write_page

@@ -11,19 +11,19 @@ from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.foot_law import foot_with_law
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import Errors, RecordedStance
+from geocontact.below_knee_prosthesis.calibration.stance_from_markers import stance_from_markers
+from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
+from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
+from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.below_knee_prosthesis.simulate import GATE
+from geocontact.below_knee_prosthesis.stance_errors import PlateStance
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
-from geocontact.prosthesis.calibration.recorded_stance import Errors, RecordedStance
-from geocontact.prosthesis.calibration.stance_from_markers import stance_from_markers
-from geocontact.prosthesis.from_markers.sides import as_right, of_side
-from geocontact.prosthesis.from_markers.standing import standing_leg
-from geocontact.prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.prosthesis.keel.vsf import fulcrum_of
-from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
-from geocontact.prosthesis.model.leg import Person
-from geocontact.prosthesis.simulate import GATE
-from geocontact.prosthesis.stance_errors import PlateStance
 
 BESIDE = 1.0
 """Lengths of the foot from its middle beyond which a centre of pressure is not its."""

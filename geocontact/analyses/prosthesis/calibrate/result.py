@@ -16,10 +16,10 @@ from geocontact.analyses.prosthesis.calibrate.law_file import law_toml
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.calibrate.page import write_calibration_page
 from geocontact.analyses.result import Result
+from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.identify.signals.agreement import Agreement
 from geocontact.io.text.results import write_table
-from geocontact.prosthesis.calibration.calibrate import SoleCalibration
-from geocontact.prosthesis.calibration.recorded_stance import RecordedStance
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

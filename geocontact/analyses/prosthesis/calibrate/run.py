@@ -10,10 +10,10 @@ from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrate
 from geocontact.analyses.prosthesis.calibrate.read import FootOnPlate
 from geocontact.analyses.prosthesis.calibrate.result import ProsthesisCalibrateResult
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.calibration.calibrate import calibrate
+from geocontact.below_knee_prosthesis.calibration.zone_parameters import BELIEVED
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import agreement
-from geocontact.prosthesis.calibration.calibrate import calibrate
-from geocontact.prosthesis.calibration.zone_parameters import BELIEVED
 
 SHARE_OF_DEPTH = 1.0
 """Of its radius that a sphere may sink before its centre is under the ground."""

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
+from geocontact.below_knee_prosthesis.from_markers.sides import of_side
+from geocontact.below_knee_prosthesis.keel.on_tree import coordinates
+from geocontact.below_knee_prosthesis.model.leg import Side
+from geocontact.below_knee_prosthesis.model.leg_tree import RECORDED, SOCKET
+from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.io.opensim.external_loads_writer import write_external_loads
 from geocontact.io.opensim.storage_writer import write_storage
-from geocontact.prosthesis.from_markers.sides import of_side
-from geocontact.prosthesis.keel.on_tree import coordinates
-from geocontact.prosthesis.model.leg import Side
-from geocontact.prosthesis.model.leg_tree import RECORDED, SOCKET
-from geocontact.prosthesis.simulate import Stance
 from geocontact.view.surfaces.line_series import LineSeries, write_line_series
 
 FOOT: dict[Side, str] = {"right": "calcn_r", "left": "calcn_l"}

@@ -13,10 +13,10 @@ from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
-from geocontact.prosthesis.from_markers.sides import of_side
-from geocontact.prosthesis.model.leg_tree import GRAVITY, RECORDED, recorded_tree
-from geocontact.prosthesis.simulate import Stance
-from geocontact.prosthesis.stance_errors import PlateStance, at_times
+from geocontact.below_knee_prosthesis.from_markers.sides import of_side
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, RECORDED, recorded_tree
+from geocontact.below_knee_prosthesis.simulate import Stance
+from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times
 from geocontact.view.page.content import Curve, Curves, Page, Section, Words
 from geocontact.view.page.linkage import Linkage
 from geocontact.view.page.scene import Scene

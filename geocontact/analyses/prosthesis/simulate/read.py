@@ -14,20 +14,20 @@ from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.prosthesis.foot_law import foot_with_law
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.from_markers.marker_names import PELVIS
+from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
+from geocontact.below_knee_prosthesis.from_markers.standing import pelvis_frame, standing_leg
+from geocontact.below_knee_prosthesis.from_markers.walking import Walked, functional_hip, walked
+from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.model.leg import Leg, Person
+from geocontact.below_knee_prosthesis.model.leg_tree import recorded_tree
+from geocontact.below_knee_prosthesis.simulate import GATE, Push
+from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times, longest_stance
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force_plates
-from geocontact.prosthesis.from_markers.marker_names import PELVIS
-from geocontact.prosthesis.from_markers.sides import as_right, of_side
-from geocontact.prosthesis.from_markers.standing import pelvis_frame, standing_leg
-from geocontact.prosthesis.from_markers.walking import Walked, functional_hip, walked
-from geocontact.prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.prosthesis.keel.vsf import fulcrum_of
-from geocontact.prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
-from geocontact.prosthesis.model.leg import Leg, Person
-from geocontact.prosthesis.model.leg_tree import recorded_tree
-from geocontact.prosthesis.simulate import GATE, Push
-from geocontact.prosthesis.stance_errors import PlateStance, at_times, longest_stance
 
 FARTHEST = 0.4
 """m; of the centre of pressure from the heel, seen from above."""

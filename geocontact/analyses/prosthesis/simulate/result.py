@@ -17,11 +17,11 @@ from geocontact.analyses.prosthesis.simulate.page import write_stance_page
 from geocontact.analyses.prosthesis.simulate.read import Walk
 from geocontact.analyses.prosthesis.simulate.tables import curves_table, errors_table, numbers_table, stance_table
 from geocontact.analyses.result import Result
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.simulate import Stance
+from geocontact.below_knee_prosthesis.stance_errors import StanceErrors, at_times
 from geocontact.data.sourced_number import Number
 from geocontact.io.text.results import write_table
-from geocontact.prosthesis.model.leg_tree import GRAVITY
-from geocontact.prosthesis.simulate import Stance
-from geocontact.prosthesis.stance_errors import StanceErrors, at_times
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -10,11 +10,11 @@ from geocontact.analyses.prosthesis.simulate.read import Walk
 from geocontact.analyses.prosthesis.simulate.result import ProsthesisSimulateResult
 from geocontact.analyses.prosthesis.simulate.tables import all_numbers
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.simulate import GATE, Stance, simulate_stance
+from geocontact.below_knee_prosthesis.stance_errors import StanceErrors, longest_stance, stance_errors
 from geocontact.contact.bushing import PISTONING, PRINTED, SOCKET
 from geocontact.data.errors import InputError
-from geocontact.prosthesis.model.leg_tree import GRAVITY
-from geocontact.prosthesis.simulate import GATE, Stance, simulate_stance
-from geocontact.prosthesis.stance_errors import StanceErrors, longest_stance, stance_errors
 
 BEFORE, AFTER = 0.12, 0.1
 """s; simulated before the plate's touch-down and after its toe-off, as far as the markers go."""

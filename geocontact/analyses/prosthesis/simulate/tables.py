@@ -7,14 +7,14 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
+from geocontact.below_knee_prosthesis.from_markers.sides import of_side
+from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
+from geocontact.below_knee_prosthesis.keel.vsf import numbers as keel_numbers
+from geocontact.below_knee_prosthesis.model.leg import Leg, Side
+from geocontact.below_knee_prosthesis.model.leg_tree import SOCKET
+from geocontact.below_knee_prosthesis.simulate import Stance
+from geocontact.below_knee_prosthesis.stance_errors import StanceErrors
 from geocontact.data.sourced_number import Number
-from geocontact.prosthesis.from_markers.sides import of_side
-from geocontact.prosthesis.keel.sole import numbers as sole_numbers
-from geocontact.prosthesis.keel.vsf import numbers as keel_numbers
-from geocontact.prosthesis.model.leg import Leg, Side
-from geocontact.prosthesis.model.leg_tree import SOCKET
-from geocontact.prosthesis.simulate import Stance
-from geocontact.prosthesis.stance_errors import StanceErrors
 
 UNITS = {"impulse": "s"}
 """Of quantities that are not shares: forces are over body weight, centres of pressure over the foot's length."""

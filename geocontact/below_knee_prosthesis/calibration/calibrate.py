@@ -1,0 +1,153 @@
+"""Fifteen numbers of a sole from recorded stances, with the keel without inertia along the recorded poses.
+
+From each of several starts, spread over the bounds (Latin hypercube), a few turns of solving the keel and fitting
+stiffness and damping at its depths (`linear_turn`); the best of them are finished over all numbers by damped
+Gauss-Newton steps. What is made least is the sum of squares of force and centre of pressure, each in units of its
+noise, and of the numbers' logarithms about the usual ones, in units of what is believed beforehand.
+
+Deviation from the study of the variable-stiffness foot, which fits the size of the force only, in newtons, without
+beliefs: the direction of the force and the centre are recorded as well, and tell zones apart that the size does not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.below_knee_prosthesis.calibration.known_numbers import Knowledge, knowledge
+from geocontact.below_knee_prosthesis.calibration.linear_turn import bounded_fit, linear_rows
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.identify.optimise.bounded_gauss_newton import least
+from geocontact.identify.optimise.quasi_newton import spread_starts
+from geocontact.loads.sphere_set import SoleLaw
+
+STARTS, TURNS, FINISHED = 8, 4, 2
+"""Starts beside the usual numbers, linear turns of each, and how many are finished."""
+ROUNDS, ENOUGH = 30, 1e-2
+"""Evaluations of a search, and the cost that is not worth another."""
+SHARES = (1.0, 0.7, 0.5, 0.35, 0.2)
+"""Of the way from the usual numbers to a start along which the keel may find no balance."""
+HELD = np.log(3.0)
+"""Standard deviation of a number's step in a linear turn: depths are held only so far."""
+
+
+@dataclass(frozen=True, eq=False)
+class SoleCalibration:
+    """What was found.
+
+    Parameters
+    ----------
+    law
+        The foot's law with the numbers.
+    logarithms
+        Of the numbers over the usual ones.
+    cost
+        Half the sum of squares, beliefs included.
+    costs
+        After the linear turns, of every start; the usual numbers' first.
+    converged
+        Whether the search of the best ended by itself.
+    solved
+        How often the keel was solved along a stance.
+    """
+
+    residuals: SoleResiduals
+    law: SoleLaw
+    logarithms: Float[np.ndarray, " p"]
+    cost: float
+    costs: tuple[float, ...]
+    converged: bool
+    knowledge: Knowledge
+
+    @property
+    def solved(self) -> int:
+        """How often the keel was solved along a stance."""
+        return self.residuals.solved
+
+    @property
+    def foot(self) -> VariableStiffnessFoot:
+        """With the law that was found."""
+        usual = self.residuals.foot
+        return VariableStiffnessFoot(usual.keel, usual.sole, self.law)
+
+
+def calibrate(
+    stances: Sequence[RecordedStance],
+    foot: VariableStiffnessFoot,
+    *,
+    starts: int = STARTS,
+    finished: int = FINISHED,
+    seed: int = 0,
+    level: float = 0.95,
+) -> SoleCalibration:
+    """From one stance, or one of each setting; around the law of `foot`.
+
+    ArithmeticError where the keel finds no equilibrium from any start.
+    """
+    residuals = SoleResiduals.of(stances, foot)
+    zones = residuals.zones
+    usual = zones.values_of(zones.usual)
+    begun = []
+    for start in spread_starts(zones.parameters(), starts, seed):
+        z = np.array([np.log(start.get(name, value) / value) for name, value in zip(zones.names, usual, strict=True)])
+        begun.append(turned(residuals, balancing(residuals, z)))
+    if not np.isfinite([cost for _, cost in begun]).any():
+        raise ArithmeticError("the keel has no equilibrium along the stance from any start")
+    best = sorted(begun, key=lambda each: each[1])[:finished]
+    searches = [least(residuals, residuals.slope, z, -zones.reach, zones.reach, ROUNDS, ENOUGH) for z, _ in best]
+    found = min(searches, key=lambda each: each.cost)
+    return SoleCalibration(
+        residuals,
+        zones.law(residuals.values(found.x)),
+        found.x,
+        found.cost,
+        tuple(cost for _, cost in begun),
+        found.finished,
+        knowledge(residuals, found.x, level),
+    )
+
+
+def balancing(residuals: SoleResiduals, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
+    """The logarithms, or so much of them that the keel balances in every frame; none of them where it never does."""
+    for share in SHARES:
+        try:
+            for place in range(len(residuals.stances)):
+                residuals.motion(share * z, place)
+        except ArithmeticError:
+            continue
+        return np.asarray(share * z)
+    return 0.0 * z
+
+
+def turned(
+    residuals: SoleResiduals, z: Float[np.ndarray, " p"], turns: int = TURNS
+) -> tuple[Float[np.ndarray, " p"], float]:
+    """The best of the logarithms along some linear turns, and its cost; infinite where the keel never balances."""
+    zones = residuals.zones
+    k = 2 * len(zones.zones)
+    usual = zones.values_of(zones.usual)[:k]
+    best, lowest, now = z, np.inf, z
+    for turn in range(turns + 1):
+        off = residuals(now)
+        cost = 0.5 * float(off @ off)
+        if cost < lowest:
+            best, lowest = now, cost
+        if turn == turns:
+            break
+        try:
+            rows = [
+                linear_rows(stance, residuals.keel(now, stance), residuals.motion(now, place)[0], noise)
+                for place, (stance, noise) in enumerate(zip(residuals.stances, residuals.noise, strict=True))
+            ]
+        except ArithmeticError:
+            return best, lowest
+        matrix, target = (np.concatenate(each) for each in zip(*rows, strict=True))
+        values = residuals.values(now)[:k]
+        fitted = bounded_fit(matrix, target, values, np.full(k, HELD), usual, zones.reach[:k])
+        now = np.concatenate([np.log(fitted / usual), now[k:]])
+    return best, lowest

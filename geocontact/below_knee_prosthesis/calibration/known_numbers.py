@@ -1,0 +1,102 @@
+"""What stances tell of each number of the zones: intervals, and whether it is known, only believed, or unknown.
+
+Residuals of a model that is not quite right remember from frame to frame. So the covariance is that of least squares
+under noise with a memory (`noise.autocorrelation`), the beliefs beforehand standing in as one more measurement of each
+number.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.below_knee_prosthesis.calibration.sole_residuals import PAUSE, SoleResiduals
+from geocontact.identify.identifiability import Identifiability, identifiability
+from geocontact.identify.noise.autocorrelation import Autocorrelation, autocorrelation_of, sandwich
+
+Verdict = Literal["known", "believed", "unknown"]
+HALF = 0.5
+"""Share of the belief's standard deviation that is left of a number that the data make known, at most."""
+DEAD = 1e-9
+"""Sensitivity, over the largest, of a number that has no effect."""
+
+
+@dataclass(frozen=True)
+class KnownNumber:
+    """One number of a zone.
+
+    Parameters
+    ----------
+    lower, upper
+        Of the interval; the bounds of the search where it is unknown.
+    verdict
+        "known": the data at least halve the width of the belief. "believed": they do not. "unknown": the stances never
+        loaded the zone so that the number has any effect; its value is the usual one and says nothing.
+    """
+
+    name: str
+    unit: str
+    value: float
+    lower: float
+    upper: float
+    verdict: Verdict
+
+
+@dataclass(frozen=True, eq=False)
+class Knowledge:
+    """Of all numbers.
+
+    Parameters
+    ----------
+    told_apart
+        By the data alone, of those that have an effect.
+    memory
+        Of the residuals.
+    half
+        Half the interval of each number's logarithm; infinite where it is unknown.
+    """
+
+    numbers: tuple[KnownNumber, ...]
+    told_apart: Identifiability
+    memory: Autocorrelation
+    half: Float[np.ndarray, " p"]
+
+
+def knowledge(residuals: SoleResiduals, z: Float[np.ndarray, " p"], level: float = 0.95) -> Knowledge:
+    """At the logarithms that a calibration found, with intervals of probability `level`."""
+    zones, values = residuals.zones, residuals.values(z)
+    off, slope = residuals.of_data(z), residuals.slope_of_data(z)
+    size = np.linalg.norm(slope, axis=0)
+    alive = size > DEAD * max(float(size.max()), DEAD)
+    time, order = residuals.channel_by_channel()
+    memory, covariance = _remembering(time, off[order], slope[order][:, alive], z[alive], zones.sd[alive])
+    half = np.full(len(z), np.inf)
+    half[alive] = [memory.half_width(np.sqrt(covariance[:, k, k]), level) for k in range(int(alive.sum()))]
+    sd = np.full(len(z), np.inf)
+    sd[alive] = np.sqrt(np.einsum("g,gkk->k", memory.weight, covariance))
+    rows = []
+    for k, each in enumerate(zones.parameters()):
+        verdict: Verdict = "unknown" if not alive[k] else "known" if sd[k] <= HALF * zones.sd[k] else "believed"
+        reach = np.exp(half[k]) if alive[k] else np.inf
+        ends = max(each.lower, values[k] / reach), min(each.upper, values[k] * reach)
+        rows.append(KnownNumber(each.name, each.unit, float(values[k]), float(ends[0]), float(ends[1]), verdict))
+    names = [name for name, on in zip(zones.names, alive, strict=True) if on]
+    return Knowledge(tuple(rows), identifiability(names, slope[:, alive]), memory, half)
+
+
+def _remembering(
+    time: Float[np.ndarray, " n"],
+    off: Float[np.ndarray, " n"],
+    slope: Float[np.ndarray, "n p"],
+    z: Float[np.ndarray, " p"],
+    sd: Float[np.ndarray, " p"],
+) -> tuple[Autocorrelation, Float[np.ndarray, "g p p"]]:
+    """Memory of the residuals and covariance of the numbers with each of its times, beliefs as measurements far off."""
+    far = time[-1] * (2.0 + np.arange(len(z))) + PAUSE
+    at = np.concatenate([time, far])
+    both = np.vstack([slope, np.diag(1.0 / sd)])
+    memory = autocorrelation_of(at, np.concatenate([off, z / sd]), both)
+    return memory, sandwich(memory, at, both)

@@ -1,0 +1,127 @@
+"""What recorded stances leave over at given numbers of the zones, in units of the noise, and its derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.calibration.slip import slipping, with_slip
+from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.identify.optimise.least_squares import divided
+
+STEP = 1e-5
+"""Of a logarithm, for differences."""
+FIRST, AGAIN = 6, 2
+"""Turns of the search for the slip, to begin with and at other numbers."""
+NO_BALANCE = 100.0
+"""Residual, in units of the noise, of a stance along which the keel finds no equilibrium."""
+
+PAUSE = 1000.0
+"""Lengths of a stance between channels, so that none remembers another."""
+
+
+@dataclass(eq=False)
+class SoleResiduals:
+    """Residuals of all stances as functions of the logarithms of the numbers over the usual ones.
+
+    Parameters
+    ----------
+    noise
+        Of each stance, in the channels' units, the two of the slip last.
+    slips
+        Correction of each stance's speed along the floor at the last numbers that were asked for [m/s].
+    solved
+        How often the keel was solved along a stance.
+    """
+
+    stances: Sequence[RecordedStance]
+    foot: VariableStiffnessFoot
+    zones: ZoneParameters
+    noise: list[Float[np.ndarray, "t c"]]
+    slips: list[Float[np.ndarray, "t 2"]]
+    solved: int = 0
+
+    @classmethod
+    def of(cls, stances: Sequence[RecordedStance], foot: VariableStiffnessFoot) -> SoleResiduals:
+        """Around the foot's law, with the noise at it."""
+        noise, slips = [], []
+        for stance in stances:
+            keel = foot.at(stance.fulcrum)
+            still = np.zeros((len(stance.time), 2))
+            slips.append(slipping(stance, keel, still, FIRST)[1])
+            noise.append(np.hstack([with_slip(stance, slips[-1]).noise(keel), still + stance.errors.speed]))
+        return cls(stances, foot, ZoneParameters(foot.sole, foot.law), noise, slips)
+
+    def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
+        """The numbers."""
+        return np.asarray(self.zones.values_of(self.zones.usual) * np.exp(z))
+
+    def keel(self, z: Float[np.ndarray, " p"], stance: RecordedStance) -> QuasiStaticKeel:
+        """With these numbers at the stance's fulcrum."""
+        law = self.zones.law(self.values(z))
+        return QuasiStaticKeel(self.foot.keel, stance.fulcrum, self.foot.sole, law)
+
+    def motion(self, z: Float[np.ndarray, " p"], place: int) -> tuple[KeelMotion, Float[np.ndarray, "t 2"]]:
+        """Along one stance, and its slip [m/s]; ArithmeticError where the keel finds no equilibrium."""
+        self.solved += 1 + AGAIN
+        stance = self.stances[place]
+        return slipping(stance, self.keel(z, stance), self.slips[place], AGAIN)
+
+    def of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
+        """Predicted less measured over the noise, stance by stance, frame by frame."""
+        return self._of_data(z)[0]
+
+    def _of_data(self, z: Float[np.ndarray, " p"]) -> tuple[Float[np.ndarray, " n"], list[Float[np.ndarray, "t 2"]]]:
+        """The same, and the slips."""
+        parts, slips = [], []
+        for place, (stance, noise) in enumerate(zip(self.stances, self.noise, strict=True)):
+            measured = self.measured(place) / noise
+            try:
+                motion, slip = self.motion(z, place)
+            except ArithmeticError:
+                parts.append(np.full(int(np.isfinite(measured).sum()), NO_BALANCE))
+                slips.append(self.slips[place])
+                continue
+            predicted = np.hstack([stance.predicted(self.keel(z, stance), motion), slip]) / noise
+            parts.append(divided(predicted, measured, np.ones(noise.shape[1])))
+            slips.append(slip)
+        return np.concatenate(parts), slips
+
+    def measured(self, place: int) -> Float[np.ndarray, "t c"]:
+        """Channels of one stance, no slip last."""
+        stance = self.stances[place]
+        return np.hstack([stance.measured, np.zeros((len(stance.time), 2))])
+
+    def __call__(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " m"]:
+        """Those of the data, then what the numbers differ from the usual ones in standard deviations beforehand."""
+        data, self.slips = self._of_data(z)
+        return np.concatenate([data, z / self.zones.sd])
+
+    def slope(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "m p"]:
+        """Derivatives of `__call__` by the logarithms."""
+        return np.vstack([self.slope_of_data(z), np.diag(1.0 / self.zones.sd)])
+
+    def slope_of_data(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
+        """Derivatives of `of_data` by the logarithms, by one-sided differences."""
+        base = self.of_data(z)
+        return np.stack([(self.of_data(z + STEP * unit) - base) / STEP for unit in np.eye(len(z))], axis=1)
+
+    def channel_by_channel(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+        """Times of the data's residuals in that order [s], a pause after each channel, and the residuals' places."""
+        times, places, first, late = [], [], 0, 0.0
+        for place, stance in enumerate(self.stances):
+            there = np.isfinite(self.measured(place))
+            number = np.full(there.shape, -1)
+            number[there] = first + np.arange(int(there.sum()))
+            first += int(there.sum())
+            for column, on in zip(number.T, there.T, strict=True):
+                times.append(stance.time[on] - stance.time[0] + late)
+                places.append(column[on])
+                late += PAUSE * float(stance.time[-1] - stance.time[0])
+        return np.concatenate(times), np.concatenate(places)

@@ -1,0 +1,82 @@
+"""A recorded stance from markers on the socket and a plate: the foot moves as the cluster does."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+from scipy.interpolate import make_interp_spline
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import Errors, RecordedStance
+from geocontact.below_knee_prosthesis.from_markers.marker_names import BODIES, MAP
+from geocontact.below_knee_prosthesis.model.leg import Leg
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.simulate import share_of_foot
+from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times, longest_stance
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.dynamics.segment_poses import segment_poses
+from geocontact.identify.signals.filled import filled_and_smoothed
+from geocontact.loads.pose_rate import pose_rate
+
+RATE, AROUND = 200.0, 0.04
+"""Hz, and s before and after the stance that are taken along."""
+USUAL = Errors()
+SMOOTH = 5
+"""Degree of the splines through the markers."""
+
+
+def stance_from_markers(
+    seen: MarkerTrajectories,
+    leg: Leg,
+    plate: PlateStance,
+    fulcrum: float,
+    length: float,
+    *,
+    cutoff: float | None,
+    gap_limit: float,
+    errors: Errors = USUAL,
+) -> RecordedStance:
+    """Of a right leg.
+
+    Parameters
+    ----------
+    length
+        Of the keel [m].
+    cutoff
+        Of a zero-lag low-pass of the markers [Hz]; the study's 6 Hz smooth the touch-down away.
+
+    InputError where markers are missing or do not cover the stance on the plate.
+    """
+    span = longest_stance(plate.time, plate.force[:, 1])
+    if span is None:
+        raise InputError("", "plate", "it carries no whole stance", "give another plate")
+    start, stop = max(span[0] - AROUND, float(seen.time[0])), min(span[1] + AROUND, float(seen.time[-1]))
+    if start >= span[0] or stop <= span[1]:
+        what = f"markers are from {seen.time[0]:.2f} to {seen.time[-1]:.2f} s, the stance from {span[0]:.2f} to"
+        raise InputError(
+            seen.source, "", f"{what} {span[1]:.2f} s", "markers must cover the stance; one clock for both"
+        )
+    time = start + np.arange(int((stop - start) * RATE) + 1) / RATE
+    poses = _keel_poses(seen, leg, time, cutoff, gap_limit)
+    force, centre = (at_times(time, plate.time, each) for each in (plate.force, plate.centre))
+    share = share_of_foot(poses, length, centre)
+    return RecordedStance(time, poses, pose_rate(time, poses), fulcrum, force, share, leg.person.mass * GRAVITY, errors)
+
+
+def _keel_poses(
+    seen: MarkerTrajectories, leg: Leg, time: Float[np.ndarray, " t"], cutoff: float | None, gap_limit: float
+) -> RigidTransform:
+    names = BODIES["shank"]
+    missing = [name for name in names if name not in seen.names]
+    if missing:
+        raise InputError(seen.source, "", f"no marker {', '.join(missing)}", MAP)
+    places = seen.of(names).reshape(len(seen.time), -1)
+    try:
+        even, smooth = filled_and_smoothed(seen.time, places, cutoff=cutoff, longest_gap=gap_limit)
+    except ValueError as error:
+        raise InputError(seen.source, "", str(error), "fill the gaps, or give another `gap_limit`") from error
+    dense = make_interp_spline(even, smooth, k=SMOOTH)(time).reshape(len(time), -1, 3)
+    by_name = {marker.name: marker.location for marker in leg.markers}
+    shank = segment_poses(dense, np.array([by_name[name] for name in names]))[0]
+    return shank * RigidTransform.from_components(leg.keel, leg.turn)

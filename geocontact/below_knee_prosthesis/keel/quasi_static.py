@@ -1,0 +1,243 @@
+"""The keel without inertia: its joints are in equilibrium with the ground in every frame of a given motion of the foot.
+
+Springs and dampers of the joints, weight of the segments, spheres by `contact.sphere_foot` with damping and friction.
+Without rates of the pose the frames do not know each other: elastic, without friction. With them each frame is a step
+of a formula of second order for the joints, from the two before (`newton_kernel`); the first has joints at rest.
+
+Deviation from the law: the kinetic coefficient of friction holds at all speeds beyond the threshold. Where friction
+falls with speed, from the static to the kinetic coefficient, a keel without inertia has several equilibria or jumps.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.below_knee_prosthesis.keel import newton_kernel
+from geocontact.below_knee_prosthesis.keel.balance_kernel import balance
+from geocontact.below_knee_prosthesis.keel.keel import Keel
+from geocontact.below_knee_prosthesis.keel.on_tree import joint_numbers
+from geocontact.below_knee_prosthesis.keel.sole import KeelSole
+from geocontact.geometry.shapes import HalfSpace
+from geocontact.loads.sphere_loads import SphereLoads
+from geocontact.loads.sphere_set import SoleLaw
+
+TOLERANCE = 1e-8
+"""N m; torque about a joint that is left."""
+TOLD = 12
+"""Numbers of a sphere: depth, its rate, pressing, force, centre, sliding."""
+Array = np.ndarray
+ChainArrays = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array, Array]
+"""Springs, rest, axes, points, last, numbers, law, weights, centres and bearer of `balance_kernel.balance`."""
+DOWNWARDS = (0.0, -9.80665, 0.0)
+"""Gravity [m/s²] where y is up."""
+
+
+@dataclass(frozen=True)
+class KeelMotion:
+    """The keel in each frame.
+
+    Parameters
+    ----------
+    angles
+        Of the joints, in the order of `on_tree.coordinates` [rad].
+    loads
+        Of the ground on each sphere, in the ground's frame.
+    rate
+        Of the depth of each sphere [m/s], 0 without rates of the pose.
+    sliding
+        Velocity of each sphere's lowest point along the ground, in its frame [m/s], likewise.
+    steps
+        Of Newton in each frame.
+    """
+
+    angles: Float[np.ndarray, "t m"]
+    loads: SphereLoads
+    rate: Float[np.ndarray, "t n"]
+    sliding: Float[np.ndarray, "t n 3"]
+    steps: Int[np.ndarray, " t"]
+
+    @property
+    def force(self) -> Float[np.ndarray, "t 3"]:
+        """Of the ground on the whole sole [N]."""
+        return np.asarray(self.loads.force.sum(axis=1))
+
+
+@dataclass(frozen=True)
+class QuasiStaticKeel:
+    """A keel at one fulcrum on its sole.
+
+    Parameters
+    ----------
+    torsion
+        Whether it turns about its long axis.
+    """
+
+    keel: Keel
+    fulcrum: float
+    sole: KeelSole
+    law: SoleLaw
+    torsion: bool = False
+
+    def solve(
+        self,
+        poses: RigidTransform,
+        ground: HalfSpace,
+        *,
+        rate: Float[np.ndarray, "t 4 4"] | None = None,
+        time: Float[np.ndarray, " t"] | None = None,
+        gravity: tuple[float, float, float] = DOWNWARDS,
+        start: Float[np.ndarray, " m"] | None = None,
+    ) -> KeelMotion:
+        """Along poses `X_GK` of the keel's frame in the ground's.
+
+        Parameters
+        ----------
+        rate, time
+            Time derivative of the poses (`loads.pose_rate`) and their times [s], both or neither.
+        gravity
+            In the ground's frame [m/s²].
+        start
+            Angles from which the first frame is sought; straight unless given.
+
+        ArithmeticError where a frame has no equilibrium that Newton's steps find.
+        """
+        if (rate is None) != (time is None):
+            raise ValueError("rates of the poses and times are given both or neither")
+        seen = _seen(poses, ground, gravity, rate)
+        frames, count = len(seen.planes), len(self.sole.spheres)
+        per_time = np.zeros(frames) if time is None else np.concatenate([[0.0], 1.0 / np.diff(time)])
+        joints = self.keel.joints + int(self.torsion)
+        angles, left = np.empty((frames, joints)), np.empty(frames)
+        told, steps = np.empty((frames, count, TOLD)), np.zeros(frames, np.int64)
+        found = newton_kernel.solve_frames(
+            np.zeros(joints) if start is None else np.asarray(start, float),
+            per_time,
+            *self.arrays(static=rate is None),
+            seen.planes,
+            seen.twists,
+            seen.gravities,
+            TOLERANCE,
+            angles,
+            told,
+            left,
+            steps,
+        )
+        if not found:
+            bad = int(np.argmax(~(left <= TOLERANCE)))
+            raise ArithmeticError(f"the keel has no equilibrium in frame {bad + 1}: {left[bad]:.3g} N m is left")
+        return _told(angles, told, steps, seen, moving=rate is not None)
+
+    def at(
+        self,
+        angles: Float[np.ndarray, "t m"],
+        speeds: Float[np.ndarray, "t m"],
+        poses: RigidTransform,
+        ground: HalfSpace,
+        rate: Float[np.ndarray, "t 4 4"],
+    ) -> KeelMotion:
+        """What the spheres do at given angles and their rates [rad/s], as of a simulation: nothing is sought.
+
+        Friction with both coefficients of the law.
+        """
+        seen, joints = _seen(poses, ground, DOWNWARDS, rate), angles.shape[1]
+        told = np.empty((len(angles), len(self.sole.spheres), TOLD))
+        torque, slope, arrays = np.empty(joints), np.empty((joints, joints)), self.arrays(static=False, falling=True)
+        for i, (y, u) in enumerate(zip(angles, speeds, strict=True)):
+            balance(y, y - u, 1.0, *arrays, seen.planes[i], seen.twists[i], seen.gravities[i], torque, slope, told[i])
+        return _told(angles, told, np.zeros(len(angles), np.int64), seen, moving=True)
+
+    def arrays(self, *, static: bool, falling: bool = False) -> ChainArrays:
+        """Springs, joints, spheres, law and weights as the kernel takes them.
+
+        Parameters
+        ----------
+        static
+            Without damping and friction.
+        falling
+            Whether friction falls from the static to the kinetic coefficient.
+        """
+        keel, spheres, law, more = self.keel, self.sole.spheres, self.law, int(self.torsion)
+        forward, right = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
+        places = np.concatenate([keel.places[:more], keel.places])
+        axes = np.array([forward] * more + [right] * keel.joints)
+        segment = np.array(self.sole.segment)
+        last = np.where(segment > 0, segment - 1 + more, -1).astype(np.int64)
+        moving = 0.0 if static else 1.0
+        numbers = np.stack(
+            [
+                spheres.radius,
+                law.stiffness,
+                moving * law.damping,
+                moving * (law.static if falling else law.kinetic),
+                moving * law.kinetic,
+            ],
+            axis=1,
+        )
+        shared = np.array([law.exponent, law.full_depth, law.threshold_speed])
+        weights = np.full(keel.joints, keel.segment_mass)
+        middles = (keel.places + 0.5 * keel.pitch)[:, None] * forward
+        bearer = np.arange(keel.joints, dtype=np.int64) + more
+        springs = np.array(joint_numbers(keel, self.fulcrum, torsion=self.torsion))
+        return (
+            springs, places[:, None] * forward, axes, spheres.centre.astype(float), last, numbers, shared,
+            weights, middles, bearer,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class _InKeel:
+    """Plane, motion and gravity as the keel's frame sees them, and the frame itself in the ground's."""
+
+    planes: Float[np.ndarray, "t four"]
+    twists: Float[np.ndarray, "t six"]
+    gravities: Float[np.ndarray, "t 3"]
+    rotation: Float[np.ndarray, "t 3 3"]
+    origin: Float[np.ndarray, "t 3"]
+    upwards: Float[np.ndarray, " 3"]
+
+
+def _seen(
+    poses: RigidTransform,
+    ground: HalfSpace,
+    gravity: tuple[float, float, float],
+    rate: Float[np.ndarray, "t 4 4"] | None,
+) -> _InKeel:
+    matrices = poses.as_matrix().reshape(-1, 4, 4)
+    R, origin = matrices[:, :3, :3], matrices[:, :3, 3]
+    upwards = np.asarray(ground.normal, float) / np.linalg.norm(ground.normal)
+    heights = (origin - np.asarray(ground.point, float)) @ upwards
+    twists = np.zeros((len(R), 6))
+    if rate is not None:
+        turning = np.einsum("tji,tjk->tik", R, rate[:, :3, :3])
+        turning = 0.5 * (turning - turning.swapaxes(1, 2))
+        twists[:, :3] = turning[:, (2, 0, 1), (1, 2, 0)]
+        twists[:, 3:] = np.einsum("tji,tj->ti", R, rate[:, :3, 3])
+    planes = np.column_stack([np.einsum("tij,i->tj", R, upwards), heights])
+    gravities = np.ascontiguousarray(np.einsum("tij,i->tj", R, np.asarray(gravity, float)))
+    return _InKeel(planes, twists, gravities, R, origin, upwards)
+
+
+def _told(
+    angles: Float[np.ndarray, "t m"],
+    told: Float[np.ndarray, "t n told"],
+    steps: Int[np.ndarray, " t"],
+    seen: _InKeel,
+    *,
+    moving: bool,
+) -> KeelMotion:
+    """From the keel's frame to the ground's."""
+    depth, rate, pressing = told[..., 0], told[..., 1], told[..., 2]
+    own = told[..., 3:].reshape(*depth.shape, 3, 3)
+    force, arm, sliding = np.moveaxis(np.einsum("tij,tnkj->tnki", seen.rotation, own), 2, 0)
+    centre = arm + seen.origin[:, None]
+    height = np.einsum("tnj,tj->tn", told[..., 6:9], seen.planes[:, :3]) + seen.planes[:, None, 3]
+    touching = (depth > 0.0)[..., None]
+    point = np.where(touching, centre - height[..., None] * seen.upwards, np.nan)
+    normal = np.where(touching, np.broadcast_to(seen.upwards, centre.shape), np.nan)
+    loads = SphereLoads(pressing, force, point, centre, normal, depth)
+    moved = float(moving)
+    return KeelMotion(angles, loads, moved * rate, moved * sliding, steps)

@@ -1,0 +1,138 @@
+"""The foam under the keel as spheres, each fixed to the segment above it.
+
+24 spheres in five zones, three of them at the heel, as in the study of the variable-stiffness foot, which tells neither
+places nor radii nor any number of the law: those are invented, but for the stiffness of the forefoot.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.below_knee_prosthesis.keel.keel import Keel
+from geocontact.data.sourced_number import Number, Source
+from geocontact.loads.sphere_set import SoleLaw, SphereSet
+
+ZONES: dict[str, tuple[float, float, int]] = {
+    "heel_back": (0.0, 0.018, 1),
+    "heel_middle": (0.018, 0.038, 1),
+    "heel_front": (0.038, 0.060, 1),
+    "midfoot": (0.060, 0.148, 4),
+    "forefoot": (0.148, 0.229, 5),
+}
+"""From and to along the keel [m], invented, and how many rows of spheres there are in between."""
+COLUMNS = 2
+"""Spheres in a row: 2 (1 + 1 + 1 + 4 + 5) = 24."""
+ROWS: tuple[tuple[str, float, Source, str], ...] = (
+    ("radius", 0.020, "invented", "of a sphere"),
+    ("below", 0.030, "invented", "from the keel's axis to the sole"),
+    ("breadth", 0.060, "invented", "of the sole; the outer quarter lies outside of the spheres' centres"),
+    ("heel_stiffness", 15e3, "invented", "of a sphere: body weight presses six of them 9 mm deep"),
+    ("midfoot_stiffness", 15e3, "invented", "of a sphere"),
+    (
+        "forefoot_stiffness",
+        46e3,
+        "derived",
+        "of a sphere: its last row is what is in series, 92 N/mm; `vsf_foot` fits it",
+    ),
+    ("damping", 300.0, "invented", "of a sphere"),
+    ("exponent", 1.0, "invented", "the study does not tell it; a series stiffness is linear"),
+    ("full_depth", 2e-3, "invented", "the law's library has such a depth, the study does not tell it"),
+    ("static", 0.8, "invented", ""),
+    ("kinetic", 0.7, "invented", ""),
+    ("threshold_speed", 0.01, "invented", "below it what sticks creeps"),
+)
+"""Numbers of the sole in SI, at 24 spheres."""
+
+
+@dataclass(frozen=True)
+class KeelSole:
+    """Spheres under a keel.
+
+    Parameters
+    ----------
+    spheres
+        In the frame K of the keel while it is straight.
+    segment
+        That carries each: 0 behind the first joint, then 1 to n.
+    """
+
+    spheres: SphereSet
+    segment: tuple[int, ...]
+
+    def on(self, segment: int, keel: Keel) -> SphereSet | None:
+        """Spheres of one segment in its own frame, whose origin is its joint; None where it carries none.
+
+        Segment 0 has the frame K.
+        """
+        chosen = [k for k, each in enumerate(self.segment) if each == segment]
+        if not chosen:
+            return None
+        origin = np.array([keel.places[segment - 1] if segment else 0.0, 0.0, 0.0])
+        zone = tuple(self.spheres.zone[k] for k in chosen)
+        return SphereSet(self.spheres.centre[chosen] - origin, self.spheres.radius[chosen], zone)
+
+
+def numbers() -> dict[str, Number]:
+    """All numbers of the sole by name."""
+    return {name: Number(value, source, note) for name, value, source, note in ROWS}
+
+
+def sole_of(keel: Keel, *, finer: int = 1, columns: int = COLUMNS) -> KeelSole:
+    """Spheres in rows across the sole.
+
+    Parameters
+    ----------
+    finer
+        Factor on the rows of each zone: 2 gives 48 spheres, with 4 columns 96.
+    columns
+        Spheres in a row.
+    """
+    value = {name: number.value for name, number in numbers().items()}
+    across = value["breadth"] * ((np.arange(columns) + 0.5) / columns - 0.5)
+    centres, zones = [], []
+    for zone, (start, stop, rows) in ZONES.items():
+        count = rows * finer
+        for x in start + (stop - start) * (np.arange(count) + 0.5) / count:
+            for z in across:
+                centres.append((x, value["radius"] - value["below"], z))
+                zones.append(zone)
+    place = np.array(centres)
+    spheres = SphereSet(place, np.full(len(place), value["radius"]), tuple(zones))
+    return KeelSole(spheres, tuple(keel.segment_of(place[:, 0])))
+
+
+def law_of(sole: KeelSole) -> SoleLaw:
+    """The numbers above, stiffness and damping shared so that every zone has the same of both at any count."""
+    value = {name: number.value for name, number in numbers().items()}
+    usual = {zone: COLUMNS * rows for zone, (_, _, rows) in ZONES.items()}
+    count = {zone: int(chosen.sum()) for zone, chosen in sole.spheres.zones.items()}
+    share = np.array([usual[zone] / count[zone] for zone in sole.spheres.zone])
+    stiffness = np.array([value[f"{zone.partition('_')[0]}_stiffness"] for zone in sole.spheres.zone])
+    return SoleLaw(
+        stiffness=stiffness * share,
+        damping=value["damping"] * share,
+        exponent=value["exponent"],
+        full_depth=value["full_depth"],
+        static=np.full(len(share), value["static"]),
+        kinetic=np.full(len(share), value["kinetic"]),
+        threshold_speed=value["threshold_speed"],
+    )
+
+
+def force_bases(
+    depth: Float[np.ndarray, "t n"], rate: Float[np.ndarray, "t n"], sole: KeelSole, exponent: float, full_depth: float
+) -> tuple[Float[np.ndarray, "t zones"], Float[np.ndarray, "t zones"]]:
+    """What stiffness and damping of each zone are multiplied by in the sum of the normal forces, zones in their order.
+
+    Stiffness times the first plus damping times the second: linear in both while depths and rates are held, as for
+    a least-squares step between two solutions of the keel.
+    """
+    from geocontact.contact.sphere_foot import normal_force
+
+    elastic = normal_force(depth, rate, 1.0, exponent, 0.0, full_depth)
+    viscous = normal_force(depth, rate, 0.0, exponent, 1.0, full_depth)
+    zones = np.stack(list(sole.spheres.zones.values()), axis=1).astype(float)
+    return np.asarray(elastic @ zones), np.asarray(viscous @ zones)

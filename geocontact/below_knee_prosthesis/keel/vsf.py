@@ -1,0 +1,82 @@
+"""The variable-stiffness foot, as far as its study describes it; the rest is derived or invented.
+
+The study of gait with a below-knee amputation and a semi-active variable-stiffness foot (VSF) gives length, range of
+the fulcrum, first segment, count of joints, spheres and zones, and stiffnesses in compression at low, medium and high.
+It does not say where medium is, nor any number of the keel's section or of the sole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from geocontact.below_knee_prosthesis.keel.beam import Support
+from geocontact.below_knee_prosthesis.keel.compression import Compressed, CompressionFit, fitted
+from geocontact.below_knee_prosthesis.keel.keel import Keel, torsional_stiffness
+from geocontact.data.sourced_number import Number, Source
+
+SETTINGS: Mapping[str, float] = {"low": 10e3, "medium": 19e3, "high": 32e3}
+"""Stiffness in compression [N/m], table 2 of the study, rounded to 1 N/mm."""
+ROWS: tuple[tuple[str, float, Source, str], ...] = (
+    ("length", 0.229, "paper", "sec. 2.1"),
+    ("posterior", 0.066, "paper", "sec. 2.1"),
+    ("joints", 8.0, "paper", "sec. 2.1; the printed lengths fit no count of segments that has eight joints"),
+    ("lowest", 0.066, "paper", "sec. 2.1"),
+    ("highest", 0.151, "paper", "sec. 2.1"),
+    ("low_stiffness", SETTINGS["low"], "paper", "table 2"),
+    ("medium_stiffness", SETTINGS["medium"], "paper", "table 2; its fulcrum is not told"),
+    ("high_stiffness", SETTINGS["high"], "paper", "table 2"),
+    ("modulus", 18.6e9, "invented", "flexural modulus, usual for G10/FR4"),
+    ("shear_modulus", 7.0e9, "invented", "usual for G10/FR4"),
+    ("density", 1850.0, "invented", "usual for G10/FR4"),
+    ("width", 0.060, "invented", "within a shoe"),
+    ("retardation", 2e-3, "invented", "a loss factor of 0.013 at 1 Hz"),
+)
+
+
+def numbers(support: Support = "pinned") -> dict[str, Number]:
+    """All numbers of the keel by name, with those that follow from compression and section."""
+    found = {name: Number(value, source, note) for name, value, source, note in ROWS}
+    fit = compression(support)
+    thickness = (12.0 * fit.bending / (found["modulus"].value * found["width"].value)) ** (1.0 / 3.0)
+    medium = fit.fulcrum(SETTINGS["medium"], found["lowest"].value, found["highest"].value)
+    torsional = torsional_stiffness(found["shear_modulus"].value, found["width"].value, thickness)
+    note = f"beam theory with a {support} end through low and high"
+    return found | {
+        "bending": Number(fit.bending, "derived", note),
+        "series": Number(fit.series, "derived", f"{note}: foam, pylon, fixture"),
+        "medium": Number(medium, "derived", f"{note}: where 19 N/mm are reached"),
+        "thickness": Number(thickness, "derived", "from EI, width and modulus"),
+        "torsional": Number(torsional, "derived", "from the section, of invented modulus and width"),
+    }
+
+
+def compression(support: Support = "pinned") -> CompressionFit:
+    """EI and series stiffness from the ends of the range."""
+    value = {name: each for name, each, _, _ in ROWS}
+    low = Compressed(value["lowest"], value["low_stiffness"])
+    high = Compressed(value["highest"], value["high_stiffness"])
+    return fitted(low, high, value["length"], support)
+
+
+def vsf_keel(support: Support = "pinned", *, joints: int = 8) -> Keel:
+    """With the numbers above, or more joints."""
+    value = {name: number.value for name, number in numbers(support).items()}
+    return Keel(
+        length=value["length"],
+        posterior=value["posterior"],
+        joints=joints,
+        bending=value["bending"],
+        torsional=value["torsional"],
+        retardation=value["retardation"],
+        width=value["width"],
+        thickness=value["thickness"],
+        density=value["density"],
+        support=support,
+        range=(value["lowest"], value["highest"]),
+    )
+
+
+def fulcrum_of(setting: str, support: Support = "pinned") -> float:
+    """Of low, medium or high [m]; KeyError for another name."""
+    name = {"low": "lowest", "medium": "medium", "high": "highest"}[setting]
+    return numbers(support)[name].value

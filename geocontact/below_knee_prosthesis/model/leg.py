@@ -1,0 +1,174 @@
+"""The prosthetic leg of one person: lengths, masses with their sources, and where its parts are.
+
+Always a right leg: a left one is its mirror image. Frames are right-handed, x forward, y up, z to the right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial.transform import RigidTransform, Rotation
+
+from geocontact.below_knee_prosthesis.model.frustum import Frustum
+from geocontact.data.body_segments import SEGMENTS, Sex
+from geocontact.data.multibody.model import Marker
+from geocontact.data.sourced_number import Number
+
+Side = Literal["right", "left"]
+Vector = Float[np.ndarray, " 3"]
+Inertial = tuple[float, Vector, Float[np.ndarray, "3 3"]]
+"""Mass [kg], mass centre [m] and inertia about it [kg m²]."""
+
+RESIDUAL, TAPER = 0.45, 0.6
+"""Share of the shank that is left, and of the knee's radius that the ankle has; invented."""
+SOCKET, PYLON, FOOT = 1.1, 0.35, 0.75
+"""kg; socket with liner, pylon with adapters, foot shell with shoe; invented."""
+SOCKET_RADIUS, FOOT_SIZE = 0.055, (0.24, 0.06, 0.08)
+"""m; of the socket as a hollow cylinder, and of the foot shell as a box; invented."""
+
+
+@dataclass(frozen=True)
+class Person:
+    """Who walks.
+
+    Parameters
+    ----------
+    mass
+        Of the body with the prosthesis [kg].
+    sex
+        Row of de Leva's table.
+    residual
+        Share of the shank's length that is left [-].
+    """
+
+    mass: float
+    sex: Sex = "male"
+    residual: float = RESIDUAL
+
+    def __post_init__(self) -> None:
+        if not (0.0 < self.mass < np.inf and 0.0 < self.residual < 1.0):
+            raise ValueError("a person has a positive mass, and a part of the shank is left")
+
+
+@dataclass(frozen=True, eq=False)
+class Leg:
+    """Geometry of pelvis and prosthetic leg.
+
+    Parameters
+    ----------
+    person
+        Whose leg it is.
+    hip
+        Its centre in the pelvis' frame (origin in the middle of the front spines) [m].
+    thigh
+        Length, hip to knee [m].
+    ankle
+        In the shank's frame (origin in the knee) [m].
+    knee_radius
+        Half the distance of the epicondyles [m].
+    keel
+        Origin of the keel's frame K in the shank's frame [m].
+    turn
+        R_SK: turns components in K into components in the shank's frame S.
+    markers
+        On the bodies `pelvis`, `thigh` and `shank`, which the socket is fixed to as long as it does not give.
+    """
+
+    person: Person
+    hip: Vector
+    thigh: float
+    ankle: Vector
+    knee_radius: float
+    keel: Vector
+    turn: Rotation
+    markers: tuple[Marker, ...] = field(default=())
+
+    @property
+    def bushing(self) -> Vector:
+        """Middle of the bushing in the shank's frame [m]: half-way down the residual limb."""
+        return np.array([0.0, -0.5 * self.person.residual * self.shank, 0.0])
+
+    @property
+    def shank(self) -> float:
+        """Length, knee to ankle along the shank's axis [m]."""
+        return float(-self.ankle[1])
+
+    @property
+    def X_SB(self) -> RigidTransform:  # noqa: N802 the pose's own name
+        """The bushing's frame B in the shank's: its middle, with the axes of the keel's frame."""
+        return RigidTransform.from_components(self.bushing, self.turn)
+
+    @property
+    def keel_place(self) -> Vector:
+        """Origin of K in B [m]; their axes are those of each other."""
+        return np.asarray(self.turn.inv().apply(self.keel - self.bushing))
+
+    def thigh_body(self) -> Inertial:
+        """Of the thigh in its frame, by de Leva's shares of mass and length."""
+        of = SEGMENTS[self.person.sex]["thigh"]
+        mass = of.mass * self.person.mass
+        sagittal, transverse, long = of.moments(mass, self.thigh)
+        return mass, np.array([0.0, -of.centre * self.thigh, 0.0]), np.diag([sagittal, long, transverse])
+
+    def residual_body(self) -> Inertial:
+        """Of the residual limb in the shank's frame: a frustum cut off, of the density of the whole shank."""
+        whole = Frustum(self.shank, self.knee_radius, TAPER * self.knee_radius)
+        density = SEGMENTS[self.person.sex]["shank"].mass * self.person.mass / whole.volume
+        return whole.cut(self.person.residual * self.shank).body(density)
+
+    def prosthesis_body(self) -> Inertial:
+        """Of socket, pylon and foot shell together in the bushing's frame B; the keel is not in it."""
+        long = self.person.residual * self.shank
+        socket = _tube(SOCKET, long, 0.0)
+        pylon = _tube(PYLON, self.shank - long, -long, radius=0.015)
+        size = np.array(FOOT_SIZE)
+        middle = self.keel + self.turn.apply([0.45 * size[0], 0.0, 0.0])
+        box = FOOT / 12.0 * np.diag((size**2).sum() - size**2)
+        turned = self.turn.as_matrix() @ box @ self.turn.as_matrix().T
+        mass, centre, inertia = combined((socket, pylon, (FOOT, middle, turned)))
+        back = self.turn.inv().as_matrix()
+        return mass, self.turn.inv().apply(centre - self.bushing), back @ inertia @ back.T
+
+    def pelvis_mass(self, keel: float) -> float:
+        """Of all that is neither thigh, residual limb, prosthesis nor keel: trunk, head, arms, the other leg [kg]."""
+        parts = (self.thigh_body(), self.residual_body(), self.prosthesis_body())
+        return self.person.mass - keel - sum(part[0] for part in parts)
+
+    def numbers(self) -> Mapping[str, Number]:
+        """Every number of the segments in SI, and where it is from."""
+        leva = "de Leva 1996, of the body's mass; the study takes the same table"
+        measured = "from the markers of the standing trial"
+        return {
+            "mass": Number(self.person.mass, "paper", "given"),
+            "thigh_length": Number(self.thigh, "derived", measured),
+            "shank_length": Number(self.shank, "derived", measured),
+            "knee_radius": Number(self.knee_radius, "derived", f"{measured}: half the distance of the epicondyles"),
+            "thigh_mass": Number(self.thigh_body()[0], "derived", leva),
+            "residual_share": Number(self.person.residual, "invented", "of the shank; the study does not tell it"),
+            "ankle_over_knee_radius": Number(TAPER, "invented", "of the frustum that stands for the intact shank"),
+            "residual_mass": Number(self.residual_body()[0], "derived", "frustum cut off, density of the intact shank"),
+            "socket_mass": Number(SOCKET, "invented", "with liner"),
+            "pylon_mass": Number(PYLON, "invented", "with adapters"),
+            "foot_mass": Number(FOOT, "invented", "shell and shoe, without keel"),
+        }
+
+
+def combined(parts: tuple[Inertial, ...]) -> Inertial:
+    """Several rigid parts in one frame as one."""
+    mass = sum(part[0] for part in parts)
+    centre = np.asarray(sum(part[0] * part[1] for part in parts) / mass)
+    inertia = np.zeros((3, 3))
+    for own, place, about in parts:
+        arm = place - centre
+        inertia += about + own * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return mass, centre, inertia
+
+
+def _tube(mass: float, length: float, top: float, radius: float = SOCKET_RADIUS) -> Inertial:
+    """A thin cylinder along -y."""
+    across = mass * (0.5 * radius**2 + length**2 / 12.0)
+    return mass, np.array([0.0, top - 0.5 * length, 0.0]), np.diag([across, mass * radius**2, across])
