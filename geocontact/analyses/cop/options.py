@@ -13,6 +13,7 @@ from geocontact.analyses.options import (
     Length,
     MeshUnit,
     Options,
+    PartLength,
     Requires,
     Spelled,
     Typed,
@@ -130,7 +131,7 @@ class CopOptions(Options):
     point: Literal["ground", "sphere"] = "ground"
     gate: Annotated[float, FORCE] = 20.0
     toe: Literal["x", "-x", "y", "-y", "z", "-z"] | None = None
-    foot_length: Annotated[Length | None, Requires("toe", "say where the toe is"), FOOT_LENGTH] = None
+    foot_length: Annotated[PartLength | None, Requires("toe", "say where the toe is"), FOOT_LENGTH] = None
     stances: bool = False
     motion_cutoff: Annotated[float | None, CUTOFF] = None
     force_cutoff: Annotated[float | None, CUTOFF] = None

@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import Degrees, Expression, Fraction, Length, Options, Spelled, Typed
+from geocontact.analyses.options import Degrees, Expression, Fraction, Length, Options, PartLength, Spelled
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import KG, Plausible
 from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, SPEED, TILT
@@ -15,7 +15,6 @@ from geocontact.data.units import mm
 
 FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
 PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
-Fulcrum = Annotated[float, Typed("m", "length", "gc.mm(100)", "mm unless a unit is written")]
 MOST_STARTS, PITCH = 1000, math.radians(0.2)
 
 
@@ -93,7 +92,7 @@ class ProsthesisCalibrateOptions(Options):
     plates: Path
     side: Literal["right", "left"] = "right"
     setting: Literal["low", "medium", "high"] = "medium"
-    fulcrum: Annotated[Fulcrum | None, FULCRUM] = None
+    fulcrum: Annotated[PartLength | None, FULCRUM] = None
     law: Path | None = None
     plate: str | None = None
     starts: int = 8

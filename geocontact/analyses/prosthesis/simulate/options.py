@@ -6,13 +6,12 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import Expression, Fraction, Options, Spelled, TimeSpan, Typed
+from geocontact.analyses.options import Expression, Fraction, Options, PartLength, Spelled, TimeSpan
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import KG, Plausible
 from geocontact.data.ranges import CUTOFF, GAP
 from geocontact.data.units import mm, percent
 
-Place = Annotated[float, Typed("m", "length", "gc.mm(100)", "mm unless a unit is written")]
 FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
 PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
 RESIDUAL = Plausible("the share of the shank that is left", percent, (1.0, 99.0), (25.0, 80.0))
@@ -90,7 +89,7 @@ class ProsthesisSimulateOptions(Options):
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     functional: Path | None = None
     setting: Literal["low", "medium", "high"] = "medium"
-    fulcrum: Annotated[Place | None, FULCRUM] = None
+    fulcrum: Annotated[PartLength | None, FULCRUM] = None
     law: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
     plates: Path | None = None
