@@ -16,15 +16,23 @@ export PYTHONDONTWRITEBYTECODE :=
 TOGETHER := -rs --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope --no-loadscope-reorder
 
 .DELETE_ON_ERROR:
-.PHONY: demo test slow long real check lint types imports oracle lock page clean
+.PHONY: demo test shapes slow long real check lint types imports oracle lock page clean
 
 demo: $(VENV)/core.stamp
 	@$(BIN)/geocontact demo
 
+# Without checks of shapes at every call, which cost as much as a third of the tests do
 test: $(VENV)/full.stamp
-	@$(BIN)/python -m pytest -m "not slow and not oracle and not real" $(TOGETHER)
+	@GEOCONTACT_UNCHECKED=1 $(BIN)/python -m pytest -m "not shapes and not slow and not oracle and not real" $(TOGETHER)
 
-# What takes longer than a few seconds: notebooks, whole diagnoses, browsers, long recordings; without checks of shapes
+# Shapes and types of all arguments are checked while the unit tests of these rooms run
+SHAPES := below_knee_prosthesis chain contact data dynamics house/test_checked_shapes.py identify io loads shoulder_exoskeleton \
+	sit_to_stand systems
+
+shapes: $(VENV)/full.stamp
+	@$(BIN)/python -m pytest -m "not slow and not oracle and not real" $(TOGETHER) $(addprefix tests/,$(SHAPES))
+
+# What takes longer than a few seconds: notebooks, whole diagnoses, browsers, long recordings
 slow: $(VENV)/full.stamp
 	@GEOCONTACT_UNCHECKED=1 $(BIN)/python -m pytest -m "slow and not long and not oracle and not real" $(TOGETHER)
 

@@ -1,6 +1,7 @@
-"""Shapes and types of the package's arguments are checked while quick tests run; real-data tests are counted.
+"""Shapes and types of the package's arguments are checked while tests run; real-data tests are counted.
 
-Checks at every call take about as long as whole diagnoses do: `make slow` leaves them out (GEOCONTACT_UNCHECKED).
+Checks at every call take about as long as whole diagnoses do. `make test` and `make slow` leave them out
+(GEOCONTACT_UNCHECKED), `make shapes` runs the unit tests of most rooms with them, and so does pytest by itself.
 """
 
 from __future__ import annotations

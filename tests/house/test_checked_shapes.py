@@ -13,6 +13,7 @@ TETRAHEDRON = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 
 
+@pytest.mark.shapes
 def test_a_wrong_shape_is_refused() -> None:
     assert signed_volume(TETRAHEDRON, FACES) == pytest.approx(1 / 6, rel=1e-15)
     with pytest.raises(TypeCheckError):

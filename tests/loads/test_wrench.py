@@ -86,6 +86,7 @@ def test_no_centre_below_the_gate() -> None:
     assert np.isfinite(wrench.centre_of_pressure(np.zeros(3), UP)).all(axis=1).tolist() == [True, True, False, False]
 
 
+@pytest.mark.shapes
 def test_shapes_are_checked() -> None:
     with pytest.raises(TypeCheckError):
         Wrench(np.zeros((2, 3)), np.zeros((3, 3)), np.zeros((2, 3)), "plate")
