@@ -12,7 +12,7 @@ from meshes.mat_recordings import DRIFT, recordings
 from meshes.moving_pressure import Footprint, resultant
 from meshes.segments import THIGH, Oval, Segment
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.long]  # they change with the scripts of the samples only
 
 FOLDER = Path(__file__).parents[2] / "meshes"
 RECORDINGS = list(recordings())

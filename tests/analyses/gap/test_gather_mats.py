@@ -141,6 +141,7 @@ def strapped(case: Path, tmp_path_factory: pytest.TempPathFactory, elsewhere: El
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_only_what_the_model_cannot_tell_from_a_preload_is_in_question(strapped: tuple[Any, Path]) -> None:
     said = json.loads((strapped[1] / "diagnosis.json").read_text("utf-8"))
     assert set(said["ambiguity"]) == {"preload", "motion_offset", "sensor_offset"}

@@ -133,6 +133,7 @@ def test_an_instant_centre_that_stays_is_an_offset(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_a_knee_orthosis_with_one_hinge_is_pushed_by_a_centre_that_wanders(tmp_path: Path) -> None:
     """A hinge where the centre begins is pushed, one amid its path less, and one whose joint stayed not at all.
 
