@@ -72,8 +72,8 @@ MADE = {
 """What makes files that a reader would have recorded."""
 
 WITH_BLOCKS = [page for page in DOCUMENTS if shell_blocks(page)]
-LASTING = {"docs/how-to/knee_chain.md"}
-"""Pages whose commands take minutes."""
+LASTING = {"docs/how-to/knee_chain.md", "docs/how-to/gap.md", "docs/how-to/shoulder_support.md"}
+"""Pages whose commands take a minute or more."""
 
 
 def lasting(page: Path) -> tuple[pytest.MarkDecorator, ...]:
