@@ -4,7 +4,9 @@ Labels and diagnoses are plain dictionaries by case. An effect is *visible* from
 
 *False alarm*: no effect, and any verdict but "no_gap"; *certain* from a probability of 0.9 on, of what is named or of
 any answer but "none". *Harm*: a named effect makes held-out predictions worse, see `harm`; over answers that name one.
-*First*: the first of `ambiguity`, else of `effects`; *set*: both together, when they are three at most.
+*First*: the first of `ambiguity`, else of `effects`; *set*: both together, when they are three at most; *named*:
+verdict "explained", and exactly the effect that is there. *Anew*: of effects that are visible even if all is placed
+anew in every trial as is usual (`nats_anew`).
 *Confidently wrong*: verdict "explained", a named effect that is not there, `probabilities` of the named sum to one half
 or more, and the hedge is missing: `ambiguity` (three at most) does not hold the whole truth. One of two true effects
 named alone is incomplete, not wrong; a phantom beside a true one is wrong unless `ambiguity` hedges. An effect outside
@@ -60,7 +62,10 @@ class Score:
     harm_in_sum: Rate
     harm_in_channel: Rate
     first_right: Rate
+    first_right_anew: Rate
     in_small_set: Rate
+    named_right: Rate
+    named_right_anew: Rate
     missed: Rate
     confidently_wrong: Rate
     both_found: Rate
@@ -156,6 +161,7 @@ def score(labels: Mapping[str, Plain], diagnoses: Mapping[str, Plain]) -> Score:
         return [(a, b) for a, b in pairs if a["kind"] in kinds and (visible(a) or not shown)]
 
     one = of(*GAPS, shown=True)
+    anew = [(a, b) for a, b in one if (a.get("nats_anew") or 0.0) >= VISIBLE]
     two = of("pair", shown=True)
     strange = [(a, b) for a, b in of("outside", shown=True) if not a.get("imitated")]
     named = [(a, b) for a, b in pairs if b["effects"]]
@@ -178,7 +184,10 @@ def score(labels: Mapping[str, Plain], diagnoses: Mapping[str, Plain]) -> Score:
         harm_in_sum=Rate.of(worse_in_sum(a, b) for a, b in named),
         harm_in_channel=Rate.of(bool(worse_channels(a, b)) for a, b in named),
         first_right=Rate.of(answers(b)[:1] == list(a["effects"]) for a, b in one),
+        first_right_anew=Rate.of(answers(b)[:1] == list(a["effects"]) for a, b in anew),
         in_small_set=Rate.of(set(a["effects"]) <= small_set(b) for a, b in one),
+        named_right=Rate.of(list(b["effects"]) == list(a["effects"]) for a, b in one),
+        named_right_anew=Rate.of(list(b["effects"]) == list(a["effects"]) for a, b in anew),
         missed=Rate.of(b["verdict"] == "no_gap" for _, b in one),
         confidently_wrong=Rate.of(confidently_wrong(a, b) for a, b in pairs),
         both_found=Rate.of(set(a["effects"]) == set(b["effects"]) for a, b in two),

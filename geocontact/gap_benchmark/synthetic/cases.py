@@ -21,6 +21,7 @@ from geocontact.gap_benchmark.synthetic.hooks import BASE, Hooks, Outputs
 from geocontact.gap_benchmark.synthetic.ideal import ideal
 from geocontact.gap_benchmark.synthetic.label import KINDS, Kind, Label, SyntheticCase
 from geocontact.gap_benchmark.synthetic.laboratories.catalogue import LABORATORIES
+from geocontact.gap_benchmark.synthetic.laboratories.placement import placed_as_usual
 from geocontact.gap_benchmark.synthetic.magnitudes import magnitudes_of
 from geocontact.gap_benchmark.synthetic.outside.catalogue import unknown_effects
 from geocontact.gap_benchmark.synthetic.plan import Draw, InjectionPlan, NotFoundError, SyntheticMagnitudes
@@ -78,6 +79,12 @@ class Stage:
             planted.append(data_error.outputs(self.scene, clean))
         return sight(self.scene, trials, planted, self.floor)
 
+    @property
+    def anew(self) -> Stage:
+        """The same with everything placed anew in every trial, as is usual, whatever the laboratory does."""
+        trials = [replace(one, placed=placed_as_usual(self.scene, one.path, one.count)) for one in self.trials]
+        return replace(self, trials=tuple(trials))
+
 
 @dataclass(frozen=True)
 class DrawnCase:
@@ -90,6 +97,10 @@ class DrawnCase:
     data_error: SyntheticDataError = NO_DATA_ERROR
     faulty: frozenset[int] = frozenset()
     details: Mapping[str, str | float] | None = None
+
+    def by_trial(self, count: int) -> list[SyntheticDataError]:
+        """The mistake of each of the first trials."""
+        return [self.data_error if i in self.faulty else NO_DATA_ERROR for i in range(count)]
 
 
 def synthetic_case(
@@ -151,7 +162,7 @@ def attempt_at(
         raise NotFoundError(f"{found.words}: how visible it is cannot be told")
     fine = fine_enough(scene, stage.trials[0].path, found.hooks)
     gaps = scene.laboratory.clock.kept if rng.random() < scene.laboratory.clock.losing else None
-    data_errors = [found.data_error if i in found.faulty else NO_DATA_ERROR for i in range(learn + hold)]
+    data_errors = found.by_trial(learn + hold)
     paths = [one.path for one in stage.trials] + [scene.later(rng, i) for i in range(hold)]
     recordings = [record(scene, p, rng, found.hooks, f, fine, gaps) for p, f in zip(paths, data_errors, strict=True)]
     share = sum(f is not NO_DATA_ERROR for f in data_errors[learn:]) / hold
@@ -307,20 +318,12 @@ def mistake(rng: Rng, stage: Stage, effect: str | None, _: float | None) -> Draw
         faulty = frozenset(int(i) for i in some)
     if not faulty & set(range(count)):
         raise NotFoundError("no calibration trial is concerned")
-    seen = stage.sight(BASE, [data_error if i in faulty else NO_DATA_ERROR for i in range(count)])
+    seen = stage.sight(BASE, DrawnCase(data_error=data_error, faulty=faulty).by_trial(count))
     if seen.nats < 10.0:
         raise NotFoundError("the mistake does not show")
-    where = "" if faulty is everywhere else ", in some trials only"
-    details: dict[str, str | float] = {"channel": data_error.channel, "factor": data_error.factor}
-    return DrawnCase(
-        (data_error.effect,),
-        fault_words(data_error, stage.scene) + where,
-        BASE,
-        {data_error.effect: seen},
-        data_error,
-        faulty,
-        details,
-    )
+    words = fault_words(data_error, stage.scene) + ("" if faulty is everywhere else ", in some trials only")
+    details: Mapping[str, str | float] = {"channel": data_error.channel, "factor": data_error.factor}
+    return DrawnCase((data_error.effect,), words, BASE, {data_error.effect: seen}, data_error, faulty, details)
 
 
 FINDERS: Mapping[Kind, Callable[[Rng, Stage, str | None, float | None], DrawnCase]] = {
@@ -382,6 +385,7 @@ def label_of(
         effects=found.effects,
         words=found.words,
         nats={name: seen.nats for name, seen in sights.items()},
+        nats_anew=stage.anew.sight(found.hooks, found.by_trial(len(stage.trials))).nats if len(sights) == 1 else None,
         swallowed={name: seen.swallowed for name, seen in sights.items()},
         rmse_before=dict(before),
         rmse_after=dict(after),

@@ -31,6 +31,9 @@ class Label:
         Visibility of each effect alone: half the squared norm of its signature on the calibration trials after the
         base parameters were refitted, whitened by sensor noise, propagated input noise and trial-to-trial variation.
         Outside the vocabulary it stands under "outside".
+    nats_anew
+        The same of the one effect, were everything placed anew in every trial as is usual (a millimetre, half a degree,
+        a per cent of a calibration), whatever the laboratory does. None where it is not one.
     swallowed
         Share of the signature's energy (whitened by noise alone) that refitted base parameters take away.
     rmse_before, rmse_after, reduction
@@ -62,6 +65,7 @@ class Label:
     faulty: tuple[str, ...] = ()
     imitated: bool | None = None
     details: Mapping[str, str | float] = field(default_factory=dict)
+    nats_anew: float | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """Plain numbers, words, lists and dicts, as JSON takes them."""

@@ -18,6 +18,7 @@ from geocontact.gap_benchmark.synthetic.equipment.placement import Placement
 from geocontact.gap_benchmark.synthetic.equipment.power_law import PowerLawNoise
 from geocontact.gap_benchmark.synthetic.equipment.recorder import Quotient, Recorder
 from geocontact.gap_benchmark.synthetic.hooks import BASE
+from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import sizes
 from geocontact.gap_benchmark.synthetic.laboratories.inputs import harmonics, other_filters, starts
 from geocontact.gap_benchmark.synthetic.laboratories.paced import Pace
 from geocontact.gap_benchmark.synthetic.laboratories.placement import ANGLE, GAIN, LENGTH, placement_of
@@ -160,9 +161,9 @@ def test_what_an_uneven_clock_records_is_the_movement_at_its_times(system: str) 
 
 def test_placement_is_off_by_nothing_on_average_and_by_about_a_millimetre() -> None:
     scene = SCENES["shoulder"](np.random.default_rng(0), shifted=False)
-    placement = placement_of(np.random.default_rng(1), scene)
-    care = placement.constants["L_h"] / LENGTH
-    assert 0.7 <= care <= 1.3 and set(placement.constants) == {"L_h", "o_x", "o_y", "l_c"}
+    care = 0.8
+    placement = placement_of(scene, sizes(scene, scene.path(np.random.default_rng(1), 0)), care)
+    assert placement.constants["L_h"] == care * LENGTH and set(placement.constants) == {"L_h", "o_x", "o_y", "l_c"}
     assert placement.inputs == {0: pytest.approx(care * ANGLE)}  # no zero of a flag
     assert placement.gains == pytest.approx({0: care * GAIN, 1: care * GAIN})
     rng = np.random.default_rng(2)

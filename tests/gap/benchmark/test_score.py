@@ -34,7 +34,10 @@ LABELS = {
     **{f"hidden{i}": a_label("absorbed", ["preload"], nats=0.5, reduction=0.0) for i in range(10)},
 }
 ORACLE = {name: oracle_answer(label) for name, label in LABELS.items()}
-RATES = ("first_right", "in_small_set", "both_found", "one_of_two", "unknown_called", "absorbed_recognised", "coverage")
+RATES = (
+    *("first_right", "in_small_set", "named_right", "both_found", "one_of_two"),
+    *("unknown_called", "absorbed_recognised", "coverage"),
+)
 
 
 def test_an_oracle_has_every_figure_right():
@@ -100,6 +103,22 @@ def test_what_counts_as_confidently_wrong(label, diagnosis, wrong):
     if label["effects"] == ["slip"] and len(diagnosis["effects"]) == 2:
         diagnosis = {**diagnosis, "effects": ["slip", "damping"], "ambiguity": ["damping", "x", "y"]}
     assert confidently_wrong(label, diagnosis) is wrong
+
+
+def test_ranked_first_is_not_yet_named():
+    said = {**ORACLE["damping0"], "verdict": "no_gap", "effects": [], "ambiguity": ["damping"]}
+    found = score({"damping0": LABELS["damping0"]}, {"damping0": said})
+    assert (found.first_right.hits, found.named_right.hits, found.missed.hits) == (1, 0, 1)
+
+
+def test_an_effect_within_what_trials_differ_by_is_counted_apart():
+    labels = {"a": a_label("single", ["damping"]), "b": a_label("single", ["preload"])}
+    labels = {name: {**one, "nats_anew": nats} for (name, one), nats in zip(labels.items(), (60.0, 2.0), strict=True)}
+    silent = {"verdict": "no_gap", "effects": [], "ambiguity": []}
+    found = score(labels, {"a": oracle_answer(labels["a"]), "b": {**oracle_answer(labels["b"]), **silent}})
+    assert (found.first_right.hits, found.first_right.count) == (1, 2)
+    assert (found.first_right_anew.hits, found.first_right_anew.count) == (1, 1)
+    assert (found.named_right_anew.hits, found.named_right_anew.count) == (1, 1)
 
 
 def test_faint_effects_count_neither_for_nor_against():

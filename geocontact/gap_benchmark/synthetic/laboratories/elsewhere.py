@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.gap_benchmark.synthetic.course import through
+from geocontact.gap_benchmark.synthetic.course import Path, through
 from geocontact.gap_benchmark.synthetic.hooks import BASE
 from geocontact.gap_benchmark.synthetic.plan import NotFoundError
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
@@ -47,9 +47,8 @@ def _factors(rng: Rng, most: float, count: int) -> Float[np.ndarray, " p"]:
     return np.exp(rng.uniform(-np.log(most), np.log(most), count))
 
 
-def sizes(rng: Rng, scene: SyntheticScene) -> Sizes:
+def sizes(scene: SyntheticScene, path: Path) -> Sizes:
     """Of a movement like those that will be recorded."""
-    path = scene.path(rng, 0)
     course = path(np.arange(samples(scene, path)) * scene.step)
     outputs = scene.body.recorded(scene.base_model(course)(scene.theta))
     ranges = np.nanmax(outputs, axis=1) - np.nanmin(outputs, axis=1)

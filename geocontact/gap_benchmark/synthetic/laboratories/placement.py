@@ -8,9 +8,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from jaxtyping import Float
 
+from geocontact.gap_benchmark.synthetic.course import Path
 from geocontact.gap_benchmark.synthetic.equipment.placement import Placement
-from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import another_device, sampled, sizes
+from geocontact.gap_benchmark.synthetic.laboratories.elsewhere import Sizes, another_device, sampled, sizes
 from geocontact.gap_benchmark.synthetic.scene import Rng, SyntheticScene
 from geocontact.gap_benchmark.synthetic.trials import samples
 from geocontact.gap_benchmark.synthetic.visibility import placed
@@ -32,13 +34,23 @@ FLAG = "-"
 def placement_laboratory(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
     """The scene, placed anew in every trial."""
     scene = another_device(rng, scene)
-    placement = noticed(rng, scene, placement_of(rng, scene))
+    size, care = sizes(scene, scene.path(rng, 0)), rng.uniform(CAREFUL, CARELESS)
+    placement = noticed(scene, scene.path(rng, 0), placement_of(scene, size, care))
     return sampled(rng, replace(scene, laboratory=replace(scene.laboratory, placement=placement)))
 
 
-def placement_of(rng: Rng, scene: SyntheticScene) -> Placement:
+def placed_as_usual(scene: SyntheticScene, path: Path, count: int) -> Float[np.ndarray, "c s q"]:
+    """What each thing that sits elsewhere adds to the outputs along a movement, by one usual standard deviation.
+
+    Of a scene that has a placement of its own or none; nothing is drawn for it.
+    """
+    placement = noticed(scene, path, placement_of(scene, sizes(scene, path), 1.0))
+    anew = replace(scene, laboratory=replace(scene.laboratory, placement=placement))
+    return placed(anew, path(np.arange(count) * scene.step))
+
+
+def placement_of(scene: SyntheticScene, size: Sizes, care: float) -> Placement:
     """Standard deviations of everything that may sit elsewhere."""
-    size, care = sizes(rng, scene), rng.uniform(CAREFUL, CARELESS)
     known = {"m": LENGTH, "rad": ANGLE}
     units = scene.units[: len(scene.inputs)]
     inputs = {
@@ -55,9 +67,8 @@ def placement_of(rng: Rng, scene: SyntheticScene) -> Placement:
     )
 
 
-def noticed(rng: Rng, scene: SyntheticScene, placement: Placement) -> Placement:
+def noticed(scene: SyntheticScene, path: Path, placement: Placement) -> Placement:
     """The same, but nothing so far off that whoever measures would see it and place it better."""
-    path = scene.path(rng, 0)
     course = path(np.arange(samples(scene, path)) * scene.step)
     outputs = scene.body.recorded(scene.base_model(course)(scene.theta))
     changed = placed(replace(scene, laboratory=replace(scene.laboratory, placement=placement)), course)

@@ -39,7 +39,7 @@ QUARTER = 0.25
 def recorder_laboratory(rng: Rng, scene: SyntheticScene) -> SyntheticScene:
     """The scene, recorded in another way."""
     scene = at_another_rate(rng, another_device(rng, scene))
-    size, sort = sizes(rng, scene), str(rng.choice(SORTS))
+    size, sort = sizes(scene, scene.path(rng, 0)), str(rng.choice(SORTS))
     noise = tuple(_noise(rng, sort, one.sd) for one in scene.noise)
     recorder = Recorder(
         _growth(rng, scene, size) if sort == "growing" else {},
