@@ -21,7 +21,7 @@ from geocontact.gap.selection.held_out_rules import HeldOutRules
 from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, settled_in, singles
 from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, recorder_remarks, residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
-from geocontact.gap.selection.verdict import Answer, answer, borne_out, ranking, with_mistake
+from geocontact.gap.selection.verdict import Answer, answer, borne_out, ranking, with_mistake, with_refused
 
 FIRSTS = 3  # singles that a second effect is tried on
 LEADING = 3  # contenders under whose noise everyone is compared
@@ -131,10 +131,12 @@ def _attributed(
     at("whether held-out trials are predicted better")
     rules = HeldOutRules.of(clean, base.judged)
     gaining = [c for c in contenders if c.nats > base.nats]
-    objections = {c.label: why for c in gaining if (why := rules.objection(c))}
+    alone = [c for c in gaining if len(c.candidates) == 1]
+    objections = {c.label: why for c in gaining if (why := rules.objection(c, alone))}
     objections |= rules.outdone([c for c in gaining if c.label not in objections])
     free = [c for c in contenders if c.label not in objections]
-    held = ranking(base, free, shares, Counter(one.name for one in entered))
+    variants = Counter(one.name for one in entered)
+    held = ranking(base, free, shares, variants)
     odd = tuple(each for each in residual_anomalies(clean, held.leader.judged) if each.nats > ODD)
     recorder = tuple(each for each in recorder_remarks(clean, held.leader.judged) if each.nats > ODD)
     strange = float(sum(each.nats for each in odd))
@@ -143,6 +145,8 @@ def _attributed(
     rest = surrogate(clean, best.judged)
     left = _believed(rules, best, rest) if best is base or rules.adds(rest, best) else 0.0
     said = answer(held, _believed(rules, base, remaining["none"]), strange, left + strange)
+    harmless = [c for c in gaining if c.candidates[0].somewhere is not None or not rules.harm(c)]
+    said = with_refused(said, ranking(base, harmless, shares, variants))
     remaining |= {best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)

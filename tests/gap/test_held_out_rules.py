@@ -8,7 +8,15 @@ import pytest
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import evaluated
-from geocontact.gap.selection.held_out_rules import FEW, HeldOutRules, TrialWeight, amplitude, trimmed
+from geocontact.gap.selection.held_out_rules import (
+    FEW,
+    WORTH_NAMING,
+    HeldOutRules,
+    TrialWeight,
+    amplitude,
+    taken_away,
+    trimmed,
+)
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case, judged_as
@@ -114,11 +122,31 @@ def test_who_is_surely_outdone_on_held_out_trials_is_told(rules: HeldOutRules) -
 def test_a_larger_error_on_held_out_trials_is_harm(rules: HeldOutRules) -> None:
     one = contenders(rules)[0]
     rules.fitted[one.label] = [3.0 * part for part in rules.before]
-    assert "grows" in rules._of_harm(one)
+    assert "grows" in rules.harm(one)
     rules.fitted[one.label] = [0.2 * part for part in rules.before]
-    assert rules._of_harm(one) == ""
-    rules.fitted[one.label] = [(1.0 - 1e-3) * part for part in rules.before]
-    assert "below" in rules._of_harm(one), "of a change that is nothing"
+    assert rules.harm(one) == ""
+
+
+@pytest.mark.slow
+def test_who_takes_less_than_its_share_of_the_error_away_is_not_named(rules: HeldOutRules) -> None:
+    first, second = contenders(rules)
+    pair = Contender((*first.candidates, *second.candidates), rules.base)
+    enough, too_little = np.sqrt(1.0 - 1.1 * WORTH_NAMING), np.sqrt(1.0 - 0.9 * WORTH_NAMING)
+    for scale, refused in ((too_little, True), (enough, False)):
+        rules.fitted[first.label] = [scale * part for part in rules.before]
+        assert bool(rules._of_share(first, [first, second])) is refused
+    rules.fitted[second.label] = rules.before
+    for scale, refused in ((too_little, True), (enough, False)):
+        rules.fitted[pair.label] = [enough * scale * part for part in rules.before]
+        assert bool(rules._of_share(pair, [first, second])) is refused, "a second effect, of what the first leaves"
+
+
+def test_the_share_that_is_gone_is_that_of_the_channel_that_gains_most():
+    before = [RNG.standard_normal((SAMPLES, 3)) for _ in range(TRIALS)]
+    after = [part * np.sqrt([0.7, 1.5, 1.0]) for part in before]
+    assert taken_away(before, after) == pytest.approx(0.3)
+    assert taken_away(before, [1.1 * part for part in before]) == pytest.approx(1.0 - 1.21)
+    assert taken_away([0.0 * part for part in before], after) == 0.0
 
 
 def test_few_samples_count_for_nothing():

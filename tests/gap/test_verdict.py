@@ -21,6 +21,7 @@ from geocontact.gap.selection.verdict import (
     borne_out,
     ranking,
     with_mistake,
+    with_refused,
 )
 from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.systems.catalogue import system_of
@@ -61,6 +62,19 @@ def said(
 def test_a_gain_that_may_be_luck_is_no_gap() -> None:
     assert said(contender(SURE - 2.0, "damping")).verdict == "no_gap"
     assert said(contender(SURE + 6.0, "damping")).effects == ("damping",)
+
+
+def test_what_may_not_be_named_keeps_its_place_in_the_ranking() -> None:
+    """The verdict is made without it; nothing becomes more probable."""
+    refused = [contender(20.0, "preload"), contender(30.0, "damping"), contender(SURE - 2.0, "dead_zone")]
+    counts = {one.name: 1 for one in OFFERED.values()}
+    everyone = ranking(contender(0.0), refused, shares(*refused), counts)
+    silent = said()
+    told = with_refused(silent, everyone)
+    assert (told.verdict, told.effects, told.ambiguity) == ("no_gap", (), ("damping", "preload"))
+    assert told.probabilities == silent.probabilities
+    named = said(contender(25.0, "preload"))
+    assert with_refused(named, everyone) == named, "where something is named it stands alone"
 
 
 def test_a_gain_is_borne_out_in_proportion_to_what_changes_in_the_calibration_trials() -> None:

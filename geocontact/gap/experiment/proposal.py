@@ -82,8 +82,13 @@ def proposed(found: Attribution, confounded: Sequence[Candidate] = ()) -> Propos
 
 
 def _competing_models(found: Attribution) -> list[Contender]:
-    """The best model of each answer still in question, what is named first; mistakes in the data do not count."""
+    """The best model of each answer still in question, what is named first; mistakes in the data do not count.
+
+    None where nothing is missing, though something gains that may not be named.
+    """
     said = found.answer
+    if said.verdict == "no_gap":
+        return []
     competitors = [said.chosen] if said.chosen.candidates and said.verdict != "unknown" else []
     for name in said.ambiguity:
         if any(name in one.names for one in competitors):

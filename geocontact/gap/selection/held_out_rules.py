@@ -10,8 +10,8 @@ is missing. Whether it is there is asked of residuals that are whitened by noise
 tell most; whether it does harm of residuals in units of the floor, inputs as they were measured. The standard error is
 from blocks of the trials, whatever the noise within and between neighbouring blocks is (Newey & West 1987,
 Econometrica 55:703), no less than that of independent samples: few blocks that hold the change tell little, however
-many samples they have. The change must exceed what the calibration of a channel varies by, and no verdict hangs on a
-few samples or on one trial.
+many samples they have. What is named, or called unknown, takes at least a stated share of some channel's squared error
+away, a second effect of what the first leaves; and no verdict hangs on a few samples or on one trial.
 """
 
 from __future__ import annotations
@@ -36,11 +36,11 @@ SURE = 0.975  # one-sided
 HALF = 0.5  # amplitude below which a change makes the error larger
 NOTHING = 1e-12  # of the squared residual, below which a prediction is not changed
 HARM = 0.02  # of a channel's squared error, that it may surely grow by; the sum over the channels may not grow at all
-SMALL = 0.005  # of a channel's signal, that a gap must exceed: half of what its calibration varies by
+WORTH_NAMING = 0.1  # of a channel's squared error, that must go: a twentieth of the error, less than anybody would see
 FEW = 0.02  # of the samples, that no verdict may hang on
 ENOUGH = 6.0  # nats that the others must gain
 LEFT_OVER = 0.2  # of what a named effect changes, or of an error, in squares, that may be left over
-TOO_SMALL = f"the change is below {SMALL:.1%} of the signal in every channel"
+TOO_LITTLE = f"in no channel it takes {WORTH_NAMING:.0%} of the squared error away"
 
 
 @dataclass(frozen=True)
@@ -141,8 +141,6 @@ class HeldOutRules:
         The base model as it was judged.
     before
         Its residuals on the held-out trials, refitted to the calibration trials, inputs as they were measured.
-    signal
-        Root mean square of each measured channel on the held-out trials.
     weights
         Of all trials.
     fitted
@@ -152,36 +150,29 @@ class HeldOutRules:
     problem: Problem
     base: Judged
     before: list[Float[np.ndarray, "_ c"]]
-    signal: Float[np.ndarray, " c"]
     weights: tuple[TrialWeight, ...]
     fitted: dict[str, list[Float[np.ndarray, "_ c"]]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, problem: Problem, base: Judged) -> HeldOutRules:
         """The base model refitted by plain least squares, every channel divided by its floor."""
-        count, whole = len(problem.calibration.trials), problem.recorded
-        before = measured_fit(problem, problem.plain, problem.floor)[1][count:]
-        signal = np.sqrt(mean_squares(whole.outputs[count:], whole.present[count:]))
+        before = measured_fit(problem, problem.plain, problem.floor)[1][len(problem.calibration.trials) :]
         varies = base.noise.varies
         weights = tuple(
             TrialWeight.of(there, problem.floor, varied * varies)
-            for there, varied in zip(whole.present, problem.varied(base.model.jacobian), strict=True)
+            for there, varied in zip(problem.recorded.present, problem.varied(base.model.jacobian), strict=True)
         )
-        return cls(problem, base, before, signal, weights)
+        return cls(problem, base, before, weights)
 
-    @property
-    def present(self) -> tuple[Bool[np.ndarray, "_ c"], ...]:
-        """Which samples of the held-out trials were measured."""
-        return self.problem.recorded.present[len(self.problem.calibration.trials) :]
-
-    def objection(self, one: Contender) -> str:
+    def objection(self, one: Contender, alone: Sequence[Contender]) -> str:
         """Why a model may not be named, in words; "" where nothing speaks against it.
 
-        Mistakes in the data are not judged: trials that have them are not predicted.
+        Mistakes in the data are not judged: trials that have them are not predicted. `alone` are models with one
+        effect.
         """
         if any(each.somewhere is not None for each in one.candidates):
             return ""
-        return self._of_change(one.judged) or self._of_harm(one) or self._of_few(one.judged)
+        return self._of_change(one.judged) or self.harm(one) or self._of_share(one, alone) or self._of_few(one.judged)
 
     def outdone(self, free: Sequence[Contender]) -> dict[str, str]:
         """Objections to models that another with as many effects outdoes, by label.
@@ -229,7 +220,8 @@ class HeldOutRules:
             self.fitted[one.label] = measured_fit(self.problem, one.judged.model, self.problem.floor)[1][count:]
         return self.fitted[one.label]
 
-    def _of_harm(self, one: Contender) -> str:
+    def harm(self, one: Contender) -> str:
+        """In words how a model predicts held-out trials worse than the base model; "" where it does not."""
         change = [b - a for b, a in zip(self.before, self._after(one), strict=True)]
         old, new = ([part / self.problem.floor for part in parts] for parts in (self.before, change))
         together = amplitude(old, new)
@@ -239,7 +231,17 @@ class HeldOutRules:
             own = amplitude([b[:, c : c + 1] for b in old], [m[:, c : c + 1] for m in new])
             if own is not None and own.worse:
                 return f"{name} is predicted worse ({own.words})"
-        return "" if self.large(change) else TOO_SMALL
+        return ""
+
+    def _of_share(self, one: Contender, alone: Sequence[Contender]) -> str:
+        """Of two effects either must take its share of what the other leaves."""
+        after = self._after(one)
+        if taken_away(self.before, after) < WORTH_NAMING:
+            return TOO_LITTLE
+        labels = [each.label for each in one.candidates]
+        parts = [each for each in alone if len(labels) > 1 and each.label in labels]
+        less = [each.label for each in parts if taken_away(self._after(each), after) < WORTH_NAMING]
+        return f"beside {less[0]}, {TOO_LITTLE}" if less else ""
 
     def _of_few(self, one: Judged) -> str:
         without, with_it = (_innovations(self.problem, each, one.noise) for each in (self.base, one))
@@ -249,13 +251,7 @@ class HeldOutRules:
             return "without one trial nothing speaks for it"
         if trimmed(np.concatenate(by_sample)) <= ENOUGH:
             return f"without {FEW:.0%} of the samples nothing speaks for it"
-        if trimmed(np.concatenate([np.add.reduceat(each, block_edges(len(each))) for each in by_sample])) <= 0.0:
-            return f"without {FEW:.0%} of the blocks nothing speaks for it"
         return ""
-
-    def large(self, change: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
-        """Whether a change of the prediction of the held-out trials is worth speaking of in some channel."""
-        return bool((np.sqrt(mean_squares(change, self.present)) > SMALL * self.signal).any())
 
     def unnamed(self, found: Surrogate, before: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
         """Whether something without a name predicts held-out trials better, as the calibration trials tell it.
@@ -267,7 +263,8 @@ class HeldOutRules:
         pairs = zip(self.weights[count:], before[count:], change, strict=True)
         both = [(weight(b), weight(m)) for weight, b, m in pairs]
         whole = amplitude([b for b, _ in both], [m for _, m in both])
-        return whole is not None and whole.better and self.large(change)
+        after = [b - m for b, m in zip(before[count:], change, strict=True)]
+        return whole is not None and whole.better and taken_away(before[count:], after) >= WORTH_NAMING
 
 
 def whitened_samples(
@@ -299,12 +296,10 @@ def left_out_residuals(problem: Problem, one: Judged, noise: Noise) -> list[Floa
     return found
 
 
-def mean_squares(
-    values: Sequence[Float[np.ndarray, "_ c"]], present: Sequence[Bool[np.ndarray, "_ c"]]
-) -> Float[np.ndarray, " c"]:
-    """Of each channel where it was measured; 0 where it never was."""
-    squares = sum(np.where(there, v**2, 0.0).sum(axis=0) for v, there in zip(values, present, strict=True))
-    return np.asarray(squares / np.maximum(sum(there.sum(axis=0) for there in present), 1))
+def taken_away(before: Sequence[Float[np.ndarray, "_ c"]], after: Sequence[Float[np.ndarray, "_ c"]]) -> float:
+    """The largest share of a channel's squared error that is gone, below 0 where all grow; 0 where nothing is there."""
+    old, new = (np.sum([(part**2).sum(axis=0) for part in parts], axis=0) for parts in (before, after))
+    return float(np.max(1.0 - new[old > 0.0] / old[old > 0.0], initial=-np.inf)) if (old > 0.0).any() else 0.0
 
 
 def trimmed(gains: Float[np.ndarray, " n"]) -> float:

@@ -8,7 +8,7 @@ effect outside the table, and so does an amplitude that wants to be more than is
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -149,6 +149,19 @@ def answer(held: Ranking, unnamed: float, strange: float, rest: float) -> Answer
         for name in names:
             shared[name] = shared.get(name, 0.0) + weight / total / len(names)
     return _said(base, living, gains, {names: w / total for names, w in weights.items()}, shared)
+
+
+def with_refused(said: Answer, held: Ranking) -> Answer:
+    """The answer with what gains and may not be named among what is in question, where nothing is named.
+
+    A rule may keep an effect from being named; the order of the ranking is not its matter. `held` weighs everyone who
+    does no harm, the best comes first.
+    """
+    if said.effects or said.verdict == "unresolved":
+        return said
+    order = sorted(held.living, key=lambda one: -held.gains[one.label])
+    gaining = (name for one in order if held.gains[one.label] > SURE and not one.cut_short for name in one.names)
+    return replace(said, ambiguity=tuple(dict.fromkeys([*gaining, *said.ambiguity]))[:MOST])
 
 
 def with_mistake(said: Answer, mistake: str) -> Answer:

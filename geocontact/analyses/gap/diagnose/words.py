@@ -89,15 +89,17 @@ def _removed(gap: ChannelGap) -> str:
 
 
 def _no_gap(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
-    return ["nothing is missing beyond noise and trial-to-trial variation", *_absorbed(d)]
+    return ["nothing is missing beyond noise and trial-to-trial variation", *_not_ruled_out(d), *_absorbed(d)]
 
 
 def _unknown(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     where = f" in {place(d.where[0], cells)}" if d.where else ""
     said = [f"there is a gap{where} and none of the known effects explains it"]
-    if d.ambiguity:
-        said.append(f"{names(d.ambiguity)} {'is' if len(d.ambiguity) == 1 else 'are'} not ruled out")
-    return said + _absorbed(d)
+    return [*said, *_not_ruled_out(d), *_absorbed(d)]
+
+
+def _not_ruled_out(d: Diagnosis) -> list[str]:
+    return [f"{names(d.ambiguity)} {'is' if len(d.ambiguity) == 1 else 'are'} not ruled out"] if d.ambiguity else []
 
 
 def _unresolved(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
