@@ -145,8 +145,8 @@ def _attributed(
     rest = surrogate(clean, best.judged)
     left = _believed(rules, best, rest) if best is base or rules.adds(rest, best) else 0.0
     said = answer(held, _believed(rules, base, remaining["none"]), strange, left + strange)
-    harmless = [c for c in gaining if c.candidates[0].somewhere is not None or not rules.harm(c)]
-    said = with_refused(said, ranking(base, harmless, shares, variants))
+    possible = [c for c in gaining if not rules.ruled_out(c)]
+    said = with_refused(said, ranking(base, possible, shares, variants))
     remaining |= {best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)

@@ -122,9 +122,18 @@ def test_who_is_surely_outdone_on_held_out_trials_is_told(rules: HeldOutRules) -
 def test_a_larger_error_on_held_out_trials_is_harm(rules: HeldOutRules) -> None:
     one = contenders(rules)[0]
     rules.fitted[one.label] = [3.0 * part for part in rules.before]
-    assert "grows" in rules.harm(one)
+    assert "grows" in rules.harm(one) and rules.ruled_out(one)
     rules.fitted[one.label] = [0.2 * part for part in rules.before]
-    assert rules.harm(one) == ""
+    assert rules.harm(one) == "" and not rules.ruled_out(one)
+
+
+@pytest.mark.slow
+def test_an_error_that_grows_by_chance_keeps_from_being_named_but_rules_nothing_out(rules: HeldOutRules) -> None:
+    one = contenders(rules)[0]
+    luck = [0.1 * part.std() * RNG.standard_normal(part.shape) for part in rules.before]
+    sign = np.sign(sum(float((m * b).sum()) for m, b in zip(luck, rules.before, strict=True)))
+    rules.fitted[one.label] = [b + sign * m for b, m in zip(rules.before, luck, strict=True)]
+    assert "grows" in rules.harm(one) and not rules.ruled_out(one)
 
 
 @pytest.mark.slow

@@ -222,16 +222,25 @@ class HeldOutRules:
 
     def harm(self, one: Contender) -> str:
         """In words how a model predicts held-out trials worse than the base model; "" where it does not."""
-        change = [b - a for b, a in zip(self.before, self._after(one), strict=True)]
-        old, new = ([part / self.problem.floor for part in parts] for parts in (self.before, change))
-        together = amplitude(old, new)
+        together, *channels = self._amplitudes(one)
         if together is not None and together.grown > 0.0:
             return f"the error on held-out trials grows ({together.words})"
-        for c, name in enumerate(self.problem.system.outputs):
-            own = amplitude([b[:, c : c + 1] for b in old], [m[:, c : c + 1] for m in new])
+        for own, name in zip(channels, self.problem.system.outputs, strict=True):
             if own is not None and own.worse:
                 return f"{name} is predicted worse ({own.words})"
         return ""
+
+    def ruled_out(self, one: Contender) -> bool:
+        """Whether a model surely predicts held-out trials worse, not by chance; mistakes in the data are not judged."""
+        mistaken = any(each.somewhere is not None for each in one.candidates)
+        return not mistaken and any(own is not None and own.worse for own in self._amplitudes(one))
+
+    def _amplitudes(self, one: Contender) -> list[Amplitude | None]:
+        """Of what a model changes on held-out trials, in units of the floor: of all channels together, of each."""
+        change = [b - a for b, a in zip(self.before, self._after(one), strict=True)]
+        old, new = ([part / self.problem.floor for part in parts] for parts in (self.before, change))
+        columns = [slice(None), *(slice(c, c + 1) for c in range(len(self.problem.floor)))]
+        return [amplitude([b[:, own] for b in old], [m[:, own] for m in new]) for own in columns]
 
     def _of_share(self, one: Contender, alone: Sequence[Contender]) -> str:
         """Of two effects either must take its share of what the other leaves."""

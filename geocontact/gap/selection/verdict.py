@@ -155,7 +155,7 @@ def with_refused(said: Answer, held: Ranking) -> Answer:
     """The answer with what gains and may not be named among what is in question, where nothing is named.
 
     A rule may keep an effect from being named; the order of the ranking is not its matter. `held` weighs everyone who
-    does no harm, the best comes first.
+    is not ruled out.
     """
     if said.effects or said.verdict == "unresolved":
         return said
