@@ -17,11 +17,11 @@ from geocontact.gap.data_errors.hidden import hidden_mistakes, undone
 from geocontact.gap.selection.calibration_share import calibration_share, changes
 from geocontact.gap.selection.clipping import ClippedChannel, clipped_channels
 from geocontact.gap.selection.evidence import settled
-from geocontact.gap.selection.held_out_rules import HeldOutRules
+from geocontact.gap.selection.held_out_rules import TOO_LITTLE, HeldOutRules
 from geocontact.gap.selection.model_comparison import Contender, base_contender, pairs, settled_in, singles
 from geocontact.gap.selection.residual_anomalies import ResidualAnomaly, recorder_remarks, residual_anomalies
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
-from geocontact.gap.selection.verdict import Answer, answer, borne_out, ranking, with_mistake, with_refused
+from geocontact.gap.selection.verdict import Answer, answer, borne_out, most_of, ranking, with_mistake, with_refused
 
 FIRSTS = 3  # singles that a second effect is tried on
 LEADING = 3  # contenders under whose noise everyone is compared
@@ -144,9 +144,10 @@ def _attributed(
     at("what is left over")
     rest = surrogate(clean, best.judged)
     left = _believed(rules, best, rest) if best is base or rules.adds(rest, best) else 0.0
-    said = answer(held, _believed(rules, base, remaining["none"]), strange, left + strange)
-    possible = [c for c in gaining if not rules.ruled_out(c)]
-    said = with_refused(said, ranking(base, possible, shares, variants))
+    possible = ranking(base, [c for c in gaining if not rules.ruled_out(c)], shares, variants)
+    little = {label for label, why in objections.items() if why == TOO_LITTLE}
+    unnamed, known = _believed(rules, base, remaining["none"]), most_of(possible, little)
+    said = with_refused(answer(held, unnamed, strange, left + strange, known), possible)
     remaining |= {best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)

@@ -19,6 +19,7 @@ from geocontact.gap.selection.verdict import (
     SURE,
     answer,
     borne_out,
+    most_of,
     ranking,
     with_mistake,
     with_refused,
@@ -75,6 +76,17 @@ def test_what_may_not_be_named_keeps_its_place_in_the_ranking() -> None:
     assert told.probabilities == silent.probabilities
     named = said(contender(25.0, "preload"))
     assert with_refused(named, everyone) == named, "where something is named it stands alone"
+
+
+def test_what_a_known_effect_explains_is_nothing_unknown_though_it_is_too_small_to_be_named() -> None:
+    small = [contender(40.0, "damping"), contender(90.0, "preload")]
+    counts = {one.name: 1 for one in OFFERED.values()}
+    known = most_of(ranking(contender(0.0), small, shares(*small), counts), {"damping"})
+    nobody = ranking(contender(0.0), [], {}, counts)
+    assert known == pytest.approx(40.0)
+    for little, verdict in ((0.0, "unknown"), (known, "no_gap")):
+        assert answer(nobody, 45.0, 0.0, 0.0, little).verdict == verdict, "a surrogate"
+        assert answer(nobody, 0.0, 7.5, 0.0, little).verdict == verdict, "an oscillation"
 
 
 def test_a_gain_is_borne_out_in_proportion_to_what_changes_in_the_calibration_trials() -> None:

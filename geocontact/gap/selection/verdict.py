@@ -7,7 +7,7 @@ effect outside the table, and so does an amplitude that wants to be more than is
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -111,7 +111,7 @@ def ranking(
     return Ranking(base, living, gains)
 
 
-def answer(held: Ranking, unnamed: float, strange: float, rest: float) -> Answer:
+def answer(held: Ranking, unnamed: float, strange: float, rest: float, little: float = 0.0) -> Answer:
     """The verdict; FloatingPointError where what is given is not a number.
 
     Parameters
@@ -125,12 +125,14 @@ def answer(held: Ranking, unnamed: float, strange: float, rest: float) -> Answer
     rest
         What the surrogate gains on top of the best contender, with what is odd [nats]. What is there beside an effect
         is there without it as well: no more of it is believed than what it gains over the base.
+    little
+        What a known effect gains that is too small to be named [nats]. What it explains is nothing unknown.
     """
     base, living, gains = held.base, held.living, held.gains
     rest = min(rest, max(unnamed, 0.0) + strange)
-    unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0)
+    unnamed = (1.0 - ANY_FORM) * max(unnamed - little - STRANGER, 0.0)
     named = max([*gains.values(), 0.0])
-    unnamed += 0.0 if strange <= LEFT_OVER * named else strange
+    unnamed += 0.0 if strange <= LEFT_OVER * max(named, little) else strange
     most = max(named, unnamed)
     tolerance = 1.0 + FORM * most
     weights: dict[tuple[str, ...], float] = {("none",): np.exp((SURE - most) / tolerance)}
@@ -149,6 +151,11 @@ def answer(held: Ranking, unnamed: float, strange: float, rest: float) -> Answer
         for name in names:
             shared[name] = shared.get(name, 0.0) + weight / total / len(names)
     return _said(base, living, gains, {names: w / total for names, w in weights.items()}, shared)
+
+
+def most_of(held: Ranking, little: Collection[str]) -> float:
+    """The most that any of these gains, by label; 0 where none does [nats]."""
+    return max([0.0, *(held.gains[one.label] for one in held.living if one.label in little)])
 
 
 def with_refused(said: Answer, held: Ranking) -> Answer:
