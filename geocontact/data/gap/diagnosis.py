@@ -133,8 +133,9 @@ class Diagnosis:
     """The answer to a gap case, as in diagnosis.json.
 
     `probabilities` is a distribution over single answers (effects, "none", "unknown"), `ambiguity` the effects that
-    these data cannot tell apart, `absorbed` those that would be invisible here, `next_experiment` what to record so
-    that it can be identified; None where nothing is in question, or nothing that is simulated tells enough.
+    these data cannot tell apart, or, where nothing is named, that gain and may not be named, the best first; `absorbed`
+    those that would be invisible here, `next_experiment` what to record so that it can be identified; None where
+    nothing is in question, or nothing that is simulated tells enough.
     """
 
     case: str
