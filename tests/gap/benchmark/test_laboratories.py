@@ -261,3 +261,18 @@ def test_effects_are_planted_abroad_too(laboratory: str) -> None:
 def test_a_laboratory_that_does_not_exist_is_named() -> None:
     with pytest.raises(ValueError, match="unknown laboratory 'moon'; laboratories are home, recorder"):
         synthetic_case("knee", "none", 0, laboratory="moon")
+
+
+@pytest.mark.slow
+def test_a_gain_is_hardly_visible_beside_what_gains_usually_differ_by() -> None:
+    """Of the knee's gain 1 % differs from trial to trial as it is; a delay looks like nothing that does."""
+    gain, late = (synthetic_case("knee", "single", 3, name, 20.0).label for name in ("sensor_gain", "time_shift"))
+    assert gain.nats_anew is not None and late.nats_anew is not None
+    assert gain.nats_anew < 0.3 * gain.nats["sensor_gain"]
+    assert 0.9 * late.nats["time_shift"] < late.nats_anew <= 1.001 * late.nats["time_shift"]
+
+
+@pytest.mark.slow
+def test_in_a_laboratory_that_places_all_anew_labels_know_it_already() -> None:
+    label = synthetic_case("knee", "single", 5, "relaxation", 60.0, laboratory="placement").label
+    assert label.nats_anew == pytest.approx(label.nats["relaxation"], rel=0.3), "its care is within 30 % of the usual"
