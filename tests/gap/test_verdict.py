@@ -85,8 +85,9 @@ def test_what_a_known_effect_explains_is_nothing_unknown_though_it_is_too_small_
     nobody = ranking(contender(0.0), [], {}, counts)
     assert known == pytest.approx(40.0)
     for little, verdict in ((0.0, "unknown"), (known, "no_gap")):
-        assert answer(nobody, 45.0, 0.0, 0.0, little).verdict == verdict, "a surrogate"
-        assert answer(nobody, 0.0, 7.5, 0.0, little).verdict == verdict, "an oscillation"
+        for rest in (0.0, 60.0):  # on top of the base, where nobody may be named, as much is left over
+            assert answer(nobody, 45.0, 0.0, rest, little).verdict == verdict, "a surrogate"
+            assert answer(nobody, 0.0, 7.5, rest, little).verdict == verdict, "an oscillation"
 
 
 def test_a_gain_is_borne_out_in_proportion_to_what_changes_in_the_calibration_trials() -> None:

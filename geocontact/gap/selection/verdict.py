@@ -129,10 +129,11 @@ def answer(held: Ranking, unnamed: float, strange: float, rest: float, little: f
         What a known effect gains that is too small to be named [nats]. What it explains is nothing unknown.
     """
     base, living, gains = held.base, held.living, held.gains
+    unnamed, strange = unnamed - little, 0.0 if strange <= LEFT_OVER * little else strange
     rest = min(rest, max(unnamed, 0.0) + strange)
-    unnamed = (1.0 - ANY_FORM) * max(unnamed - little - STRANGER, 0.0)
+    unnamed = (1.0 - ANY_FORM) * max(unnamed - STRANGER, 0.0)
     named = max([*gains.values(), 0.0])
-    unnamed += 0.0 if strange <= LEFT_OVER * max(named, little) else strange
+    unnamed += 0.0 if strange <= LEFT_OVER * named else strange
     most = max(named, unnamed)
     tolerance = 1.0 + FORM * most
     weights: dict[tuple[str, ...], float] = {("none",): np.exp((SURE - most) / tolerance)}
