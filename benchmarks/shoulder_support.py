@@ -81,6 +81,7 @@ def phases(seeds: int) -> dict[str, Any]:
 def profiles(draws: int) -> dict[str, Any]:
     """Factors, what they take away, held-out persons by reserve, seconds of a linear program."""
     import statistics
+    from functools import partial
 
     from geocontact.analyses.shoulder.optimise.read import support_of
     from geocontact.shoulder_exoskeleton.lucy import lucy_new_cylinder
@@ -106,12 +107,19 @@ def profiles(draws: int) -> dict[str, Any]:
         "CPU seconds": statistics.median(seconds),
         "table 3": {
             p: told(each)
-            for p, each in judged(trials, support, dict.fromkeys(persons, TABLE_3), one.factors, draws=draws).items()
+            for p, each in judged(
+                trials,
+                support,
+                dict.fromkeys(persons, TABLE_3),
+                dict.fromkeys(persons, one.factors),
+                draws=draws,
+            ).items()
         },
     }
     for reserve in RESERVES:
         limits = Limits(reserve=reserve)
-        made = held_out(trials, support, lambda of, limits=limits: best_profile(of, limits), one.factors, draws=draws)
+        make, beside = (partial(by, limits=limits) for by in (best_profile, uniform_profile))
+        made = held_out(trials, support, make, beside, draws=draws)
         found[f"held out, reserve {reserve:.0%}"] = {person: told(each) for person, each in made.items()}
     return found
 

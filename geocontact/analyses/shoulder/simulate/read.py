@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -16,11 +16,11 @@ from geocontact.analyses.shoulder.simulate.control import controllers
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.tool import tool_runs
 from geocontact.data.errors import InputError
-from geocontact.identify.signals.filled import filled_and_smoothed
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
+from geocontact.shoulder_exoskeleton.smoothed_motion import smoothed_motion
 from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller
 
 CURRENT = 1.0
@@ -82,20 +82,10 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer, record: Record) -> Wo
 
 
 def _smoothed(arm: ArmMotion, o: ShoulderSimulateOptions) -> ArmMotion:
-    columns = np.hstack([arm.interface, arm.shoulder, arm.gravity_at_frames(), arm.elevation[:, None]])
-    cutoff = None if o.cutoff == 0.0 else o.cutoff
     try:
-        time, values = filled_and_smoothed(arm.time, columns, cutoff=cutoff, longest_gap=o.gap_limit)
+        return smoothed_motion(arm, None if o.cutoff == 0.0 else o.cutoff, o.gap_limit)
     except ValueError as error:
         raise InputError(o.markers, "", f"{arm.side} arm: {error}", "give another `cutoff` or `gap_limit`") from error
-    return replace(
-        arm,
-        time=time,
-        interface=values[:, :3],
-        shoulder=values[:, 3:6],
-        gravity=values[:, 6:9],
-        elevation=values[:, 9],
-    )
 
 
 def _frame_at(time: Float[np.ndarray, " t"], frame: DeviceFrame, wanted: Float[np.ndarray, " e"]) -> DeviceFrame:
