@@ -70,6 +70,23 @@ def test_the_shoulder_s_planted_effects() -> None:
         assert near(before, one["full_model"]["before_N"]) and near(after, one["full_model"]["after_N"])
 
 
+def test_the_shoulder_s_cuff() -> None:
+    page, told = "theory/shoulder_exoskeleton.md", results("shoulder_cuff")
+    for one in told["trial"]:
+        cells = row(page, f"{100 * one['level']:.0f} % {one['cuff']}")
+        names = ("elevation_deg", "supporting_N", "most_at_lowering_N", "shear_N", "couple_N_m", "peak_Pa")
+        for cell, name in zip(cells, names, strict=False):
+            assert cell == "none" or near(cell.split()[0].rstrip("°"), one[name], 1e-3 if name == "peak_Pa" else 1.0)
+        assert one["off_at_most_N"] < 0.25
+    for one in told["at rest"]:
+        pose = f"{one['medial_mm']:.0f}, {one['raising_mm']:.0f} mm, {one['tilt_rad']:.2f} rad"
+        cells = dict(zip(("round", "mesh"), row(page, pose)[:2], strict=True))
+        for arm, cell in cells.items():
+            assert all(
+                near(n, f) for n, f in zip(cell.removesuffix(" N").split(", "), one[arm]["force_N"][1:], strict=True)
+            )
+
+
 def test_the_shoulder_s_support() -> None:
     page, told = "theory/shoulder_support.md", results("shoulder_support")
     for reserve, one in told["simulated"].items():
