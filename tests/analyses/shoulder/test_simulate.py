@@ -15,6 +15,7 @@ from geocontact.analyses.shoulder.simulate.exports import write_external_loads
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics import compiled as code
+from geocontact.io.mocap.markers import read_markers
 from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.text.tables import read_table
 from geocontact.shoulder_exoskeleton import arm_model
@@ -209,9 +210,24 @@ def test_lines_for_paraview_hold_points_and_forces(folder: Path, found: Shoulder
     np.testing.assert_allclose(lines.point_data["force on the arm [N]"][5], s.told["force"][400], rtol=1e-5, atol=1e-5)
 
 
+def test_markers_are_in_the_frame_of_the_device(found: ShoulderSimulateResult) -> None:
+    """The upper markers lie where the arms' motion has the shoulders, but for the low-pass."""
+    names = read_markers(TRIAL / "markers.trc").names
+    assert found.markers.shape == (821, len(names), 3)
+    for arm, name in zip(found.arms, ("humerus_rup", "humerus_lup"), strict=True):
+        off = found.markers[:, names.index(name)] - arm.simulation.motion.shoulder
+        assert np.abs(off).max() < 3e-3
+
+
 def test_the_page_shows_moving_arms_and_what_is_invented(folder: Path) -> None:
     page = (folder / "report.html").read_text(encoding="utf-8")
-    for words in ("forces on the arms, 0.5 m for 100 N", "Numbers of the device", "numbers are invented", "at a stop"):
+    for words in (
+        "forces on the arms, 0.5 m for 100 N",
+        "Numbers of the device",
+        "numbers are invented",
+        "at a stop",
+        "markers",
+    ):
         assert words in page, words
 
 

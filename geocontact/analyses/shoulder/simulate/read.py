@@ -37,6 +37,8 @@ class Worn:
         Filtered, without gaps, at even times.
     frame
         The device in the laboratory at the same times.
+    markers
+        All that were recorded, in the device's frame at the same times [m]; NaN where they were not seen.
     tool
         Whether the tool runs; None where nobody told.
     controllers
@@ -45,6 +47,7 @@ class Worn:
 
     arms: tuple[ArmMotion, ...]
     frame: DeviceFrame
+    markers: Float[np.ndarray, "t m 3"]
     device: Device
     wearer: Wearer
     tool: Bool[np.ndarray, " t"] | None
@@ -78,7 +81,9 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer, record: Record) -> Wo
         if o.tool is None
         else tool_runs(record, o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
     )
-    return Worn(arms, frame, device, wearer, tool, controllers(o, time, record))
+    nearest = np.clip(np.searchsorted(0.5 * (seen.time[1:] + seen.time[:-1]), time), 0, len(seen) - 1)
+    places = np.stack([frame.points(each) for each in seen.positions[nearest].swapaxes(0, 1)], axis=1)
+    return Worn(arms, frame, places, device, wearer, tool, controllers(o, time, record))
 
 
 def _smoothed(arm: ArmMotion, o: ShoulderSimulateOptions) -> ArmMotion:

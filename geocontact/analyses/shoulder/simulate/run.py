@@ -39,6 +39,7 @@ def run(worn: Worn, o: ShoulderSimulateOptions, record: Record) -> ShoulderSimul
         options=o,
         arms=arms,
         frame=worn.frame,
+        markers=worn.markers,
         device=worn.device,
         wearer=worn.wearer,
         influences=found,
