@@ -35,6 +35,7 @@ def main() -> None:
         "versions": versions({"numpy", "scipy"}),
         "phases": phases(options.seeds),
         "profiles": profiles(options.draws),
+        "simulated": simulated(options.seeds // 8),
     }
     options.out.mkdir(parents=True, exist_ok=True)
     (options.out / "shoulder_support.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
@@ -81,6 +82,7 @@ def phases(seeds: int) -> dict[str, Any]:
 def profiles(draws: int) -> dict[str, Any]:
     """Factors, what they take away, held-out persons by reserve, seconds of a linear program."""
     import statistics
+    from functools import partial
 
     from geocontact.analyses.shoulder.optimise.read import support_of
     from geocontact.shoulder_exoskeleton.lucy import lucy_new_cylinder
@@ -106,13 +108,64 @@ def profiles(draws: int) -> dict[str, Any]:
         "CPU seconds": statistics.median(seconds),
         "table 3": {
             p: told(each)
-            for p, each in judged(trials, support, dict.fromkeys(persons, TABLE_3), one.factors, draws=draws).items()
+            for p, each in judged(
+                trials,
+                support,
+                dict.fromkeys(persons, TABLE_3),
+                dict.fromkeys(persons, one.factors),
+                draws=draws,
+            ).items()
         },
     }
     for reserve in RESERVES:
         limits = Limits(reserve=reserve)
-        made = held_out(trials, support, lambda of, limits=limits: best_profile(of, limits), one.factors, draws=draws)
+        make, beside = (partial(by, limits=limits) for by in (best_profile, uniform_profile))
+        made = held_out(trials, support, make, beside, draws=draws)
         found[f"held out, reserve {reserve:.0%}"] = {person: told(each) for person, each in made.items()}
+    return found
+
+
+def simulated(seeds: int) -> dict[str, Any]:
+    """The group's profiles in closed loop: what is left of them, and phases of the device's own arm beside true ones.
+
+    Sensors are noisy and late. Of what is taken away the mean over arms and seeds, of all else the largest.
+    """
+    import numpy as np
+
+    from geocontact.analyses.shoulder.optimise.read import support_of
+    from geocontact.shoulder_exoskeleton.lucy import lucy_new_cylinder
+    from geocontact.shoulder_exoskeleton.support.arm_trial import support_case
+    from geocontact.shoulder_exoskeleton.support.best_profile import Limits, best_profile
+    from geocontact.shoulder_exoskeleton.support.phase_check import phase_check, phases_by_onset
+    from geocontact.shoulder_exoskeleton.support.sensing import Sensing
+    from geocontact.shoulder_exoskeleton.support.simulated_support import simulated_support
+    from geocontact.shoulder_exoskeleton.synthetic.arm_trials import arms_of
+    from geocontact.shoulder_exoskeleton.synthetic.design import CONDITIONS, PARTICIPANTS, TASKS
+    from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
+
+    device = lucy_new_cylinder()
+    support = support_of(device)
+    works = [synthetic_trial(person, task, CONDITIONS[0]) for person in PARTICIPANTS for task in TASKS]
+    arms = [(work, arm) for work in works for arm in arms_of(work)]
+    found: dict[str, Any] = {}
+    for reserve in RESERVES:
+        best = best_profile([support_case(arm, support) for _, arm in arms], Limits(reserve=reserve))
+        outcomes, checks = [], []
+        for work, arm in arms:
+            true = phases_by_onset(arm.motion.time, work.courses[arm.motion.side].elevation, work.phase)
+            for seed in range(seeds):
+                one = simulated_support(arm, device, best.factors, Sensing(), seed)
+                outcomes.append(one.outcome)
+                checks.append(phase_check(arm.motion.time, one.arm.phase, true))
+        found[f"reserve {reserve:.0%}"] = {
+            "planned": best.value,
+            "taken away": float(np.mean([each.reduction for each in outcomes])),
+            **{name: max(getattr(o, name) for o in outcomes) for name in ("pushed_up", "excess", "force", "rate")},
+            "wrong phase, mean": float(np.mean([each.wrong for each in checks])),
+            "wrong phase, largest": max(each.wrong for each in checks),
+            "chatter": sum(each.chatter for each in checks),
+            "detections": len(checks),
+        }
     return found
 
 

@@ -40,6 +40,7 @@ OUTPUTS: dict[str, int] = {
     "force": 3,
     "in_cuff": 3,
     "couple": 3,
+    "moment": 3,
     "normal": 3,
     "friction": 3,
     "sliding": 3,
@@ -127,6 +128,7 @@ def _made(axes: tuple[tuple[float, ...], ...], locked: tuple[str, ...], machine_
         "force": held.force,
         "in_cuff": turned.T @ held.force,
         "couple": turned.T @ held.couple,
+        "moment": held.couple,
         "normal": held.normal,
         "friction": held.friction,
         "sliding": held.sliding,
@@ -201,7 +203,7 @@ Told = dict[str, Float[np.ndarray, "t _"]]
 
 force
     On the human arm, in the device's frame [N].
-in_cuff, couple, normal, friction
+in_cuff, couple, moment, normal, friction
     The same in the cuff's axes (distal, medial, raising), the moment about the sphere's centre [N m], and the force's
     two parts.
 sliding, place

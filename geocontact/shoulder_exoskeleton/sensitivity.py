@@ -22,8 +22,8 @@ IDLE: dict[Cuff, tuple[str, ...]] = {
     "surface": ("rounding", "belt_share", "k", "b"),
 }
 """Numbers that no motion depends on, and one that is numerical, by how the arm is held."""
-STANDING = tuple(f"axis_{joint}_{axis}" for joint in JOINTS for axis in "xyz")
-"""Directions of axes: other axes are another device, with equations of its own."""
+AXES = tuple(f"axis_{joint}_{axis}" for joint in JOINTS for axis in "xyz")
+"""Directions of axes: other axes have equations of their own, which are not compiled for one simulation."""
 
 
 @dataclass(frozen=True)
@@ -63,18 +63,21 @@ def influences(
 ) -> Iterator[Influence]:
     """One by one, in the device's order; a number with which nothing rests at the start changes all by infinity.
 
+    An axis is tilted by 5 degrees along the two directions across it.
+
     `factor` is that of `simulate_arm`; it stays as it is.
     """
     usual = simulate_arm(motion, device, wearer, level, factor=factor, cuff=cuff)
     for name, number in device.numbers.items():
-        if name in (*IDLE[cuff], *STANDING):
+        if name in IDLE[cuff]:
             continue
-        step = _step(name, number.value)
+        step = _tilt(device, name) if name in AXES else _step(name, number.value)
         if step == 0.0:
             continue
         lower, upper = QUANTITIES[name].lower, QUANTITIES[name].upper
         values = [v for v in (number.value - step, number.value + step) if lower <= v <= upper]
-        changed = [_changed(usual, device.having(**{name: value}), factor) for value in values]
+        compiled = name not in AXES
+        changed = [_changed(usual, device.having(**{name: value}), factor, compiled) for value in values]
         most = np.max(changed, axis=0)
         yield Influence(name, number.source, step, *map(float, most))
 
@@ -88,9 +91,19 @@ def _step(name: str, value: float) -> float:
     return abs(SHARE * value)
 
 
-def _changed(usual: ArmSimulation, device: Device, factor: Float[np.ndarray, " t"] | None) -> tuple[float, ...]:
+def _tilt(device: Device, name: str) -> float:
+    """What tilts a unit axis by `TURN` along one direction; 0 along the axis itself, which would change its length."""
+    of, way = name[:-1], "xyz".index(name[-1])
+    unit = np.array([device[f"{of}{each}"] for each in "xyz"])
+    return 0.0 if int(np.argmax(np.abs(unit))) == way else float(np.tan(TURN) * np.linalg.norm(unit))
+
+
+def _changed(
+    usual: ArmSimulation, device: Device, factor: Float[np.ndarray, " t"] | None, compiled: bool
+) -> tuple[float, ...]:
+    motion, level, cuff = usual.motion, usual.level, usual.cuff
     try:
-        other = simulate_arm(usual.motion, device, usual.wearer, usual.level, factor=factor, cuff=usual.cuff)
+        other = simulate_arm(motion, device, usual.wearer, level, factor=factor, machine_code=compiled, cuff=cuff)
     except ArithmeticError:
         return (np.inf,) * 4
     pairs = ((usual.elevation, other.elevation), (usual.supporting, other.supporting), (usual.shear, other.shear))

@@ -130,6 +130,7 @@ def simulate_arm(
     told = _told(model, found.q, found.u, found.z, inputs.at(motion.time), p)
     if motion.side == "left":
         told["force"] = told["force"] * MIRROR
+        told["moment"] = -told["moment"] * MIRROR
         told["joints"] = told["joints"] * np.tile(MIRROR, 4)
     return ArmSimulation(
         motion, device, wearer, level, cuff, found.q, found.u, found.z[:, 0], told, found.steps, found.refused
@@ -178,8 +179,17 @@ def at_rest(model: ArmModel, device: Device, p: Float[np.ndarray, " p"], inputs:
     held[3:6] = 0.0
     held[13:16] = 0.0
     guess = _guess(p, held[:3])
-    q, z = model.equilibrium.find((guess, p[slices()["push"]] * held[9]), inputs=held, parameters=p, tolerance=1e-7)
     lower, upper = (np.array([device[f"{joint}_{end}"] for joint in JOINTS]) for end in ("lower", "upper"))
+    try:
+        q, z = model.equilibrium.find((guess, p[slices()["push"]] * held[9]), inputs=held, parameters=p, tolerance=1e-7)
+    except ArithmeticError as error:
+        wanted, low, high = np.degrees([guess[2], lower[2], upper[2]])
+        if low <= wanted <= high:
+            raise
+        ends = f"{low:.0f} to {high:.0f} deg"
+        raise ArithmeticError(
+            f"at the start the arm is at {wanted:.0f}, beyond the stops of elevation ({ends})"
+        ) from error
     beyond = np.maximum(q - upper, lower - q)
     if np.all(beyond > 0.0):
         raise ArithmeticError("at the start all joints are beyond their stops")

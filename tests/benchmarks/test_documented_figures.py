@@ -61,12 +61,49 @@ def test_the_shoulder_s_study() -> None:
 
 def test_the_shoulder_s_planted_effects() -> None:
     for kind, one in results("shoulder_gap")["answers"].items():
-        said, _, exo, force, full, _ = row("theory/shoulder_exoskeleton.md", kind)
+        said, _, exo, force, full, seconds = row("theory/shoulder_exoskeleton.md", kind)
         assert said.startswith(one["verdict"]) and all(name.replace("_", " ") in said for name in one["named"])
         for cell, channel in ((exo, "exo"), (force, "force")):
             assert cell == "-" or near(cell.split("%")[0], one["reduction"][channel][0], 100.0), cell
         before, after = full.split(" → ")
+        assert near(seconds, one["seconds"])
         assert near(before, one["full_model"]["before_N"]) and near(after, one["full_model"]["after_N"])
+
+
+def test_the_shoulder_s_cuff() -> None:
+    page, told = "theory/shoulder_exoskeleton.md", results("shoulder_cuff")
+    for one in told["trial"]:
+        cells = row(page, f"{100 * one['level']:.0f} % {one['cuff']}")
+        names = ("elevation_deg", "supporting_N", "most_at_lowering_N", "shear_N", "couple_N_m", "peak_Pa")
+        for cell, name in zip(cells, names, strict=False):
+            assert cell == "none" or near(cell.split()[0].rstrip("°"), one[name], 1e-3 if name == "peak_Pa" else 1.0)
+        assert one["off_at_most_N"] < 0.25
+    for one in told["at rest"]:
+        pose = f"{one['medial_mm']:.0f}, {one['raising_mm']:.0f} mm, {one['tilt_rad']:.2f} rad"
+        cells = dict(zip(("round", "mesh"), row(page, pose)[:2], strict=True))
+        for arm, cell in cells.items():
+            assert all(
+                near(n, f) for n, f in zip(cell.removesuffix(" N").split(", "), one[arm]["force_N"][1:], strict=True)
+            )
+
+
+def test_the_shoulder_s_support() -> None:
+    page, told = "theory/shoulder_support.md", results("shoulder_support")
+    for reserve, one in told["simulated"].items():
+        share = "0" if reserve == "reserve 0%" else reserve.removeprefix("reserve ").replace("%", " %")
+        taken, pushed, force, rate, wrong = row(page, share, f"{one['planned']:.0%}".replace("%", " %"))
+        assert near(taken, one["taken away"], 100.0) and near(wrong, one["wrong phase, mean"], 100.0)
+        assert near(force.split()[0], one["force"]) and near(rate.split()[0], one["rate"])
+        assert (pushed == "never") == (one["pushed_up"] == 0.0)
+        assert pushed == "never" or near(pushed.split("%")[0], one["pushed_up"], 100.0)
+    for key, (ours, paper) in told["profiles"]["factors"].items():
+        task, hand, phase = key.split()
+        *factors, printed = row(page, f"{task}, {hand}")
+        k = ("lift", "screw-in", "lower").index(phase)
+        assert near(factors[k], ours) and float(printed.split(", ")[k]) == paper
+    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
+    gains = [100.0 * told["profiles"]["held out, reserve 0%"][person]["gain"] for person in ("P1", "P2", "P3")]
+    assert "are {:.0f}, {:.0f} and {:.0f} points without a reserve".format(*gains) in text
 
 
 def test_force_beside_a_refined_mesh() -> None:

@@ -14,6 +14,7 @@ from cyclopts import App
 import geocontact as gc
 from geocontact.cli.main import app
 from geocontact.cli.suggestions import commands
+from geocontact.dynamics.compiled import cache_folder
 from tests.house.first_screens import ROOT, missing
 from tests.house.shell_blocks import DOCUMENTS, calls_of, files_of, name_of, shell_blocks
 
@@ -128,14 +129,17 @@ def test_every_block_prints_what_the_page_shows(tmp_path: Path, page: Path) -> N
 
 
 def shell(folder: Path) -> dict[str, str]:
-    """Environment in which `geocontact` and `python` are those of this checkout, and no browser opens."""
+    """Environment in which `geocontact` and `python` are those of this checkout, and no browser opens.
+
+    The folder is home, but what this machine has compiled already is taken from where it lies.
+    """
     (folder / "bin").mkdir()
     for command, program in (("python", ""), ("geocontact", f' "{ROOT}/cli.py"')):
         file = folder / "bin" / command
         file.write_text(f'#!/bin/sh\nexec "{sys.executable}"{program} "$@"\n', encoding="utf-8")
         file.chmod(0o755)
     path = f"{folder / 'bin'}{os.pathsep}{os.environ['PATH']}"
-    own = {"HOME": str(folder), "SHELL": "/bin/bash", "BROWSER": "true"}
+    own = {"HOME": str(folder), "SHELL": "/bin/bash", "BROWSER": "true", "GEOCONTACT_CACHE": str(cache_folder())}
     return os.environ | own | {"PATH": path, "PYTHONPATH": str(ROOT), "PYTHONUNBUFFERED": "1"}
 
 

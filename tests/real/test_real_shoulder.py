@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.data.errors import InputWarning
+import geocontact as gc
+from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.io.mocap.markers import read_markers
@@ -60,6 +61,26 @@ def test_elevation_is_that_of_the_laboratory_but_for_the_trunk(walk: MarkerTraje
         gravity = arm.gravity_at_frames() / 9.80665
         inclined = np.arccos(-gravity[:, 2])
         assert np.all(np.abs(arm.elevation - np.arccos(-along[:, 1])) <= inclined + 1e-9)
+
+
+def test_a_device_that_nobody_wore_is_simulated_and_doubted(data_dir: Path) -> None:
+    """The swinging arms of a walk in a virtual device: no truth, but bounds; exchanged sides are refused."""
+    markers = data_dir / "opensim_walk" / "markers_walk.trc"
+    whose = {"RSHO": "LSHO", "LSHO": "RSHO", "RELB": "LELB", "LELB": "RELB"}
+    right, exchanged = (
+        ",".join(f"{theirs}={turned.get(own, own)}" for theirs, own in (NAMES | PELVIS).items())
+        for turned in ({}, whose)
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        found = gc.shoulder.simulate(markers, markers_map=right, level=0.0)
+        with pytest.raises(InputError, match="left and right are exchanged"):
+            gc.shoulder.simulate(markers, markers_map=exchanged, level=0.0)
+    for side in ("right", "left"):
+        table = found.table(side)
+        assert np.isfinite(table.select_dtypes(float).to_numpy()).all() and table["supporting [N]"].abs().max() < 60.0
+    told = "\n".join(found.warnings)
+    assert "attached virtually" in told and "numbers are invented" in told
 
 
 TRUNK = {"c7": "C7", "t8": "T8", "ij": "CLAV", "px": "STRN", "gu": "RSHO", "centelbow": "RELB"}

@@ -15,7 +15,7 @@ from geocontact.io.mocap.markers import read_markers
 from geocontact.io.mocap.trc_writer import write_trc
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import ArmMotions, MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.from_markers.gaps import longest_gap
-from geocontact.shoulder_exoskeleton.from_markers.virtual_device import Attachment
+from geocontact.shoulder_exoskeleton.from_markers.virtual_device import Attachment, virtual_reference
 from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
 from geocontact.shoulder_exoskeleton.synthetic.trial import OverheadTrial, synthetic_trial
 
@@ -87,6 +87,18 @@ def test_a_device_that_was_not_worn_is_attached_to_the_trunk(trial: OverheadTria
     np.testing.assert_allclose(
         higher.of("left").shoulder - own.of("left").shoulder, [[0.0, -0.04, 0.0]] * 739, atol=1e-12
     )
+
+
+def test_sides_that_contradict_the_pelvis_are_refused() -> None:
+    """Attached by acromia and pelvis: a person whose shoulders look backwards."""
+    names = ("RSHO", "LSHO", "RASI", "LASI", "RPSI", "LPSI")
+    places = [[0, -0.2, 1.4], [0, 0.2, 1.4], [0.1, -0.1, 0.9], [0.1, 0.1, 0.9], [-0.1, -0.05, 0.9], [-0.1, 0.05, 0.9]]
+    still = np.repeat(np.array([places], float), 3, axis=0)
+    right = MarkerTrajectories(np.arange(3) / 100.0, still, names, "walk.trc")
+    found = virtual_reference(right, Attachment())
+    assert found is not None and found.origin[0, 0] == pytest.approx(-0.12), "behind the acromia"
+    with pytest.raises(InputError, match="RSHO and LSHO the person looks away from RASI and LASI"):
+        virtual_reference(replace(right, names=("LSHO", "RSHO", *names[2:])), Attachment())
 
 
 def test_one_arm_is_enough(trial: OverheadTrial) -> None:

@@ -83,6 +83,21 @@ def test_a_noisy_current_between_both_thresholds_changes_nothing() -> None:
     assert len(order(detected(TIME, angle, tool, narrow))) > 50
 
 
+def test_a_device_that_sinks_as_the_tool_stops_is_not_lowered() -> None:
+    """Less support lets it sink by 2 degrees in a tenth of a second; a lowering begins later all the same."""
+    angle, tool = course((1.8, 1.0, 2.5), (-0.035, 5.5, 5.6), (-1.76, 6.0, 7.5)), current(3.0, 5.5)
+    assert order(detected(TIME, angle, tool)) == ORDER
+    quick = detected(TIME, angle, tool, Thresholds(settled=0.0))
+    assert TIME[quick == LOWER][0] < 5.6 < 6.0 < TIME[detected(TIME, angle, tool) == LOWER][0]
+
+
+def test_a_slip_at_the_end_of_a_lowering_is_no_lift() -> None:
+    angle, tool = course((1.8, 1.0, 2.5), (-1.8, 6.0, 7.5)), current(3.0, 5.5)
+    angle += np.interp(TIME, [6.97, 7.0, 7.03], [0.0, 0.15, 0.0])
+    assert order(detected(TIME, angle, tool)) == ORDER
+    assert len(order(detected(TIME, angle, tool, Thresholds(turned=0.01)))) > len(ORDER)
+
+
 @pytest.mark.parametrize(
     ("numbers", "what"),
     [

@@ -126,6 +126,13 @@ def test_no_rest_is_told() -> None:
         simulate_arm(replace(motion, interface=motion.interface + np.array([0.0, 0.0, 2.0])), LUCY, WEARER, 0.0)
 
 
+def test_an_arm_beyond_the_stops_is_told() -> None:
+    """No equilibrium is found there; what is wrong is the range."""
+    narrow = LUCY.having(elevation_lower=np.radians(100.0), elevation_upper=np.radians(120.0))
+    with pytest.raises(ArithmeticError, match=r"the arm is at \d+, beyond the stops of elevation \(100 to 120 deg\)"):
+        simulate_arm(lifted(), narrow, WEARER, 0.0)
+
+
 def test_gravity_may_turn_with_the_trunk() -> None:
     """The same gravity frame by frame; and a trunk that leans forward changes what is carried."""
     motion = lifted(seconds=5.0)

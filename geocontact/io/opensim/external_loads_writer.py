@@ -12,7 +12,7 @@ FORCE = """\t\t\t<ExternalForce name={name}>
 \t\t\t\t<point_expressed_in_body>ground</point_expressed_in_body>
 \t\t\t\t<force_identifier>{stem}_v</force_identifier>
 \t\t\t\t<point_identifier>{stem}_p</point_identifier>
-\t\t\t\t<torque_identifier></torque_identifier>
+\t\t\t\t<torque_identifier>{torque}</torque_identifier>
 \t\t\t</ExternalForce>
 """
 WHOLE = """<?xml version="1.0" encoding="UTF-8" ?>
@@ -27,17 +27,26 @@ WHOLE = """<?xml version="1.0" encoding="UTF-8" ?>
 """
 
 
-def write_external_loads(path: Path, data: str, bodies: Mapping[str, str]) -> None:
-    """Forces without torques, in the ground's frame.
+def write_external_loads(path: Path, data: str, bodies: Mapping[str, str], *, torques: bool = False) -> None:
+    """Forces in the ground's frame, with torques or without.
 
     Parameters
     ----------
     data
         Name of the .mot file beside this one, with columns STEM_vx … and STEM_px ….
     bodies
-        Body that each force acts on, by its stem.
+        Body that each force acts on, by its stem, which holds the word "force".
+    torques
+        Whether there are columns of torques, named as those of the force with the word "torque": left_torque_x for
+        left_force_vx.
     """
     forces = "".join(
-        FORCE.format(name=quoteattr(stem), body=escape(body), stem=escape(stem)) for stem, body in bodies.items()
+        FORCE.format(
+            name=quoteattr(stem),
+            body=escape(body),
+            stem=escape(stem),
+            torque=escape(stem.replace("force", "torque") + "_") if torques else "",
+        )
+        for stem, body in bodies.items()
     )
     path.write_text(WHOLE.format(forces=forces, data=escape(data)), encoding="utf-8")

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.shoulder_exoskeleton.from_markers.marker_names import (
     C7,
@@ -110,18 +111,23 @@ def _isb(lower: str) -> Callable[[MarkerTrajectories], tuple[Places, Places]]:
     return directions
 
 
-def _by_acromia(*lower: str) -> Callable[[MarkerTrajectories], tuple[Places, Places]]:
-    """Left from acromion to acromion, up from the middle of lower markers to that of the acromia."""
+def _by_acromia_and_pelvis(markers: MarkerTrajectories) -> tuple[Places, Places]:
+    """Left from acromion to acromion, up from the middle of the pelvis to that of the acromia.
 
-    def directions(markers: MarkerTrajectories) -> tuple[Places, Places]:
-        right, left = np.moveaxis(markers.of(ACROMIA), 1, 0)
-        return left - right, 0.5 * (right + left) - markers.of(lower).mean(axis=1)
-
-    return directions
+    InputError where that makes the front of the pelvis its back.
+    """
+    right, left = np.moveaxis(markers.of(ACROMIA), 1, 0)
+    pelvis = markers.of(PELVIS)
+    across, up = left - right, 0.5 * (right + left) - pelvis.mean(axis=1)
+    back = pelvis[:, 2:].mean(axis=1) - pelvis[:, :2].mean(axis=1)
+    if np.nanmedian(np.einsum("ti,ti->t", np.cross(up, across), back)) < 0.0:
+        what = f"with {' and '.join(ACROMIA)} the person looks away from {' and '.join(PELVIS[:2])}"
+        raise InputError(markers.source, "", what, "left and right are exchanged; rename with `markers_map`")
+    return across, up
 
 
 _SETS: tuple[tuple[tuple[str, ...], Callable[[MarkerTrajectories], tuple[Places, Places]]], ...] = (
     ((CLAVICLES, C7, STERNUM, T10), _isb(T10)),
     ((CLAVICLES, C7, STERNUM, T8), _isb(T8)),
-    ((*ACROMIA, *PELVIS), _by_acromia(*PELVIS)),  # last: acromia move with the arms, the pelvis without the thorax
+    ((*ACROMIA, *PELVIS), _by_acromia_and_pelvis),  # last: acromia move with the arms, the pelvis without the thorax
 )

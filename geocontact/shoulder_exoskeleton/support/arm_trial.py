@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.shoulder_exoskeleton.device import Wearer
 from geocontact.shoulder_exoskeleton.human_arm.elevation_torque import ElevationTorque
 from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds, detected
 from geocontact.shoulder_exoskeleton.support.sensing import Sensing, sensed
@@ -28,6 +30,10 @@ class ArmTrial:
         Of the tool [A].
     lever
         Middle of the cuff from the shoulder [m].
+    motion
+        Of the upper arm in the device's frame, smoothed and without gaps, at the same times.
+    wearer
+        To whom the device is adjusted.
     """
 
     name: str
@@ -38,6 +44,8 @@ class ArmTrial:
     elevation: Float[np.ndarray, " t"]
     current: Float[np.ndarray, " t"]
     lever: float
+    motion: ArmMotion
+    wearer: Wearer
 
 
 @dataclass(frozen=True)

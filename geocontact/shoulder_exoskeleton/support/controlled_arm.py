@@ -2,7 +2,8 @@
 
 The controller sees the device's own arm, which its support moves. Phases and motion are therefore found together: the
 arm is simulated with the phases of the pass before until they are those of its own elevation. The controller looks back
-only, so each pass is right at least one change of phase longer than the one before.
+only, so each pass is right at least one change of phase longer than the one before. Its sensors may be late and noisy:
+the noise is the same in every pass.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from geocontact.shoulder_exoskeleton.cuff_contact import Cuff
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds, detected
+from geocontact.shoulder_exoskeleton.support.sensing import Sensing, sensed
 
 PASSES = 50
 """Simulations until the phases must have settled; the shipped trial takes two or three."""
@@ -34,16 +36,29 @@ class Controller:
         Of the tool at the motion's frames [A].
     thresholds
         When phases change.
+    sensing
+        Noise, steps and delay of angle and current; None: exact.
+    seed
+        Of the noise.
     """
 
     factors: Float[np.ndarray, " 4"]
     current: Float[np.ndarray, " t"]
     thresholds: Thresholds
+    sensing: Sensing | None = None
+    seed: int = 0
+
+    def phases(self, time: Float[np.ndarray, " t"], elevation: Float[np.ndarray, " t"]) -> Int[np.ndarray, " t"]:
+        """Phase at each frame for an arm of this elevation [rad]."""
+        seen = elevation, self.current
+        if self.sensing is not None:
+            seen = sensed(time, *seen, self.sensing, np.random.default_rng(self.seed))
+        return detected(time, *seen, self.thresholds)
 
 
 @dataclass(frozen=True, eq=False)
 class ControlledArm:
-    """The arm, and phase and factor that its controller gives at each frame; sensors are exact and not late."""
+    """The arm, and phase and factor that its controller gives at each frame."""
 
     simulation: ArmSimulation
     phase: Int[np.ndarray, " t"]
@@ -57,11 +72,11 @@ def controlled_arm(
 
     ArithmeticError as of `simulate_arm`, and where phases do not settle.
     """
-    phase = detected(motion.time, motion.elevation, controller.current, controller.thresholds)
+    phase = controller.phases(motion.time, motion.elevation)
     for _ in range(PASSES):
         factor = controller.factors[phase]
         found = simulate_arm(motion, device, wearer, level, factor=factor, cuff=cuff)
-        seen = detected(motion.time, found.elevation, controller.current, controller.thresholds)
+        seen = controller.phases(motion.time, found.elevation)
         if np.array_equal(seen, phase):
             return ControlledArm(found, phase, factor)
         phase = seen

@@ -32,7 +32,8 @@ class HeldOutSupport:
     interval
         Of that mean under the model's errors.
     gain
-        Reduction more than that of the profile it is compared with, and its interval, draw by draw.
+        Reduction more than that of the profile it is compared with, which the others made as well, and its interval,
+        draw by draw.
     pushed_up, excess
         Largest share of the time in which the arm is pushed up in a case, and largest excess [N m]; then the same with
         which 95 % of the draws get by.
@@ -49,27 +50,27 @@ class HeldOutSupport:
 
     @property
     def gain_is_beyond_the_error(self) -> bool:
-        """Whether the interval of the gain lies on one side of 0."""
-        return self.gain_interval[0] > 0.0 or self.gain_interval[1] < 0.0
+        """Whether the interval of the gain lies above 0; what pushes the arm up is no gain."""
+        return self.gain_interval[0] > 0.0 and self.pushed_up[0] == 0.0
 
 
 def held_out(
     trials: Sequence[ArmTrial],
     support: Support,
     make: Maker,
-    compared: Factors,
+    compared: Maker,
     error: ModelError | None = None,
     draws: int = 200,
     seed: int = 0,
 ) -> dict[str, HeldOutSupport]:
-    """For each person the profile that the others make.
+    """For each person the profile that the others make, beside another that they make.
 
     Parameters
     ----------
     make
         A profile from cases, such as `lambda cases: best_profile(cases, limits)`.
     compared
-        Factors of the profile that gains are counted from.
+        Makes the profile that gains are counted from, such as one factor for everything.
     draws
         Of the model's errors for each person.
 
@@ -78,31 +79,29 @@ def held_out(
     persons = list(dict.fromkeys(trial.person for trial in trials))
     if len(persons) < 2:
         raise ValueError("one person alone cannot be held out")
-    made = {
-        person: make([support_case(trial, support) for trial in trials if trial.person != person]).factors
-        for person in persons
-    }
-    return judged(trials, support, made, compared, error, draws, seed)
+    others = {p: [support_case(trial, support) for trial in trials if trial.person != p] for p in persons}
+    made, beside = ({p: by(cases).factors for p, cases in others.items()} for by in (make, compared))
+    return judged(trials, support, made, beside, error, draws, seed)
 
 
 def judged(
     trials: Sequence[ArmTrial],
     support: Support,
     factors: Mapping[str, Factors],
-    compared: Factors,
+    compared: Mapping[str, Factors],
     error: ModelError | None = None,
     draws: int = 200,
     seed: int = 0,
 ) -> dict[str, HeldOutSupport]:
-    """For each person named in `factors` what these do to it."""
+    """For each person named in `factors` what these do to it, beside those in `compared`."""
     found = {}
     for number, (person, own) in enumerate(factors.items()):
         rng = np.random.default_rng([seed, number])
         theirs = [trial for trial in trials if trial.person == person]
         nominal = [support_case(trial, support) for trial in theirs]
         varied = [[varied_case(trial, support, error or ModelError(), rng) for trial in theirs] for _ in range(draws)]
-        exact, base = _outcomes(nominal, own), _outcomes(nominal, compared)
-        with_error, base_error = ([_outcomes(each, given) for each in varied] for given in (own, compared))
+        exact, base = _outcomes(nominal, own), _outcomes(nominal, compared[person])
+        with_error, base_error = ([_outcomes(each, given) for each in varied] for given in (own, compared[person]))
         reductions = np.array([_mean(each) for each in with_error])
         gains = reductions - [_mean(each) for each in base_error]
         found[person] = HeldOutSupport(

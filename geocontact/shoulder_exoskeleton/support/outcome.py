@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.shoulder_exoskeleton.support.phases import SUPPORTED
 from geocontact.shoulder_exoskeleton.support.support_case import FactorKey, Hand, SupportCase
@@ -56,15 +57,22 @@ class SupportOutcome:
 def outcome(case: SupportCase, factors: Factors) -> SupportOutcome:
     """Of a profile that has a factor for each supported phase of the case."""
     support = case.support(factors)
-    over = support - case.needed
+    return outcome_of(case.time, case.needed, support, float(np.abs(support).max() / case.lever))
+
+
+def outcome_of(
+    time: Float[np.ndarray, " t"], needed: Float[np.ndarray, " t"], support: Float[np.ndarray, " t"], force: float
+) -> SupportOutcome:
+    """Of a torque on the arm beside the one that it needs [N m], with the largest force at the interface [N]."""
+    over = support - needed
     given = support > TOLERANCE
     pushed = given & (over > TOLERANCE)
     return SupportOutcome(
-        reduction=1.0 - float(np.abs(over).mean() / np.abs(case.needed).mean()),
+        reduction=1.0 - float(np.abs(over).mean() / np.abs(needed).mean()),
         pushed_up=float(pushed.mean()),
         excess=float(np.max(over[given], initial=0.0)),
-        force=float(np.abs(support).max() / case.lever),
-        rate=float(np.abs(np.diff(support) / np.diff(case.time)).max()),
+        force=force,
+        rate=float(np.abs(np.diff(support) / np.diff(time)).max()),
     )
 
 

@@ -3,7 +3,8 @@
 Yao et al. (2024), Robotics 13:27, fig. 7: lifting and lowering are told by elevation and rate of the device's arm,
 screwing by the tool's current. The paper's thresholds came from tuning and are not printed; those here are tuned on
 synthetic trials. Hysteresis: each phase is left at another threshold than it is entered, and only if the condition has
-held for a while.
+held for a while. The support moves the arm that it is controlled by: when the tool stops, less support lets the device
+sink in its cuff, which must not pass for a lowering, nor its slipping at the end of one for a lift.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from jaxtyping import Float, Int
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.shoulder_exoskeleton.support.phases import LIFT, LOWER, REST, SCREW
 
-LOW, HIGH, UP, DOWN, STILL, ON, OFF, CONFIRMED, RUNNING, SMOOTHING = range(10)
+LOW, HIGH, UP, DOWN, STILL, ON, OFF, CONFIRMED, RUNNING, SMOOTHING, SETTLED, TURNED = range(12)
 """Places of the thresholds where they are an array."""
 
 
@@ -38,6 +39,10 @@ class Thresholds:
         The same for the current [s].
     smoothing
         Time constant of the controller's low-pass on elevation and rate [s].
+    settled
+        Time after the tool stops until a lowering may begin [s].
+    turned
+        Time for which an arm that is lowered must rise to be lifted again [s].
     """
 
     low: float = 0.40
@@ -50,6 +55,8 @@ class Thresholds:
     confirmed: float = 0.01
     running: float = 0.0
     smoothing: float = 0.03
+    settled: float = 0.25
+    turned: float = 0.08
 
     def __post_init__(self) -> None:
         for below, above in (("low", "high"), ("off", "on")):
@@ -84,11 +91,11 @@ def _detected(
     time: Float[np.ndarray, " t"],
     elevation: Float[np.ndarray, " t"],
     current: Float[np.ndarray, " t"],
-    limits: Float[np.ndarray, " ten"],
+    limits: Float[np.ndarray, " twelve"],
 ) -> Int[np.ndarray, " t"]:
     """Through a causal low-pass of first order, from rest before the start; a change waits until it is confirmed."""
     found = np.empty(time.size, np.int64)
-    phase, wanted, since = REST, REST, time[0]
+    phase, wanted, since, stopped = REST, REST, time[0], -np.inf
     smooth, rate = elevation[0], 0.0
     for k in range(time.size):
         if k:
@@ -97,17 +104,28 @@ def _detected(
             smooth += step / (limits[SMOOTHING] + step) * (elevation[k] - smooth)
             rate = (smooth - before) / step
         following = _next(phase, smooth, rate, current[k], limits)
+        if following == LOWER and time[k] - stopped < limits[SETTLED]:
+            following = phase
         if following != wanted:
             wanted, since = following, time[k]
-        by_tool = SCREW in (phase, wanted)
-        if wanted != phase and time[k] - since >= limits[RUNNING if by_tool else CONFIRMED] - 1e-9:
+        if wanted != phase and time[k] - since >= limits[_waits(phase, wanted)] - 1e-9:
+            if phase == SCREW:
+                stopped = time[k]
             phase = wanted
         found[k] = phase
     return found
 
 
 @kernel
-def _next(phase: int, elevation: float, rate: float, current: float, limits: Float[np.ndarray, " ten"]) -> int:
+def _waits(phase: int, wanted: int) -> int:
+    """Place of the time for which a change must be wanted."""
+    if SCREW in (phase, wanted):
+        return RUNNING
+    return TURNED if phase == LOWER and wanted == LIFT else CONFIRMED
+
+
+@kernel
+def _next(phase: int, elevation: float, rate: float, current: float, limits: Float[np.ndarray, " twelve"]) -> int:
     """Phase that the last sample asks for."""
     if phase == SCREW:
         return SCREW if current >= limits[OFF] else LIFT

@@ -10,22 +10,25 @@ from jaxtyping import Bool, Float
 from geocontact.data.body_segments import Sex
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.shoulder_exoskeleton.arm_motion import Side
+from geocontact.shoulder_exoskeleton.device import Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.human_arm.arm_track import arm_track
-from geocontact.shoulder_exoskeleton.human_arm.elevation_torque import elevation_torque
+from geocontact.shoulder_exoskeleton.human_arm.elevation_torque import CUTOFF, elevation_torque
 from geocontact.shoulder_exoskeleton.human_arm.hand_load import ToolWork, hand_load
+from geocontact.shoulder_exoskeleton.smoothed_motion import smoothed_motion
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
 from geocontact.shoulder_exoskeleton.support.support_case import Hand
 
 
 @dataclass(frozen=True)
 class Worker:
-    """A person at work: mass of the body [kg], sex, and the side that holds the tool."""
+    """A person at work: mass of the body [kg], sex, the side that holds the tool, lengths for the device."""
 
     name: str
     mass: float
     sex: Sex
     dominant: Side
+    lengths: Wearer
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,9 +51,21 @@ class ToolUse:
 
 
 def recorded_arms(
-    name: str, worker: Worker, task: str, markers: MarkerTrajectories, settings: MarkerSettings, use: ToolUse
+    name: str,
+    worker: Worker,
+    task: str,
+    markers: MarkerTrajectories,
+    settings: MarkerSettings,
+    use: ToolUse,
+    cutoff: float = CUTOFF,
 ) -> tuple[list[ArmTrial], tuple[str, ...]]:
-    """The arms of one trial, the right one first, and what was assumed of the markers, which must not have gaps."""
+    """The arms of one trial, the right one first, and what was assumed of the markers, which must not have gaps.
+
+    Parameters
+    ----------
+    cutoff
+        Of the zero-lag low-pass on joints and on the motion of the upper arms [Hz].
+    """
     motions = arm_motions(markers, settings)
     gravity = np.array(settings.gravity)
     kept = np.isin(markers.time, motions.arms[0].time)
@@ -59,9 +74,13 @@ def recorded_arms(
     for motion in motions.arms:
         track = arm_track(seen, motions.frame, motion.side)
         load = hand_load(use.work, motion.side, worker.dominant, use.running[kept])
-        needed = elevation_torque(track, load, mass=worker.mass, sex=worker.sex, gravity=gravity)
+        needed = elevation_torque(track, load, mass=worker.mass, sex=worker.sex, gravity=gravity, cutoff=cutoff)
+        own = smoothed_motion(motion, cutoff, settings.gap_limit)
         lever = float(np.linalg.norm(motion.interface - motion.shoulder, axis=1).mean())
         hand: Hand = "dominant" if motion.side == worker.dominant else "other"
         label = f"{name} {motion.side}"
-        found.append(ArmTrial(label, worker.name, task, hand, needed, motion.elevation, use.current[kept], lever))
+        current = use.current[kept]
+        found.append(
+            ArmTrial(label, worker.name, task, hand, needed, own.elevation, current, lever, own, worker.lengths)
+        )
     return found, motions.notes

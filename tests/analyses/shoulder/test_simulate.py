@@ -11,9 +11,11 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.shoulder.simulate.exports import write_external_loads
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics import compiled as code
+from geocontact.io.mocap.markers import read_markers
 from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.text.tables import read_table
 from geocontact.shoulder_exoskeleton import arm_model
@@ -208,21 +210,45 @@ def test_lines_for_paraview_hold_points_and_forces(folder: Path, found: Shoulder
     np.testing.assert_allclose(lines.point_data["force on the arm [N]"][5], s.told["force"][400], rtol=1e-5, atol=1e-5)
 
 
+def test_markers_are_in_the_frame_of_the_device(found: ShoulderSimulateResult) -> None:
+    """The upper markers lie where the arms' motion has the shoulders, but for the low-pass."""
+    names = read_markers(TRIAL / "markers.trc").names
+    assert found.markers.shape == (821, len(names), 3)
+    for arm, name in zip(found.arms, ("humerus_rup", "humerus_lup"), strict=True):
+        off = found.markers[:, names.index(name)] - arm.simulation.motion.shoulder
+        assert np.abs(off).max() < 3e-3
+
+
 def test_the_page_shows_moving_arms_and_what_is_invented(folder: Path) -> None:
     page = (folder / "report.html").read_text(encoding="utf-8")
-    for words in ("forces on the arms, 0.5 m for 100 N", "Numbers of the device", "numbers are invented", "at a stop"):
+    for words in (
+        "forces on the arms, 0.5 m for 100 N",
+        "Numbers of the device",
+        "numbers are invented",
+        "at a stop",
+        "markers",
+    ):
         assert words in page, words
 
 
 @pytest.mark.slow
-def test_a_padded_cuff_tells_couple_and_pressures(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a compiler, which takes longer than two seconds of motion."""
+def test_a_padded_cuff_tells_couple_and_pressures(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Without a compiler, which takes longer than two seconds of motion; its external loads turn the arm as well."""
     monkeypatch.setattr(code, "compiler", lambda: None)
     monkeypatch.setattr(arm_model, "_made", arm_model._made.__wrapped__)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        options = {"side": "right", "cuff": "surface", "time": (0.0, 2.0), "upright": (0.0, 0.5)}
-        table = gc.shoulder.simulate(TRIAL / "markers.trc", **options).table()
+        options = {"side": "left", "cuff": "surface", "time": (0.0, 2.0), "upright": (0.0, 0.5)}
+        result = gc.shoulder.simulate(TRIAL / "markers.trc", **options)
+    table, told = result.table(), result.arms[0].simulation.told
+    mirrored = np.einsum("ti,ti->t", told["in_cuff"], told["couple"])
+    np.testing.assert_allclose(np.einsum("ti,ti->t", told["force"], told["moment"]), -mirrored, atol=1e-9)
+    write_external_loads(tmp_path, [result.arms[0].simulation], result.frame)
+    (load,) = read_external_loads(tmp_path / "interface_forces.xml")[1]
+    assert load.torque and load.body == "humerus_l"
+    forces = read_table(tmp_path / "interface_forces.mot")
+    torque = np.column_stack([forces.column(f"cuff_left_torque_{axis}") for axis in "xyz"])
+    np.testing.assert_allclose(torque, np.einsum("tij,ti->tj", result.frame.rotation, told["moment"]), atol=1e-6)
     assert table["peak pressure [Pa]"].between(100.0, 1e5).all()
     assert table["pressed share [-]"].between(0.3, 1.0).all()
     assert table.filter(like="couple").abs().to_numpy().max() > 0.1

@@ -114,6 +114,12 @@ def test_level_and_side_are_those_of_the_trial(found: StudyResult) -> None:
     assert other.without is None and other.recorded is None
 
 
+def test_what_is_to_be_doubted_is_told_of_each_trial(found: StudyResult) -> None:
+    told = "\n".join(found.warnings)
+    for trial in ("supported: right arm", "supported as bare: right arm"):
+        assert f"{trial}: passive_1 is at a stop for" in told
+
+
 def test_a_study_without_the_device_is_none(folder: Path, tmp_path: Path) -> None:
     place = tmp_path / "study"
     shutil.copytree(folder, place)

@@ -25,8 +25,8 @@ FIGURE = (
     "arm; the grey span is the phase screw-in as the controller detects it."
 )
 MODEL = (
-    "Support is the torque of the cylinder at the elevation of the human arm: the device's own weight, its passive "
-    "joints and the slip in the cuff have no part in this choice. The person moves as without the device."
+    "Profiles are chosen with the torque of the cylinder at the elevation of the human arm; the device's own weight, "
+    "its passive joints and the slip in the cuff are in the simulation only. The person moves as without the device."
 )
 
 
@@ -44,7 +44,8 @@ def write_profile_page(
         Picture("Torque needed and support", FIGURE, drawing(figure)),
         frame_table("Factors of support", tables["factors"], 2),
         *([frame_table("Made for the others, judged on this person", held, 3)] if len(held) else []),
-        frame_table("What each profile does", tables["outcomes"], 3),
+        frame_table("Simulated with the device's own motion", tables["simulated"], 3),
+        frame_table("What each profile does, as the human elevation has it", tables["outcomes"], 3),
         Curves("Taken away over the limit of interface force", "%", curves),
         inputs_table(record.inputs),
         options_table(record),

@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.motion.markers import markers_given
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.shoulder.devices import device_named
+from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.tool import tool_current
 from geocontact.data.errors import InputError
@@ -18,7 +18,7 @@ from geocontact.identify.signals.filled import filled_and_smoothed
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.cylinder import lever
-from geocontact.shoulder_exoskeleton.device import Device
+from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings
 from geocontact.shoulder_exoskeleton.human_arm.hand_load import ToolWork
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, Support
@@ -43,13 +43,15 @@ def read(o: ShoulderOptimiseOptions, record: Record) -> WorkersAndDevice:
     device = device_named(record, o.device)
     if o.study is None:
         record.warn(SYNTHETIC)
-        return WorkersAndDevice(tuple(all_arms(dominant_share=o.dominant_share)), device, support_of(device))
+        arms = all_arms(dominant_share=o.dominant_share, cutoff=o.cutoff)
+        return WorkersAndDevice(tuple(arms), device, support_of(device))
     study = read_overhead_study(o.study)
     record.add_input("`study`", o.study, persons=len(study.persons), trials=len(study.trials))
     bare = [trial for trial in study.trials if trial.level is None]
     if not bare:
         record.warn("every trial was recorded in the device: the shoulder's torque is that of arms that it supported")
-    arms = [arm for trial in bare or study.trials for arm in _arms(o, record, study, trial)]
+    lengths = {name: wearer_of_lengths(record, o.study, each.lengths) for name, each in study.persons.items()}
+    arms = [arm for trial in bare or study.trials for arm in _arms(o, record, study, trial, lengths[trial.person])]
     return WorkersAndDevice(tuple(arms), device, support_of(device))
 
 
@@ -63,7 +65,9 @@ def support_of(device: Device) -> Support:
     return Support(torque, device["lag"])
 
 
-def _arms(o: ShoulderOptimiseOptions, record: Record, study: OverheadStudy, trial: StudyTrial) -> list[ArmTrial]:
+def _arms(
+    o: ShoulderOptimiseOptions, record: Record, study: OverheadStudy, trial: StudyTrial, lengths: Wearer
+) -> list[ArmTrial]:
     person, task = study.persons[trial.person], study.tasks[trial.task]
     seen = _filled(markers_given(trial.markers, None, None), o.gap_limit)
     record.add_input(f"{trial.person} {trial.task}", trial.markers, frames=len(seen))
@@ -71,9 +75,9 @@ def _arms(o: ShoulderOptimiseOptions, record: Record, study: OverheadStudy, tria
     share = o.dominant_share if task.dominant_share is None else task.dominant_share
     use = ToolUse(ToolWork(task.tool, task.push, dominant_share=share), current > Thresholds().on, current)
     dominant: Side = "right" if person.dominant == "right" else "left"
-    worker = Worker(trial.person, person.mass, person.sex, dominant)
+    worker = Worker(trial.person, person.mass, person.sex, dominant, lengths)
     settings = MarkerSettings(upright=trial.upright, gap_limit=o.gap_limit)
-    arms, notes = recorded_arms(f"{trial.person}{trial.task}", worker, trial.task, seen, settings, use)
+    arms, notes = recorded_arms(f"{trial.person}{trial.task}", worker, trial.task, seen, settings, use, o.cutoff)
     for note in notes:
         record.warn(f"{trial.markers.name}: {note}")
     return arms

@@ -56,7 +56,10 @@ class ShoulderOptimiseResult(Result):
     profiles
         The group's first.
     outcomes
-        By profile and case.
+        By profile and case, with the cylinder's torque at the human elevation.
+    simulated
+        By profile and case, the device moving by its own dynamics: the group's profile, and the one that the others
+        make for each person.
     held_out
         By person; empty where there is one only.
     front
@@ -68,14 +71,16 @@ class ShoulderOptimiseResult(Result):
     elevations: Mapping[str, Float[np.ndarray, " t"]]
     profiles: tuple[NamedProfile, ...]
     outcomes: Mapping[str, Mapping[str, SupportOutcome]]
+    simulated: Mapping[str, Mapping[str, SupportOutcome]]
     held_out: Mapping[str, HeldOutSupport]
     front: tuple[FrontPoint, ...]
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`factors`, `outcomes`, `held_out`, `front`."""
+        """`factors`, `outcomes`, `simulated`, `held_out`, `front`."""
         return {
             "factors": factors_written({each.name: each.factors for each in self.profiles}),
-            "outcomes": self._outcomes(),
+            "outcomes": self._rows(self.outcomes),
+            "simulated": self._rows(self.simulated),
             "held_out": self._held_out(),
             "front": pd.DataFrame(
                 [{"force limit [N]": p.force, "reserve [-]": p.reserve, "taken away [-]": p.value} for p in self.front]
@@ -98,9 +103,9 @@ class ShoulderOptimiseResult(Result):
         """Torques, factors, what they do, held-out persons, fronts."""
         write_profile_page(file, self.record, self.figure(), self.tables(), list(self.sentences))
 
-    def _outcomes(self) -> pd.DataFrame:
+    def _rows(self, outcomes: Mapping[str, Mapping[str, SupportOutcome]]) -> pd.DataFrame:
         rows = []
-        for profile, found in self.outcomes.items():
+        for profile, found in outcomes.items():
             for case in self.cases:
                 if case.name in found:
                     told = {"profile": profile, "person": case.person, "task": case.task, "hand": case.hand}

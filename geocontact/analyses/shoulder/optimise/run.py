@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -21,7 +21,9 @@ from geocontact.shoulder_exoskeleton.support.best_profile import (
     uniform_profile,
 )
 from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, held_out
-from geocontact.shoulder_exoskeleton.support.outcome import TABLE_3, outcome
+from geocontact.shoulder_exoskeleton.support.outcome import TABLE_3, Factors, SupportOutcome, outcome
+from geocontact.shoulder_exoskeleton.support.sensing import Sensing
+from geocontact.shoulder_exoskeleton.support.simulated_support import simulated_support
 from geocontact.shoulder_exoskeleton.support.support_case import SupportCase
 
 WORST = 0.25
@@ -31,6 +33,7 @@ FORCES = (10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 80.0)
 RESERVES = (0.0, 0.1, 0.2)
 """Shares left to the shoulder, a front each."""
 GROUP, ONE_FACTOR, PAPER = "all persons", "one factor", "table 3 of the paper"
+OTHERS = "of the others"
 
 
 def run(given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -> ShoulderOptimiseResult:
@@ -42,7 +45,10 @@ def run(given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -> 
     def make(of: Sequence[SupportCase]) -> SupportProfile:
         return best_profile(of, limits, o.aim, share)
 
-    best, uniform = make(cases), uniform_profile(cases, limits)
+    def one_factor(of: Sequence[SupportCase]) -> SupportProfile:
+        return uniform_profile(of, limits)
+
+    best, uniform = make(cases), one_factor(cases)
     persons = tuple(dict.fromkeys(case.person for case in cases))
     profiles = [NamedProfile(GROUP, best.factors), NamedProfile(ONE_FACTOR, uniform.factors)]
     if set(best.factors) <= set(TABLE_3):
@@ -52,7 +58,7 @@ def run(given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -> 
     judged: dict[str, HeldOutSupport] = {}
     if len(persons) > 1:
         try:
-            judged = held_out(given.trials, given.support, make, uniform.factors, draws=o.draws, seed=o.seed)
+            judged = held_out(given.trials, given.support, make, one_factor, draws=o.draws, seed=o.seed)
         except KeyError as error:
             what = "a task is of one person only: no profile that the others make has a factor for it"
             raise InputError(o.study or "", "", what, "let every person do every task") from error
@@ -71,6 +77,9 @@ def run(given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -> 
             FORCES, front(cases, [Limits(force, limits.rate, reserve) for force in FORCES], o.aim), strict=True
         )
     ]
+    led = {GROUP: _simulated(given, {case.person: best.factors for case in cases}, o)}
+    if judged:
+        led[OTHERS] = _simulated(given, {person: each.factors for person, each in judged.items()}, o)
     result = ShoulderOptimiseResult(
         record=record,
         options=o,
@@ -78,31 +87,74 @@ def run(given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -> 
         elevations={trial.name: trial.elevation for trial in given.trials},
         profiles=tuple(profiles),
         outcomes=outcomes,
+        simulated=led,
         held_out=judged,
         front=tuple(points),
     )
     _say(record, best, uniform, judged)
+    share = _say_simulated(record, led, limits)
     record.results["optimise"] = plain(
-        {"device": given.device.name, "taken away": best.value, "taken away by one factor": uniform.value}
+        {
+            "device": given.device.name,
+            "taken away": best.value,
+            "taken away by one factor": uniform.value,
+            "taken away, simulated": share,
+        }
     )
     return result
 
 
+def _simulated(
+    given: WorkersAndDevice, factors: Mapping[str, Factors], o: ShoulderOptimiseOptions
+) -> dict[str, SupportOutcome]:
+    """By case, with each person's factors, the device in closed loop with its sensors."""
+    found = {}
+    for trial in given.trials:
+        try:
+            one = simulated_support(trial, given.device, factors[trial.person], Sensing(), o.seed)
+        except ArithmeticError as error:
+            raise InputError(
+                o.study or "", trial.name, str(error), "check lengths, unit and names of markers"
+            ) from error
+        found[trial.name] = one.outcome
+    return found
+
+
 def _say(record: Record, best: SupportProfile, uniform: SupportProfile, judged: dict[str, HeldOutSupport]) -> None:
     record.say(
-        f"{best.value:.1%} of the shoulders' torque is taken away without ever pushing an arm up; one factor for all "
-        f"tasks, hands and phases takes {uniform.value:.1%}"
+        f"{best.value:.1%} of the shoulders' torque is taken away without ever pushing an arm up, as the human "
+        f"elevation has it; one factor for all tasks, hands and phases takes {uniform.value:.1%}"
     )
     for person, found in judged.items():
         low, high = found.gain_interval
-        beyond = "beyond" if found.gain_is_beyond_the_error else "within"
+        beyond = "beyond the model's error" if found.gain_is_beyond_the_error else "within the model's error"
+        if found.pushed_up[0] > 0.0:
+            beyond = "no gain, as it pushes the arm up"
         record.say(
-            f"{person} held out: {found.reduction:.1%}, {100 * found.gain:+.1f} points over one factor "
-            f"({100 * low:.1f} to {100 * high:.1f}, {beyond} the model's error); pushed up {found.pushed_up[0]:.1%} of "
-            f"the time, by {found.excess[0]:.1f} N m at most"
+            f"{person} held out: {found.reduction:.1%}, {100 * found.gain:+.1f} points over one factor of the others "
+            f"({100 * low:.1f} to {100 * high:.1f}, {beyond}); pushed up {found.pushed_up[0]:.1%} of the time, by "
+            f"{found.excess[0]:.1f} N m at most"
         )
         if found.pushed_up[0] > 0.0:
             record.warn(
                 f"{person}: the profile that the others make pushes an arm up {found.pushed_up[0]:.1%} of the time, by "
                 f"{found.excess[0]:.1f} N m at most; `reserve` leaves room"
             )
+
+
+def _say_simulated(record: Record, led: Mapping[str, Mapping[str, SupportOutcome]], limits: Limits) -> float:
+    """What the simulation leaves of it; the share that the group's profile takes away there."""
+    for name, found in led.items():
+        ones = list(found.values())
+        share = float(np.mean([each.reduction for each in ones]))
+        up, excess = max(each.pushed_up for each in ones), max(each.excess for each in ones)
+        force, rate = max(each.force for each in ones), max(each.rate for each in ones)
+        told = f"{share:.1%} taken away, pushed up {up:.1%} of the time, by {excess:.1f} N m at most, {force:.0f} N"
+        if name == GROUP:
+            record.say(f"simulated with the device's own motion and sensors: {told} in the cuff")
+        for value, limit, what in ((force, limits.force, f"{force:.0f} N"), (rate, limits.rate, f"{rate:.0f} N m/s")):
+            if value > limit:
+                record.warn(f"the profile {name}, simulated, reaches {what} where the limit is {limit:g}")
+        if up > 0.0:
+            record.warn(f"the profile {name}, simulated, pushes an arm up: {told} in the cuff; `reserve` leaves room")
+    return float(np.mean([each.reduction for each in led[GROUP].values()]))

@@ -30,8 +30,9 @@ def write_angles(folder: Path, arms: Sequence[ArmSimulation]) -> None:
 def write_external_loads(folder: Path, arms: Sequence[ArmSimulation], frame: DeviceFrame) -> None:
     """interface_forces.mot and .xml: forces of the cuffs on the human arms, in the laboratory's frame.
 
-    They act at the sphere's centre, on the upper arm's axis, without a moment.
+    They act at the sphere's centre, on the upper arm's axis; a cuff that holds by its surface turns the arm as well.
     """
+    surface = arms[0].cuff == "surface"
     names: list[str] = []
     columns, loads = [], {}
     for arm in arms:
@@ -41,11 +42,14 @@ def write_external_loads(folder: Path, arms: Sequence[ArmSimulation], frame: Dev
         stem = f"cuff_{side}_force"
         names += [f"{stem}_{kind}{axis}" for kind in "vp" for axis in "xyz"]
         columns += [force, place]
+        if surface:
+            names += [f"cuff_{side}_torque_{axis}" for axis in "xyz"]
+            columns.append(np.einsum("tij,ti->tj", frame.rotation, arm.told["moment"]))
         loads[stem] = HUMERUS[side]
     title = "Forces of a shoulder exoskeleton on the upper arms"
     time, values = arms[0].motion.time, np.hstack(columns)
     write_storage(folder / f"{LOADS}.mot", time, names, values, title=title, degrees=False)
-    write_loads_file(folder / f"{LOADS}.xml", f"{LOADS}.mot", loads)
+    write_loads_file(folder / f"{LOADS}.xml", f"{LOADS}.mot", loads, torques=surface)
 
 
 def write_lines(folder: Path, arms: Sequence[ArmSimulation]) -> None:

@@ -25,8 +25,8 @@ from geocontact.view.page.write import write_page
 FRAMES = 1001  # that the page shows at most
 METRES_PER_NEWTON = 5e-3
 """A force of 100 N is drawn 0.5 m long."""
-JOINT, LINK, LIMB, ARROW = 0.012, 0.014, 0.03, 0.008
-"""Radius of joints, thickness of links, limbs and forces [m]."""
+JOINT, MARKER, LINK, LIMB, ARROW = 0.012, 0.009, 0.014, 0.03, 0.008
+"""Radius of joints and markers, thickness of links, limbs and forces [m]."""
 DIRECTIONS = {
     "behind (+y)": (0.0, 1.0, 0.0),
     "front (−y)": (0.0, -1.0, 0.0),
@@ -55,6 +55,7 @@ def write_simulation_page(
     record: Record,
     o: ShoulderSimulateOptions,
     arms: Sequence[SimulatedArm],
+    markers: Float[np.ndarray, "t m 3"],
     tables: Mapping[str, pd.DataFrame],
 ) -> int:
     """Write the self-contained page; returns its size in bytes."""
@@ -62,7 +63,7 @@ def write_simulation_page(
     shown = np.arange(0, len(time), -(-len(time) // FRAMES))
     changed = [tables[name] for name in ("sensitivity",) if name in tables]
     sections: list[Section] = [
-        Scene(directions=DIRECTIONS, up=(0.0, 0.0, 1.0), view=(-0.8, 1.0, 0.5), linkages=_lines(arms, shown)),
+        Scene(directions=DIRECTIONS, up=(0.0, 0.0, 1.0), view=(-0.8, 1.0, 0.5), linkages=_lines(arms, markers, shown)),
         *_curves(arms, shown),
         Readout([row for each in arms for row in _phases(each, shown)]),
         *(frame_table("What each number of the device changes, root mean square", table) for table in changed),
@@ -86,7 +87,9 @@ def write_simulation_page(
     return write_page(page, path)
 
 
-def _lines(arms: Sequence[SimulatedArm], shown: Int[np.ndarray, " k"]) -> list[Linkage]:
+def _lines(
+    arms: Sequence[SimulatedArm], markers: Float[np.ndarray, "t m 3"], shown: Int[np.ndarray, " k"]
+) -> list[Linkage]:
     device, human, force = [], [], []
     for each in arms:
         s = each.simulation
@@ -99,6 +102,7 @@ def _lines(arms: Sequence[SimulatedArm], shown: Int[np.ndarray, " k"]) -> list[L
     return [
         _linkage("exoskeleton", device, "model", JOINT, LINK),
         _linkage("upper arms, shoulder to cuff", human, "bone", JOINT, LIMB),
+        Linkage("markers", markers[shown], np.zeros((0, 2), np.int64), "seen", MARKER, 0.0),
         _linkage("forces on the arms, 0.5 m for 100 N", force, "force", 0.0, ARROW),
     ]
 

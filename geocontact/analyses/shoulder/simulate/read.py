@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -16,11 +16,11 @@ from geocontact.analyses.shoulder.simulate.control import controllers
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.tool import tool_runs
 from geocontact.data.errors import InputError
-from geocontact.identify.signals.filled import filled_and_smoothed
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import MarkerSettings, arm_motions
 from geocontact.shoulder_exoskeleton.from_markers.device_frame import DeviceFrame
+from geocontact.shoulder_exoskeleton.smoothed_motion import smoothed_motion
 from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller
 
 CURRENT = 1.0
@@ -37,6 +37,8 @@ class Worn:
         Filtered, without gaps, at even times.
     frame
         The device in the laboratory at the same times.
+    markers
+        All that were recorded, in the device's frame at the same times [m]; NaN where they were not seen.
     tool
         Whether the tool runs; None where nobody told.
     controllers
@@ -45,6 +47,7 @@ class Worn:
 
     arms: tuple[ArmMotion, ...]
     frame: DeviceFrame
+    markers: Float[np.ndarray, "t m 3"]
     device: Device
     wearer: Wearer
     tool: Bool[np.ndarray, " t"] | None
@@ -78,24 +81,16 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer, record: Record) -> Wo
         if o.tool is None
         else tool_runs(record, o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
     )
-    return Worn(arms, frame, device, wearer, tool, controllers(o, time, record))
+    nearest = np.clip(np.searchsorted(0.5 * (seen.time[1:] + seen.time[:-1]), time), 0, len(seen) - 1)
+    places = np.stack([frame.points(each) for each in seen.positions[nearest].swapaxes(0, 1)], axis=1)
+    return Worn(arms, frame, places, device, wearer, tool, controllers(o, time, record))
 
 
 def _smoothed(arm: ArmMotion, o: ShoulderSimulateOptions) -> ArmMotion:
-    columns = np.hstack([arm.interface, arm.shoulder, arm.gravity_at_frames(), arm.elevation[:, None]])
-    cutoff = None if o.cutoff == 0.0 else o.cutoff
     try:
-        time, values = filled_and_smoothed(arm.time, columns, cutoff=cutoff, longest_gap=o.gap_limit)
+        return smoothed_motion(arm, None if o.cutoff == 0.0 else o.cutoff, o.gap_limit)
     except ValueError as error:
         raise InputError(o.markers, "", f"{arm.side} arm: {error}", "give another `cutoff` or `gap_limit`") from error
-    return replace(
-        arm,
-        time=time,
-        interface=values[:, :3],
-        shoulder=values[:, 3:6],
-        gravity=values[:, 6:9],
-        elevation=values[:, 9],
-    )
 
 
 def _frame_at(time: Float[np.ndarray, " t"], frame: DeviceFrame, wanted: Float[np.ndarray, " e"]) -> DeviceFrame:

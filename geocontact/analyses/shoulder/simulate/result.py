@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.motion.figure import curves_figure
@@ -39,6 +40,8 @@ class ShoulderSimulateResult(Result):
         Right before left.
     frame
         The device in the laboratory.
+    markers
+        All that were recorded, in the device's frame [m]; NaN where they were not seen.
     influences
         By side, where they were asked for.
     """
@@ -46,6 +49,7 @@ class ShoulderSimulateResult(Result):
     options: ShoulderSimulateOptions
     arms: tuple[SimulatedArm, ...]
     frame: DeviceFrame
+    markers: Float[np.ndarray, "t m 3"]
     device: Device
     wearer: Wearer
     influences: Mapping[Side, tuple[Influence, ...]]
@@ -88,4 +92,4 @@ class ShoulderSimulateResult(Result):
 
     def write_page(self, file: Path) -> None:
         """Moving arms with the forces in their cuffs, curves, tables."""
-        write_simulation_page(file, self.record, self.options, self.arms, self.tables())
+        write_simulation_page(file, self.record, self.options, self.arms, self.markers, self.tables())

@@ -6,15 +6,15 @@ import numpy as np
 
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.run_record import Record
+from geocontact.analyses.shoulder.reservations import warn_of
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulate.read import Worn
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
 from geocontact.data.errors import InputError
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
-from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.sensitivity import influences
-from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
+from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from geocontact.shoulder_exoskeleton.support.controlled_arm import controlled_arm
 from geocontact.shoulder_exoskeleton.work_phases import PHASES, work_phases
 
@@ -39,6 +39,7 @@ def run(worn: Worn, o: ShoulderSimulateOptions, record: Record) -> ShoulderSimul
         options=o,
         arms=arms,
         frame=worn.frame,
+        markers=worn.markers,
         device=worn.device,
         wearer=worn.wearer,
         influences=found,
@@ -61,7 +62,7 @@ def _simulated(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, record: R
         phase = work_phases(arm.elevation, worn.tool)
     except ValueError as error:
         raise InputError(o.tool or o.markers, "`tool`", f"{arm.side} arm: {error}", "check its clock") from error
-    _warn(found, record)
+    warn_of(found, record)
     one = SimulatedArm(found, phase, detected, factor)
     told = _summary(one)
     record.say(
@@ -73,22 +74,6 @@ def _simulated(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions, record: R
         shares = ", ".join(f"{name} {share:.2f}" for name, share in zip(PHASES, control.factors, strict=True))
         record.say(f"{arm.side} arm: support by phase: {shares}; {np.count_nonzero(np.diff(detected))} changes")
     return one
-
-
-def _warn(found: ArmSimulation, record: Record) -> None:
-    side, time = found.motion.side, found.motion.time
-    out = found.out_of_cuff
-    if out.any():
-        far = 1e3 * np.abs(found.told["place"][:, 0]).max()
-        record.warn(
-            f"{side} arm: the sphere is out of the cuff for {out.mean():.0%} of the time, first at "
-            f"{time[out][0]:.2f} s, up to {far:.0f} mm from its middle"
-        )
-    for joint, at in zip(JOINTS, found.at_stop.T, strict=True):
-        if at.any():
-            record.warn(
-                f"{side} arm: {joint} is at a stop for {at.mean():.0%} of the time, first at {time[at][0]:.2f} s"
-            )
 
 
 def _summary(one: SimulatedArm) -> dict[str, float]:

@@ -8,6 +8,7 @@ from geocontact.analyses.json_file import plain
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.phase_errors import phase_errors
 from geocontact.analyses.shoulder.recorded_channels import ELEVATION, FORCE, Channels
+from geocontact.analyses.shoulder.reservations import warn_of
 from geocontact.analyses.shoulder.simulate.read import Worn
 from geocontact.analyses.shoulder.simulate.simulated_arm import SimulatedArm
 from geocontact.analyses.shoulder.study.case import COPIED, StudyCase
@@ -56,6 +57,9 @@ def run(trials: tuple[StudyTrialInputs, ...], o: StudyOptions, record: Record) -
 def _case(each: StudyTrialInputs, o: StudyOptions, record: Record) -> StudyCase:
     within = _simulated(each, each.within, o)
     without = None if each.without is None else _simulated(each, each.without, o)
+    warn_of(within.simulation, record, each.trial.name)
+    if without is not None:
+        warn_of(without.simulation, record, f"{each.trial.name} as {each.trial.without}")
     errors = {} if each.recorded is None else _errors(each, within, each.recorded, record)
     return StudyCase(each.trial, within, without, each.recorded, errors)
 

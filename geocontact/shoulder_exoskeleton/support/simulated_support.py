@@ -1,0 +1,66 @@
+"""What a support profile does to an arm when the device moves by its own dynamics and its controller senses it.
+
+The choice of a profile takes the cylinder's torque at the human elevation for the torque on the arm. Here the
+device's arm is simulated in closed loop (`controlled_arm`); what counts is the moment with which the cuff raises the
+upper arm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.shoulder_exoskeleton.device import Device
+from geocontact.shoulder_exoskeleton.simulate import ArmSimulation
+from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
+from geocontact.shoulder_exoskeleton.support.controlled_arm import ControlledArm, Controller, controlled_arm
+from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome, outcome_of
+from geocontact.shoulder_exoskeleton.support.phase_machine import Thresholds
+from geocontact.shoulder_exoskeleton.support.sensing import Sensing
+from geocontact.shoulder_exoskeleton.support.support_case import FactorKey
+from geocontact.shoulder_exoskeleton.work_phases import PHASES
+
+DOWN = np.array([0.0, 0.0, -1.0])
+"""Of the trunk, in the device's frame."""
+
+
+@dataclass(frozen=True, eq=False)
+class SimulatedSupport:
+    """One arm under a profile, and what the profile does to it."""
+
+    arm: ControlledArm
+    outcome: SupportOutcome
+
+
+def simulated_support(
+    trial: ArmTrial, device: Device, factors: Factors, sensing: Sensing | None = None, seed: int = 0
+) -> SimulatedSupport:
+    """Closed loop along the trial's motion; the person moves as recorded, whatever the support.
+
+    Parameters
+    ----------
+    sensing
+        Of the controller; None: exact.
+    seed
+        Of its noise.
+
+    ArithmeticError as of `controlled_arm`.
+    """
+    keys = [FactorKey(trial.task, trial.hand, phase) for phase in PHASES]
+    shares = np.array([factors.get(key, 0.0) for key in keys])
+    control = Controller(shares, trial.current, Thresholds(), sensing, seed)
+    arm = controlled_arm(trial.motion, device, trial.wearer, 1.0, control)
+    found = arm.simulation
+    force = float(np.linalg.norm(found.told["force"], axis=1).max())
+    torque = raising_torque(found)
+    return SimulatedSupport(arm, outcome_of(trial.needed.time, trial.needed.total, torque, force))
+
+
+def raising_torque(arm: ArmSimulation) -> Float[np.ndarray, " t"]:
+    """Moment of the cuff's force about the shoulder that raises the upper arm [N m]; a marker is the shoulder."""
+    reach = arm.motion.interface - arm.motion.shoulder
+    axis = np.cross(DOWN, reach)
+    unit = axis / np.maximum(np.linalg.norm(axis, axis=1, keepdims=True), 1e-12)
+    return np.asarray(np.einsum("ti,ti->t", unit, np.cross(reach, arm.told["force"])))
