@@ -95,7 +95,7 @@ class Amputee:
         note = "frustum cut off, density and taper of the intact shank"
         own["prosthetic residual_mass"] = Number(self.residual_body()[0], "derived", note)
         own |= {f"intact {name}": number for name, number in self.intact.numbers().items()}
-        mass, _, inertia = self.pelvis_body()
+        mass = self.pelvis_body()[0]
         trunk = SEGMENTS[self.prosthetic.person.sex]
         above = trunk["head"].mass + trunk["trunk"].mass
         above += 2.0 * sum(trunk[name].mass for name in ("upper_arm", "forearm", "hand"))

@@ -1,4 +1,4 @@
-"""What the markers are called, on a right prosthetic and a left intact leg; on the other sides R and L change places."""
+"""What the markers are called, on a right prosthetic and a left intact leg; else R and L change places."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ INTACT_BODIES = {
 }
 """Markers of the intact leg, a left one, that a moving trial has, by the body they are fixed to."""
 INTACT_STANDING = (*INTACT_THIGH, *INTACT_KNEE, *INTACT_SHANK, *INTACT_ANKLE, *INTACT_FOOT, *INTACT_TOES)
-MAP = "name them with `markers_map`"
+MAP = "is `side` right? else name them with `markers_map`"
 
 
 def mirrored_name(name: str) -> str:

@@ -37,7 +37,7 @@ def write_osim(
     *,
     springs: Mapping[str, tuple[float, float]] | None = None,
     balls: Sequence[ContactBall] = (),
-    credits: str = "",
+    note: str = "",
 ) -> None:
     """Write the model; ValueError for a joint with a function that is not a coordinate itself, or a name with a blank.
 
@@ -46,7 +46,9 @@ def write_osim(
     springs
         Stiffness and damping about zero along coordinates by name [N m/rad and N m s/rad, N/m and N s/m].
     balls
-        Written as geometry, with the floor y = 0; no force law goes with them, for OpenSim has others than this package.
+        Written as geometry, with the floor y = 0, without a force law: OpenSim has others than this package.
+    note
+        What the file says of itself.
     """
     parts = (model, *model.bodies, *model.joints, *model.coordinates, *model.markers, *balls)
     wrong = [part.name for part in parts if any(letter in part.name for letter in FORBIDDEN)]
@@ -54,8 +56,8 @@ def write_osim(
         raise ValueError(f"OpenSim takes no blank and none of / \\ * + in the name '{wrong[0]}'")
     root = Element("OpenSimDocument", {"Version": "40000"})
     top = SubElement(root, "Model", {"name": model.name})
-    if credits:
-        SubElement(top, "credits").text = credits
+    if note:
+        SubElement(top, "credits").text = note
     SubElement(top, "length_units").text = "meters"
     SubElement(top, "force_units").text = "N"
     SubElement(top, "Ground", {"name": GROUND})
