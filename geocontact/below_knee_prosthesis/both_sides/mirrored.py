@@ -27,14 +27,14 @@ def mirrored(model: Multibody) -> Multibody:
 
 
 def _joint(joint: JointModel) -> JointModel:
-    ends = {"parent_offset": _pose(joint.parent_offset), "child_offset": _pose(joint.child_offset)}
+    joint = replace(joint, parent_offset=_pose(joint.parent_offset), child_offset=_pose(joint.child_offset))
     if joint.parent == GROUND:
-        return replace(joint, **ends)
+        return joint
     axes = tuple(
         TransformAxis(axis.direction * MIRROR * (-1.0 if k < 3 else 1.0), axis.coordinates, axis.function)
         for k, axis in enumerate(joint.axes)
     )
-    return replace(joint, axes=axes, **ends)
+    return replace(joint, axes=axes)
 
 
 def _pose(pose: RigidTransform) -> RigidTransform:

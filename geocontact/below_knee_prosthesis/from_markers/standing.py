@@ -131,4 +131,4 @@ def _foot_line(seen: MarkerTrajectories, at: dict[str, Vector], keel: Keel) -> V
     if abs(length / keel.length - 1.0) > FEET:
         what = f"{FOOT[0]} and {FOOT[1]} are {1e3 * length:.0f} mm apart, the keel is {1e3 * keel.length:.0f} mm long"
         raise InputError(seen.source, "`static`", what, "is the unit right? they belong over the ends of the keel")
-    return line / length
+    return np.asarray(line / length)

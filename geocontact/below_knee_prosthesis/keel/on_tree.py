@@ -108,8 +108,12 @@ def sole_wrenches(
     ground: HalfSpace,
     *,
     name: str = "keel",
+    ending: str = "",
 ) -> Wrenches:
-    """Loads of a plane ground on the parent and the segments through the spheres that each carries."""
+    """Loads of a plane ground on the parent and the segments through the spheres that each carries.
+
+    `name` and `ending` as for `keel_bodies`.
+    """
     laws, loads = laws_of(law), []
     for segment in range(keel.joints + 1):
         spheres = sole.on(segment, keel)
@@ -118,6 +122,6 @@ def sole_wrenches(
         own = [one for one, each in zip(laws, sole.segment, strict=True) if each == segment]
         if not segment:
             spheres = replace(spheres, centre=X_PK.apply(spheres.centre))
-        body = f"{name}_{segment}" if segment else parent
+        body = f"{name}_{segment}{ending}" if segment else parent
         loads.append({body: sole_wrench(tree.bodies[body], spheres, own, ground)})
     return together(*loads)

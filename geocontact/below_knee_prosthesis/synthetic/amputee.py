@@ -117,7 +117,7 @@ def true_intact(person: Walker, of: Person) -> IntactLeg:
 def intact_places(leg: IntactLeg) -> dict[str, dict[str, Float[np.ndarray, " 3"]]]:
     """Where markers are in the frames of thigh, shank, foot and toes [m]."""
     thigh, shank = leg.thigh, leg.shank
-    rows = {
+    rows: dict[str, dict[str, tuple[float, float, float] | Float[np.ndarray, " 3"]]] = {
         "intact_thigh": {
             "LTH1": (0.075, -0.35 * thigh, -0.03),
             "LTH2": (0.02, -0.5 * thigh, -0.08),
@@ -153,13 +153,12 @@ def standing_trials(
 def _standing(truth: Amputee, errors: float, rng: np.random.Generator) -> MarkerTrajectories:
     """Upright, both soles on the floor, with the markers that only a standing trial has."""
     places = marker_places(truth.prosthetic, truth.foot.keel.length) | intact_places(truth.intact)
-    own, intact = (replace(leg, markers=()) for leg in (truth.prosthetic, truth.intact))
     prosthetic = {body: places[body] for body in BODIES}
     others = {body: places[body] for body in INTACT_BODIES}
     whole = replace(
         truth,
-        prosthetic=replace(own, markers=_markers(prosthetic)),
-        intact=replace(intact, markers=_markers(others)),
+        prosthetic=replace(truth.prosthetic, markers=_markers(prosthetic)),
+        intact=replace(truth.intact, markers=_markers(others)),
     )
     model = amputee_tree(whole, held=True)
     still = model.marker_places(standing_values(model))[0]

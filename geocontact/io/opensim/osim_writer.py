@@ -50,8 +50,9 @@ def write_osim(
     note
         What the file says of itself.
     """
-    parts = (model, *model.bodies, *model.joints, *model.coordinates, *model.markers, *balls)
-    wrong = [part.name for part in parts if any(letter in part.name for letter in FORBIDDEN)]
+    groups = (model.bodies, model.joints, model.coordinates, model.markers, balls)
+    names = [model.name, *(part.name for group in groups for part in group)]
+    wrong = [name for name in names if any(letter in name for letter in FORBIDDEN)]
     if wrong:
         raise ValueError(f"OpenSim takes no blank and none of / \\ * + in the name '{wrong[0]}'")
     root = Element("OpenSimDocument", {"Version": "40000"})

@@ -158,6 +158,8 @@ def _doubt(made: Amputee, stood: Stood, o: ProsthesisScaleOptions, record: Recor
         record.warn("hips by regression, knees and ankle by their markers; a `functional` trial tells them better")
     for name, why in stood.joints.untold.items():
         record.warn(f"the functional trial does not tell the {JOINTS[name][0]}: {why}")
-    for name, known in {**stood.joints.points, **stood.joints.lines}.items():
-        if known.rms > FAR:
-            record.warn(f"{JOINTS[name][0]}: both segments put it {1e3 * known.rms:.0f} mm apart: is the skin loose?")
+    points, lines = stood.joints.points, stood.joints.lines
+    apart = {name: each.rms for name, each in points.items()} | {name: each.rms for name, each in lines.items()}
+    for name, rms in apart.items():
+        if rms > FAR:
+            record.warn(f"{JOINTS[name][0]}: both segments put it {1e3 * rms:.0f} mm apart: is the skin loose?")

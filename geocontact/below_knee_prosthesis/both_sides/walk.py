@@ -1,0 +1,216 @@
+"""Both legs in motion: angles given and forces found, forces of a motion, and the motion that those forces make.
+
+The study's two variants. With angles given only the pelvis' advance and height, the socket and the keel are found; the
+torques of that motion, played back without any angle given, have to make it again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
+from geocontact.below_knee_prosthesis.both_sides.equations_of_both import (
+    FREE,
+    equations_of_both,
+    moving_tree,
+    passive,
+    prosthetic_loads,
+)
+from geocontact.dynamics.recorded_inputs import recorded_inputs
+from geocontact.dynamics.simulate import Stepper
+from geocontact.dynamics.tree import tree_of
+
+if TYPE_CHECKING:
+    from casadi import Function
+
+    from geocontact.dynamics.equations import Equations
+
+TOLERANCE, FIRST = 1e-5, 1e-4
+"""Error allowed in a step [m, rad, m/s, rad/s], plus as much of each one's size, and first step [s]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Given:
+    """What is known of a walk of a person with a right prosthesis, at even times.
+
+    Parameters
+    ----------
+    time
+        [s].
+    names, values
+        Coordinates that were recorded [rad, m], the pelvis' advance and height among them.
+    ground
+        Force on the intact foot, and its moment about the ground's origin [N, N m].
+    """
+
+    time: Float[np.ndarray, " t"]
+    names: tuple[str, ...]
+    values: Float[np.ndarray, "t n"]
+    ground: Float[np.ndarray, "t 6"]
+
+
+@dataclass(frozen=True, eq=False)
+class Walk:
+    """A motion of all coordinates.
+
+    Parameters
+    ----------
+    time, names, q, u
+        [s], coordinates and rates [rad, m, s].
+    force
+        Of the ground on the prosthetic foot [N].
+    steps
+        That were taken.
+    """
+
+    time: Float[np.ndarray, " t"]
+    names: tuple[str, ...]
+    q: Float[np.ndarray, "t n"]
+    u: Float[np.ndarray, "t n"]
+    force: Float[np.ndarray, "t 3"]
+    steps: int
+
+    def of(self, name: str) -> Float[np.ndarray, " t"]:
+        """One coordinate."""
+        return self.q[:, self.names.index(name)]
+
+
+def coordinate_names(amputee: Amputee) -> tuple[str, ...]:
+    """Of the moving tree."""
+    return tuple(c.name for c in moving_tree(amputee).coordinates)
+
+
+def walk_by_angles(
+    amputee: Amputee,
+    given: Given,
+    time: Float[np.ndarray, " t"],
+    *,
+    tolerance: float = TOLERANCE,
+    machine_code: bool = True,
+) -> Walk:
+    """From the recorded place and speed of the pelvis at the first of some even times; socket and keel start at rest.
+
+    ArithmeticError where the motion cannot go on.
+    """
+    names = coordinate_names(amputee)
+    prescribed = [name for name in names if name not in FREE and name not in passive(names)]
+    stepper = Stepper(equations_of_both(amputee, prescribed=prescribed), machine_code=machine_code)
+    columns = [given.names.index(name) for name in prescribed]
+    course = recorded_inputs(given.time, given.values[:, columns], derivatives=2)
+    inputs = course.beside(recorded_inputs(given.time, given.ground))
+    free = stepper.equations.names
+    place = recorded_inputs(given.time, given.values[:, [given.names.index(name) for name in FREE]])
+    q, u = np.zeros(len(free)), np.zeros(len(free))
+    at = [free.index(name) for name in FREE]
+    q[at], u[at] = place(float(time[0]))
+    found = stepper.simulate((q, u, np.zeros(0)), time, inputs=inputs, tolerance=tolerance, first=FIRST)
+    known = course.at(time)
+    whole = {name: (known[:, k], known[:, len(columns) + k]) for k, name in enumerate(prescribed)}
+    whole |= {name: (found.q[:, k], found.u[:, k]) for k, name in enumerate(found.names)}
+    values, rates = (np.column_stack([whole[name][k] for name in names]) for k in (0, 1))
+    return Walk(time, names, values, rates, _force(amputee, values, rates), found.steps)
+
+
+def accelerations_by_angles(amputee: Amputee, given: Given, walk: Walk) -> Float[np.ndarray, "t n"]:
+    """Of all coordinates of such a walk [rad/s², m/s²]: those of what is found by the equations, the rest as given."""
+    prescribed = [name for name in walk.names if name not in FREE and name not in passive(walk.names)]
+    equations = equations_of_both(amputee, prescribed=prescribed)
+    columns = [given.names.index(name) for name in prescribed]
+    course = recorded_inputs(given.time, given.values[:, columns], derivatives=2)
+    w = course.beside(recorded_inputs(given.time, given.ground)).at(walk.time)
+    which = [walk.names.index(name) for name in equations.names]
+    found = _mapped(equations.accelerations(), equations, walk.q[:, which], walk.u[:, which], w)
+    whole = np.zeros_like(walk.q)
+    whole[:, which] = found
+    whole[:, [walk.names.index(name) for name in prescribed]] = w[:, 2 * len(columns) : 3 * len(columns)]
+    return whole
+
+
+def driving_forces(
+    amputee: Amputee, walk: Walk, accelerations: Float[np.ndarray, "t n"], ground: Float[np.ndarray, "t 6"]
+) -> Float[np.ndarray, "t n"]:
+    """What acts along each coordinate beside gravity, the ground and the springs [N m, N]: of a pelvis what holds it.
+
+    Parameters
+    ----------
+    ground
+        On the intact foot at the times of the walk, as of `Given`.
+    """
+    from casadi import Function, densify
+
+    equations = equations_of_both(amputee)
+    state = [*equations.state[:2], equations.a, *equations.state[3:]]
+    needed = Function("needed", state, [densify(-equations.balance)])
+    count = len(walk.time)
+    none = np.zeros((0, count))
+    return np.array(needed.map(count)(walk.q.T, walk.u.T, accelerations.T, ground.T, none)).T
+
+
+def driven_stepper(amputee: Amputee, *, machine_code: bool = True) -> Stepper:
+    """Of a walk by forces: all coordinates free, socket and keel by their springs alone."""
+    names = coordinate_names(amputee)
+    return Stepper(equations_of_both(amputee, driven=_driven(names)), machine_code=machine_code)
+
+
+def walk_by_forces(
+    amputee: Amputee,
+    stepper: Stepper,
+    start: Walk,
+    time: Float[np.ndarray, " t"],
+    ground: Float[np.ndarray, "t 6"],
+    forces: Float[np.ndarray, "t n"],
+    *,
+    tolerance: float = TOLERANCE,
+) -> Walk:
+    """From the first state of a walk, by its forces at its times and nothing else.
+
+    Parameters
+    ----------
+    stepper
+        `driven_stepper`.
+    ground
+        At the times of `start`.
+    forces
+        Of `driving_forces` at the times of `start`; those along socket and keel are not used.
+
+    ArithmeticError where the motion cannot go on.
+    """
+    names = start.names
+    columns = [names.index(name) for name in _driven(names)]
+    inputs = recorded_inputs(start.time, np.hstack([ground, forces[:, columns]]))
+    state = (start.q[0], start.u[0], np.zeros(0))
+    found = stepper.simulate(state, time, inputs=inputs, tolerance=tolerance, first=FIRST)
+    return Walk(time, names, found.q, found.u, _force(amputee, found.q, found.u), found.steps)
+
+
+def _driven(names: Sequence[str]) -> list[str]:
+    return [name for name in names if name not in passive(names)]
+
+
+def _force(
+    amputee: Amputee, q: Float[np.ndarray, "t n"], u: Float[np.ndarray, "t n"]
+) -> Float[np.ndarray, "t 3"]:
+    """Of the ground on the prosthetic foot [N]."""
+    from casadi import Function, densify
+
+    tree = tree_of(moving_tree(amputee))
+    loads = prosthetic_loads(tree, amputee)
+    total = sum((force for force, _ in loads.values()), start=0)
+    run = Function("force", [tree.q, tree.u], [densify(total)])
+    return np.array(run.map(len(q))(q.T, u.T)).T
+
+
+def _mapped(
+    function: Function,
+    equations: Equations,
+    q: Float[np.ndarray, "t n"],
+    u: Float[np.ndarray, "t n"],
+    w: Float[np.ndarray, "t w"],
+) -> Float[np.ndarray, "t n"]:
+    none = np.zeros((0, len(q)))
+    return np.array(function.map(len(q))(q.T, u.T, none, w.T, none)).T

@@ -1,0 +1,34 @@
+"""A synthetic walk of both legs: the invented course of the prosthetic stance, and the intact leg beside it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
+from geocontact.below_knee_prosthesis.both_sides.equations_of_both import moving_tree
+from geocontact.below_knee_prosthesis.both_sides.walk import Given
+from geocontact.below_knee_prosthesis.model.leg_tree import PELVIS, RECORDED
+from geocontact.below_knee_prosthesis.synthetic.course import course
+from geocontact.below_knee_prosthesis.synthetic.intact_walk import ANGLES, intact_walk
+
+
+def amputee_walk(truth: Amputee, stance: float) -> tuple[Given, tuple[float, float]]:
+    """Coordinates and the ground's load on the intact foot, and the times [s] between which they are meant to be used.
+
+    Parameters
+    ----------
+    stance
+        How long the prosthetic one lasts [s], from 0 on.
+    """
+    driven = course(truth.prosthetic, truth.foot, truth.fulcrum, stance)
+    motion, push = driven.motion, driven.push
+    model = moving_tree(truth)
+    names = tuple(c.name for c in model.coordinates)
+    values = np.zeros((len(motion.time), len(names)))
+    for name in RECORDED:
+        values[:, names.index(name if name in PELVIS else f"{name}_r")] = motion.of(name)
+    walked = intact_walk(truth.intact, model.poses(values)["pelvis"], motion.time, stance)
+    values[:, [names.index(name) for name in ANGLES]] = walked.angles
+    force = push.at(motion.time)
+    ground = np.hstack([force, np.cross(walked.centre, force)])
+    return Given(motion.time, names, values, ground), driven.span
