@@ -192,9 +192,7 @@ def _driven(names: Sequence[str]) -> list[str]:
     return [name for name in names if name not in passive(names)]
 
 
-def _force(
-    amputee: Amputee, q: Float[np.ndarray, "t n"], u: Float[np.ndarray, "t n"]
-) -> Float[np.ndarray, "t 3"]:
+def _force(amputee: Amputee, q: Float[np.ndarray, "t n"], u: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t 3"]:
     """Of the ground on the prosthetic foot [N]."""
     from casadi import Function, densify
 

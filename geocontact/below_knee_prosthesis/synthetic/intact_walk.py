@@ -8,6 +8,7 @@ ankle follow. All sizes are invented.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float
@@ -50,9 +51,7 @@ class IntactWalk:
     centre: Float[np.ndarray, "t 3"]
 
 
-def intact_walk(
-    leg: IntactLeg, pelvis: RigidTransform, time: Float[np.ndarray, " t"], stance: float
-) -> IntactWalk:
+def intact_walk(leg: IntactLeg, pelvis: RigidTransform, time: Float[np.ndarray, " t"], stance: float) -> IntactWalk:
     """Of a leg on a pelvis that moves so, beside a prosthetic stance of that length [s] that begins at 0."""
     step = footfall(stance)
     holds = {start: SPEED * start for start in (-3.0 * step, -step, step)}
@@ -96,7 +95,7 @@ def _standing(leg: IntactLeg, start: float, stance: float, x: float) -> Float[np
 def _swings(known: list[Float[np.ndarray, "k 5"]]) -> list[Float[np.ndarray, "1 5"]]:
     """One point between two stances each."""
     found = []
-    for before, after in zip(known[:-1], known[1:], strict=True):
+    for before, after in pairwise(known):
         middle = 0.5 * (before[-1] + after[0])
         found.append(np.array([[middle[0], middle[1], CLEAR, DANGLE, 0.1]]))
     return found
