@@ -93,7 +93,7 @@ def test_momentum_is_what_the_forces_leave(truth: Amputee, given: Given, landing
 
 @pytest.mark.slow
 def test_its_own_torques_make_the_motion_again(truth: Amputee, given: Given, landing: Walk) -> None:
-    """Short form of `benchmarks/prosthesis_both_sides.py`: errors there grow by 21/s in single support."""
+    """Short form of `benchmarks/prosthesis_both_sides.py`: errors there grow by 22/s in single support."""
     ground = recorded_inputs(given.time, given.ground).at(landing.time)
     forces = driving_forces(truth, landing, accelerations_by_angles(truth, given, landing), ground)
     undriven = [landing.names.index(name) for name in (*passive(landing.names), "pelvis_tx", "pelvis_ty")]

@@ -107,3 +107,6 @@ class ProsthesisSimulateOptions(Options):
         if self.plates is None or self.other_plate is None:
             what = "the force under the other foot is not known: the pelvis, free to fall, would"
             raise InputError("", "`other_plate`", what, "give `plates` and the name of the plate under the other foot")
+        if self.plate == self.other_plate:
+            what = f"{self.plate} is named for both feet"
+            raise InputError("", "`plate`", what, "each foot needs a plate of its own")
