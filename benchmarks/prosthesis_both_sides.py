@@ -5,7 +5,8 @@
 A synthetic walk by given angles (only the pelvis' advance and height, socket and keel are found), its forces by inverse
 dynamics, and the walk that these forces make with every coordinate free. Printed are operations, seconds to build and
 compile, CPU time of a step, and errors over time: the largest turn [deg], shift [mm] and force of the prosthetic foot
-over body weight up to then, and the rate at which the turn's error grows.
+over body weight up to then, and the rate at which the turn's error grows. Once with the load under the intact foot
+given, once with spheres there.
 """
 
 from __future__ import annotations
@@ -19,7 +20,6 @@ from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.equations_of_both import FREE, equations_of_both, passive
 from geocontact.below_knee_prosthesis.both_sides.walk import (
     Given,
-    Walk,
     accelerations_by_angles,
     coordinate_names,
     driven_stepper,
@@ -31,15 +31,18 @@ from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.synthetic.amputee import true_amputee
-from geocontact.below_knee_prosthesis.synthetic.amputee_walk import amputee_walk
+from geocontact.below_knee_prosthesis.synthetic.amputee_walk import amputee_walk, amputee_walk_on_spheres
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, STANCE
 from geocontact.dynamics.recorded_inputs import recorded_inputs
 from geocontact.dynamics.rosenbrock import rosenbrock_step
 
 RUNS = ((1e-3, 1e-6), (2.5e-4, 1e-7))
 """Steps of the samples [s] and tolerances of both walks."""
-SPANS = {"single support": (0.16, 0.56), "from double support on": (-0.08, 0.56)}
-"""s, at medium stiffness."""
+SPANS = {
+    False: {"single support": (0.16, 0.56), "from double support on": (-0.08, 0.56)},
+    True: {"single support": (0.26, 0.60), "whole stance": (-0.08, 0.76)},
+}
+"""s, at medium stiffness, without and with spheres under the intact foot."""
 EVERY, AFTER = 0.04, 0.06
 """s; of a row, and from when on the growth is fitted."""
 LOST = 90.0
@@ -63,24 +66,27 @@ def sizes(truth: Amputee) -> None:
         )
 
 
-def again(truth: Amputee, given: Given, every: float, tolerance: float) -> None:
+def again(truth: Amputee, given: Given, every: float, tolerance: float, spheres: bool) -> None:
     """Print how far the walk by forces is from that by angles."""
     weight = truth.mass * GRAVITY
     before = time.process_time()
-    walk = walk_by_angles(truth, given, np.arange(-0.08, 0.56, every), tolerance=tolerance)
+    walk = walk_by_angles(truth, given, np.arange(-0.08, 0.76, every), intact_on_spheres=spheres, tolerance=tolerance)
     spent = time.process_time() - before
     ground = recorded_inputs(given.time, given.ground).at(walk.time)
-    forces = driving_forces(truth, walk, accelerations_by_angles(truth, given, walk), ground)
+    fast = accelerations_by_angles(truth, given, walk, intact_on_spheres=spheres)
+    forces = driving_forces(truth, walk, fast, ground, intact_on_spheres=spheres)
     print(f"samples of {1e3 * every:g} ms, tolerance {tolerance:g}: by angles {walk.steps} steps in {spent:.2f} s CPU")
     turns = [k for k, name in enumerate(walk.names) if not name.startswith(("pelvis_tx", "pelvis_ty", "pelvis_tz"))]
     turns = [k for k in turns if not walk.names[k].startswith("socket_t")]
     shifts = [k for k in range(len(walk.names)) if k not in turns]
-    stepper = driven_stepper(truth)
-    for label, (start, stop) in SPANS.items():
-        on = (walk.time >= start - 1e-9) & (walk.time <= stop)
-        part = Walk(walk.time[on], walk.names, walk.q[on], walk.u[on], walk.force[on], 0)
+    stepper = driven_stepper(truth, intact_on_spheres=spheres)
+    for label, (start, stop) in SPANS[spheres].items():
+        on = (walk.time >= start - 1e-9) & (walk.time <= stop + 1e-9)
+        part = walk.part(start, stop)
         before = time.process_time()
-        other = walk_by_forces(truth, stepper, part, part.time, ground[on], forces[on], tolerance=tolerance)
+        other = walk_by_forces(
+            truth, stepper, part, part.time, ground[on], forces[on], intact_on_spheres=spheres, tolerance=tolerance
+        )
         spent = time.process_time() - before
         off = np.abs(other.q - part.q)
         turn = np.maximum.accumulate(np.degrees(off[:, turns].max(axis=1)))
@@ -112,9 +118,12 @@ def main() -> None:
     before = time.perf_counter()
     driven_stepper(truth)
     print(f"step by forces compiled or found in {time.perf_counter() - before:.0f} s")
-    given, _ = amputee_walk(truth, STANCE[asked.setting])
-    for every, tolerance in RUNS:
-        again(truth, given, every, tolerance)
+    lasting = STANCE[asked.setting]
+    walks = {False: amputee_walk(truth, lasting)[0], True: amputee_walk_on_spheres(truth, lasting)}
+    for spheres, given in walks.items():
+        print("the intact foot on spheres" if spheres else "the load of the intact foot given", flush=True)
+        for every, tolerance in RUNS:
+            again(truth, given, every, tolerance, spheres)
 
 
 if __name__ == "__main__":

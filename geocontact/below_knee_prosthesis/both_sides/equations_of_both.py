@@ -1,6 +1,7 @@
 """Equations of motion of pelvis and both legs: the prosthetic sole on the ground, the rest given or driven.
 
-The ground's load on the intact foot is given, as a plate measured it. The prosthetic foot's comes from its spheres.
+The prosthetic foot's load comes from its spheres. That on the intact foot is given, as a plate measured it, or comes
+from spheres as well.
 """
 
 from __future__ import annotations
@@ -21,13 +22,14 @@ from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.body_contact import together
 from geocontact.dynamics.equations import Equations, equations_of_motion
 from geocontact.dynamics.inverse_dynamics import Wrenches
+from geocontact.dynamics.sphere_contact import laws_of, sole_wrench
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.geometry.shapes import HalfSpace
 
 if TYPE_CHECKING:
     from casadi import SX
 
-INTACT_FOOT = "calcn_l"
+INTACT_FOOT, INTACT_TOES = "calcn_l", "toes_l"
 FREE = ("pelvis_tx", "pelvis_ty")
 """Of the pelvis: fore and aft, and vertical, which the study leaves free."""
 
@@ -74,7 +76,18 @@ def prosthetic_loads(tree: Tree, amputee: Amputee) -> Wrenches:
     return sole_wrenches(tree, "calcn_r", none, foot.keel, foot.sole, foot.law, HalfSpace(), ending="_r")
 
 
-def equations_of_both(amputee: Amputee, *, prescribed: Sequence[str] = (), driven: Sequence[str] = ()) -> Equations:
+def intact_loads(tree: Tree, amputee: Amputee) -> Wrenches:
+    """Of a level ground on the intact foot and its toes, by their spheres."""
+    leg = amputee.intact
+    found = {}
+    for body, spheres, law in zip((INTACT_FOOT, INTACT_TOES), leg.spheres(), leg.laws(), strict=True):
+        found[body] = sole_wrench(tree.bodies[body], spheres, laws_of(law), HalfSpace(normal=(0.0, 1.0, 0.0)))
+    return found
+
+
+def equations_of_both(
+    amputee: Amputee, *, prescribed: Sequence[str] = (), driven: Sequence[str] = (), intact_on_spheres: bool = False
+) -> Equations:
     """Of the coordinates that are not prescribed.
 
     Parameters
@@ -83,6 +96,8 @@ def equations_of_both(amputee: Amputee, *, prescribed: Sequence[str] = (), drive
         Whose course is an input.
     driven
         Along which a torque or force is given [N m, N].
+    intact_on_spheres
+        Whether the intact foot has its spheres, beside the load that is given.
 
     Inputs after those of the prescribed coordinates: force and moment about the ground's origin on the intact foot, in
     the ground's frame [N, N m], then what drives.
@@ -93,4 +108,6 @@ def equations_of_both(amputee: Amputee, *, prescribed: Sequence[str] = (), drive
     ground, torque = SX.sym("ground", 6), SX.sym("torque", len(driven))
     along = spring_forces(tree, amputee) | {name: torque[k] for k, name in enumerate(driven)}
     loads = together(prosthetic_loads(tree, amputee), {INTACT_FOOT: (ground[:3], ground[3:])})
+    if intact_on_spheres:
+        loads = together(loads, intact_loads(tree, amputee))
     return equations_of_motion(tree, loads=loads, along=along, prescribed=prescribed, inputs=[ground, torque])

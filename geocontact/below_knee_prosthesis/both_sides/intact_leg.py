@@ -18,11 +18,15 @@ from geocontact.below_knee_prosthesis.model.leg import Inertial, Person
 from geocontact.data.body_segments import SEGMENTS
 from geocontact.data.multibody.model import Marker
 from geocontact.data.sourced_number import Number
-from geocontact.loads.sphere_set import SphereSet
+from geocontact.loads.sphere_set import SoleLaw, SphereSet
 
 Vector = Float[np.ndarray, " 3"]
 HEEL, HEEL_APART, SPHERE = 0.03, 0.02, 0.02
 """m; of the heel's spheres in front of the heel's back and of each from the middle, radius of a sphere; invented."""
+STIFFNESS, DAMPING, FULL_DEPTH = 30e3, 300.0, 2e-3
+"""N/m, N s/m and m; of a sphere's law, linear: two of them sink by 13 mm under 80 kg; invented."""
+STATIC, KINETIC, THRESHOLD_SPEED = 0.8, 0.7, 0.01
+"""Coefficients of friction, and m/s below which what sticks creeps; invented."""
 PIECES = "heel_medial", "heel_lateral", "metatarsal_1", "metatarsal_5", "hallux"
 """Where the sole presses most; the last is on the toes."""
 
@@ -135,6 +139,24 @@ class IntactLeg:
         radius = np.full(len(places), SPHERE)
         toe = np.array([self.hallux[0] - SPHERE, low, self.hallux[2]]) - self.toe_joint
         return SphereSet(np.array(places), radius, PIECES[:-1]), SphereSet(toe[None], radius[:1], PIECES[-1:])
+
+    def laws(self) -> tuple[SoleLaw, SoleLaw]:
+        """Of these spheres. The study has no force under the intact foot to fit them to either: they bear the body."""
+        found = []
+        for spheres in self.spheres():
+            ones = np.ones(len(spheres))
+            found.append(
+                SoleLaw(
+                    stiffness=STIFFNESS * ones,
+                    damping=DAMPING * ones,
+                    exponent=1.0,
+                    full_depth=FULL_DEPTH,
+                    static=STATIC * ones,
+                    kinetic=KINETIC * ones,
+                    threshold_speed=THRESHOLD_SPEED,
+                )
+            )
+        return found[0], found[1]
 
     def numbers(self) -> Mapping[str, Number]:
         """Every number of the segments in SI, and where it is from."""

@@ -17,10 +17,12 @@ from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.equations_of_both import (
     FREE,
     equations_of_both,
+    intact_loads,
     moving_tree,
     passive,
     prosthetic_loads,
 )
+from geocontact.dynamics.inverse_dynamics import Wrenches
 from geocontact.dynamics.recorded_inputs import recorded_inputs
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.tree import tree_of
@@ -62,8 +64,9 @@ class Walk:
     ----------
     time, names, q, u
         [s], coordinates and rates [rad, m, s].
-    force
-        Of the ground on the prosthetic foot [N].
+    own, intact
+        Of the ground by the spheres of the prosthetic and, where it has some, of the intact foot: force and moment
+        about the ground's origin [N, N m].
     steps
         That were taken.
     """
@@ -72,8 +75,20 @@ class Walk:
     names: tuple[str, ...]
     q: Float[np.ndarray, "t n"]
     u: Float[np.ndarray, "t n"]
-    force: Float[np.ndarray, "t 3"]
+    own: Float[np.ndarray, "t 6"]
+    intact: Float[np.ndarray, "t 6"]
     steps: int
+
+    @property
+    def force(self) -> Float[np.ndarray, "t 3"]:
+        """Of the ground on the prosthetic foot [N]."""
+        return self.own[:, :3]
+
+    def part(self, start: float, stop: float) -> Walk:
+        """Between two times [s]."""
+        on = (self.time >= start - 1e-9) & (self.time <= stop + 1e-9)
+        q, u, own, intact = self.q[on], self.u[on], self.own[on], self.intact[on]
+        return Walk(self.time[on], self.names, q, u, own, intact, self.steps)
 
     def of(self, name: str) -> Float[np.ndarray, " t"]:
         """One coordinate."""
@@ -90,6 +105,7 @@ def walk_by_angles(
     given: Given,
     time: Float[np.ndarray, " t"],
     *,
+    intact_on_spheres: bool = False,
     tolerance: float = TOLERANCE,
     machine_code: bool = True,
 ) -> Walk:
@@ -98,12 +114,13 @@ def walk_by_angles(
     ArithmeticError where the motion cannot go on.
     """
     names = coordinate_names(amputee)
-    prescribed = [name for name in names if name not in FREE and name not in passive(names)]
-    stepper = Stepper(equations_of_both(amputee, prescribed=prescribed), machine_code=machine_code)
+    prescribed = _prescribed(names)
+    equations = equations_of_both(amputee, prescribed=prescribed, intact_on_spheres=intact_on_spheres)
+    stepper = Stepper(equations, machine_code=machine_code)
     columns = [given.names.index(name) for name in prescribed]
     course = recorded_inputs(given.time, given.values[:, columns], derivatives=2)
     inputs = course.beside(recorded_inputs(given.time, given.ground))
-    free = stepper.equations.names
+    free = equations.names
     place = recorded_inputs(given.time, given.values[:, [given.names.index(name) for name in FREE]])
     q, u = np.zeros(len(free)), np.zeros(len(free))
     at = [free.index(name) for name in FREE]
@@ -113,13 +130,16 @@ def walk_by_angles(
     whole = {name: (known[:, k], known[:, len(columns) + k]) for k, name in enumerate(prescribed)}
     whole |= {name: (found.q[:, k], found.u[:, k]) for k, name in enumerate(found.names)}
     values, rates = (np.column_stack([whole[name][k] for name in names]) for k in (0, 1))
-    return Walk(time, names, values, rates, _force(amputee, values, rates), found.steps)
+    own, intact = _pressing(amputee, values, rates, intact_on_spheres)
+    return Walk(time, names, values, rates, own, intact, found.steps)
 
 
-def accelerations_by_angles(amputee: Amputee, given: Given, walk: Walk) -> Float[np.ndarray, "t n"]:
+def accelerations_by_angles(
+    amputee: Amputee, given: Given, walk: Walk, *, intact_on_spheres: bool = False
+) -> Float[np.ndarray, "t n"]:
     """Of all coordinates of such a walk [rad/s², m/s²]: those of what is found by the equations, the rest as given."""
-    prescribed = [name for name in walk.names if name not in FREE and name not in passive(walk.names)]
-    equations = equations_of_both(amputee, prescribed=prescribed)
+    prescribed = _prescribed(walk.names)
+    equations = equations_of_both(amputee, prescribed=prescribed, intact_on_spheres=intact_on_spheres)
     columns = [given.names.index(name) for name in prescribed]
     course = recorded_inputs(given.time, given.values[:, columns], derivatives=2)
     w = course.beside(recorded_inputs(given.time, given.ground)).at(walk.time)
@@ -132,18 +152,23 @@ def accelerations_by_angles(amputee: Amputee, given: Given, walk: Walk) -> Float
 
 
 def driving_forces(
-    amputee: Amputee, walk: Walk, accelerations: Float[np.ndarray, "t n"], ground: Float[np.ndarray, "t 6"]
+    amputee: Amputee,
+    walk: Walk,
+    accelerations: Float[np.ndarray, "t n"],
+    ground: Float[np.ndarray, "t 6"],
+    *,
+    intact_on_spheres: bool = False,
 ) -> Float[np.ndarray, "t n"]:
     """What acts along each coordinate beside gravity, the ground and the springs [N m, N]: of a pelvis what holds it.
 
     Parameters
     ----------
     ground
-        On the intact foot at the times of the walk, as of `Given`.
+        Given on the intact foot at the times of the walk, as of `Given`.
     """
     from casadi import Function, densify
 
-    equations = equations_of_both(amputee)
+    equations = equations_of_both(amputee, intact_on_spheres=intact_on_spheres)
     state = [*equations.state[:2], equations.a, *equations.state[3:]]
     needed = Function("needed", state, [densify(-equations.balance)])
     count = len(walk.time)
@@ -151,10 +176,11 @@ def driving_forces(
     return np.array(needed.map(count)(walk.q.T, walk.u.T, accelerations.T, ground.T, none)).T
 
 
-def driven_stepper(amputee: Amputee, *, machine_code: bool = True) -> Stepper:
+def driven_stepper(amputee: Amputee, *, intact_on_spheres: bool = False, machine_code: bool = True) -> Stepper:
     """Of a walk by forces: all coordinates free, socket and keel by their springs alone."""
-    names = coordinate_names(amputee)
-    return Stepper(equations_of_both(amputee, driven=_driven(names)), machine_code=machine_code)
+    driven = _driven(coordinate_names(amputee))
+    equations = equations_of_both(amputee, driven=driven, intact_on_spheres=intact_on_spheres)
+    return Stepper(equations, machine_code=machine_code)
 
 
 def walk_by_forces(
@@ -165,6 +191,7 @@ def walk_by_forces(
     ground: Float[np.ndarray, "t 6"],
     forces: Float[np.ndarray, "t n"],
     *,
+    intact_on_spheres: bool = False,
     tolerance: float = TOLERANCE,
 ) -> Walk:
     """From the first state of a walk, by its forces at its times and nothing else.
@@ -185,22 +212,36 @@ def walk_by_forces(
     inputs = recorded_inputs(start.time, np.hstack([ground, forces[:, columns]]))
     state = (start.q[0], start.u[0], np.zeros(0))
     found = stepper.simulate(state, time, inputs=inputs, tolerance=tolerance, first=FIRST)
-    return Walk(time, names, found.q, found.u, _force(amputee, found.q, found.u), found.steps)
+    own, intact = _pressing(amputee, found.q, found.u, intact_on_spheres)
+    return Walk(time, names, found.q, found.u, own, intact, found.steps)
+
+
+def _prescribed(names: Sequence[str]) -> list[str]:
+    return [name for name in names if name not in FREE and name not in passive(names)]
 
 
 def _driven(names: Sequence[str]) -> list[str]:
     return [name for name in names if name not in passive(names)]
 
 
-def _force(amputee: Amputee, q: Float[np.ndarray, "t n"], u: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t 3"]:
-    """Of the ground on the prosthetic foot [N]."""
-    from casadi import Function, densify
+def _pressing(
+    amputee: Amputee, q: Float[np.ndarray, "t n"], u: Float[np.ndarray, "t n"], intact_on_spheres: bool
+) -> tuple[Float[np.ndarray, "t 6"], Float[np.ndarray, "t 6"]]:
+    """Of the ground by the spheres of both feet: force and moment about its origin [N, N m]."""
+    from casadi import SX, Function, densify, vertcat
 
     tree = tree_of(moving_tree(amputee))
-    loads = prosthetic_loads(tree, amputee)
-    total = sum((force for force, _ in loads.values()), start=0)
-    run = Function("force", [tree.q, tree.u], [densify(total)])
-    return np.array(run.map(len(q))(q.T, u.T)).T
+    both: list[Wrenches] = [prosthetic_loads(tree, amputee)]
+    both.append(intact_loads(tree, amputee) if intact_on_spheres else {})
+    told = []
+    for loads in both:
+        total = SX(6, 1)
+        for force, moment in loads.values():
+            total = total + vertcat(force, moment)
+        told.append(densify(total))
+    run = Function("pressing", [tree.q, tree.u], told)
+    found = [np.array(each).T for each in run.map(len(q))(q.T, u.T)]
+    return found[0], found[1]
 
 
 def _mapped(

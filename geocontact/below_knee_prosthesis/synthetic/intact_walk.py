@@ -51,8 +51,17 @@ class IntactWalk:
     centre: Float[np.ndarray, "t 3"]
 
 
-def intact_walk(leg: IntactLeg, pelvis: RigidTransform, time: Float[np.ndarray, " t"], stance: float) -> IntactWalk:
-    """Of a leg on a pelvis that moves so, beside a prosthetic stance of that length [s] that begins at 0."""
+def intact_walk(
+    leg: IntactLeg,
+    pelvis: RigidTransform,
+    time: Float[np.ndarray, " t"],
+    stance: float,
+    sunk: Float[np.ndarray, " t"] | None = None,
+) -> IntactWalk:
+    """Of a leg on a pelvis that moves so, beside a prosthetic stance of that length [s] that begins at 0.
+
+    `sunk` is how deep the foot is in the floor [m].
+    """
     step = footfall(stance)
     holds = {start: SPEED * start for start in (-3.0 * step, -step, step)}
     known = [_standing(leg, start, stance, x) for start, x in holds.items()]
@@ -61,6 +70,8 @@ def intact_walk(leg: IntactLeg, pelvis: RigidTransform, time: Float[np.ndarray, 
     curve = make_interp_spline(*_unique(course[order]), k=3)
     place = curve(time)
     turn = Rotation.from_euler("y", TOE_OUT) * Rotation.from_euler("z", place[:, 2:3])
+    if sunk is not None:
+        place[:, 1] -= sunk
     angles = _reached(leg, pelvis, np.column_stack([place[:, :2], np.full(len(time), leg.hip[2])]), turn)
     smooth = zero_lag(np.column_stack([angles, place[:, 3]]), float(time[1] - time[0]), CUTOFF)
     centre = np.zeros((len(time), 3))

@@ -11,10 +11,12 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.prosthesis.scale.result import FREE, HELD, ProsthesisScaleResult
+from geocontact.below_knee_prosthesis.from_markers.sides import MIRROR, as_right
 from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics
 from geocontact.dynamics.tree import tree_of
 from geocontact.io.mocap.markers import read_markers
+from geocontact.io.mocap.trc_writer import write_trc
 from geocontact.io.opensim.osim_multibody import read_multibody
 from meshes.make_gait import standing_files
 from tests.cli.calls import MESHES
@@ -87,6 +89,18 @@ def test_functional_trial_fits_better_than_regression_and_hand(made: ProsthesisS
 def test_refused(changed: dict[str, Any], words: str) -> None:
     with pytest.raises(gc.InputError, match=words):
         scaled(**changed)
+
+
+def test_a_left_prosthesis_is_told_by_its_mirror_image(tmp_path: Path) -> None:
+    write_trc(tmp_path / "standing.trc", as_right(read_markers(STANDING), "left"))
+    right, left = scaled(), scaled(tmp_path / "standing.trc", side="left")
+    assert [body.name for body in left.model.bodies][1:5] == ["femur_l", "tibia_l", "socket_l", "calcn_l"]
+    for one, other in zip(right.model.bodies, left.model.bodies, strict=True):
+        assert other.mass == pytest.approx(one.mass, rel=1e-9)
+        np.testing.assert_allclose(other.centre, one.centre * MIRROR, atol=1e-8)
+    own, theirs = (one.table("joints").set_index("joint") for one in (right, left))
+    np.testing.assert_allclose(theirs["z [mm]"], -own["z [mm]"], atol=1e-4)
+    np.testing.assert_allclose(theirs["y [mm]"], own["y [mm]"], atol=1e-4)
 
 
 def test_heavier_prosthesis_takes_from_the_trunk() -> None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.integrate import cumulative_trapezoid
 
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
+from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.equations_of_both import equations_of_both, moving_tree, passive
 from geocontact.below_knee_prosthesis.both_sides.walk import (
     Given,
@@ -24,7 +27,12 @@ from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.synthetic.amputee import true_amputee
 from geocontact.below_knee_prosthesis.synthetic.amputee_walk import amputee_walk
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS
+from geocontact.data.wrench import Wrench
+from geocontact.dynamics.forces_along import forces_along
 from geocontact.dynamics.recorded_inputs import recorded_inputs
+from geocontact.dynamics.tree import tree_of
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.opensim.osim_writer import write_osim
 
 WEIGHT = 77.3 * GRAVITY
 
@@ -39,11 +47,12 @@ def given(truth: Amputee) -> Given:
     return amputee_walk(truth, 0.72)[0]
 
 
-def test_accelerations_of_the_forces_that_some_accelerations_need(truth: Amputee) -> None:
-    """With the foot on the ground; along socket and keel, which nothing drives, the equations' own are put in."""
+@pytest.mark.parametrize("spheres", [False, True])
+def test_accelerations_of_the_forces_that_some_accelerations_need(truth: Amputee, spheres: bool) -> None:
+    """With both feet on the ground; along socket and keel, which nothing drives, the equations' own are put in."""
     names = coordinate_names(truth)
     driven = [name for name in names if name not in passive(names)]
-    equations = equations_of_both(truth, driven=driven)
+    equations = equations_of_both(truth, driven=driven, intact_on_spheres=spheres)
     forward = equations.accelerations()
     rng = np.random.default_rng(2)
     q, u = 0.05 * rng.standard_normal((2, len(names)))
@@ -52,8 +61,9 @@ def test_accelerations_of_the_forces_that_some_accelerations_need(truth: Amputee
     push = rng.normal(0.0, 30.0, len(driven))
     a = np.array(forward(q, u, [], np.concatenate([ground, push]), [])).ravel()
     rows = [np.repeat(each[None], 2, axis=0) for each in (q, u)]
-    still = Walk(np.arange(2.0), names, rows[0], rows[1], np.zeros((2, 3)), 0)
-    found = driving_forces(truth, still, np.repeat(a[None], 2, axis=0), np.repeat(ground[None], 2, axis=0))[0]
+    still = Walk(np.arange(2.0), names, rows[0], rows[1], np.zeros((2, 6)), np.zeros((2, 6)), 0)
+    given = np.repeat(ground[None], 2, axis=0)
+    found = driving_forces(truth, still, np.repeat(a[None], 2, axis=0), given, intact_on_spheres=spheres)[0]
     wanted = np.zeros(len(names))
     wanted[[names.index(name) for name in driven]] = push
     np.testing.assert_allclose(found, wanted, atol=1e-6)
@@ -92,6 +102,31 @@ def test_momentum_is_what_the_forces_leave(truth: Amputee, given: Given, landing
 
 
 @pytest.mark.slow
+def test_the_written_file_tells_the_same_torques(truth: Amputee, given: Given, landing: Walk, tmp_path: Path) -> None:
+    """By `forces_along`, as the command id does: the file, coordinates over time and the ground's load on each foot.
+
+    Only above the socket and on the intact side: on the keel's segments the load is one wrench there.
+    """
+    write_osim(tmp_path / "amputee.osim", amputee_tree(truth))
+    tree = tree_of(read_multibody(tmp_path / "amputee.osim"))
+    values = np.zeros((len(landing.time), len(tree.names)))
+    values[:, [tree.names.index(name) for name in landing.names]] = landing.q
+    ground = recorded_inputs(given.time, given.ground).at(landing.time)
+    inner = slice(20, -20)
+    loads = {
+        body: Wrench(load[inner, :3], load[inner, 3:], np.zeros((len(load[inner]), 3)), "ground")
+        for body, load in (("calcn_r", landing.own), ("calcn_l", ground))
+    }
+    found = forces_along(tree, landing.time, values, landing.time[inner], loads)
+    wanted = driving_forces(truth, landing, accelerations_by_angles(truth, given, landing), ground)[inner]
+    told = [name for name in landing.names if name not in passive(landing.names)]
+    ours = wanted[:, [landing.names.index(name) for name in told]]
+    theirs = found[:, [tree.names.index(name) for name in told]]
+    assert np.abs(ours).max() > 50.0
+    np.testing.assert_allclose(theirs, ours, atol=0.5)  # N m and N: rates of the file's coordinates are a spline's
+
+
+@pytest.mark.slow
 def test_its_own_torques_make_the_motion_again(truth: Amputee, given: Given, landing: Walk) -> None:
     """Short form of `benchmarks/prosthesis_both_sides.py`: errors there grow by 22/s in single support."""
     ground = recorded_inputs(given.time, given.ground).at(landing.time)
@@ -99,7 +134,7 @@ def test_its_own_torques_make_the_motion_again(truth: Amputee, given: Given, lan
     undriven = [landing.names.index(name) for name in (*passive(landing.names), "pelvis_tx", "pelvis_ty")]
     assert np.abs(forces[:, undriven]).max() < 1e-6
     start = int(np.searchsorted(landing.time, 0.17))
-    part = Walk(landing.time[start:], landing.names, landing.q[start:], landing.u[start:], landing.force[start:], 0)
+    part = landing.part(float(landing.time[start]), 1.0)
     stepper = driven_stepper(truth, machine_code=False)
     again = walk_by_forces(truth, stepper, part, part.time, ground[start:], forces[start:], tolerance=1e-5)
     turns = [k for k, name in enumerate(part.names) if not name.startswith(("pelvis_t", "socket_t"))]
