@@ -19,7 +19,7 @@ import numpy as np
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.equations_of_both import FREE, equations_of_both, passive
 from geocontact.below_knee_prosthesis.both_sides.walk import (
-    Given,
+    GivenWalk,
     accelerations_by_angles,
     coordinate_names,
     driven_stepper,
@@ -66,7 +66,7 @@ def sizes(truth: Amputee) -> None:
         )
 
 
-def again(truth: Amputee, given: Given, every: float, tolerance: float, spheres: bool) -> None:
+def again(truth: Amputee, given: GivenWalk, every: float, tolerance: float, spheres: bool) -> None:
     """Print how far the walk by forces is from that by angles."""
     weight = truth.mass * GRAVITY
     before = time.process_time()

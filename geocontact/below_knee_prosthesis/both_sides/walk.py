@@ -37,7 +37,7 @@ TOLERANCE, FIRST = 1e-5, 1e-4
 
 
 @dataclass(frozen=True, eq=False)
-class Given:
+class GivenWalk:
     """What is known of a walk of a person with a right prosthesis, at even times.
 
     Parameters
@@ -57,7 +57,7 @@ class Given:
 
 
 @dataclass(frozen=True, eq=False)
-class Walk:
+class WholeMotion:
     """A motion of all coordinates.
 
     Parameters
@@ -84,11 +84,11 @@ class Walk:
         """Of the ground on the prosthetic foot [N]."""
         return self.own[:, :3]
 
-    def part(self, start: float, stop: float) -> Walk:
+    def part(self, start: float, stop: float) -> WholeMotion:
         """Between two times [s]."""
         on = (self.time >= start - 1e-9) & (self.time <= stop + 1e-9)
         q, u, own, intact = self.q[on], self.u[on], self.own[on], self.intact[on]
-        return Walk(self.time[on], self.names, q, u, own, intact, self.steps)
+        return WholeMotion(self.time[on], self.names, q, u, own, intact, self.steps)
 
     def of(self, name: str) -> Float[np.ndarray, " t"]:
         """One coordinate."""
@@ -102,13 +102,13 @@ def coordinate_names(amputee: Amputee) -> tuple[str, ...]:
 
 def walk_by_angles(
     amputee: Amputee,
-    given: Given,
+    given: GivenWalk,
     time: Float[np.ndarray, " t"],
     *,
     intact_on_spheres: bool = False,
     tolerance: float = TOLERANCE,
     machine_code: bool = True,
-) -> Walk:
+) -> WholeMotion:
     """From the recorded place and speed of the pelvis at the first of some even times; socket and keel start at rest.
 
     ArithmeticError where the motion cannot go on.
@@ -131,11 +131,11 @@ def walk_by_angles(
     whole |= {name: (found.q[:, k], found.u[:, k]) for k, name in enumerate(found.names)}
     values, rates = (np.column_stack([whole[name][k] for name in names]) for k in (0, 1))
     own, intact = _pressing(amputee, values, rates, intact_on_spheres)
-    return Walk(time, names, values, rates, own, intact, found.steps)
+    return WholeMotion(time, names, values, rates, own, intact, found.steps)
 
 
 def accelerations_by_angles(
-    amputee: Amputee, given: Given, walk: Walk, *, intact_on_spheres: bool = False
+    amputee: Amputee, given: GivenWalk, walk: WholeMotion, *, intact_on_spheres: bool = False
 ) -> Float[np.ndarray, "t n"]:
     """Of all coordinates of such a walk [rad/s², m/s²]: those of what is found by the equations, the rest as given."""
     prescribed = _prescribed(walk.names)
@@ -153,7 +153,7 @@ def accelerations_by_angles(
 
 def driving_forces(
     amputee: Amputee,
-    walk: Walk,
+    walk: WholeMotion,
     accelerations: Float[np.ndarray, "t n"],
     ground: Float[np.ndarray, "t 6"],
     *,
@@ -164,7 +164,7 @@ def driving_forces(
     Parameters
     ----------
     ground
-        Given on the intact foot at the times of the walk, as of `Given`.
+        Given on the intact foot at the times of the walk, as of `GivenWalk`.
     """
     from casadi import Function, densify
 
@@ -186,14 +186,14 @@ def driven_stepper(amputee: Amputee, *, intact_on_spheres: bool = False, machine
 def walk_by_forces(
     amputee: Amputee,
     stepper: Stepper,
-    start: Walk,
+    start: WholeMotion,
     time: Float[np.ndarray, " t"],
     ground: Float[np.ndarray, "t 6"],
     forces: Float[np.ndarray, "t n"],
     *,
     intact_on_spheres: bool = False,
     tolerance: float = TOLERANCE,
-) -> Walk:
+) -> WholeMotion:
     """From the first state of a walk, by its forces at its times and nothing else.
 
     Parameters
@@ -213,7 +213,7 @@ def walk_by_forces(
     state = (start.q[0], start.u[0], np.zeros(0))
     found = stepper.simulate(state, time, inputs=inputs, tolerance=tolerance, first=FIRST)
     own, intact = _pressing(amputee, found.q, found.u, intact_on_spheres)
-    return Walk(time, names, found.q, found.u, own, intact, found.steps)
+    return WholeMotion(time, names, found.q, found.u, own, intact, found.steps)
 
 
 def _prescribed(names: Sequence[str]) -> list[str]:

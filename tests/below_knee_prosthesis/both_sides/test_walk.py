@@ -12,8 +12,8 @@ from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.equations_of_both import equations_of_both, moving_tree, passive
 from geocontact.below_knee_prosthesis.both_sides.walk import (
-    Given,
-    Walk,
+    GivenWalk,
+    WholeMotion,
     accelerations_by_angles,
     coordinate_names,
     driven_stepper,
@@ -43,7 +43,7 @@ def truth() -> Amputee:
 
 
 @pytest.fixture(scope="module")
-def given(truth: Amputee) -> Given:
+def given(truth: Amputee) -> GivenWalk:
     return amputee_walk(truth, 0.72)[0]
 
 
@@ -61,7 +61,7 @@ def test_accelerations_of_the_forces_that_some_accelerations_need(truth: Amputee
     push = rng.normal(0.0, 30.0, len(driven))
     a = np.array(forward(q, u, [], np.concatenate([ground, push]), [])).ravel()
     rows = [np.repeat(each[None], 2, axis=0) for each in (q, u)]
-    still = Walk(np.arange(2.0), names, rows[0], rows[1], np.zeros((2, 6)), np.zeros((2, 6)), 0)
+    still = WholeMotion(np.arange(2.0), names, rows[0], rows[1], np.zeros((2, 6)), np.zeros((2, 6)), 0)
     given = np.repeat(ground[None], 2, axis=0)
     found = driving_forces(truth, still, np.repeat(a[None], 2, axis=0), given, intact_on_spheres=spheres)[0]
     wanted = np.zeros(len(names))
@@ -69,7 +69,7 @@ def test_accelerations_of_the_forces_that_some_accelerations_need(truth: Amputee
     np.testing.assert_allclose(found, wanted, atol=1e-6)
 
 
-def test_the_intact_foot_rolls_on_the_floor(truth: Amputee, given: Given) -> None:
+def test_the_intact_foot_rolls_on_the_floor(truth: Amputee, given: GivenWalk) -> None:
     """Where it carries load some point of its sole is on the floor, within what the angles' filter moves it."""
     leg, model = truth.intact, moving_tree(truth)
     pose = model.poses(given.values)["calcn_l"]
@@ -83,13 +83,13 @@ def test_the_intact_foot_rolls_on_the_floor(truth: Amputee, given: Given) -> Non
 
 
 @pytest.fixture(scope="module")
-def landing(truth: Amputee, given: Given) -> Walk:
+def landing(truth: Amputee, given: GivenWalk) -> WholeMotion:
     """Single support by angles, half a millisecond apart."""
     return walk_by_angles(truth, given, np.arange(0.14, 0.24, 5e-4), tolerance=1e-6, machine_code=False)
 
 
 @pytest.mark.slow
-def test_momentum_is_what_the_forces_leave(truth: Amputee, given: Given, landing: Walk) -> None:
+def test_momentum_is_what_the_forces_leave(truth: Amputee, given: GivenWalk, landing: WholeMotion) -> None:
     model = moving_tree(truth)
     centre = model.mass_centre(landing.q)
     speed = np.gradient(centre, landing.time, axis=0, edge_order=2)
@@ -102,7 +102,9 @@ def test_momentum_is_what_the_forces_leave(truth: Amputee, given: Given, landing
 
 
 @pytest.mark.slow
-def test_the_written_file_tells_the_same_torques(truth: Amputee, given: Given, landing: Walk, tmp_path: Path) -> None:
+def test_the_written_file_tells_the_same_torques(
+    truth: Amputee, given: GivenWalk, landing: WholeMotion, tmp_path: Path
+) -> None:
     """By `forces_along`, as the command id does: the file, coordinates over time and the ground's load on each foot.
 
     Only above the socket and on the intact side: on the keel's segments the load is one wrench there.
@@ -127,7 +129,7 @@ def test_the_written_file_tells_the_same_torques(truth: Amputee, given: Given, l
 
 
 @pytest.mark.slow
-def test_its_own_torques_make_the_motion_again(truth: Amputee, given: Given, landing: Walk) -> None:
+def test_its_own_torques_make_the_motion_again(truth: Amputee, given: GivenWalk, landing: WholeMotion) -> None:
     """Short form of `benchmarks/prosthesis_both_sides.py`: errors there grow by 22/s in single support."""
     ground = recorded_inputs(given.time, given.ground).at(landing.time)
     forces = driving_forces(truth, landing, accelerations_by_angles(truth, given, landing), ground)
