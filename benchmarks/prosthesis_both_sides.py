@@ -40,7 +40,7 @@ RUNS = ((1e-3, 1e-6), (2.5e-4, 1e-7))
 """Steps of the samples [s] and tolerances of both walks."""
 SPANS = {
     False: {"single support": (0.16, 0.56), "from double support on": (-0.08, 0.56)},
-    True: {"single support": (0.26, 0.60), "whole stance": (-0.08, 0.76)},
+    True: {"as the intact foot leaves": (0.16, 0.68), "from double support on": (-0.05, 0.76)},
 }
 """s, at medium stiffness, without and with spheres under the intact foot."""
 EVERY, AFTER = 0.04, 0.06
