@@ -26,7 +26,7 @@ def leg_model() -> str:
     joints = "\n".join(_joint(*each) for each in JOINTS)
     markers = "\n".join(_marker(body, k) for body in BODIES for k in range(len(PLACES)))
     return f"""<?xml version="1.0"?>
-<OpenSimDocument Version="40000"><Model name="synthetic leg">
+<OpenSimDocument Version="40000"><Model name="synthetic_leg">
 <credits>Synthetic sample leg of geocontact: no subject, no patient.</credits>
 <gravity>0 -{GRAVITY} 0</gravity><Ground name="ground"/>
 <BodySet><objects>

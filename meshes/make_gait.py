@@ -1,4 +1,4 @@
-"""Write the synthetic gait trial that the documentation runs on: `python meshes/make_gait.py`.
+"""Write the synthetic gait and standing trials that the documentation runs on: `python meshes/make_gait.py`.
 
 It takes half a minute, for the truth is a stance on a finer foot.
 """
@@ -7,7 +7,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from geocontact.analyses.prosthesis.trial_files import trial_files
+from geocontact.analyses.prosthesis.trial_files import amputee_files, trial_files
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
+from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+from geocontact.below_knee_prosthesis.synthetic.amputee import standing_trials
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS
 from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
 
@@ -20,9 +23,17 @@ def gait_files() -> dict[str, bytes]:
     return {f"gait_{trial.name}/{name}": text.encode("ascii") for name, text in trial_files(trial).items()}
 
 
+def standing_files() -> dict[str, bytes]:
+    """A participant who stands and moves both legs' joints, by name."""
+    person = PARTICIPANTS[PERSON]
+    trials = standing_trials(person, vsf_foot(), fulcrum_of(SETTING, "pinned"))
+    texts = amputee_files(person.name, trials)
+    return {f"amputee_{person.name}/{name}": text.encode("ascii") for name, text in texts.items()}
+
+
 def main() -> None:
     """Write the files beside this script."""
-    for name, data in gait_files().items():
+    for name, data in (gait_files() | standing_files()).items():
         path = Path(__file__).parent / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)

@@ -20,6 +20,10 @@ FOLDER_KINDS = {
     "truth": "truth",
     "markers": "markers",
     "tool": "recording",
+    "standing": "markers",
+    "walking": "markers",
+    "functional": "markers",
+    "plates": "recording",
 }
 """By suffix; in the folder of a mat's recording or of a trial by the first word of the name."""
 
@@ -32,7 +36,8 @@ def kind(name: PurePath) -> str:
 def data_files(folder: Path) -> list[Path]:
     """The files to describe: those in the folder itself, then the mats' recordings and the trials."""
     own = sorted(p for p in folder.iterdir() if p.suffix in KINDS)
-    return [*own, *sorted(folder.glob("mat_*/*")), *sorted(folder.glob("overhead_*/*"))]
+    folders = ("mat_*", "amputee_*", "gait_*", "overhead_*")
+    return [*own, *(path for each in folders for path in sorted(folder.glob(f"{each}/*")))]
 
 
 def file_entry(path: Path, folder: Path) -> dict[str, object]:

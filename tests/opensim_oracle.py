@@ -164,8 +164,12 @@ def inverse_kinematics(
     held: dict[str, tuple[float, float | None]],
     times: Sequence[float],
     names: Sequence[str],
+    accuracy: float = 1e-5,
 ) -> tuple[float, np.ndarray]:
-    """CPU seconds of its solver for these frames, the first among them, and the coordinates it finds, (t, n)."""
+    """CPU seconds of its solver for these frames, the first among them, and the coordinates it finds, (t, n).
+
+    `accuracy` is the tool's own unless told.
+    """
     import time
 
     import opensim
@@ -184,7 +188,7 @@ def inverse_kinematics(
         one.setWeight(weight)
         coordinates.push_back(one)
     solver = opensim.InverseKinematicsSolver(model, seen, coordinates)
-    solver.setAccuracy(1e-5)  # the tool's own
+    solver.setAccuracy(accuracy)
     found = np.zeros((len(times), len(names)))
     began = time.process_time()
     for k, at in enumerate(times):

@@ -27,6 +27,7 @@ KINDS = {
     "elbow_design": "elbow_design",
     "elbow_population": "elbow_population",
     "scale": "scale",
+    "prosthesis_scale": "prosthesis_scale",
     "markers": "markers",
     "gather": "gap_gather_knee",
     "gap": "gap_diagnose",

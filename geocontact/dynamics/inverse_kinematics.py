@@ -2,9 +2,11 @@
 
 Lu & O'Connor (1999), Bone position estimation from skin marker co-ordinates using global optimisation, J Biomech 32.
 Newton's steps; the curvature, exact, is kept as long as they shrink fast, and damped after Levenberg and Marquardt
-where they do not lead down. Coordinates that the model clamps stay within their limits, locked ones at their default.
-A marker that is not seen does not count in that frame. The search begins where most markers are seen and goes from
-there to both ends. What the markers of a frame do not tell is not stated, or filled where the gap is short.
+where they do not lead down. As in OpenSim a coordinate that is held counts beside the mean over the markers that are
+seen in the frame: Σ w |x - observed|² / Σ w + v (q - wanted)². Coordinates that the model clamps stay within their
+limits, locked ones at their default. A marker that is not seen does not count in that frame. The search begins where
+most markers are seen and goes from there to both ends. What the markers of a frame do not tell is not stated, or
+filled where the gap is short.
 """
 
 from __future__ import annotations
@@ -149,8 +151,8 @@ class _Search:
     def pose(self, q: Vector, observed: Float[np.ndarray, "m 3"]) -> tuple[Vector, int, bool]:
         """Coordinates of a frame from a start, steps taken, and whether the last was short enough."""
         there = np.all(np.isfinite(observed), axis=1)
-        seen = np.where(there[:, None], observed, 0.0), np.where(there, self.weights, 0.0)
-        against = (*seen, self.wanted, self.held)
+        weights = np.where(there, self.weights, 0.0)
+        against = (np.where(there[:, None], observed, 0.0), weights, self.wanted, weights.sum() * self.held)
         gradient, cost = self.fit.slope(q, against)
         damping, before = 0.0, np.inf
         for step in range(1, MOST + 1):
@@ -176,8 +178,9 @@ class _Search:
         if there.all() and self.whole is not None:
             return self.whole
         slopes = self.fit.slopes(q).reshape(len(there), 3, len(q))
-        normal = np.einsum("m,mik,mil->kl", np.where(there, self.weights, 0.0), slopes, slopes)
-        found = np.asarray(self.locked | ~_open(normal + np.diag(self.held), ~self.locked))
+        weights = np.where(there, self.weights, 0.0)
+        normal = np.einsum("m,mik,mil->kl", weights, slopes, slopes)
+        found = np.asarray(self.locked | ~_open(normal + weights.sum() * np.diag(self.held), ~self.locked))
         if there.all():
             self.whole = found
         return found

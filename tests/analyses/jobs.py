@@ -24,6 +24,7 @@ JOBS: tuple[Job, ...] = (
     gc.misalignment.design,
     gc.misalignment.population,
     gc.prosthesis.calibrate,
+    gc.prosthesis.scale,
     gc.prosthesis.simulate,
     gc.shoulder.simulate,
     gc.shoulder.compare,

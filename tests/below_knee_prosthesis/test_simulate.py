@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import cumulative_trapezoid
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from benchmarks.prosthesis_soles import static_share
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, whole_tree
 from geocontact.below_knee_prosthesis.simulate import Stance, share_of_foot, simulate_stance
@@ -52,6 +53,13 @@ def test_force_is_within_a_hundredth_of_body_weight_of_a_finer_tolerance(landing
     )
     off = np.linalg.norm(fine.force - s.force, axis=1) / (77.3 * GRAVITY)
     assert off.max() < 0.01
+
+
+def test_a_person_who_stands_is_carried() -> None:
+    """Short form of `benchmarks/prosthesis_soles.py`: 6 s from rest, half of the weight on the other foot."""
+    off, slid, _ = static_share(1, "low", lasting=6.0, machine_code=False)
+    assert abs(off) < 1e-3  # the study's, of body weight
+    assert slid < 2e-3
 
 
 def test_share_of_foot_turns_with_the_foot() -> None:

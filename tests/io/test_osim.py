@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from geocontact.data.errors import InputError
 from geocontact.io.opensim.osim import JointModel, mesh_placement, mesh_placements, read_joint
 from geocontact.io.opensim.osim_functions import piecewise_linear, simm_spline
+from geocontact.io.opensim.osim_xml import read_model
 from tests import opensim_oracle
 from tests.elsewhere import Elsewhere
 
@@ -110,6 +111,16 @@ MODELS |= {
 }
 MODELS |= {f"3 CustomJoint {r}": model3("CustomJoint", transform(True), ("a", "b"), r) for r in ("false", "true")}
 MODELS |= {f"4 CustomJoint {w}": model4(joint4("CustomJoint", transform(w), ("a", "b"))) for w in (False, True)}
+BARE = '<TransformAxis name="{slot}"><coordinates>a</coordinates><axis>0 3 4</axis>{function}</TransformAxis>'
+MODELS |= {
+    f"4 no function {slot} {bool(function)}": model4(
+        joint4(
+            "CustomJoint", f"<SpatialTransform>{BARE.format(slot=slot, function=function)}</SpatialTransform>", ("a",)
+        )
+    )
+    for slot in ("rotation2", "translation1")
+    for function in ("", "<function/>")
+}
 
 
 def written(folder: Path, text: str) -> Path:
@@ -155,6 +166,20 @@ def test_kind_of_linear_coordinates(tmp_path: Path, opensim: Elsewhere, axes: st
     file = written(tmp_path, model4(joint4("CustomJoint", f"<SpatialTransform>{axes}</SpatialTransform>", ("a",))))
     assert opensim(opensim_oracle.motion_types, file, ["a"]) == [kind]
     assert read_joint(file, "j").coordinates[0].kind == kind
+
+
+def test_scopes_in_tags_are_read(tmp_path: Path) -> None:
+    """OpenSim writes its contact forces so, which is not XML."""
+    force = (
+        '<ForceSet><objects><HuntCrossleyForce name="foot"><HuntCrossleyForce::ContactParametersSet><objects>'
+        "<HuntCrossleyForce::ContactParameters><stiffness>2e6</stiffness></HuntCrossleyForce::ContactParameters>"
+        "</objects></HuntCrossleyForce::ContactParametersSet></HuntCrossleyForce></objects></ForceSet>"
+    )
+    text = MODELS["4 PinJoint"]
+    file = written(tmp_path, text.replace("</JointSet>", "</JointSet>" + force, 1))
+    assert read_joint(file, "j").parent == "p"
+    (found,) = read_model(file).iter("HuntCrossleyForce::ContactParameters")
+    assert found.findtext("stiffness") == "2e6"
 
 
 def pin(folder: Path) -> JointModel:

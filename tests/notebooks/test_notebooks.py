@@ -56,7 +56,7 @@ def run(tmp_path, monkeypatch):
 
 
 def test_there_is_one_for_each_part():
-    assert {"contact_area", "gap", "gap_own_model", "knee", "mat", "elbow", "motion", "shoulder"} <= {
+    assert {"contact_area", "gap", "gap_own_model", "knee", "mat", "elbow", "motion", "prosthesis", "shoulder"} <= {
         notebook.stem for notebook in NOTEBOOKS
     }
 
@@ -268,6 +268,35 @@ def test_shoulder_says_what_the_commands_say(run, tmp_path):
         assert line in said, "the command says something else"
     for name in ("right.csv", "left.csv", "numbers.csv"):
         assert (made / name).read_bytes() == (out / "simulate" / name).read_bytes(), name
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")  # of the notebook machinery itself
+def test_prosthesis_says_what_the_commands_say(run, tmp_path):
+    said = run(ROOT / "notebooks" / "prosthesis.ipynb")
+    plain, calibrated = map(float, re.findall(r"resultant: ([\d.]+) built in, ([\d.]+) calibrated", said)[0])
+    assert calibrated < plain < 0.12
+    low, medium, high = (
+        float(re.findall(rf"{name}: \d+ N m, ([\d.]+) J", said)[0]) for name in ("low", "medium", "high")
+    )
+    assert low > medium > high  # the softer, the more is stored
+    made, out, trial = tmp_path / "prosthesis-result" / "model", tmp_path / "command", MESHES / "amputee_P1"
+    given = (
+        "scale",
+        trial / "standing.trc",
+        "--functional",
+        trial / "functional.trc",
+        "--mass",
+        77.3,
+        "--height",
+        1.81,
+    )
+    with unpictured():
+        calls = [done(call("prosthesis", *given, "--out", out))]
+    for line in said_of(calls):
+        assert line in said, "the command says something else"
+    for name in ("segments.csv", "joints.csv", "amputee.osim"):
+        assert (made / name).read_bytes() == (out / name).read_bytes(), name
 
 
 ONLY = {"geocontact", "pandas", "matplotlib", "matplotlib.pyplot", "pathlib"}

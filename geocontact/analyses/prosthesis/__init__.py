@@ -9,8 +9,9 @@ from geocontact.analyses.package_of_jobs import PackageOfJobs
 
 if TYPE_CHECKING:
     from geocontact.analyses.prosthesis.calibrate.job import calibrate
+    from geocontact.analyses.prosthesis.scale.job import scale
     from geocontact.analyses.prosthesis.simulate.job import simulate
 
-__all__ = ["calibrate", "simulate"]
+__all__ = ["calibrate", "scale", "simulate"]
 
 sys.modules[__name__].__class__ = PackageOfJobs

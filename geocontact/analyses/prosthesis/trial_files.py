@@ -1,4 +1,4 @@
-"""The files of a synthetic gait trial: markers while standing and walking, force plates, the truth."""
+"""The files of synthetic trials: markers while standing, walking and moving joints, force plates, the truth."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.below_knee_prosthesis.synthetic.amputee import StandingTrials
 from geocontact.below_knee_prosthesis.synthetic.trial import GaitTrial
 from geocontact.io.mocap.trc_writer import trc_text
 
@@ -30,6 +31,14 @@ def trial_files(trial: GaitTrial) -> dict[str, str]:
         "walking.trc": trc_text(f"synthetic {trial.name}", trial.walking, DECIMALS),
         "plates.mot": _plates(trial),
         "truth.csv": said + _rows(truth, ",", 3),
+    }
+
+
+def amputee_files(name: str, trials: StandingTrials) -> dict[str, str]:
+    """Text of `standing.trc` and `functional.trc` [mm] of a person with a right prosthesis, by name."""
+    return {
+        f"{stem}.trc": trc_text(f"synthetic {name}", seen, DECIMALS)
+        for stem, seen in (("standing", trials.standing), ("functional", trials.functional))
     }
 
 

@@ -8,6 +8,7 @@ from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import Errors, RecordedStance
+from geocontact.below_knee_prosthesis.clocks import lowest_sphere
 from geocontact.below_knee_prosthesis.from_markers.marker_names import BODIES, MAP
 from geocontact.below_knee_prosthesis.model.leg import Leg
 from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
@@ -18,6 +19,7 @@ from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.dynamics.segment_poses import segment_poses
 from geocontact.identify.signals.filled import filled_and_smoothed
 from geocontact.loads.pose_rate import pose_rate
+from geocontact.loads.sphere_set import SphereSet
 
 RATE, AROUND = 200.0, 0.04
 """Hz, and s before and after the stance that are taken along."""
@@ -62,6 +64,13 @@ def stance_from_markers(
     force, centre = (at_times(time, plate.time, each) for each in (plate.force, plate.centre))
     share = share_of_foot(poses, length, centre)
     return RecordedStance(time, poses, pose_rate(time, poses), fulcrum, force, share, leg.person.mass * GRAVITY, errors)
+
+
+def recorded_heights(
+    seen: MarkerTrajectories, leg: Leg, spheres: SphereSet, *, cutoff: float | None, gap_limit: float
+) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
+    """The markers' times [s] and the height of the lowest sphere of a sole that does not bend [m]."""
+    return seen.time, lowest_sphere(_keel_poses(seen, leg, seen.time, cutoff, gap_limit), spheres)
 
 
 def _keel_poses(

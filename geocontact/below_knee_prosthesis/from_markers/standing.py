@@ -12,7 +12,18 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.from_markers.marker_names import ANKLE, BODIES, FOOT, KNEE, MAP, PELVIS, STANDING
+from geocontact.below_knee_prosthesis.from_markers.marker_names import ANKLE, BODIES, FOOT, KNEE, PELVIS, STANDING
+from geocontact.below_knee_prosthesis.from_markers.segments import (
+    OFF_LINE,
+    along_y,
+    along_z,
+    knee_line,
+    median_places,
+    require_forward,
+    require_length,
+    require_lengths,
+    require_spread,
+)
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.model.leg import Leg, Person
 from geocontact.data.errors import InputError
@@ -22,15 +33,20 @@ from geocontact.data.multibody.model import Marker
 Vector = Float[np.ndarray, " 3"]
 HIP = ((-0.24, -9.9e-3), (-0.30, -10.9e-3), (0.33, 7.3e-3))
 """Forward and up per pelvic depth and width, outward per width, and constants [m]: Harrington et al., table 4."""
-OFF_LINE = 5e-3
-"""m; least distance of a segment's markers from one line."""
-THIGHS, SHANKS, KNEES, WIDTHS = (0.2, 0.7), (0.2, 0.7), (0.05, 0.2), (0.12, 0.5)
-"""m; lengths, distances of epicondyles and of the front spines that are believed."""
+WIDTHS = (0.12, 0.5)
+"""m; distances of the front spines that are believed."""
 FEET = 0.15
 """Share by which the markers of heel and toe may be apart more or less than the keel is long."""
 
 
-def standing_leg(seen: MarkerTrajectories, person: Person, keel: Keel, below: float, hip: Vector | None = None) -> Leg:
+def standing_leg(
+    seen: MarkerTrajectories,
+    person: Person,
+    keel: Keel,
+    below: float,
+    hip: Vector | None = None,
+    axis: tuple[Vector, Vector] | None = None,
+) -> Leg:
     """Geometry of a right leg; InputError where the markers cannot tell it.
 
     Parameters
@@ -39,23 +55,27 @@ def standing_leg(seen: MarkerTrajectories, person: Person, keel: Keel, below: fl
         From the sole up to the keel's axis [m].
     hip
         Centre in the pelvis' frame [m] where it is known better than by regression.
+    axis
+        Of the knee: centre [m] and direction to the right in the laboratory, likewise; that of the epicondyles
+        unless given.
     """
-    at = _places(seen)
+    at = median_places(seen, STANDING)
     _require_side(seen, at)
     pelvis, hip = pelvis_frame(at, seen.source), hip_by_regression(at) if hip is None else hip
-    knee, ankle = (0.5 * (at[outer] + at[inner]) for outer, inner in (KNEE, ANKLE))
+    knee, across = knee_line(at, KNEE, side=1.0) if axis is None else axis
+    ankle = 0.5 * (at[ANKLE[0]] + at[ANKLE[1]])
     centre = pelvis.apply(hip)
-    thigh = _frame(centre, centre - knee, at[KNEE[0]] - at[KNEE[1]])
-    across = thigh.rotation.apply([0.0, 0.0, 1.0])
-    shank = _about(knee, across, knee - ankle)
-    length, forward = _foot_line(seen, at, keel)
+    thigh = along_y(centre, centre - knee, across)
+    shank = along_z(knee, thigh.rotation.apply([0.0, 0.0, 1.0]), knee - ankle)
+    forward = _foot_line(seen, at, keel)
+    require_forward(seen, at, FOOT)
     heel = np.array([at[FOOT[0]][0], below, at[FOOT[0]][2]])
     foot = Rotation.from_matrix(np.column_stack([forward, [0.0, 1.0, 0.0], np.cross(forward, [0.0, 1.0, 0.0])]))
     frames = {"pelvis": pelvis, "thigh": thigh, "shank": shank}
     markers = tuple(
         Marker(name, body, frames[body].inv().apply(at[name])) for body, names in BODIES.items() for name in names
     )
-    _require_spread(seen, frames, markers)
+    require_spread(seen, markers)
     leg = Leg(
         person,
         hip,
@@ -66,7 +86,9 @@ def standing_leg(seen: MarkerTrajectories, person: Person, keel: Keel, below: fl
         shank.rotation.inv() * foot,
         markers,
     )
-    _require_lengths(seen, leg, at, length)
+    width = float(np.linalg.norm(at[PELVIS[0]] - at[PELVIS[1]]))
+    require_lengths(seen, leg.thigh, leg.shank, 2.0 * leg.knee_radius)
+    require_length(seen, "pelvis", width, WIDTHS)
     return leg
 
 
@@ -78,7 +100,7 @@ def pelvis_frame(at: dict[str, Vector], source: str) -> RigidTransform:
     up = np.cross(across, forward)
     if np.linalg.norm(up) < OFF_LINE * np.linalg.norm(across):
         raise InputError(source, "", f"markers {', '.join(PELVIS)} lie on a line", "look at their names")
-    return _about(middle, across, up)
+    return along_z(middle, across, up)
 
 
 def hip_by_regression(at: dict[str, Vector]) -> Vector:
@@ -86,18 +108,6 @@ def hip_by_regression(at: dict[str, Vector]) -> Vector:
     width = float(np.linalg.norm(at[PELVIS[0]] - at[PELVIS[1]]))
     depth = float(np.linalg.norm(at[PELVIS[0]] + at[PELVIS[1]] - at[PELVIS[2]] - at[PELVIS[3]])) / 2.0
     return np.array([slope * size + at0 for (slope, at0), size in zip(HIP, (depth, width, width), strict=True)])
-
-
-def _places(seen: MarkerTrajectories) -> dict[str, Vector]:
-    """Median place of each marker while standing."""
-    missing = [name for name in STANDING if name not in seen.names]
-    if missing:
-        raise InputError(seen.source, "`static`", f"no marker {', '.join(missing)} while standing", MAP)
-    places = seen.of(STANDING)
-    never = [name for name, of in zip(STANDING, np.isfinite(places).all(axis=2).T, strict=True) if not of.any()]
-    if never:
-        raise InputError(seen.source, "`static`", f"{never[0]} is never seen", "give a trial that shows all markers")
-    return dict(zip(STANDING, np.nanmedian(places, axis=0), strict=True))
 
 
 def _require_side(seen: MarkerTrajectories, at: dict[str, Vector]) -> None:
@@ -115,51 +125,10 @@ def _require_side(seen: MarkerTrajectories, at: dict[str, Vector]) -> None:
         raise InputError(seen.source, "`static`", what, "is `side` right? else rename with `markers_map`")
 
 
-def _foot_line(seen: MarkerTrajectories, at: dict[str, Vector], keel: Keel) -> tuple[float, Vector]:
+def _foot_line(seen: MarkerTrajectories, at: dict[str, Vector], keel: Keel) -> Vector:
     line = (at[FOOT[1]] - at[FOOT[0]]) * np.array([1.0, 0.0, 1.0])
     length = float(np.linalg.norm(line))
     if abs(length / keel.length - 1.0) > FEET:
         what = f"{FOOT[0]} and {FOOT[1]} are {1e3 * length:.0f} mm apart, the keel is {1e3 * keel.length:.0f} mm long"
         raise InputError(seen.source, "`static`", what, "is the unit right? they belong over the ends of the keel")
-    return length, line / length
-
-
-def _require_spread(seen: MarkerTrajectories, frames: dict[str, RigidTransform], markers: tuple[Marker, ...]) -> None:
-    for body in frames:
-        places = np.array([m.location for m in markers if m.body == body])
-        off = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)[1] / np.sqrt(len(places))
-        if off < OFF_LINE:
-            what = f"markers {', '.join(BODIES[body])} lie on a line, within {1e3 * off:.1f} mm"
-            raise InputError(seen.source, "`static`", what, "a segment needs three that do not")
-
-
-def _require_lengths(seen: MarkerTrajectories, leg: Leg, at: dict[str, Vector], foot: float) -> None:
-    width = float(np.linalg.norm(at[PELVIS[0]] - at[PELVIS[1]]))
-    told = (
-        ("thigh", leg.thigh, THIGHS),
-        ("shank", leg.shank, SHANKS),
-        ("knee", 2.0 * leg.knee_radius, KNEES),
-        ("pelvis", width, WIDTHS),
-    )
-    for name, value, (low, high) in told:
-        if not low <= value <= high:
-            what = f"the {name} would measure {value:.3g} m, not {low:g} to {high:g} m"
-            raise InputError(
-                seen.source, "`static`", what, "is the unit in the file right? are the markers named right?"
-            )
-
-
-def _frame(origin: Vector, up: Vector, across: Vector) -> RigidTransform:
-    """y along `up`, z as near to `across` as it can be."""
-    y = up / np.linalg.norm(up)
-    z = across - (across @ y) * y
-    z /= np.linalg.norm(z)
-    return RigidTransform.from_components(origin, Rotation.from_matrix(np.column_stack([np.cross(y, z), y, z])))
-
-
-def _about(origin: Vector, across: Vector, up: Vector) -> RigidTransform:
-    """z along `across`, y as near to `up` as it can be."""
-    z = across / np.linalg.norm(across)
-    y = up - (up @ z) * z
-    y /= np.linalg.norm(y)
-    return RigidTransform.from_components(origin, Rotation.from_matrix(np.column_stack([np.cross(y, z), y, z])))
+    return np.asarray(line / length)

@@ -27,7 +27,7 @@ TORSION = "torsion"
 
 
 def keel_bodies(
-    keel: Keel, parent: str, X_PK: RigidTransform, *, name: str = "keel", torsion: bool = False
+    keel: Keel, parent: str, X_PK: RigidTransform, *, name: str = "keel", torsion: bool = False, ending: str = ""
 ) -> tuple[tuple[Body, ...], tuple[JointModel, ...]]:
     """Segments in front of the first joint, and their joints, to follow the parent's in a `Multibody`.
 
@@ -40,17 +40,19 @@ def keel_bodies(
         Pose of the keel's frame in the parent.
     torsion
         Whether the first joint also turns about the keel's long axis, before all others: `name`_torsion.
+    ending
+        Of all these names, as that of a side.
     """
     forward, up = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
     at = X_PK * RigidTransform.from_translation(keel.places[0] * forward)
     bodies, joints, before = [], [], parent
     if torsion:
-        twisted = f"{name}_{TORSION}"
+        twisted = f"{name}_{TORSION}{ending}"
         bodies.append(Body(twisted, 0.0, np.zeros(3), np.zeros((3, 3))))
         joints.append(revolute(twisted, parent, twisted, forward, at))
         before, at = twisted, RigidTransform.identity()
     for k in range(1, keel.joints + 1):
-        segment = f"{name}_{k}"
+        segment = f"{name}_{k}{ending}"
         bodies.append(Body(segment, *piece(keel, keel.pitch)))
         joints.append(revolute(segment, before, segment, up, at))
         before, at = segment, RigidTransform.from_translation(keel.pitch * forward)
@@ -106,8 +108,12 @@ def sole_wrenches(
     ground: HalfSpace,
     *,
     name: str = "keel",
+    ending: str = "",
 ) -> Wrenches:
-    """Loads of a plane ground on the parent and the segments through the spheres that each carries."""
+    """Loads of a plane ground on the parent and the segments through the spheres that each carries.
+
+    `name` and `ending` as for `keel_bodies`.
+    """
     laws, loads = laws_of(law), []
     for segment in range(keel.joints + 1):
         spheres = sole.on(segment, keel)
@@ -116,6 +122,6 @@ def sole_wrenches(
         own = [one for one, each in zip(laws, sole.segment, strict=True) if each == segment]
         if not segment:
             spheres = replace(spheres, centre=X_PK.apply(spheres.centre))
-        body = f"{name}_{segment}" if segment else parent
+        body = f"{name}_{segment}{ending}" if segment else parent
         loads.append({body: sole_wrench(tree.bodies[body], spheres, own, ground)})
     return together(*loads)

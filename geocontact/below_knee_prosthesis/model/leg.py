@@ -16,7 +16,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from geocontact.below_knee_prosthesis.model.frustum import Frustum
 from geocontact.data.body_segments import SEGMENTS, Sex
 from geocontact.data.multibody.model import Marker
-from geocontact.data.sourced_number import Number
+from geocontact.data.sourced_number import Number, Source
 
 Side = Literal["right", "left"]
 Vector = Float[np.ndarray, " 3"]
@@ -43,15 +43,24 @@ class Person:
         Row of de Leva's table.
     residual
         Share of the shank's length that is left [-].
+    prosthesis
+        Mass of socket, pylon and foot without the keel [kg].
     """
 
     mass: float
     sex: Sex = "male"
     residual: float = RESIDUAL
+    prosthesis: float = SOCKET + PYLON + FOOT
 
     def __post_init__(self) -> None:
-        if not (0.0 < self.mass < np.inf and 0.0 < self.residual < 1.0):
-            raise ValueError("a person has a positive mass, and a part of the shank is left")
+        if not (0.0 < self.prosthesis < self.mass < np.inf and 0.0 < self.residual < 1.0):
+            raise ValueError("a person has a mass above that of the prosthesis, and a part of the shank is left")
+
+    @property
+    def parts(self) -> tuple[float, float, float]:
+        """Masses of socket, pylon and foot shell [kg], shared as the invented ones are."""
+        by = self.prosthesis / (SOCKET + PYLON + FOOT)
+        return by * SOCKET, by * PYLON, by * FOOT
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,14 +131,14 @@ class Leg:
 
     def prosthesis_body(self) -> Inertial:
         """Of socket, pylon and foot shell together in the bushing's frame B; the keel is not in it."""
-        long = self.person.residual * self.shank
-        socket = _tube(SOCKET, long, 0.0)
-        pylon = _tube(PYLON, self.shank - long, -long, radius=0.015)
+        long, own = self.person.residual * self.shank, self.person.parts
+        socket = _tube(own[0], long, 0.0)
+        pylon = _tube(own[1], self.shank - long, -long, radius=0.015)
         size = np.array(FOOT_SIZE)
         middle = self.keel + self.turn.apply([0.45 * size[0], 0.0, 0.0])
-        box = FOOT / 12.0 * np.diag((size**2).sum() - size**2)
+        box = own[2] / 12.0 * np.diag((size**2).sum() - size**2)
         turned = self.turn.as_matrix() @ box @ self.turn.as_matrix().T
-        mass, centre, inertia = combined((socket, pylon, (FOOT, middle, turned)))
+        mass, centre, inertia = combined((socket, pylon, (own[2], middle, turned)))
         back = self.turn.inv().as_matrix()
         return mass, self.turn.inv().apply(centre - self.bushing), back @ inertia @ back.T
 
@@ -142,6 +151,10 @@ class Leg:
         """Every number of the segments in SI, and where it is from."""
         leva = "de Leva 1996, of the body's mass; the study takes the same table"
         measured = "from the markers of the standing trial"
+        weighed = self.person.prosthesis != SOCKET + PYLON + FOOT
+        source: Source = "derived" if weighed else "invented"
+        shared = "; shares of the prosthesis' mass are invented" if weighed else ""
+        socket, pylon, foot = self.person.parts
         return {
             "mass": Number(self.person.mass, "paper", "given"),
             "thigh_length": Number(self.thigh, "derived", measured),
@@ -151,9 +164,9 @@ class Leg:
             "residual_share": Number(self.person.residual, "invented", "of the shank; the study does not tell it"),
             "ankle_over_knee_radius": Number(TAPER, "invented", "of the frustum that stands for the intact shank"),
             "residual_mass": Number(self.residual_body()[0], "derived", "frustum cut off, density of the intact shank"),
-            "socket_mass": Number(SOCKET, "invented", "with liner"),
-            "pylon_mass": Number(PYLON, "invented", "with adapters"),
-            "foot_mass": Number(FOOT, "invented", "shell and shoe, without keel"),
+            "socket_mass": Number(socket, source, f"with liner{shared}"),
+            "pylon_mass": Number(pylon, source, f"with adapters{shared}"),
+            "foot_mass": Number(foot, source, f"shell and shoe, without keel{shared}"),
         }
 
 

@@ -158,8 +158,7 @@ def _reactions(
     time: Float[np.ndarray, " t"], stance: float
 ) -> tuple[Float[np.ndarray, "t 3"], Float[np.ndarray, "t 3"]]:
     """Of the prosthetic and the other leg over body weight, such that both carry the body on average."""
-    vertical = PchipInterpolator(*np.transpose(VERTICAL))
-    step = stance * float(vertical.integrate(0.0, 1.0))
+    vertical, step = PchipInterpolator(*np.transpose(VERTICAL)), footfall(stance)
 
     def one(start: float) -> Float[np.ndarray, "t 3"]:
         share = (time - start) / stance
@@ -169,6 +168,11 @@ def _reactions(
         return np.column_stack([along, up, 0.0 * up])
 
     return one(0.0), one(-step) + one(step)
+
+
+def footfall(stance: float) -> float:
+    """Time from one foot's touch-down to the other's [s], at which both carry the body on average."""
+    return stance * float(PchipInterpolator(*np.transpose(VERTICAL)).integrate(0.0, 1.0))
 
 
 def _pelvis(

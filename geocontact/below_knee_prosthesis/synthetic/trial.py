@@ -31,8 +31,17 @@ JOINTS, FINER, ROWS = 12, 2, 2
 """Of the truth's keel and sole: joints, factor on the rows of spheres, spheres in a row."""
 CAMERAS, PLATES = 5, 1
 """Every which sample of the simulation cameras (100 Hz) and plates (500 Hz) take."""
-CAMERA_NOISE, SKIN = 0.3e-3, {"pelvis": 2.0e-3, "thigh": 4.0e-3, "shank": 0.0}
-"""m; standard deviation of a camera's error and of the skin's smooth one."""
+CAMERA_NOISE = 0.3e-3
+SKIN = {
+    "pelvis": 2.0e-3,
+    "thigh": 4.0e-3,
+    "shank": 0.0,
+    "intact_thigh": 4.0e-3,
+    "intact_shank": 3.0e-3,
+    "intact_foot": 1.0e-3,
+    "intact_toes": 1.0e-3,
+}
+"""m; standard deviation of a camera's error and of the skin's smooth one, by body."""
 SKIN_TIME = 0.08
 """s; over which the skin's error changes."""
 FORCE_NOISE, OFFSET = 2.0, 1.0
@@ -127,12 +136,12 @@ def _seen(
         for name, place in of.items():
             on_keel = leg.turn.inv().apply(place - leg.keel)
             at = keel.apply(on_keel) if body == "shank" else poses[body].apply(place)
-            found[name] = at + _skin(body, len(time), float(time[1] - time[0]), rng)
+            found[name] = at + skin_error(body, len(time), float(time[1] - time[0]), rng)
     return time, np.stack([found[name] for name in STANDING], axis=1)
 
 
-def _skin(body: str, frames: int, step: float, rng: np.random.Generator) -> Float[np.ndarray, "t 3"]:
-    """Smooth error of the skin and white one of the cameras [m]."""
+def skin_error(body: str, frames: int, step: float, rng: np.random.Generator) -> Float[np.ndarray, "t 3"]:
+    """Smooth error of the skin on a body and white one of the cameras [m], over frames that are `step` apart [s]."""
     smooth = gaussian_filter1d(rng.standard_normal((frames, 3)), SKIN_TIME / step, axis=0, mode="wrap")
     smooth *= SKIN[body] / max(float(smooth.std()), 1e-12)
     return smooth + rng.normal(0.0, CAMERA_NOISE, (frames, 3))

@@ -9,4 +9,5 @@ prosthesis = App(
     help="Below-knee prosthesis with a variable-stiffness foot: its sole calibrated, its ground reaction along a walk.",
 )
 prosthesis.command("geocontact.cli.prosthesis.calibrate:calibrate", name="calibrate")
+prosthesis.command("geocontact.cli.prosthesis.scale:scale", name="scale")
 prosthesis.command("geocontact.cli.prosthesis.simulate:simulate", name="simulate")

@@ -15,8 +15,8 @@ class MarkerTasks:
     markers
         Of squared distances, by name [1/m^2, up to a common factor]; a marker that is not named does not count.
     coordinates
-        Of squared deviations by name [1/rad^2 or 1/m^2, against the same factor], and the value wanted [rad, m]; None
-        for the coordinate's default.
+        Of squared deviations by name [m^2/rad^2 or 1], beside the markers' weighted mean square as OpenSim has it, and
+        the value wanted [rad, m]; None for the coordinate's default.
     """
 
     markers: Mapping[str, float]

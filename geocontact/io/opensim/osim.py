@@ -15,6 +15,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.joint import Coordinate, JointModel, Kind, TransformAxis
+from geocontact.data.multibody.joint_function import JointFunction
 from geocontact.io.opensim import osim_scapula
 from geocontact.io.opensim.osim_functions import constant, linear, read_function
 from geocontact.io.opensim.osim_meshes import mesh_placement, mesh_placements
@@ -189,9 +190,27 @@ def _read_axis(file: str, transform: Element, slot: int) -> TransformAxis:
         raise InputError(file, f"{label(axis)} <axis>", f"an axis of length {length:g}", "correct the model")
     names = tuple(text_of(axis, "coordinates").split())
     found = _function_element(axis)
-    function = constant(0.0, len(names)) if found is None else read_function(file, found, len(names))
+    function = read_function(file, found, len(names)) if found is not None else _without_function(file, axis, names)
     # OpenSim normalises translation axes as well as rotation axes.
     return TransformAxis(direction / length, names, function)
+
+
+def _without_function(file: str, axis: Element, names: tuple[str, ...]) -> JointFunction:
+    """As OpenSim has it: where `<function/>` is empty a coordinate moves its axis by itself, where there is none not at
+    all (seen by trial on OpenSim 4.6).
+    """
+    if not _is_identity(axis):
+        return constant(0.0, len(names))
+    if len(names) > 1:
+        what = f"{len(names)} coordinates and no function"
+        raise InputError(file, label(axis), what, "open and save the model with OpenSim 4")
+    return linear(np.array([1.0, 0.0])) if names else constant(0.0)
+
+
+def _is_identity(axis: Element) -> bool:
+    """Whether an axis has a function that is empty."""
+    function = axis.find("function")
+    return function is not None and len(function) == 0
 
 
 def _axis_element(transform: Element, slot: int) -> Element | None:
@@ -218,9 +237,9 @@ def _kinds(transform: Element) -> dict[str, Kind]:
     for slot in range(6):
         axis = _axis_element(transform, slot)
         function = None if axis is None else _function_element(axis)
-        if axis is None or function is None or function.tag != "LinearFunction":
+        if axis is None or not (_is_identity(axis) if function is None else function.tag == "LinearFunction"):
             continue
-        slopes = text_of(function, "coefficients", "1 0").split()
+        slopes = ["1"] if function is None else text_of(function, "coefficients", "1 0").split()
         for name, slope in zip(text_of(axis, "coordinates").split(), slopes, strict=False):
             if abs(float(slope)) == 1.0:
                 kinds[name] = _kind(slot >= 3)

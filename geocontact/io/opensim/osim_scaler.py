@@ -20,6 +20,7 @@ from geocontact.io.opensim.osim_xml import numbers_of, read_document, socket_of,
 Vector = Float[np.ndarray, " 3"]
 FactorOf = Callable[[str], Vector]
 
+_PLACES = ("x_location", "y_location", "z_location")
 _SHIFTS = ("translation1", "translation2", "translation3")
 _SAME = 1e-9
 """m that the file that was written may differ from what it was to be."""
@@ -59,9 +60,11 @@ def write_scaled_model(
     _frames(file, model, scaled, of)
     _shifts(file, model, scaled, of)
     _markers(model, scaled)
-    for point in model.iter():
+    for point in list(model.iter()):
         if point.tag.endswith("PathPoint"):
-            _times(file, point, "location", of(text_of(point, "body") or socket_of(point, "parent_frame")))
+            by = of(text_of(point, "body") or socket_of(point, "parent_frame"))
+            _times(file, point, "location", by)
+            _moving(point, by)
         elif point.tag == "Coordinate" and point.get("name", "") in (pose or {}):
             _set(point, "default_value", [(pose or {})[point.get("name", "")]])
     if any(True for _ in model.iter("optimal_fiber_length")):
@@ -128,9 +131,25 @@ def _multiply(file: str, axis: Element, factor: float) -> None:
     function = plain[0]
     if function.tag == "LinearFunction" and numbers_of(file, function, "coefficients", None).tolist() == [1.0, 0.0]:
         return  # the coordinate itself
+    _around(holder, function, factor, "function" if nested is None else "")
+
+
+def _moving(point: Element, by: Vector) -> None:
+    """Places of a `MovingPathPoint` that are functions of a coordinate, as properties (OpenSim 4) or inside of them."""
+    for name, factor in zip(_PLACES, by, strict=True):
+        nested = point.find(name)
+        holder = point if nested is None else nested
+        for function in [child for child in holder if nested is not None or child.get("name") == name]:
+            _around(holder, function, float(factor), name if nested is None else "")
+
+
+def _around(holder: Element, function: Element, factor: float, name: str) -> None:
+    """A `MultiplierFunction` in place of a function; with the function's name where it is a property of its own."""
+    if factor == 1.0:
+        return
     place = list(holder).index(function)
     holder.remove(function)
-    around = Element("MultiplierFunction", {"name": function.get("name", "function")} if nested is None else {})
+    around = Element("MultiplierFunction", {"name": function.get("name", name)} if name else {})
     SubElement(around, "function").append(function)
     SubElement(around, "scale").text = f"{factor:.17g}"
     holder.insert(place, around)

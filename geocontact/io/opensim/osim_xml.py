@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from os import PathLike, fspath
 from pathlib import Path
@@ -19,6 +20,7 @@ LARGEST_MODEL = 32_000_000
 """Bytes of an .osim file; full-body models are below 10 MB."""
 
 _DEEPEST = 50
+_SCOPED = re.compile(rb"(</?[A-Za-z_][\w.]*)::")
 _SETS = ("BodySet", "JointSet", "ComponentSet")
 
 
@@ -39,13 +41,27 @@ def read_document(path: str | PathLike[str], kind: str = "OpenSim document") -> 
         size = Path(file).stat().st_size
         if size > LARGEST_MODEL:
             raise InputError(file, "", f"{size / 1e6:.0f} MB is more than the {LARGEST_MODEL / 1e6:.0f} MB limit")
-        root: Element = defusedxml.ElementTree.parse(file).getroot()
+        root = _parsed(Path(file).read_bytes())
     except OSError as error:
         raise InputError(file, "", f"cannot be read ({error.strerror})", "check the path") from error
     except InputError:
         raise
     except (ParseError, ValueError, LookupError) as error:
         raise InputError(file, "", f"not a readable {kind} ({error})", "is the file complete?") from error
+    return root
+
+
+def _parsed(text: bytes) -> Element:
+    """Root of the document.
+
+    OpenSim writes C++ scopes into tags (`HuntCrossleyForce::ContactParameters`), which XML does not allow: they are
+    replaced before and put back after parsing.
+    """
+    stand_in = b"-scope-of-"
+    root: Element = defusedxml.ElementTree.fromstring(_SCOPED.sub(rb"\1" + stand_in, text))
+    if b"::" in text:
+        for element in root.iter():
+            element.tag = element.tag.replace(stand_in.decode(), "::")
     return root
 
 

@@ -32,7 +32,7 @@ GIVEN: dict[str, Any] = {
         ({"mass": 77.3e3}, "cannot be the mass of a walking person"),
         ({"other_plate": None}, "the force under the other foot is not known"),
         ({"plate": "third"}, "no plate 'third'"),
-        ({"plate": "other_force"}, "carries no whole stance"),
+        ({"plate": "other_force", "other_plate": "own_force"}, "carries no whole stance"),
         ({"side": "left"}, "no marker"),
         ({"time": (0.1, 0.6)}, "the stance on own_force is from"),
     ],

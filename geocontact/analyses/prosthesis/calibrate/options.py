@@ -8,13 +8,10 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 from geocontact.analyses.options import Degrees, Expression, Fraction, Length, Options, PartLength, Spelled
+from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import KG, Plausible
 from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, SPEED, TILT
-from geocontact.data.units import mm
 
-FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
-PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
 MOST_STARTS, PITCH = 1000, math.radians(0.2)
 
 

@@ -7,14 +7,9 @@ from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.options import Expression, Fraction, Options, PartLength, Spelled, TimeSpan
+from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, RESIDUAL
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import KG, Plausible
 from geocontact.data.ranges import CUTOFF, GAP
-from geocontact.data.units import mm, percent
-
-FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
-PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
-RESIDUAL = Plausible("the share of the shank that is left", percent, (1.0, 99.0), (25.0, 80.0))
 
 
 @dataclass(frozen=True)
@@ -112,3 +107,6 @@ class ProsthesisSimulateOptions(Options):
         if self.plates is None or self.other_plate is None:
             what = "the force under the other foot is not known: the pelvis, free to fall, would"
             raise InputError("", "`other_plate`", what, "give `plates` and the name of the plate under the other foot")
+        if self.plate == self.other_plate:
+            what = f"{self.plate} is named for both feet"
+            raise InputError("", "`plate`", what, "each foot needs a plate of its own")

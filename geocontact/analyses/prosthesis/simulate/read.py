@@ -10,10 +10,13 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.analyses.motion.marker_errors import FAR, MOVING
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.prosthesis.foot_law import foot_with_law
+from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_weight
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.clocks import clock_offset, lowest_sphere
 from geocontact.below_knee_prosthesis.from_markers.marker_names import PELVIS
 from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
 from geocontact.below_knee_prosthesis.from_markers.standing import pelvis_frame, standing_leg
@@ -22,7 +25,7 @@ from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg import Leg, Person
-from geocontact.below_knee_prosthesis.model.leg_tree import recorded_tree
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tree
 from geocontact.below_knee_prosthesis.simulate import GATE, Push
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance, at_times, longest_stance
 from geocontact.data.errors import InputError
@@ -69,9 +72,11 @@ def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
     plates = read_force_plates(cast(Path, o.plates))
     record.add_input("`plates`", cast(Path, o.plates), plates=len(plates))
     other = plate_named(plates, o.other_plate, cast(Path, o.plates), "`other_plate`")
+    _require_fit(seen, found, record)
+    require_weight(cast(Path, o.plates), "`other_plate`", other.name, other.wrench.force[:, 1], person.mass * GRAVITY)
     push = Push(other.time, of_side(np.nan_to_num(other.wrench.force), o.side))
     _require_clock(o, found.motion.time, other)
-    return Walk(leg, found, foot, fulcrum, push, _own(o, plates, found))
+    return Walk(leg, found, foot, fulcrum, push, _own(o, plates, found, foot))
 
 
 def _markers(
@@ -93,13 +98,25 @@ def _hip(o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Rec
     return found.first
 
 
-def _own(o: ProsthesisSimulateOptions, plates: tuple[ForcePlate, ...], found: Walked) -> PlateStance | None:
+def _require_fit(seen: MarkerTrajectories, found: Walked, record: Record) -> None:
+    off = float(np.nanmedian(found.off))
+    if off > FAR:
+        what = f"markers are {1e3 * off:.0f} mm from the standing leg in the median"
+        raise InputError(seen.source, "", what, "the same person and markers? are left and right exchanged?")
+    if off > MOVING.rms:
+        record.warn(f"{seen.source}: markers are {1e3 * off:.0f} mm from the standing leg in the median")
+
+
+def _own(
+    o: ProsthesisSimulateOptions, plates: tuple[ForcePlate, ...], found: Walked, foot: VariableStiffnessFoot
+) -> PlateStance | None:
     """Force and centre of pressure under the prosthetic foot; InputError where it is not the foot that stands there."""
     if o.plate is None:
         return None
     file = cast(Path, o.plates)
     plate = plate_named(plates, o.plate, file, "`plate`")
     force = of_side(np.nan_to_num(plate.wrench.force), o.side)
+    require_weight(file, "`plate`", plate.name, force[:, 1], found.motion.leg.person.mass * GRAVITY)
     centre = of_side(plate.centre_of_pressure(GATE), o.side)
     span = longest_stance(plate.time, force[:, 1])
     if span is None:
@@ -112,14 +129,19 @@ def _own(o: ProsthesisSimulateOptions, plates: tuple[ForcePlate, ...], found: Wa
         raise InputError(
             file, "`plate`", f"{what} {stop:.2f} s", "markers must begin before touch-down and end after it"
         )
-    _require_under_the_foot(file, plate.name, PlateStance(plate.time, force, centre), found)
-    return PlateStance(plate.time, force, centre)
-
-
-def _require_under_the_foot(file: Path, name: str, plate: PlateStance, found: Walked) -> None:
+    stance = PlateStance(plate.time, force, centre)
     motion, leg = found.motion, found.motion.leg
     keel = recorded_tree(leg).poses(motion.values)["shank"] * RigidTransform.from_components(leg.keel, leg.turn)
-    centre = at_times(motion.time, plate.time, plate.centre)
+    height = lowest_sphere(keel, foot.sole.spheres)
+    require_one_clock(file, "`plate`", plate.name, clock_offset(motion.time, height, stance.time, force[:, 1]))
+    _require_under_the_foot(file, plate.name, stance, keel, motion.time)
+    return stance
+
+
+def _require_under_the_foot(
+    file: Path, name: str, plate: PlateStance, keel: RigidTransform, time: Float[np.ndarray, " t"]
+) -> None:
+    centre = at_times(time, plate.time, plate.centre)
     away = float(np.nanmedian(np.linalg.norm((centre - keel.translation)[:, ::2], axis=1)))
     if away > FARTHEST:
         what = f"no plate under the foot: the centre of pressure of {name} is {away:.2f} m from its heel in the median"

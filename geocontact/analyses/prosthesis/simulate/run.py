@@ -34,7 +34,7 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     if not found.on.any():
         raise InputError(o.markers, "", "the foot never touches the floor", "is y = 0 the floor, and `mass` right?")
     errors = _compared(walk, found)
-    _warn(found, record)
+    doubt(found, record)
     told = summary(found)
     record.results["stance"] = plain(told)
     record.say(
@@ -80,7 +80,8 @@ def _said(errors: StanceErrors) -> str:
     )
 
 
-def _warn(found: Stance, record: Record) -> None:
+def doubt(found: Stance, record: Record) -> None:
+    """What speaks against a simulated stance, as reservations."""
     time, loads = found.time, found.loads
     if loads.pressing[0].sum() > GATE:
         record.warn(f"the foot is on the floor at the start, with {loads.pressing[0].sum():.0f} N: begin earlier")

@@ -1,0 +1,73 @@
+"""What a scaling of a person with a prosthesis may be asked for."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from geocontact.analyses.options import Expression, Fraction, Options, PartLength, Spelled
+from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, PROSTHESIS, RESIDUAL, STATURE
+from geocontact.data.errors import InputError
+
+
+@dataclass(frozen=True)
+class ProsthesisScaleOptions(Options):
+    """A model of both legs of a person with a below-knee prosthesis, from markers while standing, for OpenSim.
+
+    Parameters
+    ----------
+    static
+        Standing trial (.trc, .c3d, .csv) with the markers of pelvis and both legs, both feet flat on the floor.
+    functional
+        Trial in which hips and knees of both legs and the intact ankle are moved: gives centres and axes, else a
+        regression gives the hips, and markers give the rest.
+
+    The person
+    ----------
+    mass
+        Of the body with the prosthesis [kg].
+    height
+        Of the person [m]; only compared with the lengths of the legs.
+    side
+        Of the prosthesis.
+    sex
+        Row of the table of segment masses.
+    residual
+        Share of the shank's length that is left; 45% unless given, which is invented.
+
+    The prosthesis
+    ----------
+    prosthesis_mass
+        Of socket, pylon and foot together [kg]; else invented.
+    setting
+        Stiffness of the foot: low, medium or high, 10, 19 or 32 N/mm.
+    fulcrum
+        Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
+
+    The markers
+    ----------
+    markers_map
+        Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
+    axes
+        Which of the markers' axes are x (forward), y (upwards) and z: x,z,-y where the laboratory's z is up.
+    """
+
+    static: Path
+    _: KW_ONLY
+    functional: Path | None = None
+    mass: Annotated[float | None, PERSON] = None
+    height: Annotated[float | None, STATURE] = None
+    side: Literal["right", "left"] = "right"
+    sex: Literal["male", "female"] = "male"
+    residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
+    prosthesis_mass: Annotated[float | None, PROSTHESIS] = None
+    setting: Literal["low", "medium", "high"] = "medium"
+    fulcrum: Annotated[PartLength | None, FULCRUM] = None
+    markers_map: str | None = None
+    axes: Expression | None = None
+
+    def refuse_impossible(self) -> None:
+        """Nobody to weigh."""
+        if self.mass is None:
+            raise InputError("", "`mass`", "the mass of the person is not known", "give for example 77.3")

@@ -1,0 +1,169 @@
+"""Both legs from a standing trial, with joint centres and axes of a functional one where there is one.
+
+The intact shank's frame has the knee's axis and points down to the ankle; the foot stands flat on the floor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from scipy.spatial.transform import RigidTransform, Rotation
+
+from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
+from geocontact.below_knee_prosthesis.both_sides.functional import FunctionalJoints, functional_joints
+from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg, Vector
+from geocontact.below_knee_prosthesis.from_markers.marker_names import (
+    INTACT_ANKLE,
+    INTACT_BODIES,
+    INTACT_FOOT,
+    INTACT_KNEE,
+    INTACT_STANDING,
+    INTACT_TOES,
+    KNEE,
+    PELVIS,
+    STANDING,
+)
+from geocontact.below_knee_prosthesis.from_markers.segments import (
+    along_y,
+    along_z,
+    knee_line,
+    median_places,
+    require_forward,
+    require_length,
+    require_lengths,
+    require_spread,
+)
+from geocontact.below_knee_prosthesis.from_markers.standing import hip_by_regression, pelvis_frame, standing_leg
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Marker
+
+FEET, ANKLES, HEIGHTS = (0.15, 0.40), (0.04, 0.14), (0.03, 0.2)
+"""m; lengths of a foot, distances of malleoli and heights of the ankle that are believed."""
+NO_JOINTS = FunctionalJoints()
+
+
+def standing_joints(standing: MarkerTrajectories, moving: MarkerTrajectories) -> FunctionalJoints:
+    """Joint centres and axes of a functional trial, both trials as of a right prosthesis."""
+    at = median_places(standing, (*STANDING, *INTACT_STANDING))
+    lines = {"knee": knee_line(at, KNEE, 1.0), "intact_knee": knee_line(at, INTACT_KNEE, -1.0)}
+    return functional_joints(moving, at, lines)
+
+
+def standing_amputee(
+    seen: MarkerTrajectories,
+    person: Person,
+    foot: VariableStiffnessFoot,
+    fulcrum: float,
+    below: float,
+    joints: FunctionalJoints = NO_JOINTS,
+) -> Amputee:
+    """A person with a right prosthesis; InputError where the markers cannot tell both legs.
+
+    Parameters
+    ----------
+    below
+        From the sole of the prosthesis up to the keel's axis [m].
+    joints
+        Centres and axes that are known better than by regression and by epicondyles and malleoli.
+    """
+    at = median_places(seen, (*STANDING, *INTACT_STANDING))
+    pelvis = pelvis_frame(at, seen.source)
+    own = joints.points.get("hip")
+    line = joints.lines.get("knee")
+    prosthetic = standing_leg(
+        seen,
+        person,
+        foot.keel,
+        below,
+        None if own is None else pelvis.inv().apply(own.centre),
+        None if line is None else (line.centre, line.direction),
+    )
+    intact = _intact(seen, at, person, pelvis, joints)
+    depth = float(np.linalg.norm(at[PELVIS[0]] + at[PELVIS[1]] - at[PELVIS[2]] - at[PELVIS[3]])) / 2.0
+    width = float(np.linalg.norm(at[PELVIS[0]] - at[PELVIS[1]]))
+    return Amputee(prosthetic, intact, (depth, width), foot, fulcrum)
+
+
+def _intact(
+    seen: MarkerTrajectories,
+    at: Mapping[str, Vector],
+    person: Person,
+    pelvis: RigidTransform,
+    joints: FunctionalJoints,
+) -> IntactLeg:
+    _require_side(seen, at)
+    require_forward(seen, at, (INTACT_FOOT[0], INTACT_TOES[0]))
+    point, line, turning = (
+        joints.points.get("intact_hip"),
+        joints.lines.get("intact_knee"),
+        joints.points.get("intact_ankle"),
+    )
+    regression = hip_by_regression(dict(at)) * np.array([1.0, 1.0, -1.0])
+    hip = regression if point is None else pelvis.inv().apply(point.centre)
+    knee, across = knee_line(at, INTACT_KNEE, -1.0) if line is None else (line.centre, line.direction)
+    ankle = 0.5 * (at[INTACT_ANKLE[0]] + at[INTACT_ANKLE[1]]) if turning is None else turning.centre
+    centre = pelvis.apply(hip)
+    thigh = along_y(centre, centre - knee, across)
+    shank = along_z(knee, thigh.rotation.apply([0.0, 0.0, 1.0]), knee - ankle)
+    foot = _foot_frame(at, ankle)
+    heel, *heads = (foot.inv().apply(at[name]) for name in INTACT_FOOT)
+    tip = foot.inv().apply(at[INTACT_TOES[0]])
+    toes = RigidTransform.from_components(foot.apply(0.5 * (heads[0] + heads[1])), foot.rotation)
+    frames = {"intact_thigh": thigh, "intact_shank": shank, "intact_foot": foot, "intact_toes": toes}
+    markers = tuple(
+        Marker(name, body, frames[body].inv().apply(at[name])) for body, of in INTACT_BODIES.items() for name in of
+    )
+    require_spread(seen, markers)
+    radii = [0.5 * float(np.linalg.norm(at[one] - at[other])) for one, other in (INTACT_KNEE, INTACT_ANKLE)]
+    leg = IntactLeg(
+        person,
+        hip,
+        float(np.linalg.norm(centre - knee)),
+        shank.inv().apply(ankle),
+        radii[0],
+        radii[1],
+        heel,
+        (heads[0], heads[1]),
+        tip,
+        float(ankle[1]),
+        markers,
+    )
+    require_lengths(seen, leg.thigh, leg.shank, 2.0 * leg.knee_radius)
+    for name, value, believed in (
+        ("intact foot", leg.length, FEET),
+        ("intact ankle", 2.0 * leg.ankle_radius, ANKLES),
+        ("height of the intact ankle", leg.sole, HEIGHTS),
+    ):
+        require_length(seen, name, value, believed)
+    if not leg.heel[0] < leg.toe_joint[0] < leg.hallux[0]:
+        what = f"{INTACT_FOOT[0]}, {INTACT_FOOT[1]} and {INTACT_TOES[0]} do not follow each other along the foot"
+        raise InputError(seen.source, "`static`", what, "are the markers named right?")
+    return leg
+
+
+def _foot_frame(at: Mapping[str, Vector], ankle: Vector) -> RigidTransform:
+    """Origin in the ankle, x from the heel between the metatarsal heads along the floor, y up."""
+    heel, first, fifth = (at[name] for name in INTACT_FOOT)
+    forward = (0.5 * (first + fifth) - heel) * np.array([1.0, 0.0, 1.0])
+    forward = forward / np.linalg.norm(forward)
+    up = np.array([0.0, 1.0, 0.0])
+    turn = Rotation.from_matrix(np.column_stack([forward, up, np.cross(forward, up)]))
+    return RigidTransform.from_components(ankle, turn)
+
+
+def _require_side(seen: MarkerTrajectories, at: Mapping[str, Vector]) -> None:
+    """The intact leg on its own side, its outer markers outside, the first metatarsal inside."""
+    right = at[PELVIS[0]] - at[PELVIS[1]]
+    middle = 0.5 * (at[PELVIS[0]] + at[PELVIS[1]])
+    knee = 0.5 * (at[INTACT_KNEE[0]] + at[INTACT_KNEE[1]])
+    pairs = (INTACT_KNEE, INTACT_ANKLE, (INTACT_FOOT[2], INTACT_FOOT[1]))
+    wrong = [outer for outer, inner in pairs if (at[outer] - at[inner]) @ right >= 0.0]
+    if (knee - middle) @ right >= 0.0:
+        wrong = ["the leg"]
+    if wrong:
+        what = f"left and right are exchanged on the intact side: {wrong[0]} lies on the wrong side"
+        raise InputError(seen.source, "`static`", what, "is `side` right? else rename with `markers_map`")

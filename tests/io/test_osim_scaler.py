@@ -1,0 +1,53 @@
+"""Moving points of muscles' paths are scaled along the axes of their body, as OpenSim does it."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from geocontact.data.errors import InputWarning
+from geocontact.dynamics.scaling import scaled
+from geocontact.io.opensim.osim_functions import read_function
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.opensim.osim_scaler import write_scaled_model
+from geocontact.io.opensim.osim_xml import read_model
+from tests.cli.calls import MESHES
+
+SPLINE = "<SimmSpline{name}><x>-1 0 1 2</x><y>{y}</y></SimmSpline>"
+PLACES = {"x_location": "0.1 0.2 0.15 0.3", "y_location": "1 2 3 5", "z_location": "0 1 4 9"}
+FACTORS = np.array([1.1, 0.9, 1.0])
+
+
+@pytest.mark.parametrize("inside", [True, False], ids=["OpenSim 3", "OpenSim 4"])
+def test_moving_path_points_are_scaled(tmp_path: Path, inside: bool) -> None:
+    """By a function times the factor; the axis whose factor is 1 is left alone."""
+    leg = read_multibody(MESHES / "leg.osim")
+    body = leg.bodies[0].name
+    places = "".join(
+        f"<{name}>{SPLINE.format(name='', y=y)}</{name}>" if inside else SPLINE.format(name=f' name="{name}"', y=y)
+        for name, y in PLACES.items()
+    )
+    owner = f"<body>{body}</body>" if inside else f"<socket_parent_frame>/bodyset/{body}</socket_parent_frame>"
+    point = f'<ForceSet><objects><MovingPathPoint name="p">{owner}{places}</MovingPathPoint></objects></ForceSet>'
+    source = tmp_path / "leg.osim"
+    text = (MESHES / "leg.osim").read_text(encoding="utf-8").replace("</JointSet>", "</JointSet>" + point)
+    source.write_text(text, encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        other = scaled(leg, {body: FACTORS}, sum(each.mass for each in leg.bodies))
+        write_scaled_model(source, tmp_path / "out.osim", other, {body: FACTORS})
+    functions = {}
+    for file in (source, tmp_path / "out.osim"):
+        (found,) = read_model(file).iter("MovingPathPoint")
+        for name in PLACES:
+            nested = found.find(name)
+            own = next(iter(nested)) if nested is not None else next(e for e in found if e.get("name") == name)
+            functions[file.name, name] = read_function(str(file), own, 1)
+    q = np.linspace(-1.5, 2.5, 9)[:, None]
+    for name, factor in zip(PLACES, FACTORS, strict=True):
+        before, after = (functions[file, name](q) for file in ("leg.osim", "out.osim"))
+        np.testing.assert_allclose(after, factor * before, rtol=1e-12)
+        assert np.ptp(before) > 0.1
