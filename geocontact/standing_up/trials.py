@@ -15,8 +15,8 @@ from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem, Course
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
-from geocontact.sit_to_stand.chain import COORDINATES, JOINTS, Subject
-from geocontact.sit_to_stand.feet import CENTRE_HEIGHT, PLANTED, RADIUS, FeetOnGround
+from geocontact.standing_up.chain import COORDINATES, JOINTS, Subject
+from geocontact.standing_up.feet import FOOT_PARAMETERS, PLANTED, FeetOnGround
 
 SEATED = np.radians([22.0, 70.0, 45.0])
 """Lean of shank forwards, thigh backwards and trunk forwards at seat-off [rad]."""
@@ -37,11 +37,13 @@ class StandingTrial:
     Parameters
     ----------
     time
-        [s].
+        From seat-off on, even [s].
     q, u
-        Coordinates and rates.
+        Coordinates and rates [m, rad, m/s, rad/s].
     force, centre
         Of the ground on both feet [N], and its centre of pressure ahead of the origin [m].
+    name
+        As messages call it.
     """
 
     time: Float[np.ndarray, " t"]
@@ -49,6 +51,12 @@ class StandingTrial:
     u: Float[np.ndarray, "t 6"]
     force: Float[np.ndarray, "t 2"]
     centre: Float[np.ndarray, " t"]
+    name: str = "trial"
+
+    @property
+    def rate(self) -> float:
+        """Samples a second."""
+        return float((len(self.time) - 1) / np.ptp(self.time))
 
 
 @dataclass(frozen=True)
@@ -62,20 +70,27 @@ class StandingNoise:
     centre: float = 1e-3
 
 
-def rising(seconds: float) -> Course:
+def rising(seconds: float, seated: Float[np.ndarray, " 3"] = SEATED, p: Float[np.ndarray, " p"] = PLANTED) -> Course:
     """Coordinates by the polynomial of least jerk from seat-off to standing, the foot flat on the ground."""
+    height = p[4] - p[3] - SETTLED
 
     def course(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 6"]:
         s = np.clip(time / seconds, 0.0, 1.0)[:, None]
-        shank, thigh, trunk = (SEATED + (STANDING - SEATED) * (10 * s**3 - 15 * s**4 + 6 * s**5)).T
-        foot = np.tile([0.0, RADIUS - CENTRE_HEIGHT - SETTLED, 0.0], (len(time), 1))
+        shank, thigh, trunk = (seated + (STANDING - seated) * (10 * s**3 - 15 * s**4 + 6 * s**5)).T
+        foot = np.tile([0.0, height, 0.0], (len(time), 1))
         return np.column_stack([foot, -shank, shank + thigh, -thigh - trunk])
 
     return course
 
 
 def standing_up(
-    feet: FeetOnGround, subject: Subject, *, seconds: float = 1.5, intervals: int = 50
+    feet: FeetOnGround,
+    subject: Subject,
+    *,
+    seconds: float = 1.5,
+    seated: Float[np.ndarray, " 3"] = SEATED,
+    planted: Float[np.ndarray, " p"] = PLANTED,
+    intervals: int = 50,
 ) -> tuple[ControlProblem, CollocationResult]:
     """The motion with planted parameters closest to `rising`, with little jerk and torque."""
     from casadi import SX, sumsqr
@@ -85,11 +100,17 @@ def standing_up(
     off = (e.q - wanted) / np.r_[0.01, 0.01, np.full(4, np.radians(2.0))]
     cost = sumsqr(off) + 1e-5 * sumsqr(jerk) + 1e-6 * sumsqr(e.w)
     system = jerk_controlled(
-        e, controlled=range(3), control_names=JOINTS, data=wanted, jerk=jerk, cost=cost, parameter_names=("K", "h", "t")
+        e,
+        controlled=range(3),
+        control_names=JOINTS,
+        data=wanted,
+        jerk=jerk,
+        cost=cost,
+        parameter_names=[each.name for each in FOOT_PARAMETERS],
     )
-    course = rising(seconds)
-    trial = standing_trial("synthetic", seconds, feet, PLANTED, course, course)
-    problem = ControlProblem(system, (trial,), (PLANTED, PLANTED), PLANTED, *problem_scales(subject))
+    course = rising(seconds, seated, planted)
+    trial = standing_trial("synthetic", seconds, feet, planted, course, course)
+    problem = ControlProblem(system, (trial,), (planted, planted), planted, *problem_scales(subject))
     coarse = solve(problem, SolverOptions("legendre", 4, COARSE, 1e-7))
     return problem, solve(problem, SolverOptions("legendre", 4, intervals, 1e-7), warm=coarse)
 
@@ -140,6 +161,18 @@ def problem_scales(
     return np.full(N, subject.mass), np.r_[place, speed, change], np.r_[jerk, np.full(3, 100.0)]
 
 
+def seen_in(
+    feet: FeetOnGround, motion: CollocatedMotion, p: Float[np.ndarray, " p"], time: Float[np.ndarray, " t"], name: str
+) -> StandingTrial:
+    """What perfect encoders and a perfect plate see of a motion at times [s]."""
+    from casadi import Function
+
+    e, x = feet.equations, motion.state(time)
+    plate = Function("plate", [e.q, e.u, e.p], [feet.force, feet.centre]).map(len(time))
+    force, centre = (each.full() for each in plate(x[:, :N].T, x[:, N : 2 * N].T, np.tile(p[:, None], (1, len(time)))))
+    return StandingTrial(time, x[:, :N], x[:, N : 2 * N], force.T, centre[0], name)
+
+
 def recorded(
     feet: FeetOnGround,
     motion: CollocatedMotion,
@@ -147,20 +180,18 @@ def recorded(
     rate: float,
     noise: StandingNoise,
     seed: int,
+    name: str = "trial",
 ) -> StandingTrial:
     """What encoders and a plate record of a motion, `rate` samples a second."""
-    from casadi import Function
-
-    e, rng = feet.equations, np.random.default_rng(seed)
+    rng = np.random.default_rng(seed)
     time = np.linspace(motion.breaks[0], motion.breaks[-1], round(rate * float(np.ptp(motion.breaks))) + 1)
-    x = motion.state(time)
-    plate = Function("plate", [e.q, e.u, e.p], [feet.force, feet.centre]).map(len(time))
-    force, centre = (each.full() for each in plate(x[:, :N].T, x[:, N : 2 * N].T, np.tile(p[:, None], (1, len(time)))))
+    true = seen_in(feet, motion, p, time, name)
     sizes = np.where(np.array([k < 2 for k in range(N)]), noise.length, noise.angle)
     return StandingTrial(
         time,
-        x[:, :N] + sizes * rng.normal(size=(len(time), N)),
-        x[:, N : 2 * N] + noise.rate * rng.normal(size=(len(time), N)),
-        force.T + noise.force * rng.normal(size=(len(time), 2)),
-        centre[0] + noise.centre * rng.normal(size=len(time)),
+        true.q + sizes * rng.normal(size=(len(time), N)),
+        true.u + noise.rate * rng.normal(size=(len(time), N)),
+        true.force + noise.force * rng.normal(size=(len(time), 2)),
+        true.centre + noise.centre * rng.normal(size=len(time)),
+        name,
     )

@@ -1,0 +1,58 @@
+"""What a calibration starts from: the person, the noise, and the trials."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
+from geocontact.analyses.sit_to_stand.trial_channels import channels_of
+from geocontact.data.errors import InputError
+from geocontact.io.recordings.standing_study import read_standing_study
+from geocontact.standing_up.chain import Subject, leg_chain
+from geocontact.standing_up.feet import FOOT_PARAMETERS
+from geocontact.standing_up.phase_a import TRACKS
+from geocontact.standing_up.trials import StandingNoise, StandingTrial
+
+
+@dataclass(frozen=True, eq=False)
+class StandingTrials:
+    """Trials of one person.
+
+    Parameters
+    ----------
+    free, tracks
+        Names of parameters and channels.
+    """
+
+    subject: Subject
+    noise: StandingNoise
+    trials: tuple[StandingTrial, ...]
+    free: tuple[str, ...]
+    tracks: tuple[str, ...]
+
+
+def read(o: StandingCalibrateOptions, record: Record) -> StandingTrials:
+    """Everything in the study."""
+    study = read_standing_study(o.study)
+    record.add_input("study", o.study, trials=len(study.trials))
+    subject = Subject(study.mass, study.height)
+    free = _known(o.study, "free", study.free, tuple(each.name for each in FOOT_PARAMETERS))
+    tracks = _known(o.study, "tracks", study.tracks, TRACKS)
+    if "coordinates" not in tracks:
+        raise InputError(o.study, "tracks", "coordinates are not among them", "add them: the motion must stay near")
+    chain = leg_chain(subject)
+    trials = tuple(channels_of(each, chain, tracks, o.study, record) for each in study.trials)
+    return StandingTrials(subject, StandingNoise(**study.noise), trials, free, tracks)
+
+
+def _known(study: Path, key: str, told: tuple[str, ...] | None, names: tuple[str, ...]) -> tuple[str, ...]:
+    """In the order of all names; all of them where nothing is told."""
+    if told is None:
+        return names
+    odd = [name for name in told if name not in names]
+    if odd or not told:
+        what = f"{odd[0]!r} is not known here" if odd else "names nothing"
+        raise InputError(study, key, what, f"names are {', '.join(names)}")
+    return tuple(name for name in names if name in told)

@@ -1,0 +1,8 @@
+"""`geocontact sit-to-stand`: standing up from a chair."""
+
+from __future__ import annotations
+
+from cyclopts import App
+
+sit_to_stand = App(name="sit-to-stand", help="Standing up from a chair: contacts calibrated on recorded trials.")
+sit_to_stand.command("geocontact.cli.sit_to_stand.calibrate:calibrate", name="calibrate")

@@ -1,0 +1,56 @@
+"""A synthetic person and three passive trials: the feet's model itself stands up, three times differently.
+
+Not recordings, and no test of the model's form: calibration and truth share their equations. Speeds, postures,
+parameters and noise are invented.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.feet import EVERY_PLANTED, FeetOnGround, feet_on_ground
+from geocontact.standing_up.trials import StandingNoise, StandingTrial, recorded, standing_up
+
+RATE = 100.0
+SECONDS = (1.5, 1.3, 1.8)
+SEATED = np.radians([[22.0, 70.0, 45.0], [18.0, 75.0, 50.0], [25.0, 68.0, 35.0]])
+"""Lean of shank, thigh and trunk at seat-off in each trial [rad]."""
+
+
+@dataclass(frozen=True, eq=False)
+class SyntheticStudy:
+    """Trials and what was planted.
+
+    Parameters
+    ----------
+    planted
+        What is searched of `feet.FOOT_PARAMETERS`.
+    """
+
+    subject: Subject
+    noise: StandingNoise
+    planted: Float[np.ndarray, " p"]
+    trials: tuple[StandingTrial, ...]
+
+
+def synthetic_study(
+    *,
+    seed: int = 34,
+    planted: Float[np.ndarray, " p"] = EVERY_PLANTED,
+    intervals: int = 50,
+    feet: FeetOnGround | None = None,
+) -> SyntheticStudy:
+    """Three trials of a person of 70 kg and 1.75 m. ArithmeticError where a motion is not found."""
+    subject, noise = Subject(), StandingNoise()
+    feet = feet or feet_on_ground(subject)
+    trials = []
+    for k, (seconds, seated) in enumerate(zip(SECONDS, SEATED, strict=True)):
+        _, true = standing_up(feet, subject, seconds=seconds, seated=seated, planted=planted, intervals=intervals)
+        if not true.solved:
+            raise ArithmeticError(f"trial {k + 1}: {true.ending}")
+        trials.append(recorded(feet, true.motions[0], true.p, RATE, noise, 100 * seed + k, f"T{k + 1}"))
+    return SyntheticStudy(subject, noise, planted, tuple(trials))
