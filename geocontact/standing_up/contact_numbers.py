@@ -84,7 +84,7 @@ def contact_numbers(phase: PhaseProblem, found: CollocationResult, level: float 
     sought = low < high
     margin = NEAR * (high - low)
     on_bound = sought & ((found.p <= low + margin) | (found.p >= high - margin))
-    covariance = 2.0 / RATE * inverse_reduced_hessian(phase.control, found, on_bound)
+    covariance = 2.0 / RATE * inverse_reduced_hessian(phase.control, found, on_bound.tolist())
     sd = np.sqrt(np.diag(covariance))
     reach = float(norm.ppf(0.5 + 0.5 * level))
     numbers = []
