@@ -29,6 +29,7 @@ KINDS = {
     "scale": "scale",
     "prosthesis_scale": "prosthesis_scale",
     "markers": "markers",
+    "standing": "standing_calibrate",
     "gather": "gap_gather_knee",
     "gap": "gap_diagnose",
     "confuse": "gap_confuse",

@@ -23,12 +23,16 @@ from geocontact.dynamics.collocation.problem import ControlProblem, Course
 from geocontact.standing_up.chain import JOINTS, Subject
 from geocontact.standing_up.contact_parameter import ContactParameter, bounds, usual
 from geocontact.standing_up.feet import FOOT_PARAMETERS, LAW, FeetOnGround
+from geocontact.standing_up.first_fit import first_fit
 from geocontact.standing_up.trials import N, StandingNoise, StandingTrial, problem_scales, standing_trial
 
 if TYPE_CHECKING:
     from casadi import SX
 
-LITTLE_TORQUE, LITTLE_JERK = 1e-6, 1e-4
+LITTLE_TORQUE = 1e-6
+JERK = np.array([5.0, 5.0, 5.0, 20.0, 20.0, 20.0])
+"""Size of the jerk of each coordinate while standing up [m/s^3, rad/s^3], roughly; larger ones let the motion follow the
+noise of plate and encoders, and with it the parameters."""
 RATE = 100.0
 """Samples a second at which a deviation counts as itself [Hz]."""
 TRACKS = ("coordinates", "rates", "force", "centre")
@@ -75,7 +79,7 @@ def phase_a(
     tracks
         Which channels the cost knows, of `TRACKS`.
     start
-        Where the search of the parameters starts, unless at the usual values.
+        Where the search of the parameters starts, unless at `first_fit`.
     """
     from casadi import SX, sumsqr, vertcat
 
@@ -84,7 +88,7 @@ def phase_a(
     off = (vertcat(e.q, e.u, feet.force, feet.centre) - seen[:-1, :]) / sizes
     places = {"coordinates": (0, N), "rates": (N, 2 * N), "force": (2 * N, 2 * N + 2), "centre": (2 * N + 2, 2 * N + 3)}
     terms = {name: seen[2 * N + 3] * sumsqr(off[slice(*places[name]), :]) for name in tracks}
-    terms |= {"torque": LITTLE_TORQUE * sumsqr(e.w), "jerk": LITTLE_JERK * sumsqr(jerk)}
+    terms |= {"torque": LITTLE_TORQUE * sumsqr(e.w), "jerk": sumsqr(jerk / JERK)}
     system = jerk_controlled(
         e,
         controlled=range(3),
@@ -96,10 +100,11 @@ def phase_a(
         parameter_names=[each.name for each in FOOT_PARAMETERS],
     )
     low, high = bounds(FOOT_PARAMETERS, free)
-    begin = np.clip(usual(FOOT_PARAMETERS) if start is None else start, low, high)
+    smooth = [_smooth(trial) for trial in trials]
+    begin = np.clip(first_fit(feet, trials, smooth, free, tracks) if start is None else start, low, high)
     made = [
-        standing_trial(trial.name, float(np.ptp(trial.time)), feet, begin, _smooth(trial), _data(trial))
-        for trial in trials
+        standing_trial(trial.name, float(np.ptp(trial.time)), feet, begin, course, _data(trial))
+        for trial, course in zip(trials, smooth, strict=True)
     ]
     control = ControlProblem(system, tuple(made), (low, high), begin, *problem_scales(subject))
     return PhaseProblem(control, terms, FOOT_PARAMETERS, tuple(free))

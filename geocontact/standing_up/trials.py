@@ -72,7 +72,7 @@ class StandingNoise:
 
 def rising(seconds: float, seated: Float[np.ndarray, " 3"] = SEATED, p: Float[np.ndarray, " p"] = PLANTED) -> Course:
     """Coordinates by the polynomial of least jerk from seat-off to standing, the foot flat on the ground."""
-    height = p[4] - p[3] - SETTLED
+    height = p[3] - SETTLED
 
     def course(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 6"]:
         s = np.clip(time / seconds, 0.0, 1.0)[:, None]

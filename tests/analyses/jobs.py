@@ -30,6 +30,7 @@ JOBS: tuple[Job, ...] = (
     gc.shoulder.compare,
     gc.shoulder.study,
     gc.shoulder.optimise,
+    gc.sit_to_stand.calibrate,
     gc.diagnose,
     gc.discriminability,
     gc.inject,
