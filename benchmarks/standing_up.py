@@ -42,17 +42,17 @@ def main() -> None:
         print(json.dumps({part: found}, indent=2), flush=True)
 
 
-def calibrated(study: Any, nodes_a_second: float = 40.0, start: Any = None, free: Any = None) -> dict[str, Any]:
+def calibrated(study: Any, nodes_a_second: float = 30.0, start: Any = None, free: Any = None) -> dict[str, Any]:
     """Phase A of all trials of a study: what the search found, how long it took, what is told."""
     import numpy as np
 
     from geocontact.dynamics.collocation.solve import SolverOptions, solve
     from geocontact.standing_up.contact_numbers import contact_numbers
-    from geocontact.standing_up.feet import FOOT_PARAMETERS, feet_on_ground
+    from geocontact.standing_up.feet import SOUGHT, feet_on_ground
     from geocontact.standing_up.phase_a import phase_a
 
     feet = feet_on_ground(study.subject)
-    names = [each.name for each in FOOT_PARAMETERS] if free is None else free
+    names = SOUGHT if free is None else free
     phase = phase_a(feet, study.subject, study.trials, study.noise, free=names, start=start)
     meshes = tuple(np.linspace(0.0, 1.0, round(nodes_a_second * float(t.time[-1])) + 1) for t in study.trials)
     began = time.process_time()
@@ -75,7 +75,7 @@ def coverage(options: argparse.Namespace) -> dict[str, Any]:
     """Deviations from what was planted over standard deviations, for each noise; certificates of all motions."""
     import numpy as np
 
-    from geocontact.standing_up.feet import FOOT_PARAMETERS
+    from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT
     from geocontact.standing_up.synthetic_study import synthetic_study
 
     parts, seconds, passed, residuals = [], [], [], []
@@ -86,7 +86,7 @@ def coverage(options: argparse.Namespace) -> dict[str, Any]:
             print(f"noise {noise + 1}: {run['found'].ending}", flush=True)
             continue
         after = np.array([each.after for each in run["told"].numbers])
-        parts.append((run["found"].p - study.planted) / after)
+        parts.append((run["found"].p - study.planted) / np.where(after > 0.0, after, np.inf))
         seconds.append(run["seconds"])
         seen = certified(run)
         passed.append([each["converged"] for each in seen])
@@ -94,6 +94,7 @@ def coverage(options: argparse.Namespace) -> dict[str, Any]:
         print(f"noise {noise + 1}: {np.round(parts[-1], 2)}, {seconds[-1]:.1f} s, {passed[-1]}", flush=True)
     off = np.array(parts)
     names = [each.name for each in FOOT_PARAMETERS]
+    off, names = off[:, [name in SOUGHT for name in names]], list(SOUGHT)
     return {
         "noises": options.noises,
         "solved": len(parts),

@@ -14,7 +14,7 @@ from geocontact.dynamics.collocation.reduced_hessian import inverse_reduced_hess
 from geocontact.dynamics.collocation.solve import CollocationResult
 from geocontact.identify.identifiability import Identifiability, identifiability
 from geocontact.standing_up.contact_parameter import ContactParameter
-from geocontact.standing_up.phase_a import RATE, PhaseProblem
+from geocontact.standing_up.phase import RATE, PhaseProblem
 
 Told = Literal["known", "believed", "held", "on its bound", "not settled"]
 HALF = 0.5

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.dynamics.collocation.solve import CollocationResult
-from geocontact.standing_up.phase_a import PhaseProblem
+from geocontact.standing_up.phase import PhaseProblem
 
 MOST_OF_IT = 0.99
 """Share from which on one term is nearly all of the cost."""

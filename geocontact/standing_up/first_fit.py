@@ -13,22 +13,23 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.standing_up.contact_parameter import bounds, usual
-from geocontact.standing_up.feet import FOOT_PARAMETERS, FeetOnGround
+from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingTrial
 
 FORCE, CENTRE = 20.0, 5e-3
 """What smoothed coordinates leave of the force [N] and the centre [m], roughly."""
 INSIDE = 1e-3
 """Of the room between bounds that a start keeps from them."""
-Coordinates = Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, "t 6"]]
+Coordinates = Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, "t n"]]
 
 
 def first_fit(
-    feet: FeetOnGround,
+    model: StandingModel,
     trials: Sequence[StandingTrial],
     smooth: Sequence[Coordinates],
     free: Sequence[str],
     tracks: Sequence[str],
+    held: Float[np.ndarray, " p"] | None = None,
 ) -> Float[np.ndarray, " p"]:
     """Parameters that fit force and centre best, what is believed of them counted once.
 
@@ -38,18 +39,22 @@ def first_fit(
         Coordinates of each trial at times from its own start on.
     free, tracks
         Names of what is sought and of the channels that there are; what is believed where neither force nor centre is.
+    held
+        Values of what is not sought, unless usual.
     """
     from casadi import Function
     from scipy.optimize import least_squares
 
-    middle, sd = usual(FOOT_PARAMETERS), np.array([each.sd for each in FOOT_PARAMETERS])
-    low, high = bounds(FOOT_PARAMETERS, free)
+    middle, sd = usual(model.parameters), np.array([each.sd for each in model.parameters])
+    low, high = bounds(model.parameters, free)
     sought = low < high
+    if held is not None:
+        middle = np.where(sought, middle, held)
     channels = [name for name in ("force", "centre") if name in tracks]
     if not channels or not sought.any():
         return middle
-    e, h = feet.equations, 1e-3
-    plate = Function("plate", [e.q, e.u, e.p], [feet.force, feet.centre])
+    e, h = model.equations, 1e-3
+    plate = Function("plate", [e.q, e.u, e.p], [model.force, model.centre])
     given = []
     for trial, course in zip(trials, smooth, strict=True):
         time = trial.time - trial.time[0]

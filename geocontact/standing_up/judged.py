@@ -13,7 +13,7 @@ from geocontact.dynamics.collocation.resimulation import Resimulation, resimulat
 from geocontact.dynamics.collocation.solve import CollocationResult
 from geocontact.dynamics.equations import Equations
 from geocontact.dynamics.simulate import Stepper
-from geocontact.standing_up.phase_a import PhaseProblem
+from geocontact.standing_up.phase import PhaseProblem
 
 
 @dataclass(frozen=True, eq=False)

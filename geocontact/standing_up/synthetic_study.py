@@ -12,7 +12,8 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.feet import EVERY_PLANTED, FeetOnGround, feet_on_ground
+from geocontact.standing_up.feet import EVERY_PLANTED, feet_on_ground
+from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, recorded, standing_up
 
 RATE = 100.0
@@ -42,7 +43,7 @@ def synthetic_study(
     seed: int = 34,
     planted: Float[np.ndarray, " p"] = EVERY_PLANTED,
     intervals: int = 50,
-    feet: FeetOnGround | None = None,
+    feet: StandingModel | None = None,
 ) -> SyntheticStudy:
     """Three trials of a person of 70 kg and 1.75 m. ArithmeticError where a motion is not found."""
     subject, noise = Subject(), StandingNoise()

@@ -15,8 +15,9 @@ from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem, Course
 from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
-from geocontact.standing_up.chain import COORDINATES, JOINTS, Subject
-from geocontact.standing_up.feet import FOOT_PARAMETERS, PLANTED, FeetOnGround
+from geocontact.standing_up.chain import COORDINATES, Subject
+from geocontact.standing_up.feet import PLANTED
+from geocontact.standing_up.standing_model import StandingModel
 
 SEATED = np.radians([22.0, 70.0, 45.0])
 """Lean of shank forwards, thigh backwards and trunk forwards at seat-off [rad]."""
@@ -27,6 +28,8 @@ COARSE = 10
 """Intervals of a first search, whose answer is where the finer one starts."""
 MOST_TORQUE = 1000.0
 """Of both legs [N m]."""
+UNPOWERED = 1e-3
+"""Weight of the exoskeleton's torques [1/(N m)^2], so that straps carry it where they can."""
 N = len(COORDINATES)
 
 
@@ -44,14 +47,20 @@ class StandingTrial:
         Of the ground on both feet [N], and its centre of pressure ahead of the origin [m].
     name
         As messages call it.
+    torque
+        Of the joints of both legs [N m]; None where it is not recorded.
+    strap
+        Normal force of one leg's strap on the person [N]; None where it is not recorded.
     """
 
     time: Float[np.ndarray, " t"]
-    q: Float[np.ndarray, "t 6"]
-    u: Float[np.ndarray, "t 6"]
+    q: Float[np.ndarray, "t n"]
+    u: Float[np.ndarray, "t n"]
     force: Float[np.ndarray, "t 2"]
     centre: Float[np.ndarray, " t"]
     name: str = "trial"
+    torque: Float[np.ndarray, "t j"] | None = None
+    strap: Float[np.ndarray, " t"] | None = None
 
     @property
     def rate(self) -> float:
@@ -61,17 +70,22 @@ class StandingTrial:
 
 @dataclass(frozen=True)
 class StandingNoise:
-    """Standard deviations: of lengths [m], angles [rad], rates [m/s, rad/s], force [N] and centre [m]."""
+    """Standard deviations: of lengths [m], angles [rad], rates [m/s, rad/s], force [N], centre [m].
+
+    And of torques of the joints [N m] and a strap's normal force [N].
+    """
 
     length: float = 5e-4
     angle: float = np.radians(0.3)
     rate: float = 0.02
     force: float = 2.0
     centre: float = 1e-3
+    torque: float = 2.0
+    strap: float = 1.0
 
 
 def rising(seconds: float, seated: Float[np.ndarray, " 3"] = SEATED, p: Float[np.ndarray, " p"] = PLANTED) -> Course:
-    """Coordinates by the polynomial of least jerk from seat-off to standing, the foot flat on the ground."""
+    """Coordinates of a person by the polynomial of least jerk, seat-off to standing, the foot flat on the ground."""
     height = p[3] - SETTLED
 
     def course(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 6"]:
@@ -84,7 +98,7 @@ def rising(seconds: float, seated: Float[np.ndarray, " 3"] = SEATED, p: Float[np
 
 
 def standing_up(
-    feet: FeetOnGround,
+    model: StandingModel,
     subject: Subject,
     *,
     seconds: float = 1.5,
@@ -92,50 +106,55 @@ def standing_up(
     planted: Float[np.ndarray, " p"] = PLANTED,
     intervals: int = 50,
 ) -> tuple[ControlProblem, CollocationResult]:
-    """The motion with planted parameters closest to `rising`, with little jerk and torque."""
+    """The motion with planted parameters closest to `rising`, with little jerk and torque; an exoskeleton along."""
     from casadi import SX, sumsqr
 
-    wanted, jerk = SX.sym("wanted", N), SX.sym("jerk", N)
-    e = feet.equations
-    off = (e.q - wanted) / np.r_[0.01, 0.01, np.full(4, np.radians(2.0))]
-    cost = sumsqr(off) + 1e-5 * sumsqr(jerk) + 1e-6 * sumsqr(e.w)
+    n, e = model.count, model.equations
+    wanted, jerk = SX.sym("wanted", n), SX.sym("jerk", n)
+    off = (e.q - wanted) / model.per_coordinate(0.01, np.radians(2.0))
+    cost = sumsqr(off) + 1e-5 * sumsqr(jerk) + 1e-6 * sumsqr(e.w) + UNPOWERED * sumsqr(e.w[3:, :])
     system = jerk_controlled(
         e,
-        controlled=range(3),
-        control_names=JOINTS,
+        controlled=range(n - 3),
+        control_names=model.joints,
         data=wanted,
         jerk=jerk,
         cost=cost,
-        parameter_names=[each.name for each in FOOT_PARAMETERS],
+        parameter_names=[each.name for each in model.parameters],
     )
-    course = rising(seconds, seated, planted)
-    trial = standing_trial("synthetic", seconds, feet, planted, course, course)
-    problem = ControlProblem(system, (trial,), (planted, planted), planted, *problem_scales(subject))
+    alone = rising(seconds, seated, planted)
+
+    def course(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t n"]:
+        q = alone(time)
+        return np.hstack([q, q[:, 3 : model.count - 3]])
+
+    trial = standing_trial("synthetic", seconds, model, planted, course, course)
+    problem = ControlProblem(system, (trial,), (planted, planted), planted, *problem_scales(subject, n))
     coarse = solve(problem, SolverOptions("legendre", 4, COARSE, 1e-7))
     return problem, solve(problem, SolverOptions("legendre", 4, intervals, 1e-7), warm=coarse)
 
 
 def standing_trial(
-    name: str, seconds: float, feet: FeetOnGround, p: Float[np.ndarray, " p"], guess: Course, data: Course
+    name: str, seconds: float, model: StandingModel, p: Float[np.ndarray, " p"], guess: Course, data: Course
 ) -> ControlledTrial:
     """No bounds, free ends; the search starts on courses of the coordinates and the torques that they need."""
     from casadi import Function
 
-    e = feet.equations
+    e, n = model.equations, model.count
     needed = Function("needed", [e.q, e.u, e.a, e.w, e.p], [-e.balance[3:, :]])
 
-    def guess_x(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 18"]:
+    def guess_x(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t x"]:
         h = 1e-2
         before, at, after = (guess(np.clip(time + k * h, 0.0, seconds)) for k in (-1, 0, 1))
         return np.hstack([at, (after - before) / (2 * h), (after - 2 * at + before) / h**2])
 
-    def guess_u(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 9"]:
+    def guess_u(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t u"]:
         x, many = guess_x(time), needed.map(len(time))
-        none = np.zeros((3, len(time)))
-        torque = many(x[:, :N].T, x[:, N : 2 * N].T, x[:, 2 * N :].T, none, np.tile(p[:, None], (1, len(time))))
-        return np.hstack([np.zeros((len(time), N)), np.clip(torque.full().T, -MOST_TORQUE, MOST_TORQUE)])
+        none = np.zeros((n - 3, len(time)))
+        torque = many(x[:, :n].T, x[:, n : 2 * n].T, x[:, 2 * n :].T, none, np.tile(p[:, None], (1, len(time))))
+        return np.hstack([np.zeros((len(time), n)), np.clip(torque.full().T, -MOST_TORQUE, MOST_TORQUE)])
 
-    wide, most = np.full(3 * N, np.inf), np.full(N + 3, np.inf)
+    wide, most = np.full(3 * n, np.inf), np.full(2 * n - 3, np.inf)
     return ControlledTrial(
         name,
         0.0,
@@ -151,30 +170,33 @@ def standing_trial(
 
 
 def problem_scales(
-    subject: Subject,
-) -> tuple[Float[np.ndarray, " 6"], Float[np.ndarray, " 18"], Float[np.ndarray, " 9"]]:
+    subject: Subject, count: int = N
+) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " x"], Float[np.ndarray, " u"]]:
     """Of the balance a tenth of body weight, along and about; of the states and the controls what standing up has."""
-    place = np.r_[[0.01, 0.01, 0.05], np.ones(3)]
-    speed = np.r_[[0.1, 0.1, 0.5], np.ones(3)]
-    change = np.r_[[1.0, 1.0, 5.0], np.full(3, 5.0)]
-    jerk = np.r_[[20.0, 20.0, 100.0], np.full(3, 50.0)]
-    return np.full(N, subject.mass), np.r_[place, speed, change], np.r_[jerk, np.full(3, 100.0)]
+    turns = count - 3
+    place = np.r_[[0.01, 0.01, 0.05], np.ones(turns)]
+    speed = np.r_[[0.1, 0.1, 0.5], np.ones(turns)]
+    change = np.r_[[1.0, 1.0, 5.0], np.full(turns, 5.0)]
+    jerk = np.r_[[20.0, 20.0, 100.0], np.full(turns, 50.0)]
+    return np.full(count, subject.mass), np.r_[place, speed, change], np.r_[jerk, np.full(turns, 100.0)]
 
 
 def seen_in(
-    feet: FeetOnGround, motion: CollocatedMotion, p: Float[np.ndarray, " p"], time: Float[np.ndarray, " t"], name: str
+    model: StandingModel, motion: CollocatedMotion, p: Float[np.ndarray, " p"], time: Float[np.ndarray, " t"], name: str
 ) -> StandingTrial:
-    """What perfect encoders and a perfect plate see of a motion at times [s]."""
+    """What perfect encoders, plates and mats see of a motion at times [s]."""
     from casadi import Function
 
-    e, x = feet.equations, motion.state(time)
-    plate = Function("plate", [e.q, e.u, e.p], [feet.force, feet.centre]).map(len(time))
-    force, centre = (each.full() for each in plate(x[:, :N].T, x[:, N : 2 * N].T, np.tile(p[:, None], (1, len(time)))))
-    return StandingTrial(time, x[:, :N], x[:, N : 2 * N], force.T, centre[0], name)
+    e, n, x = model.equations, model.count, motion.state(time)
+    seen = Function("seen", [e.q, e.u, e.p], [model.force, model.centre, model.strap]).map(len(time))
+    given = (x[:, :n].T, x[:, n : 2 * n].T, np.tile(p[:, None], (1, len(time))))
+    force, centre, strap = (each.full() for each in seen(*given))
+    worn = strap[0] if len(strap) else None
+    return StandingTrial(time, x[:, :n], x[:, n : 2 * n], force.T, centre[0], name, motion.control(time)[:, n:], worn)
 
 
 def recorded(
-    feet: FeetOnGround,
+    model: StandingModel,
     motion: CollocatedMotion,
     p: Float[np.ndarray, " p"],
     rate: float,
@@ -182,16 +204,16 @@ def recorded(
     seed: int,
     name: str = "trial",
 ) -> StandingTrial:
-    """What encoders and a plate record of a motion, `rate` samples a second."""
+    """What encoders, plates and mats record of a motion, `rate` samples a second."""
     rng = np.random.default_rng(seed)
     time = np.linspace(motion.breaks[0], motion.breaks[-1], round(rate * float(np.ptp(motion.breaks))) + 1)
-    true = seen_in(feet, motion, p, time, name)
-    sizes = np.where(np.array([k < 2 for k in range(N)]), noise.length, noise.angle)
-    return StandingTrial(
-        time,
-        true.q + sizes * rng.normal(size=(len(time), N)),
-        true.u + noise.rate * rng.normal(size=(len(time), N)),
-        true.force + noise.force * rng.normal(size=(len(time), 2)),
-        true.centre + noise.centre * rng.normal(size=len(time)),
-        name,
-    )
+    true = seen_in(model, motion, p, time, name)
+
+    def off(of: Float[np.ndarray, "t ..."], size: float | Float[np.ndarray, " n"]) -> Float[np.ndarray, "t ..."]:
+        return np.asarray(of + size * rng.normal(size=of.shape))
+
+    q = off(true.q, model.per_coordinate(noise.length, noise.angle))
+    u, force, centre = off(true.u, noise.rate), off(true.force, noise.force), off(true.centre, noise.centre)
+    torque = None if true.torque is None else off(true.torque, noise.torque)
+    strap = None if true.strap is None else off(true.strap, noise.strap)
+    return StandingTrial(time, q, u, force, centre, name, torque, strap)

@@ -13,7 +13,8 @@ from geocontact.standing_up.contact_numbers import contact_numbers
 from geocontact.standing_up.contact_parameter import ContactParameter, bounds, searched, usual
 from geocontact.standing_up.cost_shares import cost_shares
 from geocontact.standing_up.feet import FOOT_PARAMETERS, LAW, PLANTED, feet_on_ground
-from geocontact.standing_up.phase_a import PhaseProblem, phase_a
+from geocontact.standing_up.phase import PhaseProblem
+from geocontact.standing_up.phase_a import phase_a
 from geocontact.standing_up.trials import StandingNoise, recorded, standing_up
 
 OPTIONS = SolverOptions("radau", 4, 20, 1e-7)

@@ -46,7 +46,7 @@ class StandingCalibrateOptions(Options):
 
     study: Path
     _: KW_ONLY
-    nodes: Annotated[float, NODES] = 40.0
+    nodes: Annotated[float, NODES] = 30.0
     degree: int = 4
     iterations: int = 300
     time_limit: float = 600.0

@@ -11,7 +11,7 @@ from geocontact.analyses.sit_to_stand.trial_channels import channels_of
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.standing_study import read_standing_study
 from geocontact.standing_up.chain import Subject, leg_chain
-from geocontact.standing_up.feet import FOOT_PARAMETERS
+from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT
 from geocontact.standing_up.phase_a import TRACKS
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
@@ -38,8 +38,8 @@ def read(o: StandingCalibrateOptions, record: Record) -> StandingTrials:
     study = read_standing_study(o.study)
     record.add_input("study", o.study, trials=len(study.trials))
     subject = Subject(study.mass, study.height)
-    free = _known(o.study, "free", study.free, tuple(each.name for each in FOOT_PARAMETERS))
-    tracks = _known(o.study, "tracks", study.tracks, TRACKS)
+    free = _known(o.study, "free", study.free, SOUGHT, tuple(each.name for each in FOOT_PARAMETERS))
+    tracks = _known(o.study, "tracks", study.tracks, TRACKS, TRACKS)
     if "coordinates" not in tracks:
         raise InputError(o.study, "tracks", "coordinates are not among them", "add them: the motion must stay near")
     chain = leg_chain(subject)
@@ -47,10 +47,12 @@ def read(o: StandingCalibrateOptions, record: Record) -> StandingTrials:
     return StandingTrials(subject, StandingNoise(**study.noise), trials, free, tracks)
 
 
-def _known(study: Path, key: str, told: tuple[str, ...] | None, names: tuple[str, ...]) -> tuple[str, ...]:
-    """In the order of all names; all of them where nothing is told."""
+def _known(
+    study: Path, key: str, told: tuple[str, ...] | None, usual: tuple[str, ...], names: tuple[str, ...]
+) -> tuple[str, ...]:
+    """In the order of all names; the usual ones where nothing is told."""
     if told is None:
-        return names
+        return usual
     odd = [name for name in told if name not in names]
     if odd or not told:
         what = f"{odd[0]!r} is not known here" if odd else "names nothing"

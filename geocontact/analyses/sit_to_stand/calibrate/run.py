@@ -16,9 +16,11 @@ from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptio
 from geocontact.standing_up.chain import JOINTS, TURNING
 from geocontact.standing_up.contact_numbers import ContactNumbers, contact_numbers, unsettled_numbers
 from geocontact.standing_up.cost_shares import MOST_OF_IT, cost_shares
-from geocontact.standing_up.feet import FOOT_PARAMETERS, FeetOnGround, feet_on_ground
+from geocontact.standing_up.feet import FOOT_PARAMETERS, feet_on_ground
 from geocontact.standing_up.judged import judged
-from geocontact.standing_up.phase_a import PhaseProblem, phase_a
+from geocontact.standing_up.phase import PhaseProblem
+from geocontact.standing_up.phase_a import phase_a
+from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import N, seen_in
 
 TOLERANCE = 1e-7
@@ -63,7 +65,7 @@ def run(given: StandingTrials, o: StandingCalibrateOptions, record: Record) -> S
 def _searched(
     given: StandingTrials,
     o: StandingCalibrateOptions,
-    feet: FeetOnGround,
+    feet: StandingModel,
     record: Record,
     stage: Callable[[str], None],
 ) -> tuple[PhaseProblem, CollocationResult]:
@@ -92,7 +94,7 @@ def _searched(
     return best
 
 
-def _phase(given: StandingTrials, feet: FeetOnGround, start: np.ndarray | None) -> PhaseProblem:
+def _phase(given: StandingTrials, feet: StandingModel, start: np.ndarray | None) -> PhaseProblem:
     return phase_a(feet, given.subject, given.trials, given.noise, free=given.free, tracks=given.tracks, start=start)
 
 
