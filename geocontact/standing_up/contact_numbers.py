@@ -15,6 +15,7 @@ from geocontact.dynamics.collocation.solve import CollocationResult
 from geocontact.identify.identifiability import Identifiability, identifiability
 from geocontact.standing_up.contact_parameter import ContactParameter
 from geocontact.standing_up.phase import RATE, PhaseProblem
+from geocontact.standing_up.resample import Resampled
 
 Told = Literal["known", "believed", "held", "on its bound", "not settled"]
 HALF = 0.5
@@ -73,10 +74,13 @@ class ContactNumbers:
     directions: Float[np.ndarray, " k"]
 
 
-def contact_numbers(phase: PhaseProblem, found: CollocationResult, level: float = 0.95) -> ContactNumbers:
+def contact_numbers(
+    phase: PhaseProblem, found: CollocationResult, level: float = 0.95, again: Resampled | None = None
+) -> ContactNumbers:
     """Of a phase that was solved.
 
-    Intervals are Laplace's: the curvature of the cost at its least, with what is believed in it.
+    Intervals are Laplace's: the curvature of the cost at its least, with what is believed in it. With resampled trials
+    the bias that they show is taken off, and the intervals are widened for its own error.
 
     ValueError where the curvature does not exist.
     """
@@ -87,15 +91,18 @@ def contact_numbers(phase: PhaseProblem, found: CollocationResult, level: float 
     covariance = 2.0 / RATE * inverse_reduced_hessian(phase.control, found, on_bound.tolist())
     sd = np.sqrt(np.diag(covariance))
     reach = float(norm.ppf(0.5 + 0.5 * level))
+    best = found.p
+    if again is not None:
+        sd, best = sd * again.widening, np.where(sought & ~on_bound, found.p - again.bias, found.p)
     numbers = []
     for k, each in enumerate(phase.parameters):
         verdict: Told = "known" if sd[k] <= HALF * each.sd else "believed"
         verdict = "held" if not sought[k] else "on its bound" if on_bound[k] else verdict
         told = verdict in ("known", "believed")
-        ends = [each.value(found.p[k] + side * reach * sd[k]) if told else np.nan for side in (-1.0, 1.0)]
+        ends = [each.value(best[k] + side * reach * sd[k]) if told else np.nan for side in (-1.0, 1.0)]
         after = {"held": 0.0, "on its bound": np.inf}.get(verdict, float(sd[k]))
         before = each.sd if sought[k] else 0.0
-        value = each.value(float(found.p[k]))
+        value = each.value(float(best[k]))
         numbers.append(ContactNumber(each.name, each.unit, value, *ends, before, after, verdict))
     kept = np.flatnonzero(sought & ~on_bound)
     return _together(tuple(numbers), [phase.parameters[k] for k in kept], covariance[np.ix_(kept, kept)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,8 @@ SEATED = 5.0
 """Force on the chair from which on one sits [N], the study's."""
 FEWEST = 20
 """Samples of a trial."""
+NORMAL = "normal"
+"""Column of a strap's file."""
 BESIDE = 0.5
 """Farther from the ankle than that [m] a centre of pressure is not under the foot."""
 
@@ -37,6 +40,8 @@ def channels_of(
         ("rates", files.rates, "rates"),
         ("force", files.plates, "plates"),
         ("centre", files.plates, "plates"),
+        ("torque", files.torques, "torques"),
+        ("strap", files.strap, "strap"),
     ):
         if channel in tracks and file is None:
             what = f"{channel} is tracked, and this trial has none"
@@ -59,7 +64,13 @@ def channels_of(
     force, centre = np.zeros((len(time), 2)), np.zeros(len(time))
     if feet is not None and files.plates is not None:
         force, centre = _under_the_feet(files.plates, feet, time, q[:, 0])
-    return StandingTrial(time - time[0], q, u, force, centre, files.name)
+    torque = strap = None
+    if "torque" in tracks and files.torques is not None:
+        names = [c.name for c in chain.coordinates[3:]]
+        torque = _columns(files.torques, names, record, f"{files.name} torques", time)
+    if "strap" in tracks and files.strap is not None:
+        strap = _columns(files.strap, [NORMAL], record, f"{files.name} strap", time)[:, 0]
+    return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap)
 
 
 def seat_off(file: Path, chair: ForcePlate) -> float:
@@ -103,6 +114,18 @@ def _rates(file: Path, chain: Multibody, record: Record, name: str, time: Times)
         what = f"runs from {own[0]:g} to {own[-1]:g} s, the coordinates from {time[0]:g} to {time[-1]:g} s"
         raise InputError(file, "", what, "put both on one clock")
     return np.column_stack([np.interp(time, own, column) for column in rates.T])
+
+
+def _columns(file: Path, names: Sequence[str], record: Record, role: str, time: Times) -> Table:
+    """Columns as they are, in SI, at the times of the trial."""
+    table = read_table(file)
+    record.add_input(role, file, frames=len(table.time))
+    values = np.column_stack([table.needed(name) for name in names])
+    begin, end = table.time[[0, -1]]
+    if begin > time[0] + 1e-6 or end < time[-1] - 1e-6:
+        what = f"runs from {begin:g} to {end:g} s, the trial from {time[0]:g} to {time[-1]:g} s"
+        raise InputError(file, "", what, "put both on one clock")
+    return np.column_stack([np.interp(time, table.time, column) for column in values.T])
 
 
 def _require_one_clock(file: Path, plate: ForcePlate, time: Times) -> None:

@@ -20,7 +20,9 @@
 
 Files are looked for beside the description. `noise` are standard deviations of one sample; `rate` is that of turns and,
 in m/s, of the foot's place. `feet` and `chair` are plates in `plates`. `free` and `tracks`, lists of names, may stand
-beside mass and height, `start` and `end` [s] in a trial instead of `chair`.
+beside mass and height, `start` and `end` [s] in a trial instead of `chair`. With `exoskeleton = true` a trial also has
+`torques` of all joints of both legs (.sto, [N m]) and `strap`, the normal force of the mat of one leg on the person,
+forwards positive (.csv, `time [s], normal [N]`).
 """
 
 from __future__ import annotations
@@ -42,9 +44,10 @@ LARGEST = 1_000_000
 """Bytes of a description."""
 BODY = Plausible("the mass of a person", KG, (20.0, 300.0))
 TALL = Plausible("the height of a person", m, (0.8, 2.5))
-NOISE = {"length": "m", "angle": "rad", "rate": "rad/s", "force": "N", "centre": "m"}
-KEYS = ("mass", "height", "noise", "free", "tracks", "trials")
-TRIAL = ("name", "coordinates", "rates", "plates", "feet", "chair", "start", "end")
+NOISE = {"length": "m", "angle": "rad", "rate": "rad/s", "force": "N", "centre": "m", "torque": "N m", "strap": "N"}
+KEYS = ("mass", "height", "exoskeleton", "noise", "free", "tracks", "trials")
+FILES = ("coordinates", "rates", "plates", "torques", "strap")
+TRIAL = ("name", *FILES, "feet", "chair", "start", "end")
 
 
 @dataclass(frozen=True)
@@ -53,8 +56,8 @@ class StandingTrialFiles:
 
     Parameters
     ----------
-    coordinates, rates, plates
-        Files; `rates` and `plates` may be missing.
+    coordinates, rates, plates, torques, strap
+        Files; all but the first may be missing.
     feet, chair
         Plates by name or number.
     start, end
@@ -65,6 +68,8 @@ class StandingTrialFiles:
     coordinates: Path
     rates: Path | None
     plates: Path | None
+    torques: Path | None
+    strap: Path | None
     feet: str | None
     chair: str | None
     start: float | None
@@ -79,6 +84,8 @@ class StandingStudy:
     ----------
     mass, height
         [kg], [m].
+    exoskeleton
+        Whether it was worn.
     noise
         Standard deviations in SI by the keys of `NOISE`; those that are told.
     free, tracks
@@ -87,6 +94,7 @@ class StandingStudy:
 
     mass: float
     height: float
+    exoskeleton: bool
     noise: Mapping[str, float]
     free: tuple[str, ...] | None
     tracks: tuple[str, ...] | None
@@ -115,7 +123,10 @@ def read_standing_study(path: Path) -> StandingStudy:
     if twice is not None:
         raise InputError(path, "[[trials]]", f"two have the name {twice!r}", "give each its own name")
     free, tracks = (_names(path, content, key) for key in ("free", "tracks"))
-    return StandingStudy(mass, height, noise, free, tracks, found)
+    worn = content.get("exoskeleton", False)
+    if not isinstance(worn, bool):
+        raise InputError(path, "exoskeleton", f"{worn!r} is neither true nor false", "write exoskeleton = true")
+    return StandingStudy(mass, height, worn, noise, free, tracks, found)
 
 
 def _measure(path: Path, content: Mapping[str, Any], name: str, what: Plausible) -> float:
@@ -150,8 +161,7 @@ def _trial(path: Path, number: int, told: Any) -> StandingTrialFiles:
     _require_keys(path, place, told, TRIAL)
     if "coordinates" not in told:
         raise InputError(path, place, "no coordinates", "name the file of angles and the foot's place")
-    files = {key: _file(path, f"{place} {key}", told.get(key)) for key in ("coordinates", "rates", "plates")}
-    coordinates = files["coordinates"]
+    coordinates, *files = (_file(path, f"{place} {key}", told.get(key)) for key in FILES)
     if coordinates is None:
         raise InputError(path, place, "no coordinates", "name the file of angles and the foot's place")
     plates = {key: None if told.get(key) is None else str(told[key]) for key in ("feet", "chair")}
@@ -159,8 +169,8 @@ def _trial(path: Path, number: int, told: Any) -> StandingTrialFiles:
     name = str(told.get("name", f"T{number}"))
     if not NAME.fullmatch(name):
         raise InputError(path, place, f"name {name!r} cannot be that of a file", "write letters, digits, - and _")
-    rates, forces = files["rates"], files["plates"]
-    return StandingTrialFiles(name, coordinates, rates, forces, *plates.values(), *times.values())
+    rates, forces, torques, strap = files
+    return StandingTrialFiles(name, coordinates, rates, forces, torques, strap, *plates.values(), *times.values())
 
 
 def _time(path: Path, place: str, told: Mapping[str, Any], key: str) -> float | None:

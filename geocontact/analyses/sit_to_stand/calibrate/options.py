@@ -36,8 +36,10 @@ class StandingCalibrateOptions(Options):
         CPU time after which the search ends [s].
     starts
         Further starts, drawn from what is believed of the parameters.
+    resamples
+        Calibrations of trials that the answer itself makes, whose mean error is taken off; fewer than two for none.
     seed
-        Of these starts.
+        Of starts and resamples.
     level
         Probability of the intervals.
     """
@@ -51,6 +53,7 @@ class StandingCalibrateOptions(Options):
     iterations: int = 300
     time_limit: float = 600.0
     starts: int = 0
+    resamples: int = 6
     seed: int = 0
     level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
 
@@ -60,6 +63,7 @@ class StandingCalibrateOptions(Options):
             ("degree", self.degree, *DEGREES, 4),
             ("iterations", self.iterations, 1, 100_000, 300),
             ("starts", self.starts, 0, MOST_STARTS, 20),
+            ("resamples", self.resamples, 0, MOST_STARTS, 6),
         ):
             if not low <= value <= high:
                 raise InputError("", f"`{name}`", f"{value} is not {low} to {high}", f"give for example {example}")

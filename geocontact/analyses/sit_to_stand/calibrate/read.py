@@ -11,8 +11,10 @@ from geocontact.analyses.sit_to_stand.trial_channels import channels_of
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.standing_study import read_standing_study
 from geocontact.standing_up.chain import Subject, leg_chain
+from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT
 from geocontact.standing_up.phase_a import TRACKS
+from geocontact.standing_up.phase_b import TRACKS_B
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
 
@@ -22,13 +24,16 @@ class StandingTrials:
 
     Parameters
     ----------
+    exoskeleton
+        Whether it was worn, so that its strap is calibrated too.
     free, tracks
-        Names of parameters and channels.
+        Names of the feet's parameters, and channels.
     """
 
     subject: Subject
     noise: StandingNoise
     trials: tuple[StandingTrial, ...]
+    exoskeleton: bool
     free: tuple[str, ...]
     tracks: tuple[str, ...]
 
@@ -39,12 +44,15 @@ def read(o: StandingCalibrateOptions, record: Record) -> StandingTrials:
     record.add_input("study", o.study, trials=len(study.trials))
     subject = Subject(study.mass, study.height)
     free = _known(o.study, "free", study.free, SOUGHT, tuple(each.name for each in FOOT_PARAMETERS))
-    tracks = _known(o.study, "tracks", study.tracks, TRACKS, TRACKS)
+    channels = TRACKS_B if study.exoskeleton else TRACKS
+    tracks = _known(o.study, "tracks", study.tracks, channels, channels)
     if "coordinates" not in tracks:
         raise InputError(o.study, "tracks", "coordinates are not among them", "add them: the motion must stay near")
-    chain = leg_chain(subject)
+    if study.exoskeleton and "strap" not in tracks:
+        raise InputError(o.study, "tracks", "strap is not among them", "add it, or leave out exoskeleton = true")
+    chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
     trials = tuple(channels_of(each, chain, tracks, o.study, record) for each in study.trials)
-    return StandingTrials(subject, StandingNoise(**study.noise), trials, free, tracks)
+    return StandingTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks)
 
 
 def _known(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -28,8 +27,9 @@ from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import CollocationResult
 from geocontact.io.opensim.moco_trajectory_writer import write_moco_trajectory
 from geocontact.io.text.results import write_table
-from geocontact.standing_up.chain import COORDINATES, JOINTS
-from geocontact.standing_up.contact_numbers import ContactNumbers
+from geocontact.standing_up.calibrated_phase import CalibratedPhase
+from geocontact.standing_up.chain import COORDINATES
+from geocontact.standing_up.exoskeleton import EXO_JOINTS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -41,26 +41,27 @@ class StandingCalibrateResult(Result):
 
     Parameters
     ----------
-    found
-        How the search ended.
-    numbers
-        What the trials tell of each parameter.
-    shares
-        Of the cost, by term.
+    phases
+        A, and B where an exoskeleton was worn.
+    trials
+        Channels by the last of them.
     """
 
     options: StandingCalibrateOptions
     given: StandingTrials
-    found: CollocationResult
-    numbers: ContactNumbers
+    phases: tuple[CalibratedPhase, ...]
     trials: tuple[TrialResult, ...]
-    shares: Mapping[str, float]
+
+    @property
+    def found(self) -> CollocationResult:
+        """How the last search ended."""
+        return self.phases[-1].found
 
     @property
     def accepted(self) -> bool:
-        """Whether the search was solved and every motion is certified."""
-        seen = [trial.judged.certificate for trial in self.trials]
-        return self.found.solved and all(each is not None and each.converged for each in seen)
+        """Whether all phases were solved and every motion is certified."""
+        wanted = 2 if self.given.exoskeleton else 1
+        return len(self.phases) == wanted and all(phase.certified for phase in self.phases)
 
     @property
     def errors(self) -> pd.DataFrame:
@@ -69,12 +70,13 @@ class StandingCalibrateResult(Result):
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`parameters`, `errors`, `certificate`, `correlation`, and `trial_NAME` for each trial."""
-        own = {f"trial_{trial.recorded.name}": trial_table(trial, self.given.tracks) for trial in self.trials}
+        noise, tracks = self.given.noise, self.given.tracks
+        own = {f"trial_{trial.recorded.name}": trial_table(trial, noise, tracks) for trial in self.trials}
         return {
-            "parameters": parameters_table(self.numbers),
+            "parameters": parameters_table(self.phases),
             "errors": self.errors,
-            "certificate": certificate_table(self.trials),
-            "correlation": correlation_table(self.numbers),
+            "certificate": certificate_table(self.phases),
+            "correlation": correlation_table(self.phases),
             **own,
         }
 
@@ -99,10 +101,12 @@ class StandingCalibrateResult(Result):
 def write_solution(file: Path, trial: TrialResult, solved: bool) -> None:
     """The motion as OpenSim's Moco reads it; torques are those of both legs [N m]."""
     q, u = trial.model.q, trial.model.u
+    names = (*COORDINATES, *(EXO_JOINTS if q.shape[1] > len(COORDINATES) else ()))
 
-    def paths(ending: str, values: Float[np.ndarray, "t 6"]) -> dict[str, Float[np.ndarray, " t"]]:
-        return {f"/jointset/{name}/{name}/{ending}": values[:, k] for k, name in enumerate(COORDINATES)}
+    def paths(ending: str, values: Float[np.ndarray, "t n"]) -> dict[str, Float[np.ndarray, " t"]]:
+        return {f"/jointset/{name}/{name}/{ending}": values[:, k] for k, name in enumerate(names)}
 
     states = paths("value", q) | paths("speed", u)
-    controls = {f"/forceset/{name}_torque": trial.torque[:, k] for k, name in enumerate(JOINTS)}
+    torque = np.zeros((len(q), 0)) if trial.model.torque is None else trial.model.torque
+    controls = {f"/forceset/{name}_torque": column for name, column in zip(names[3:], torque.T, strict=True)}
     write_moco_trajectory(file, trial.recorded.time, states, controls, paths("accel", trial.acceleration), solved)

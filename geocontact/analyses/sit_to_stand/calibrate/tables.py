@@ -7,19 +7,18 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from geocontact.analyses.sit_to_stand.trial_result import TrialResult
-from geocontact.standing_up.chain import COORDINATES, JOINTS, TURNING
-from geocontact.standing_up.contact_numbers import ContactNumbers
+from geocontact.analyses.sit_to_stand.trial_result import TrialResult, channels
+from geocontact.standing_up.calibrated_phase import CalibratedPhase
+from geocontact.standing_up.contact_numbers import ContactNumber
+from geocontact.standing_up.feet import FOOT_PARAMETERS
 from geocontact.standing_up.trials import StandingNoise
 
-DEGREE = float(np.degrees(1.0))
-MILLIMETRE = 1e3
 
-
-def parameters_table(numbers: ContactNumbers) -> pd.DataFrame:
+def parameters_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
     """Value and interval in SI, and standard deviations of what is searched: lengths in m, others as logarithms."""
     rows = [
         {
+            "phase": phase.name,
             "parameter": n.name,
             "unit": n.unit,
             "value": n.value,
@@ -29,54 +28,53 @@ def parameters_table(numbers: ContactNumbers) -> pd.DataFrame:
             "sd with the trials": n.after if np.isfinite(n.after) else np.nan,
             "verdict": n.verdict,
         }
-        for n in numbers.numbers
+        for phase in phases
+        for n in _own(phase)
     ]
     return pd.DataFrame(rows)
 
 
-def correlation_table(numbers: ContactNumbers) -> pd.DataFrame:
-    """Of the estimates of the parameters that were sought."""
-    columns = {name: numbers.correlation[:, k] for k, name in enumerate(numbers.names)}
-    return pd.DataFrame({"parameter": list(numbers.names), **columns})
+def _own(phase: CalibratedPhase) -> list[ContactNumber]:
+    """Of the feet in phase A, of the strap in phase B."""
+    feet = {each.name for each in FOOT_PARAMETERS}
+    return [n for n in phase.numbers.numbers if (n.name in feet) == (phase.name == "A")]
+
+
+def correlation_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
+    """Of the estimates of the parameters that were sought, phase by phase."""
+    parts = []
+    for phase in phases:
+        n = phase.numbers
+        columns = {name: n.correlation[:, k] for k, name in enumerate(n.names)}
+        parts.append(pd.DataFrame({"phase": phase.name, "parameter": list(n.names), **columns}))
+    return pd.concat(parts, ignore_index=True)
 
 
 def errors_table(trials: Sequence[TrialResult], noise: StandingNoise, tracks: Sequence[str]) -> pd.DataFrame:
     """Root mean square difference of each channel, with the noise that it was said to have beside it."""
-    rows = []
-    for trial in trials:
-        seen, model = trial.recorded, trial.model
-        columns = []
-        for k, (name, turns) in enumerate(zip(COORDINATES, TURNING, strict=True)):
-            unit, factor, size = ("deg", DEGREE, noise.angle) if turns else ("mm", MILLIMETRE, noise.length)
-            columns.append(("coordinates", name, unit, factor, model.q[:, k] - seen.q[:, k], size))
-        for k, (name, turns) in enumerate(zip(COORDINATES, TURNING, strict=True)):
-            unit, factor = ("deg/s", DEGREE) if turns else ("mm/s", MILLIMETRE)
-            columns.append(("rates", f"{name} rate", unit, factor, model.u[:, k] - seen.u[:, k], noise.rate))
-        for k, axis in enumerate("xy"):
-            off = model.force[:, k] - seen.force[:, k]
-            columns.append(("force", f"force_{axis}", "N", 1.0, off, noise.force))
-        columns.append(("centre", "centre", "mm", MILLIMETRE, model.centre - seen.centre, noise.centre))
-        rows += [
-            {
-                "trial": seen.name,
-                "quantity": name,
-                "unit": unit,
-                "rmsd": factor * float(np.sqrt(np.mean(off**2))),
-                "noise": factor * size,
-            }
-            for channel, name, unit, factor, off, size in columns
-            if channel in tracks
-        ]
+    rows = [
+        {
+            "trial": trial.recorded.name,
+            "quantity": each.name,
+            "unit": each.unit,
+            "rmsd": each.factor * float(np.sqrt(np.mean((each.model - each.recorded) ** 2))),
+            "noise": each.factor * each.noise,
+        }
+        for trial in trials
+        for each in channels(trial, noise)
+        if each.channel in tracks
+    ]
     return pd.DataFrame(rows, columns=["trial", "quantity", "unit", "rmsd", "noise"])
 
 
-def certificate_table(trials: Sequence[TrialResult]) -> pd.DataFrame:
+def certificate_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
     """What lies between and beyond the points of each motion; empty cells where nothing was certified."""
     rows = []
-    for trial in trials:
-        c = trial.judged.certificate
-        told = {"trial": trial.recorded.name, "certified": "no" if c is None or not c.converged else "yes"}
-        told |= {"residual [N]": float(trial.judged.force.max()), "residual [N m]": float(trial.judged.moment.max())}
+    for phase, motion, seen in ((p, *each) for p in phases for each in zip(p.found.motions, p.motions, strict=True)):
+        c = seen.certificate
+        told: dict[str, object] = {"phase": phase.name, "trial": motion.name}
+        told["certified"] = "no" if c is None or not c.converged else "yes"
+        told |= {"residual [N]": float(seen.force.max()), "residual [N m]": float(seen.moment.max())}
         none = c is None
         told |= {
             "after an interval [-]": np.nan if none else c.interval,
@@ -89,21 +87,15 @@ def certificate_table(trials: Sequence[TrialResult]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def trial_table(trial: TrialResult, tracks: Sequence[str]) -> pd.DataFrame:
-    """Over time: coordinates and plate as recorded and by the model, torques of both legs, residual."""
-    seen, model = trial.recorded, trial.model
-    columns = {"time [s]": seen.time}
-    for k, (name, turns) in enumerate(zip(COORDINATES, TURNING, strict=True)):
-        unit, factor = ("deg", DEGREE) if turns else ("mm", MILLIMETRE)
-        columns |= {f"{name} [{unit}]": factor * model.q[:, k], f"recorded {name} [{unit}]": factor * seen.q[:, k]}
-    for k, axis in enumerate("xy"):
-        columns[f"force_{axis} [N]"] = model.force[:, k]
-        if "force" in tracks:
-            columns[f"plate_force_{axis} [N]"] = seen.force[:, k]
-    columns["centre [mm]"] = MILLIMETRE * model.centre
-    if "centre" in tracks:
-        columns["plate centre [mm]"] = MILLIMETRE * seen.centre
-    columns |= {f"{name} torque [N m]": trial.torque[:, k] for k, name in enumerate(JOINTS)}
+def trial_table(trial: TrialResult, noise: StandingNoise, tracks: Sequence[str]) -> pd.DataFrame:
+    """Over time: channels as recorded and by the model, torques of both legs, residual."""
+    columns = {"time [s]": trial.recorded.time}
+    for each in channels(trial, noise):
+        if each.channel == "rates":
+            continue
+        columns[f"{each.name} [{each.unit}]"] = each.factor * each.model
+        if each.channel in tracks:
+            columns[f"recorded {each.name} [{each.unit}]"] = each.factor * each.recorded
     columns["residual [N]"] = trial.residual(trial.judged.force)
     columns["residual [N m]"] = trial.residual(trial.judged.moment)
     return pd.DataFrame(columns)
