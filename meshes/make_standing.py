@@ -10,12 +10,17 @@ from pathlib import Path
 from geocontact.analyses.sit_to_stand.synthetic_files import synthetic_files
 from geocontact.standing_up.synthetic_study import synthetic_study
 
-FOLDER = "standing_up"
+FOLDERS = {"standing_up": False, "standing_up_exoskeleton": True}
+"""Whether an exoskeleton is worn, by folder."""
 
 
 def standing_files() -> dict[str, bytes]:
-    """The study, by name."""
-    return {f"{FOLDER}/{name}": text.encode("ascii") for name, text in synthetic_files(synthetic_study()).items()}
+    """The studies, by name."""
+    return {
+        f"{folder}/{name}": text.encode("ascii")
+        for folder, worn in FOLDERS.items()
+        for name, text in synthetic_files(synthetic_study(exoskeleton=worn)).items()
+    }
 
 
 def main() -> None:

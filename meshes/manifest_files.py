@@ -29,7 +29,7 @@ FOLDER_KINDS = {
     "T3": "recording",
 }
 """By suffix; in the folder of a mat's recording or of a trial by the first word of the name."""
-FOLDERS = ("mat_*", "gait_*", "overhead_*", "standing_up")
+FOLDERS = ("mat_*", "gait_*", "overhead_*", "standing_up*")
 """Of recordings and trials, in the order of the manifest."""
 
 

@@ -1,4 +1,4 @@
-"""A synthetic person and three passive trials: the feet's model itself stands up, three times differently.
+"""A synthetic person and three passive trials: the model itself stands up, three times differently.
 
 Not recordings, and no test of the model's form: calibration and truth share their equations. Speeds, postures,
 parameters and noise are invented.
@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.exoskeleton import STRAP_PLANTED, with_exoskeleton
 from geocontact.standing_up.feet import EVERY_PLANTED, feet_on_ground
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, recorded, standing_up
@@ -29,8 +30,10 @@ class SyntheticStudy:
     Parameters
     ----------
     planted
-        What is searched of `feet.FOOT_PARAMETERS`.
+        What is searched of the model's parameters.
     """
+
+    model: StandingModel
 
     subject: Subject
     noise: StandingNoise
@@ -41,17 +44,18 @@ class SyntheticStudy:
 def synthetic_study(
     *,
     seed: int = 34,
-    planted: Float[np.ndarray, " p"] = EVERY_PLANTED,
+    exoskeleton: bool = False,
     intervals: int = 50,
-    feet: StandingModel | None = None,
+    count: int = 3,
 ) -> SyntheticStudy:
-    """Three trials of a person of 70 kg and 1.75 m. ArithmeticError where a motion is not found."""
+    """Trials of a person of 70 kg and 1.75 m, up to three. ArithmeticError where a motion is not found."""
     subject, noise = Subject(), StandingNoise()
-    feet = feet or feet_on_ground(subject)
+    model = with_exoskeleton(subject) if exoskeleton else feet_on_ground(subject)
+    planted = np.r_[EVERY_PLANTED, STRAP_PLANTED] if exoskeleton else EVERY_PLANTED
     trials = []
-    for k, (seconds, seated) in enumerate(zip(SECONDS, SEATED, strict=True)):
-        _, true = standing_up(feet, subject, seconds=seconds, seated=seated, planted=planted, intervals=intervals)
+    for k, (seconds, seated) in enumerate(zip(SECONDS[:count], SEATED[:count], strict=True)):
+        _, true = standing_up(model, subject, seconds=seconds, seated=seated, planted=planted, intervals=intervals)
         if not true.solved:
             raise ArithmeticError(f"trial {k + 1}: {true.ending}")
-        trials.append(recorded(feet, true.motions[0], true.p, RATE, noise, 100 * seed + k, f"T{k + 1}"))
-    return SyntheticStudy(subject, noise, planted, tuple(trials))
+        trials.append(recorded(model, true.motions[0], true.p, RATE, noise, 100 * seed + k, f"T{k + 1}"))
+    return SyntheticStudy(model, subject, noise, planted, tuple(trials))

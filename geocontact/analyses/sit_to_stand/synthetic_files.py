@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.standing_up.chain import COORDINATES, TURNING
-from geocontact.standing_up.feet import FOOT_PARAMETERS
 from geocontact.standing_up.synthetic_study import SyntheticStudy
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
@@ -21,12 +19,30 @@ ON_CHAIR = 300.0
 def synthetic_files(study: SyntheticStudy) -> dict[str, str]:
     """Text of `study.toml`, `truth.csv`, and `NAME_coordinates.sto`, `NAME_rates.sto`, `NAME_plates.mot` by name."""
     files = {"study.toml": _description(study), "truth.csv": _truth(study)}
+    names = study.model.equations.names
     for trial in study.trials:
         time, sitting = _time(trial)
-        files[f"{trial.name}_coordinates.sto"] = _motion(trial, trial.q, time, sitting, "coordinates", 5)
-        files[f"{trial.name}_rates.sto"] = _motion(trial, trial.u, time, 0.0 * sitting, "rates", 4)
-        files[f"{trial.name}_plates.mot"] = _plates(trial, time, study.subject.mass * 9.81)
+        files[f"{trial.name}_coordinates.sto"] = _motion(trial, names, trial.q, time, sitting, "coordinates", 5)
+        files[f"{trial.name}_rates.sto"] = _motion(trial, names, trial.u, time, 0.0 * sitting, "rates", 4)
+        files[f"{trial.name}_plates.mot"] = _plates(trial, time, float(trial.force[-1, 1]))
+        if trial.torque is not None and trial.strap is not None:
+            files |= _worn(trial, names, time, sitting)
     return files
+
+
+def _worn(
+    trial: StandingTrial, names: Sequence[str], time: Float[np.ndarray, " t"], sitting: Float[np.ndarray, " s"]
+) -> dict[str, str]:
+    """Torques of all joints, and the strap's normal force; before seat-off what they are there."""
+    if trial.torque is None or trial.strap is None:
+        raise ValueError(f"{trial.name} has no torques or no strap")
+    torque, strap = (np.vstack([np.outer(sitting, of[0]), of]) for of in (trial.torque, trial.strap[:, None]))
+    columns = {"time": time} | dict(zip(names[3:], torque.T, strict=True))
+    rows = [f"{t:.6g},{f:.4f}" for t, f in zip(time, strap[:, 0], strict=True)]
+    return {
+        f"{trial.name}_torques.sto": _storage(f"synthetic {trial.name} torques", columns, 3, "no"),
+        f"{trial.name}_strap.csv": "\n".join(["time [s],normal [N]", *rows]) + "\n",
+    }
 
 
 def _time(trial: StandingTrial) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " s"]]:
@@ -37,10 +53,12 @@ def _time(trial: StandingTrial) -> tuple[Float[np.ndarray, " t"], Float[np.ndarr
 
 def _description(study: SyntheticStudy) -> str:
     noise: StandingNoise = study.noise
+    worn = any(trial.strap is not None for trial in study.trials)
     lines = [
         "# Synthetic: a chain of four bodies on two spheres that stood up by itself, with noise. Nobody was there.",
         f'mass = {{ value = {study.subject.mass:g}, unit = "kg" }}',
         f'height = {{ value = {study.subject.height:g}, unit = "m" }}',
+        *(["exoskeleton = true"] if worn else []),
         "",
         "[noise]",
         f'length = {{ value = {1e3 * noise.length:g}, unit = "mm" }}',
@@ -48,10 +66,13 @@ def _description(study: SyntheticStudy) -> str:
         f'rate = {{ value = {noise.rate:g}, unit = "rad/s" }}',
         f'force = {{ value = {noise.force:g}, unit = "N" }}',
         f'centre = {{ value = {1e3 * noise.centre:g}, unit = "mm" }}',
+        *([f'torque = {{ value = {noise.torque:g}, unit = "N m" }}'] if worn else []),
+        *([f'strap = {{ value = {noise.strap:g}, unit = "N" }}'] if worn else []),
     ]
     for trial in study.trials:
         lines += ["", "[[trials]]", f'name = "{trial.name}"']
         lines += [f'{kind} = "{trial.name}_{kind}.sto"' for kind in ("coordinates", "rates")]
+        lines += [f'torques = "{trial.name}_torques.sto"', f'strap = "{trial.name}_strap.csv"'] if worn else []
         lines += [f'plates = "{trial.name}_plates.mot"', 'feet = "feet_force"', 'chair = "chair_force"']
     return "\n".join(lines) + "\n"
 
@@ -59,23 +80,24 @@ def _description(study: SyntheticStudy) -> str:
 def _truth(study: SyntheticStudy) -> str:
     rows = [
         f"{each.name},{each.unit},{each.value(float(value)):.6g}"
-        for each, value in zip(FOOT_PARAMETERS, study.planted, strict=True)
+        for each, value in zip(study.model.parameters, study.planted, strict=True)
     ]
     return "\n".join(["parameter,unit,value", *rows]) + "\n"
 
 
 def _motion(
     trial: StandingTrial,
-    values: Float[np.ndarray, "t 6"],
+    names: Sequence[str],
+    values: Float[np.ndarray, "t n"],
     time: Float[np.ndarray, " t"],
     sitting: Float[np.ndarray, " s"],
     what: str,
     decimals: int,
 ) -> str:
     """In degrees; before seat-off the posture, or no rate."""
-    factors = np.where(TURNING, np.degrees(1.0), 1.0)
+    factors = np.r_[1.0, 1.0, np.full(len(names) - 2, np.degrees(1.0))]
     table = np.vstack([np.outer(sitting, values[0]), values]) * factors
-    columns = {"time": time} | dict(zip(COORDINATES, table.T, strict=True))
+    columns = {"time": time} | dict(zip(names, table.T, strict=True))
     return _storage(f"synthetic {trial.name} {what}", columns, decimals, "yes")
 
 
