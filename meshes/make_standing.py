@@ -10,16 +10,20 @@ from pathlib import Path
 from geocontact.analyses.sit_to_stand.synthetic_files import synthetic_files
 from geocontact.standing_up.synthetic_study import synthetic_study
 
-FOLDERS = {"standing_up": False, "standing_up_exoskeleton": True}
-"""Whether an exoskeleton is worn, by folder."""
+FOLDERS = {
+    "standing_up": {},
+    "standing_up_exoskeleton": {"exoskeleton": True},
+    "standing_up_held_out": {"exoskeleton": True, "held_out": True, "seed": 35},
+}
+"""What is made, by folder."""
 
 
 def standing_files() -> dict[str, bytes]:
     """The studies, by name."""
     return {
         f"{folder}/{name}": text.encode("ascii")
-        for folder, worn in FOLDERS.items()
-        for name, text in synthetic_files(synthetic_study(exoskeleton=worn)).items()
+        for folder, what in FOLDERS.items()
+        for name, text in synthetic_files(synthetic_study(**what)).items()
     }
 
 

@@ -27,6 +27,7 @@ FOLDER_KINDS = {
     "T1": "recording",
     "T2": "recording",
     "T3": "recording",
+    "P1": "recording",
 }
 """By suffix; in the folder of a mat's recording or of a trial by the first word of the name."""
 FOLDERS = ("mat_*", "gait_*", "overhead_*", "standing_up*")

@@ -99,11 +99,11 @@ def contact_numbers(
         verdict: Told = "known" if sd[k] <= HALF * each.sd else "believed"
         verdict = "held" if not sought[k] else "on its bound" if on_bound[k] else verdict
         told = verdict in ("known", "believed")
-        ends = [each.value(best[k] + side * reach * sd[k]) if told else np.nan for side in (-1.0, 1.0)]
+        low_end, high_end = (each.value(best[k] + s * reach * sd[k]) if told else float("nan") for s in (-1.0, 1.0))
         after = {"held": 0.0, "on its bound": np.inf}.get(verdict, float(sd[k]))
         before = each.sd if sought[k] else 0.0
         value = each.value(float(best[k]))
-        numbers.append(ContactNumber(each.name, each.unit, value, *ends, before, after, verdict))
+        numbers.append(ContactNumber(each.name, each.unit, value, low_end, high_end, before, after, verdict))
     kept = np.flatnonzero(sought & ~on_bound)
     return _together(tuple(numbers), [phase.parameters[k] for k in kept], covariance[np.ix_(kept, kept)])
 

@@ -62,13 +62,14 @@ class Strap:
         On the person's thigh and against it on the exoskeleton's.
     normal
         Force of one strap on the person across the thigh, forwards positive [N].
-    energy
-        Of the springs of both, without the normal one, which a mat sees [J].
+    energy, normal_energy
+        Of the springs of both, without the normal one, which a mat sees, and of that one [J].
     """
 
     loads: Wrenches
     normal: SX
     energy: SX
+    normal_energy: SX
 
 
 def two_chains(subject: Subject) -> Multibody:
@@ -105,7 +106,15 @@ def with_exoskeleton(subject: Subject) -> StandingModel:
     equations = equations_of_motion(tree, loads=loads, along=along, inputs=[torque], parameters=[p])
     force, moment = ground["foot"]
     parameters = (*FOOT_PARAMETERS, *STRAP_PARAMETERS)
-    return StandingModel(equations, parameters, force[:2, :], moment[2] / force[1], strap.normal, strap.energy)
+    return StandingModel(
+        equations,
+        parameters,
+        force[:2, :],
+        moment[2] / force[1],
+        strap.normal,
+        strap.energy,
+        strap.normal_energy,
+    )
 
 
 def thigh_strap(tree: Tree, p: SX) -> Strap:
@@ -132,15 +141,16 @@ def thigh_strap(tree: Tree, p: SX) -> Strap:
     moment = LEGS * vertcat(0.0, 0.0, bushing_force(turn, turn_rate, turning, TURNING_DAMPING))
     about = cross(device.place + other, force) + moment
     energy = 0.5 * LEGS * (tangential * off[1] ** 2 + turning * turn**2)
-    return Strap({"thigh": (force, about), "exo_thigh": (-force, -about)}, across, energy)
+    loads = {"thigh": (force, about), "exo_thigh": (-force, -about)}
+    return Strap(loads, across, energy, 0.5 * LEGS * normal * off[0] ** 2)
 
 
 def _turn_between(tree: Tree) -> tuple[SX, SX]:
     """How far the exoskeleton's thigh is turned against the person's [rad], and its rate: sums along both chains."""
     at = {name: k for k, name in enumerate(tree.names)}
     person, device = ("ankle", "knee"), EXO_JOINTS[:2]
-    turn, rate = (
-        sum(values[at[name]] for name in device) - sum(values[at[name]] for name in person)
-        for values in (tree.q, tree.u)
-    )
-    return turn, rate
+
+    def between(values: SX) -> SX:
+        return values[at[device[0]]] + values[at[device[1]]] - values[at[person[0]]] - values[at[person[1]]]
+
+    return between(tree.q), between(tree.u)

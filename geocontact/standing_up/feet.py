@@ -54,7 +54,7 @@ def feet_on_ground(subject: Subject) -> StandingModel:
     if equations.names != COORDINATES:
         raise ValueError(f"coordinates are {equations.names}")
     force, moment = loads["foot"]
-    return StandingModel(equations, FOOT_PARAMETERS, force[:2, :], moment[2] / force[1], SX(0, 1), SX(0))
+    return StandingModel(equations, FOOT_PARAMETERS, force[:2, :], moment[2] / force[1], SX(0, 1), SX(0), SX(0))
 
 
 def ground_on_feet(tree: Tree, p: SX) -> Wrenches:

@@ -70,6 +70,7 @@ def standing_phase(
     small: Mapping[str, SX],
     held: Float[np.ndarray, " p"] | None = None,
     start: Float[np.ndarray, " p"] | None = None,
+    guess: Sequence[Course] | None = None,
 ) -> PhaseProblem:
     """The problem of all trials at once.
 
@@ -83,6 +84,8 @@ def standing_phase(
         Further integrands, by name.
     start
         Where the search of the parameters starts, unless at `first_fit`.
+    guess
+        Coordinates where the search of each motion starts, from its own start on; the recorded ones unless given.
     """
     from casadi import SX, sumsqr
 
@@ -118,12 +121,12 @@ def standing_phase(
     if held is not None:
         fixed = np.array([each.name not in free for each in model.parameters])
         low, high = np.where(fixed, held, low), np.where(fixed, held, high)
-    smooth = [_smooth(trial) for trial in trials]
+    smooth = [smooth_coordinates(trial) for trial in trials]
     begin = first_fit(model, trials, smooth, free, tracks, held) if start is None else start
     begin = np.clip(begin, low, high)
     made = tuple(
         standing_trial(trial.name, float(np.ptp(trial.time)), model, begin, course, _data(trial, tracks))
-        for trial, course in zip(trials, smooth, strict=True)
+        for trial, course in zip(trials, guess or smooth, strict=True)
     )
     control = ControlProblem(system, made, (low, high), begin, *problem_scales(subject, n))
     return PhaseProblem(control, terms, model.parameters, tuple(free))
@@ -150,15 +153,15 @@ def _data(trial: StandingTrial, tracks: Sequence[str]) -> Course:
         "torque": trial.torque,
         "strap": trial.strap,
     }
-    columns = [channels[name] for name in tracks]
-    if any(each is None for each in columns):
+    columns = [each for name in tracks if (each := channels[name]) is not None]
+    if len(columns) < len(tracks):
         raise ValueError(f"{trial.name} lacks a channel of {', '.join(tracks)}")
     course = CubicSpline(trial.time - trial.time[0], np.column_stack(columns))
     share = trial.rate / RATE
     return lambda time: np.column_stack([course(time), np.full(len(time), share)])
 
 
-def _smooth(trial: StandingTrial) -> Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, "t n"]]:
+def smooth_coordinates(trial: StandingTrial) -> Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, "t n"]]:
     """Polynomials of degree 7 through the coordinates: where the search starts, accelerations must not be noise."""
     fits = [Polynomial.fit(trial.time - trial.time[0], q, 7) for q in trial.q.T]
 

@@ -27,8 +27,8 @@ class StandingModel:
         Of the ground on both feet, forwards and up [N], (2, 1), and its centre of pressure, forwards [m].
     strap
         Normal force of the strap of one leg on the person [N]; no entry without an exoskeleton.
-    energy
-        Of those components of the strap that no mat sees [J].
+    energy, normal_energy
+        Of those components of the straps that no mat sees, and of the normal one [J].
     """
 
     equations: Equations
@@ -37,6 +37,7 @@ class StandingModel:
     centre: SX
     strap: SX
     energy: SX
+    normal_energy: SX
 
     @property
     def count(self) -> int:

@@ -29,7 +29,7 @@ COARSE = 10
 MOST_TORQUE = 1000.0
 """Of both legs [N m]."""
 UNPOWERED = 1e-3
-"""Weight of the exoskeleton's torques [1/(N m)^2], so that straps carry it where they can."""
+"""Weight of the exoskeleton's torques beyond its assistance [1/(N m)^2]: straps carry it where they can."""
 N = len(COORDINATES)
 
 
@@ -104,15 +104,20 @@ def standing_up(
     seconds: float = 1.5,
     seated: Float[np.ndarray, " 3"] = SEATED,
     planted: Float[np.ndarray, " p"] = PLANTED,
+    assistance: float = 0.0,
     intervals: int = 50,
 ) -> tuple[ControlProblem, CollocationResult]:
-    """The motion with planted parameters closest to `rising`, with little jerk and torque; an exoskeleton along."""
+    """The motion with planted parameters closest to `rising`, with little jerk and torque; an exoskeleton along.
+
+    `assistance` is what the exoskeleton's torques are to be of the person's.
+    """
     from casadi import SX, sumsqr
 
     n, e = model.count, model.equations
     wanted, jerk = SX.sym("wanted", n), SX.sym("jerk", n)
     off = (e.q - wanted) / model.per_coordinate(0.01, np.radians(2.0))
-    cost = sumsqr(off) + 1e-5 * sumsqr(jerk) + 1e-6 * sumsqr(e.w) + UNPOWERED * sumsqr(e.w[3:, :])
+    extra = e.w[3:, :] - assistance * e.w[:3, :] if n > N else SX(0)
+    cost = sumsqr(off) + 1e-5 * sumsqr(jerk) + 1e-6 * sumsqr(e.w) + UNPOWERED * sumsqr(extra)
     system = jerk_controlled(
         e,
         controlled=range(n - 3),

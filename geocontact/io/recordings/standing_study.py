@@ -164,13 +164,13 @@ def _trial(path: Path, number: int, told: Any) -> StandingTrialFiles:
     coordinates, *files = (_file(path, f"{place} {key}", told.get(key)) for key in FILES)
     if coordinates is None:
         raise InputError(path, place, "no coordinates", "name the file of angles and the foot's place")
-    plates = {key: None if told.get(key) is None else str(told[key]) for key in ("feet", "chair")}
-    times = {key: _time(path, place, told, key) for key in ("start", "end")}
+    feet, chair = (None if told.get(key) is None else str(told[key]) for key in ("feet", "chair"))
+    start, end = (_time(path, place, told, key) for key in ("start", "end"))
     name = str(told.get("name", f"T{number}"))
     if not NAME.fullmatch(name):
         raise InputError(path, place, f"name {name!r} cannot be that of a file", "write letters, digits, - and _")
     rates, forces, torques, strap = files
-    return StandingTrialFiles(name, coordinates, rates, forces, torques, strap, *plates.values(), *times.values())
+    return StandingTrialFiles(name, coordinates, rates, forces, torques, strap, feet, chair, start, end)
 
 
 def _time(path: Path, place: str, told: Mapping[str, Any], key: str) -> float | None:

@@ -6,30 +6,25 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
 import pandas as pd
-from jaxtyping import Float
 
 from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.result import Result
-from geocontact.analyses.sit_to_stand.calibrate.figure import standing_figure
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
 from geocontact.analyses.sit_to_stand.calibrate.page import write_standing_page
-from geocontact.analyses.sit_to_stand.calibrate.read import StandingTrials
 from geocontact.analyses.sit_to_stand.calibrate.tables import (
     certificate_table,
     correlation_table,
-    errors_table,
     parameters_table,
-    trial_table,
 )
+from geocontact.analyses.sit_to_stand.solution_file import write_solution
+from geocontact.analyses.sit_to_stand.standing_figure import standing_figure
+from geocontact.analyses.sit_to_stand.standing_tables import errors_table, trial_table
+from geocontact.analyses.sit_to_stand.standing_trials import StandingTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import CollocationResult
-from geocontact.io.opensim.moco_trajectory_writer import write_moco_trajectory
 from geocontact.io.text.results import write_table
 from geocontact.standing_up.calibrated_phase import CalibratedPhase
-from geocontact.standing_up.chain import COORDINATES
-from geocontact.standing_up.exoskeleton import EXO_JOINTS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -96,17 +91,3 @@ class StandingCalibrateResult(Result):
     def write_page(self, file: Path) -> None:
         """Moving chains with forces, curves, parameters, inputs."""
         write_standing_page(file, self.record, self.given, self.trials, self.tables())
-
-
-def write_solution(file: Path, trial: TrialResult, solved: bool) -> None:
-    """The motion as OpenSim's Moco reads it; torques are those of both legs [N m]."""
-    q, u = trial.model.q, trial.model.u
-    names = (*COORDINATES, *(EXO_JOINTS if q.shape[1] > len(COORDINATES) else ()))
-
-    def paths(ending: str, values: Float[np.ndarray, "t n"]) -> dict[str, Float[np.ndarray, " t"]]:
-        return {f"/jointset/{name}/{name}/{ending}": values[:, k] for k, name in enumerate(names)}
-
-    states = paths("value", q) | paths("speed", u)
-    torque = np.zeros((len(q), 0)) if trial.model.torque is None else trial.model.torque
-    controls = {f"/forceset/{name}_torque": column for name, column in zip(names[3:], torque.T, strict=True)}
-    write_moco_trajectory(file, trial.recorded.time, states, controls, paths("accel", trial.acceleration), solved)

@@ -10,8 +10,8 @@ from jaxtyping import Float
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
-from geocontact.analyses.sit_to_stand.calibrate.read import StandingTrials
 from geocontact.analyses.sit_to_stand.calibrate.result import StandingCalibrateResult
+from geocontact.analyses.sit_to_stand.standing_trials import StandingTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.calibrated_phase import SAME, CalibratedPhase, PhaseSearch, calibrated_phase
