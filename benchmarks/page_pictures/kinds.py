@@ -30,6 +30,7 @@ KINDS = {
     "prosthesis_scale": "prosthesis_scale",
     "markers": "markers",
     "standing": "standing_calibrate",
+    "standing_predict": "standing_predict",
     "gather": "gap_gather_knee",
     "gap": "gap_diagnose",
     "confuse": "gap_confuse",

@@ -1,8 +1,8 @@
 """Phase C: motion and strap force of a trial that was not used, with all parameters held.
 
-Tracks ground reaction force, centre of pressure and torques; jerk and the squared energy of the whole strap are kept small
-(Table I of the study). Coordinates and strap are not seen: only the first and the last state are given, within what a
-sample is off. The search starts on a rise of least jerk between the two, not on the recorded motion.
+Tracks ground reaction force, centre of pressure and torques; jerk and the squared energy of the whole strap are kept
+small (Table I of the study). Coordinates and strap are not seen: only the first and the last state are given, within
+what a sample is off. The search starts on a rise of least jerk between the two, not on the recorded motion.
 """
 
 from __future__ import annotations

@@ -24,18 +24,14 @@ def test_strap_force_is_the_derivative_of_its_energy(monkeypatch: pytest.MonkeyP
     e = model.equations
     energy = model.energy + model.normal_energy
     normal = model.strap**2 / (2.0 * STRAP_PARAMETERS[0].usual * np.exp(STRAP_PLANTED[0]))
-    both = Function(
-        "both",
-        [e.q, e.u, e.a, e.w, e.p],
-        [e.balance, gradient(energy, e.q), energy, LEGS * normal, model.normal_energy],
-    )
+    outputs = [e.balance, gradient(energy, e.q), energy, LEGS * normal, model.normal_energy]
+    both = Function("both", [e.q, e.u, e.a, e.w, e.p], outputs)
     still = np.zeros(9)
     soft = P.copy()
     soft[7:10] = -40.0
-    with_strap, slope, stored, of_one_leg, of_both = (
-        each.full().ravel() for each in both(HIGH, still, still, np.zeros(6), P)
-    )
-    without, _, none, _, _ = (each.full().ravel() for each in both(HIGH, still, still, np.zeros(6), soft))
+    at = (HIGH, still, still, np.zeros(6))
+    with_strap, slope, stored, of_one_leg, of_both = (each.full().ravel() for each in both(*at, P))
+    without, _, none, _, _ = (each.full().ravel() for each in both(*at, soft))
     assert stored[0] > 0.1 and none[0] < 1e-12
     np.testing.assert_allclose(of_one_leg, of_both, rtol=1e-12)
     np.testing.assert_allclose(with_strap - without, -slope, rtol=1e-9, atol=1e-9)
