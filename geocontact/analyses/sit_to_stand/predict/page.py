@@ -13,7 +13,7 @@ from geocontact.analyses.figure_files import drawing
 from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.sit_to_stand.predict.read import HeldOut
+from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
 from geocontact.analyses.sit_to_stand.standing_scene import FRAMES, standing_curves, standing_scene
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.view.page.content import Page, Picture, Section, Words
@@ -35,7 +35,7 @@ MODEL = [
 def write_prediction_page(
     path: Path,
     record: Record,
-    given: HeldOut,
+    given: HeldOutTrials,
     trials: Sequence[TrialResult],
     figure: Figure,
     tables: Mapping[str, pd.DataFrame],

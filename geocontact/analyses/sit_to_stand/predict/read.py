@@ -20,7 +20,7 @@ EVERY: tuple[ContactParameter, ...] = (*FOOT_PARAMETERS, *STRAP_PARAMETERS)
 
 
 @dataclass(frozen=True, eq=False)
-class HeldOut:
+class HeldOutTrials:
     """Trials to predict.
 
     Parameters
@@ -36,7 +36,7 @@ class HeldOut:
     known: StandingTrials
 
 
-def read(o: StandingPredictOptions, record: Record) -> HeldOut:
+def read(o: StandingPredictOptions, record: Record) -> HeldOutTrials:
     """Everything the options name; InputError where trials are not of one model."""
     trials, known = standing_trials(o.study, "study", record), standing_trials(o.against, "`against`", record)
     for file, study in ((o.study, trials), (o.against, known)):
@@ -47,4 +47,4 @@ def read(o: StandingPredictOptions, record: Record) -> HeldOut:
         raise InputError(o.study, "mass", "is another person's than the calibration's", "predict trials of one person")
     values = read_contact_parameters(o.parameters, {each.name: each.unit for each in EVERY})
     record.add_input("`parameters`", o.parameters, parameters=len(values))
-    return HeldOut(trials, searched(EVERY, [values[each.name] for each in EVERY]), known)
+    return HeldOutTrials(trials, searched(EVERY, [values[each.name] for each in EVERY]), known)

@@ -15,7 +15,7 @@ from geocontact.analyses.result import Result
 from geocontact.analyses.sit_to_stand.predict.figure import strap_figure
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.page import write_prediction_page
-from geocontact.analyses.sit_to_stand.predict.read import HeldOut
+from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
 from geocontact.analyses.sit_to_stand.solution_file import write_solution
 from geocontact.analyses.sit_to_stand.standing_tables import certificate_rows, errors_table, trial_table
 from geocontact.analyses.sit_to_stand.trial_result import DEGREE, TrialResult
@@ -32,7 +32,7 @@ COMPARED = ("coordinates", "force", "centre", "torque", "strap")
 
 
 @dataclass(frozen=True, eq=False)
-class Prediction:
+class PredictedTrial:
     """One trial by one predictor.
 
     Parameters
@@ -66,8 +66,8 @@ class StandingPredictResult(Result):
     """
 
     options: StandingPredictOptions
-    given: HeldOut
-    predictions: tuple[Prediction, ...]
+    given: HeldOutTrials
+    predictions: tuple[PredictedTrial, ...]
     means: Mapping[str, MeanTrial]
 
     @property

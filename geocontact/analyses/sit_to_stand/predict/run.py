@@ -9,8 +9,8 @@ import numpy as np
 from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
-from geocontact.analyses.sit_to_stand.predict.read import HeldOut
-from geocontact.analyses.sit_to_stand.predict.result import ALL, Prediction, StandingPredictResult
+from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
+from geocontact.analyses.sit_to_stand.predict.result import ALL, PredictedTrial, StandingPredictResult
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import SolverOptions, solve
 from geocontact.standing_up.exoskeleton import with_exoskeleton
@@ -28,7 +28,7 @@ GIVEN: dict[str, tuple[str, ...]] = {
 """Channels by what the predictor is called."""
 
 
-def run(given: HeldOut, o: StandingPredictOptions, record: Record) -> StandingPredictResult:
+def run(given: HeldOutTrials, o: StandingPredictOptions, record: Record) -> StandingPredictResult:
     """Every trial by every predictor."""
     model = with_exoskeleton(given.trials.subject)
     predictions = []
@@ -51,12 +51,12 @@ def run(given: HeldOut, o: StandingPredictOptions, record: Record) -> StandingPr
 
 def _predicted(
     model: StandingModel,
-    given: HeldOut,
+    given: HeldOutTrials,
     trial: StandingTrial,
     predictor: tuple[str, tuple[str, ...]],
     o: StandingPredictOptions,
     stage: Callable[[str], None],
-) -> Prediction:
+) -> PredictedTrial:
     name, tracks = predictor
     phase = phase_c(model, given.trials.subject, trial, given.trials.noise, given.p, tracks=tracks)
     options = SolverOptions("radau", o.degree, 1, TOLERANCE, o.iterations, o.time_limit)
@@ -75,7 +75,7 @@ def _predicted(
         acceleration=motion.state(trial.time)[:, 2 * n : 3 * n],
         judged=seen,
     )
-    return Prediction(name, result, found.solved, found.ending, found.iterations, found.seconds)
+    return PredictedTrial(name, result, found.solved, found.ending, found.iterations, found.seconds)
 
 
 def _say(r: StandingPredictResult) -> None:
