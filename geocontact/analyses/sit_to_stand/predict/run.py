@@ -13,6 +13,7 @@ from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
 from geocontact.analyses.sit_to_stand.predict.result import ALL, PredictedTrial, StandingPredictResult
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import SolverOptions, solve
+from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.exoskeleton import with_exoskeleton
 from geocontact.standing_up.judged import judged
 from geocontact.standing_up.phase_c import TRACKS_C, mean_trial, phase_c
@@ -81,10 +82,11 @@ def _predicted(
 def _say(r: StandingPredictResult) -> None:
     record, errors = r.record, r.errors
     strap = errors[errors["quantity"] == "strap"].groupby("predictor", sort=False)["rmsd"].max()
-    angles = errors[errors["unit"] == "deg"].groupby("predictor", sort=False)["rmsd"].max()
+    turning = errors["quantity"].isin(COORDINATES) & (errors["unit"] == "deg")
+    angles = errors[turning].groupby("predictor", sort=False)["rmsd"].max()
     record.say(
-        f"{counted(len(r.given.trials.trials), 'trial')} predicted: strap within {strap[ALL]:.1f} N, angles within "
-        f"{angles[ALL]:.2f}° (largest RMSD)"
+        f"{counted(len(r.given.trials.trials), 'trial')} predicted: strap within {strap[ALL]:.1f} N, the person's "
+        f"angles within {angles[ALL]:.2f}° (largest RMSD)"
     )
     others = [f"{name} {strap[name]:.1f} N and {angles[name]:.2f}°" for name in strap.index if name != ALL]
     record.say(f"beside it: {'; '.join(others)}")
@@ -93,7 +95,7 @@ def _say(r: StandingPredictResult) -> None:
     record.say(f"{passed} of {counted(len(seen), 'motion')} certified")
     record.results["predict"] = {
         "strap_rmsd_N": {str(name): float(value) for name, value in strap.items()},
-        "angle_rmsd_deg": {str(name): float(value) for name, value in angles.items()},
+        "person_angle_rmsd_deg": {str(name): float(value) for name, value in angles.items()},
         "cpu_seconds": [round(one.seconds, 3) for one in r.predictions],
         "iterations": [one.iterations for one in r.predictions],
     }
