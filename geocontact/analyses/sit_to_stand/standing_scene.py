@@ -36,8 +36,17 @@ DIRECTIONS = {
 
 def standing_scene(subject: Subject, trials: Sequence[TrialResult]) -> Scene:
     """All trials side by side, each over its own time."""
-    lines = [line for k, trial in enumerate(trials) for line in _lines(subject, trial, k, len(trials))]
+    each = [_lines(subject, trial, k, len(trials)) for k, trial in enumerate(trials)]
+    lines = [_as_one(alike) for alike in zip(*each, strict=True)]
     return Scene(directions=DIRECTIONS, up=(0.0, 1.0, 0.0), view=(0.5, 0.25, 1.0), linkages=lines)
+
+
+def _as_one(alike: Sequence[Linkage]) -> Linkage:
+    """The same of all trials: one entry of the legend."""
+    first = np.cumsum([0, *(one.points.shape[1] for one in alike[:-1])])
+    points = np.concatenate([one.points for one in alike], axis=1)
+    lines = np.concatenate([one.lines + k for one, k in zip(alike, first, strict=True)])
+    return Linkage(alike[0].name, points, lines, alike[0].tone, alike[0].radius, alike[0].width)
 
 
 def at_parts(trial: TrialResult, values: Float[np.ndarray, "t ..."]) -> Float[np.ndarray, "f ..."]:
@@ -63,7 +72,7 @@ def _lines(subject: Subject, trial: TrialResult, number: int, count: int) -> lis
     centre[:, 0] = at_parts(trial, trial.model.centre)
     end = centre.copy()
     end[:, :2] += METRES_PER_NEWTON * at_parts(trial, trial.model.force)
-    name, arrow = trial.recorded.name, np.stack([centre, end], axis=1) + aside
+    arrow = np.stack([centre, end], axis=1) + aside
     edge = np.array([[-0.3, 0.0, -0.2], [-0.3, 0.0, 0.2], [0.5, 0.0, 0.2], [0.5, 0.0, -0.2]]) + aside
     loop = np.array([(0, 1), (1, 2), (2, 3), (3, 0)])
     device = []
@@ -72,26 +81,26 @@ def _lines(subject: Subject, trial: TrialResult, number: int, count: int) -> lis
         end_of = poses["exo_module"].apply(np.array([0.0, HEIGHT, 0.0]))
         points = np.stack([*hinges, end_of], axis=1) + aside + OUTSIDE
         device = [
-            Linkage(f"{name}: exoskeleton", points, _open(4), "model", JOINT, LIMB),
-            _strap(trial, poses["thigh"], aside, name),
+            Linkage("exoskeleton", points, _open(4), "model", JOINT, LIMB),
+            _strap(trial, poses["thigh"], aside),
         ]
     return [
         *device,
-        Linkage(f"{name}: shank, thigh, trunk", body + aside, _open(4), "bone", JOINT, LIMB),
-        Linkage(f"{name}: foot", foot + aside, np.array([(0, 1), (1, 2), (0, 2)]), "bone", 0.0, 0.6 * LIMB),
-        Linkage(f"{name}: force on both feet, 0.6 m for 1 kN", arrow, _open(2), "force", 0.0, ARROW),
-        Linkage(f"{name}: floor", edge[None].repeat(FRAMES, axis=0), loop, "floor", 0.0, 0.5 * ARROW),
+        Linkage("shank, thigh, trunk", body + aside, _open(4), "bone", JOINT, LIMB),
+        Linkage("foot", foot + aside, np.array([(0, 1), (1, 2), (0, 2)]), "bone", 0.0, 0.6 * LIMB),
+        Linkage("force on both feet, 0.6 m for 1 kN", arrow, _open(2), "force", 0.0, ARROW),
+        Linkage("floor", edge[None].repeat(FRAMES, axis=0), loop, "floor", 0.0, 0.5 * ARROW),
     ]
 
 
-def _strap(trial: TrialResult, thigh: RigidTransform, aside: Float[np.ndarray, " 3"], name: str) -> Linkage:
+def _strap(trial: TrialResult, thigh: RigidTransform, aside: Float[np.ndarray, " 3"]) -> Linkage:
     """Normal force of one leg's strap on the person, at the usual place."""
     strap = np.zeros(len(trial.recorded.time)) if trial.model.strap is None else trial.model.strap
     at = thigh.apply(np.array([0.0, STRAP_PARAMETERS[-1].usual, 0.0]))
     across = thigh.rotation.apply(np.array([1.0, 0.0, 0.0]))
     end = at + METRES_PER_STRAP_NEWTON * at_parts(trial, strap)[:, None] * across
     points = np.stack([at, end], axis=1) + aside + OUTSIDE
-    return Linkage(f"{name}: normal force of one strap, 0.5 m for 100 N", points, _open(2), "force", 0.0, ARROW)
+    return Linkage("normal force of one strap, 0.5 m for 100 N", points, _open(2), "force", 0.0, ARROW)
 
 
 def _open(points: int) -> Int[np.ndarray, "k 2"]:
