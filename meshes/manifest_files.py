@@ -22,6 +22,7 @@ FOLDER_KINDS = {
     "tool": "recording",
     "standing": "markers",
     "walking": "markers",
+    "functional": "markers",
     "plates": "recording",
     "study": "study",
     "T1": "recording",
@@ -30,7 +31,7 @@ FOLDER_KINDS = {
     "P1": "recording",
 }
 """By suffix; in the folder of a mat's recording or of a trial by the first word of the name."""
-FOLDERS = ("mat_*", "gait_*", "overhead_*", "standing_up*")
+FOLDERS = ("mat_*", "amputee_*", "gait_*", "overhead_*", "standing_up*")
 """Of recordings and trials, in the order of the manifest."""
 
 
