@@ -18,7 +18,7 @@ from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
 
 @dataclass(frozen=True, eq=False)
-class StandingTrials:
+class StandingUpTrials:
     """Trials of one person.
 
     Parameters
@@ -37,7 +37,7 @@ class StandingTrials:
     tracks: tuple[str, ...]
 
 
-def standing_trials(file: Path, role: str, record: Record) -> StandingTrials:
+def standing_trials(file: Path, role: str, record: Record) -> StandingUpTrials:
     """Everything in the study."""
     study = read_standing_study(file)
     record.add_input(role, file, trials=len(study.trials))
@@ -51,7 +51,7 @@ def standing_trials(file: Path, role: str, record: Record) -> StandingTrials:
         raise InputError(file, "tracks", "strap is not among them", "add it, or leave out exoskeleton = true")
     chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
     trials = tuple(channels_of(each, chain, tracks, file, record) for each in study.trials)
-    return StandingTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks)
+    return StandingUpTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks)
 
 
 def _known(

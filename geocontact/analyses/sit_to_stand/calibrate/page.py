@@ -12,7 +12,7 @@ from geocontact.analyses.options_table import options_table
 from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.standing_scene import FRAMES, standing_curves, standing_scene
-from geocontact.analyses.sit_to_stand.standing_trials import StandingTrials
+from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.tables import frame_table, inputs_table
@@ -35,7 +35,7 @@ MODEL = [
 def write_standing_page(
     path: Path,
     record: Record,
-    given: StandingTrials,
+    given: StandingUpTrials,
     trials: Sequence[TrialResult],
     tables: Mapping[str, pd.DataFrame],
 ) -> int:

@@ -20,7 +20,7 @@ from geocontact.analyses.sit_to_stand.calibrate.tables import (
 from geocontact.analyses.sit_to_stand.solution_file import write_solution
 from geocontact.analyses.sit_to_stand.standing_figure import standing_figure
 from geocontact.analyses.sit_to_stand.standing_tables import errors_table, trial_table
-from geocontact.analyses.sit_to_stand.standing_trials import StandingTrials
+from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import CollocationResult
 from geocontact.io.text.results import write_table
@@ -43,7 +43,7 @@ class StandingCalibrateResult(Result):
     """
 
     options: StandingCalibrateOptions
-    given: StandingTrials
+    given: StandingUpTrials
     phases: tuple[CalibratedPhase, ...]
     trials: tuple[TrialResult, ...]
 

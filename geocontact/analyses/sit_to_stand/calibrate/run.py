@@ -11,7 +11,7 @@ from geocontact.analyses.page_words import counted
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
 from geocontact.analyses.sit_to_stand.calibrate.result import StandingCalibrateResult
-from geocontact.analyses.sit_to_stand.standing_trials import StandingTrials
+from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.calibrated_phase import SAME, CalibratedPhase, PhaseSearch, calibrated_phase
@@ -27,7 +27,7 @@ TOLERANCE = 1e-7
 Start = Float[np.ndarray, " p"] | None
 
 
-def run(given: StandingTrials, o: StandingCalibrateOptions, record: Record) -> StandingCalibrateResult:
+def run(given: StandingUpTrials, o: StandingCalibrateOptions, record: Record) -> StandingCalibrateResult:
     """Parameters and motions of all trials."""
     with record.listener.stages("calibrating") as stage:
         phases = _phases(given, o, stage)
@@ -50,7 +50,7 @@ def run(given: StandingTrials, o: StandingCalibrateOptions, record: Record) -> S
 
 
 def _phases(
-    given: StandingTrials, o: StandingCalibrateOptions, stage: Callable[[str], None]
+    given: StandingUpTrials, o: StandingCalibrateOptions, stage: Callable[[str], None]
 ) -> tuple[CalibratedPhase, ...]:
     """A, and with an exoskeleton B on what A found; only A where its search has no answer."""
     options = SolverOptions("radau", o.degree, 1, TOLERANCE, o.iterations, o.time_limit)

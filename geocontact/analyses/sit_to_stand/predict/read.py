@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
-from geocontact.analyses.sit_to_stand.standing_trials import StandingTrials, standing_trials
+from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.contact_parameters import read_contact_parameters
 from geocontact.standing_up.contact_parameter import ContactParameter, searched
@@ -31,9 +31,9 @@ class HeldOutTrials:
         Trials of the calibration.
     """
 
-    trials: StandingTrials
+    trials: StandingUpTrials
     p: Float[np.ndarray, " p"]
-    known: StandingTrials
+    known: StandingUpTrials
 
 
 def read(o: StandingPredictOptions, record: Record) -> HeldOutTrials:
