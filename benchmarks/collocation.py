@@ -70,16 +70,16 @@ def phase_a_of_one_trial(intervals: int) -> dict[str, Any]:
     from geocontact.dynamics.collocation.resimulation import resimulation
     from geocontact.dynamics.collocation.solve import SolverOptions, solve
     from geocontact.dynamics.simulate import Stepper
-    from geocontact.sit_to_stand.chain import TURNING, Subject
-    from geocontact.sit_to_stand.feet import PARAMETERS, PLANTED, feet_on_ground
-    from geocontact.sit_to_stand.phase_a import phase_a
-    from geocontact.sit_to_stand.trials import StandingNoise, recorded, standing_up
+    from geocontact.standing_up.chain import TURNING, Subject
+    from geocontact.standing_up.feet import LAW, PLANTED, feet_on_ground
+    from geocontact.standing_up.phase_a import phase_a
+    from geocontact.standing_up.trials import StandingNoise, recorded, standing_up
 
     subject, noise = Subject(), StandingNoise()
     feet = feet_on_ground(subject)
     _, truth = standing_up(feet, subject, intervals=intervals)
     trial = recorded(feet, truth.motions[0], truth.p, 100.0, noise, 34)
-    problem = phase_a(feet, subject, [trial], noise)
+    problem = phase_a(feet, subject, [trial], noise).control
     found = solve(problem, SolverOptions("radau", 4, intervals, 1e-7))
     began = time.process_time()
     again = resimulation(Stepper(feet.equations), found.motions[0], found.p, lambda t: np.zeros((len(t), 0)), range(3))
@@ -90,7 +90,7 @@ def phase_a_of_one_trial(intervals: int) -> dict[str, Any]:
         "cpu seconds": found.seconds,
         "iterations": found.iterations,
         "objective": found.objective,
-        "parameters": {n: {"planted": a, "found": b} for n, a, b in zip(PARAMETERS, PLANTED, found.p, strict=True)},
+        "parameters": {n: {"planted": a, "found": b} for n, a, b in zip(LAW, PLANTED, found.p, strict=False)},
         "certificate": vars(seen),
         "certificate cpu seconds": time.process_time() - began,
     }

@@ -20,7 +20,7 @@ from geocontact.data.version import VERSION
 
 if TYPE_CHECKING:
     from geocontact import chain
-    from geocontact.analyses import misalignment, prosthesis, shoulder
+    from geocontact.analyses import misalignment, prosthesis, shoulder, sit_to_stand
     from geocontact.analyses.area.job import area, pressure
     from geocontact.analyses.cop.job import centre_of_pressure
     from geocontact.analyses.gap.diagnose.job import diagnose
@@ -126,6 +126,7 @@ _ROOMS = {
     "misalignment": "analyses.misalignment",
     "prosthesis": "analyses.prosthesis",
     "shoulder": "analyses.shoulder",
+    "sit_to_stand": "analyses.sit_to_stand",
     "chain": "chain",
 }
 """Modules with names of their own."""
@@ -191,6 +192,7 @@ __all__ = [
     "settle",
     "shoulder",
     "simulator_base",
+    "sit_to_stand",
     "sweep",
     "system_of",
     "virtual_markers",

@@ -24,8 +24,15 @@ FOLDER_KINDS = {
     "walking": "markers",
     "functional": "markers",
     "plates": "recording",
+    "study": "study",
+    "T1": "recording",
+    "T2": "recording",
+    "T3": "recording",
+    "P1": "recording",
 }
 """By suffix; in the folder of a mat's recording or of a trial by the first word of the name."""
+FOLDERS = ("mat_*", "amputee_*", "gait_*", "overhead_*", "standing_up*")
+"""Of recordings and trials, in the order of the manifest."""
 
 
 def kind(name: PurePath) -> str:
@@ -36,8 +43,7 @@ def kind(name: PurePath) -> str:
 def data_files(folder: Path) -> list[Path]:
     """The files to describe: those in the folder itself, then the mats' recordings and the trials."""
     own = sorted(p for p in folder.iterdir() if p.suffix in KINDS)
-    folders = ("mat_*", "amputee_*", "gait_*", "overhead_*")
-    return [*own, *(path for each in folders for path in sorted(folder.glob(f"{each}/*")))]
+    return [*own, *(path for pattern in FOLDERS for path in sorted(folder.glob(f"{pattern}/*")))]
 
 
 def file_entry(path: Path, folder: Path) -> dict[str, object]:

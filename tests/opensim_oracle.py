@@ -244,3 +244,14 @@ def smooth_sphere(
         at = next(i for i, name in enumerate(named) if "sphere" in name and "force" in name)
         found[k] = [values.get(at), values.get(at + 1)]
     return found
+
+
+def moco_trajectory(file: str, states: Sequence[str], controls: Sequence[str]) -> tuple[list[str], np.ndarray]:
+    """Names of the states, and time with the named states and controls in columns, as `MocoTrajectory` reads a file."""
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    read = opensim.MocoTrajectory(file)
+    columns = [read.getTimeMat(), *(read.getStateMat(name) for name in states)]
+    columns += [read.getControlMat(name) for name in controls]
+    return list(read.getStateNames()), np.column_stack(columns)

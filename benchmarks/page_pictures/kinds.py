@@ -29,6 +29,8 @@ KINDS = {
     "scale": "scale",
     "prosthesis_scale": "prosthesis_scale",
     "markers": "markers",
+    "standing": "standing_calibrate",
+    "standing_predict": "standing_predict",
     "gather": "gap_gather_knee",
     "gap": "gap_diagnose",
     "confuse": "gap_confuse",

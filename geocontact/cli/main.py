@@ -45,6 +45,7 @@ app.command("geocontact.cli.prosthesis.group:prosthesis", name="prosthesis")
 app.command("geocontact.cli.rerun:rerun", name="rerun")
 app.command("geocontact.cli.scale:scale", name="scale")
 app.command("geocontact.cli.shoulder.group:shoulder", name="shoulder")
+app.command("geocontact.cli.sit_to_stand.group:sit_to_stand", name="sit-to-stand")
 app.command("geocontact.cli.view:view", name="view")
 app.register_install_completion_command(
     help="Let the shell complete commands, options and their choices (bash, zsh, fish, PowerShell)."

@@ -30,6 +30,8 @@ JOBS: tuple[Job, ...] = (
     gc.shoulder.compare,
     gc.shoulder.study,
     gc.shoulder.optimise,
+    gc.sit_to_stand.calibrate,
+    gc.sit_to_stand.predict,
     gc.diagnose,
     gc.discriminability,
     gc.inject,

@@ -10,7 +10,17 @@ from pathlib import Path
 
 from benchmarks.same_outputs.inputs import area, elbow, exports, foot, gap, gather, knee, leg, mats
 
-SHIPPED = ("*.stl", "*.csv", "*.mot", "*.osim", "mat_*/*", "overhead_*/*", "gait_P1_medium_1/*", "amputee_P1/*")
+SHIPPED = (
+    "*.stl",
+    "*.csv",
+    "*.mot",
+    "*.osim",
+    "mat_*/*",
+    "overhead_*/*",
+    "gait_P1_medium_1/*",
+    "amputee_P1/*",
+    "standing_up*/*",
+)
 
 
 def make(folder: Path, meshes: Path) -> None:

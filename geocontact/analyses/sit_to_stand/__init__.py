@@ -1,0 +1,16 @@
+"""Standing up from a chair: `gc.sit_to_stand.calibrate(...)`."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from geocontact.analyses.package_of_jobs import PackageOfJobs
+
+if TYPE_CHECKING:
+    from geocontact.analyses.sit_to_stand.calibrate.job import calibrate
+    from geocontact.analyses.sit_to_stand.predict.job import predict
+
+__all__ = ["calibrate", "predict"]
+
+sys.modules[__name__].__class__ = PackageOfJobs

@@ -1,0 +1,1 @@
+"""Contacts of a person who stands up, calibrated on trials."""

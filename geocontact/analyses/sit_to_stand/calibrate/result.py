@@ -1,0 +1,93 @@
+"""What a calibration gives: parameters with intervals, motions with certificates, channels over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.result import Result
+from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
+from geocontact.analyses.sit_to_stand.calibrate.page import write_standing_page
+from geocontact.analyses.sit_to_stand.calibrate.tables import (
+    certificate_table,
+    correlation_table,
+    parameters_table,
+)
+from geocontact.analyses.sit_to_stand.solution_file import write_solution
+from geocontact.analyses.sit_to_stand.standing_figure import standing_figure
+from geocontact.analyses.sit_to_stand.standing_tables import errors_table, trial_table
+from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
+from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+from geocontact.dynamics.collocation.solve import CollocationResult
+from geocontact.io.text.results import write_table
+from geocontact.standing_up.calibrated_phase import CalibratedPhase
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class StandingCalibrateResult(Result):
+    """Parameters of the contacts, and the motions of all trials with them.
+
+    Parameters
+    ----------
+    phases
+        A, and B where an exoskeleton was worn.
+    trials
+        Channels by the last of them.
+    """
+
+    options: StandingCalibrateOptions
+    given: StandingUpTrials
+    phases: tuple[CalibratedPhase, ...]
+    trials: tuple[TrialResult, ...]
+
+    @property
+    def found(self) -> CollocationResult:
+        """How the last search ended."""
+        return self.phases[-1].found
+
+    @property
+    def accepted(self) -> bool:
+        """Whether all phases were solved and every motion is certified."""
+        wanted = 2 if self.given.exoskeleton else 1
+        return len(self.phases) == wanted and all(phase.certified for phase in self.phases)
+
+    @property
+    def errors(self) -> pd.DataFrame:
+        """Root mean square difference of each channel of each trial."""
+        return errors_table(self.trials, self.given.noise, self.given.tracks)
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`parameters`, `errors`, `certificate`, `correlation`, and `trial_NAME` for each trial."""
+        noise, tracks = self.given.noise, self.given.tracks
+        own = {f"trial_{trial.recorded.name}": trial_table(trial, noise, tracks) for trial in self.trials}
+        return {
+            "parameters": parameters_table(self.phases),
+            "errors": self.errors,
+            "certificate": certificate_table(self.phases),
+            "correlation": correlation_table(self.phases),
+            **own,
+        }
+
+    def figure(self) -> Figure:
+        """Ground reaction and centre of pressure, measured and modelled."""
+        return standing_figure(self.trials)
+
+    def write_files(self, folder: Path) -> None:
+        """Tables, trajectories, figure, page."""
+        for name, rows in self.tables().items():
+            write_table(rows, folder, name)
+        for trial in self.trials:
+            write_solution(folder / f"solution_{trial.recorded.name}.sto", trial, self.found.solved)
+        save_both(self.figure(), folder, "standing_up")
+        self.write_page(folder / "report.html")
+
+    def write_page(self, file: Path) -> None:
+        """Moving chains with forces, curves, parameters, inputs."""
+        write_standing_page(file, self.record, self.given, self.trials, self.tables())

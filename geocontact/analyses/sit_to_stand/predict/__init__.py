@@ -1,0 +1,1 @@
+"""Trials of standing up that were not used, predicted with calibrated contacts."""

@@ -1,0 +1,50 @@
+"""What a prediction starts from: trials to predict, parameters, and the trials that they are from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
+from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials, standing_trials
+from geocontact.data.errors import InputError
+from geocontact.io.recordings.contact_parameters import read_contact_parameters
+from geocontact.standing_up.contact_parameter import ContactParameter, searched
+from geocontact.standing_up.exoskeleton import STRAP_PARAMETERS
+from geocontact.standing_up.feet import FOOT_PARAMETERS
+
+EVERY: tuple[ContactParameter, ...] = (*FOOT_PARAMETERS, *STRAP_PARAMETERS)
+
+
+@dataclass(frozen=True, eq=False)
+class HeldOutTrials:
+    """Trials to predict.
+
+    Parameters
+    ----------
+    p
+        What is searched of all parameters.
+    known
+        Trials of the calibration.
+    """
+
+    trials: StandingUpTrials
+    p: Float[np.ndarray, " p"]
+    known: StandingUpTrials
+
+
+def read(o: StandingPredictOptions, record: Record) -> HeldOutTrials:
+    """Everything the options name; InputError where trials are not of one model."""
+    trials, known = standing_trials(o.study, "study", record), standing_trials(o.against, "`against`", record)
+    for file, study in ((o.study, trials), (o.against, known)):
+        if not study.exoskeleton or not {"force", "centre", "torque", "strap"} <= set(study.tracks):
+            what = "is not of a person with an exoskeleton, with force, centre, torque and strap"
+            raise InputError(file, "", what, "write exoskeleton = true, and name torques and strap of each trial")
+    if trials.subject != known.subject:
+        raise InputError(o.study, "mass", "is another person's than the calibration's", "predict trials of one person")
+    values = read_contact_parameters(o.parameters, {each.name: each.unit for each in EVERY})
+    record.add_input("`parameters`", o.parameters, parameters=len(values))
+    return HeldOutTrials(trials, searched(EVERY, [values[each.name] for each in EVERY]), known)

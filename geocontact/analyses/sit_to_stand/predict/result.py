@@ -1,0 +1,143 @@
+"""What a prediction gives: motions beside the recorded ones, and how far each predictor is off."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.result import Result
+from geocontact.analyses.sit_to_stand.predict.figure import strap_figure
+from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
+from geocontact.analyses.sit_to_stand.predict.page import write_prediction_page
+from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
+from geocontact.analyses.sit_to_stand.solution_file import write_solution
+from geocontact.analyses.sit_to_stand.standing_tables import certificate_rows, errors_table, trial_table
+from geocontact.analyses.sit_to_stand.trial_result import DEGREE, TrialResult
+from geocontact.io.text.results import write_table
+from geocontact.standing_up.chain import COORDINATES
+from geocontact.standing_up.exoskeleton import EXO_JOINTS
+from geocontact.standing_up.phase_c import MeanTrial
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+ALL, MEAN = "all given", "mean of the calibration"
+COMPARED = ("coordinates", "force", "centre", "torque", "strap")
+
+
+@dataclass(frozen=True, eq=False)
+class PredictedTrial:
+    """One trial by one predictor.
+
+    Parameters
+    ----------
+    name
+        Of the predictor.
+    ending
+        How the search ended, in words.
+    seconds
+        CPU time.
+    """
+
+    name: str
+    trial: TrialResult
+    solved: bool
+    ending: str
+    iterations: int
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class StandingPredictResult(Result):
+    """Predicted motions.
+
+    Parameters
+    ----------
+    predictions
+        Trials outer, predictors inner.
+    means
+        The trivial predictor, by trial.
+    """
+
+    options: StandingPredictOptions
+    given: HeldOutTrials
+    predictions: tuple[PredictedTrial, ...]
+    means: Mapping[str, MeanTrial]
+
+    @property
+    def best(self) -> tuple[TrialResult, ...]:
+        """Trials by the predictor that is given everything."""
+        return tuple(one.trial for one in self.predictions if one.name == ALL)
+
+    @property
+    def accepted(self) -> bool:
+        """Whether every motion is certified."""
+        seen = [one.trial.judged.certificate for one in self.predictions]
+        return all(each is not None and each.converged for each in seen)
+
+    @property
+    def errors(self) -> pd.DataFrame:
+        """Root mean square difference of each channel by each predictor."""
+        parts = []
+        for one in self.predictions:
+            rows = errors_table([one.trial], self.given.trials.noise, COMPARED)
+            parts.append(rows.assign(predictor=one.name))
+        parts.append(pd.DataFrame([row for trial in self.best for row in self._by_the_mean(trial)]))
+        columns = ["trial", "predictor", "quantity", "unit", "rmsd", "noise"]
+        return pd.concat(parts, ignore_index=True)[columns]
+
+    def _by_the_mean(self, trial: TrialResult) -> list[dict[str, object]]:
+        seen, mean, noise = trial.recorded, self.means[trial.recorded.name], self.given.trials.noise
+        columns = [
+            (name, "deg", DEGREE, mean.q[:, k] - seen.q[:, k], noise.angle)
+            for k, name in enumerate((*COORDINATES, *EXO_JOINTS))
+            if k > 1
+        ]
+        if seen.strap is not None:
+            columns.append(("strap", "N", 1.0, mean.strap - seen.strap, noise.strap))
+        return [
+            {
+                "trial": seen.name,
+                "predictor": MEAN,
+                "quantity": name,
+                "unit": unit,
+                "rmsd": factor * float(np.sqrt(np.mean(off**2))),
+                "noise": factor * size,
+            }
+            for name, unit, factor, off, size in columns
+        ]
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`errors`, `certificate`, and `trial_NAME` by the predictor that is given everything."""
+        rows = []
+        for one in self.predictions:
+            rows += certificate_rows(one.name, [one.trial.recorded.name], [one.trial.judged])
+        certificates = pd.DataFrame(rows).rename(columns={"phase": "predictor"})
+        own = {
+            f"trial_{trial.recorded.name}": trial_table(trial, self.given.trials.noise, COMPARED) for trial in self.best
+        }
+        return {"errors": self.errors, "certificate": certificates, **own}
+
+    def figure(self) -> Figure:
+        """Force of the strap by all predictors."""
+        return strap_figure([(one.name, one.trial) for one in self.predictions], self.means)
+
+    def write_files(self, folder: Path) -> None:
+        """Tables, trajectories, figure, page."""
+        for name, rows in self.tables().items():
+            write_table(rows, folder, name)
+        for one in self.predictions:
+            if one.name == ALL:
+                write_solution(folder / f"solution_{one.trial.recorded.name}.sto", one.trial, one.solved)
+        save_both(self.figure(), folder, "strap")
+        self.write_page(folder / "report.html")
+
+    def write_page(self, file: Path) -> None:
+        """Moving chains with forces, curves, errors by predictor, inputs."""
+        write_prediction_page(file, self.record, self.given, self.best, self.figure(), self.tables())

@@ -1,0 +1,138 @@
+"""Chains that stand up side by side with the forces on them, and curves over parts of the movement, for a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+from geocontact.standing_up.chain import COORDINATES, FOOT, TRUNK, Subject, leg_chain
+from geocontact.standing_up.exoskeleton import HEIGHT, STRAP_PARAMETERS, two_chains
+from geocontact.view.page.content import Curve, Curves
+from geocontact.view.page.linkage import Linkage
+from geocontact.view.page.scene import Scene
+
+Of = Callable[[Any], Any]
+FRAMES = 101
+METRES_PER_NEWTON = 6e-4
+"""A force of 1 kN is drawn 0.6 m long."""
+BESIDE = 0.7
+"""Between two trials [m]."""
+METRES_PER_STRAP_NEWTON = 5e-3
+"""A strap's force of 100 N is drawn 0.5 m long."""
+OUTSIDE = np.array([0.0, 0.0, 0.08])
+"""Where the exoskeleton is drawn beside the leg [m]."""
+JOINT, LIMB, ARROW = 0.025, 0.03, 0.012
+DIRECTIONS = {
+    "right (+z)": (0.0, 0.0, 1.0),
+    "front (+x)": (1.0, 0.0, 0.0),
+    "above (+y)": (0.0, 1.0, 0.0),
+}
+
+
+def standing_scene(subject: Subject, trials: Sequence[TrialResult]) -> Scene:
+    """All trials side by side, each over its own time."""
+    each = [_lines(subject, trial, k, len(trials)) for k, trial in enumerate(trials)]
+    lines = [_as_one(alike) for alike in zip(*each, strict=True)]
+    return Scene(directions=DIRECTIONS, up=(0.0, 1.0, 0.0), view=(0.5, 0.25, 1.0), linkages=lines)
+
+
+def _as_one(alike: Sequence[Linkage]) -> Linkage:
+    """The same of all trials: one entry of the legend."""
+    first = np.cumsum([0, *(one.points.shape[1] for one in alike[:-1])])
+    points = np.concatenate([one.points for one in alike], axis=1)
+    lines = np.concatenate([one.lines + k for one, k in zip(alike, first, strict=True)])
+    return Linkage(alike[0].name, points, lines, alike[0].tone, alike[0].radius, alike[0].width)
+
+
+def at_parts(trial: TrialResult, values: Float[np.ndarray, "t ..."]) -> Float[np.ndarray, "f ..."]:
+    """At the page's parts of the movement."""
+    time = trial.recorded.time
+    at = np.linspace(time[0], time[-1], FRAMES)
+    columns = values.reshape(len(time), -1).T
+    return np.stack([np.interp(at, time, each) for each in columns], axis=1).reshape(FRAMES, *values.shape[1:])
+
+
+def _lines(subject: Subject, trial: TrialResult, number: int, count: int) -> list[Linkage]:
+    """Bodies, and the ground's force on both feet at its centre; trials stand side by side."""
+    aside = np.array([0.0, 0.0, BESIDE * (number - 0.5 * (count - 1))])
+    worn = trial.model.q.shape[1] > len(COORDINATES)
+    poses = (two_chains(subject) if worn else leg_chain(subject)).poses(at_parts(trial, trial.model.q))
+    toe = poses["foot"].apply(np.array([FOOT.length * subject.height, -0.05, 0.0]))
+    heel = poses["foot"].apply(np.array([-0.05, -0.05, 0.0]))
+    top = poses["trunk"].apply(np.array([0.0, TRUNK.length * subject.height, 0.0]))
+    joints = [poses[name].translation for name in ("shank", "thigh", "trunk")]
+    body = np.stack([*joints, top], axis=1)
+    foot = np.stack([heel, joints[0], toe], axis=1)
+    centre = np.zeros((FRAMES, 3))
+    centre[:, 0] = at_parts(trial, trial.model.centre)
+    end = centre.copy()
+    end[:, :2] += METRES_PER_NEWTON * at_parts(trial, trial.model.force)
+    arrow = np.stack([centre, end], axis=1) + aside
+    edge = np.array([[-0.3, 0.0, -0.2], [-0.3, 0.0, 0.2], [0.5, 0.0, 0.2], [0.5, 0.0, -0.2]]) + aside
+    loop = np.array([(0, 1), (1, 2), (2, 3), (3, 0)])
+    device = []
+    if worn:
+        hinges = [poses[each].translation for each in ("exo_shank", "exo_thigh", "exo_module")]
+        end_of = poses["exo_module"].apply(np.array([0.0, HEIGHT, 0.0]))
+        points = np.stack([*hinges, end_of], axis=1) + aside + OUTSIDE
+        device = [
+            Linkage("exoskeleton", points, _open(4), "model", JOINT, LIMB),
+            _strap(trial, poses["thigh"], aside),
+        ]
+    return [
+        *device,
+        Linkage("shank, thigh, trunk", body + aside, _open(4), "bone", JOINT, LIMB),
+        Linkage("foot", foot + aside, np.array([(0, 1), (1, 2), (0, 2)]), "bone", 0.0, 0.6 * LIMB),
+        Linkage("force on both feet, 0.6 m for 1 kN", arrow, _open(2), "force", 0.0, ARROW),
+        Linkage("floor", edge[None].repeat(FRAMES, axis=0), loop, "floor", 0.0, 0.5 * ARROW),
+    ]
+
+
+def _strap(trial: TrialResult, thigh: RigidTransform, aside: Float[np.ndarray, " 3"]) -> Linkage:
+    """Normal force of one leg's strap on the person, at the usual place."""
+    strap = np.zeros(len(trial.recorded.time)) if trial.model.strap is None else trial.model.strap
+    at = thigh.apply(np.array([0.0, STRAP_PARAMETERS[-1].usual, 0.0]))
+    across = thigh.rotation.apply(np.array([1.0, 0.0, 0.0]))
+    end = at + METRES_PER_STRAP_NEWTON * at_parts(trial, strap)[:, None] * across
+    points = np.stack([at, end], axis=1) + aside + OUTSIDE
+    return Linkage("normal force of one strap, 0.5 m for 100 N", points, _open(2), "force", 0.0, ARROW)
+
+
+def _open(points: int) -> Int[np.ndarray, "k 2"]:
+    return np.array([(i, i + 1) for i in range(points - 1)], np.int64)
+
+
+def standing_curves(trials: Sequence[TrialResult]) -> list[Curves]:
+    """Forces and centre of pressure by model and recording, residuals and torques."""
+    panels = []
+    pairs: list[tuple[str, str, float, Of]] = [
+        ("Ground reaction upwards", "N", 1.0, lambda t: t.force[:, 1]),
+        ("Ground reaction forwards", "N", 1.0, lambda t: t.force[:, 0]),
+        ("Centre of pressure", "mm", 1e3, lambda t: t.centre),
+    ]
+    if all(trial.model.strap is not None and trial.recorded.strap is not None for trial in trials):
+        pairs.append(("Normal force of one strap, forwards", "N", 1.0, lambda t: t.strap))
+    for title, unit, factor, of in pairs:
+        curves = []
+        for k, trial in enumerate(trials):
+            name = trial.recorded.name
+            curves.append(Curve(f"{name} model", factor * at_parts(trial, of(trial.model)), stroke=2 * k))
+            curves.append(Curve(f"{name} recorded", factor * at_parts(trial, of(trial.recorded)), stroke=2 * k + 1))
+        panels.append(Curves(title, unit, curves))
+    single: list[tuple[str, str, Of]] = [
+        ("Residual of the forces between the points", "N", lambda t: t.residual(t.judged.force)),
+        ("Residual of the moments between the points", "N m", lambda t: t.residual(t.judged.moment)),
+        ("Knee torque of both legs", "N m", lambda t: t.model.torque[:, 1]),
+        ("Hip torque of both legs", "N m", lambda t: t.model.torque[:, 2]),
+    ]
+    for title, unit, of_trial in single:
+        curves = [
+            Curve(trial.recorded.name, at_parts(trial, of_trial(trial)), stroke=2 * k) for k, trial in enumerate(trials)
+        ]
+        panels.append(Curves(title, unit, curves))
+    return panels

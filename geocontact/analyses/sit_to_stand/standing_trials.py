@@ -1,0 +1,67 @@
+"""Trials of one person as a study describes them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.trial_channels import channels_of
+from geocontact.data.errors import InputError
+from geocontact.io.recordings.standing_study import read_standing_study
+from geocontact.standing_up.chain import Subject, leg_chain
+from geocontact.standing_up.exoskeleton import two_chains
+from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT
+from geocontact.standing_up.phase_a import TRACKS
+from geocontact.standing_up.phase_b import TRACKS_B
+from geocontact.standing_up.trials import StandingNoise, StandingTrial
+
+
+@dataclass(frozen=True, eq=False)
+class StandingUpTrials:
+    """Trials of one person.
+
+    Parameters
+    ----------
+    exoskeleton
+        Whether it was worn, so that its strap is calibrated too.
+    free, tracks
+        Names of the feet's parameters, and channels.
+    """
+
+    subject: Subject
+    noise: StandingNoise
+    trials: tuple[StandingTrial, ...]
+    exoskeleton: bool
+    free: tuple[str, ...]
+    tracks: tuple[str, ...]
+
+
+def standing_trials(file: Path, role: str, record: Record) -> StandingUpTrials:
+    """Everything in the study."""
+    study = read_standing_study(file)
+    record.add_input(role, file, trials=len(study.trials))
+    subject = Subject(study.mass, study.height)
+    free = _known(file, "free", study.free, SOUGHT, tuple(each.name for each in FOOT_PARAMETERS))
+    channels = TRACKS_B if study.exoskeleton else TRACKS
+    tracks = _known(file, "tracks", study.tracks, channels, channels)
+    if "coordinates" not in tracks:
+        raise InputError(file, "tracks", "coordinates are not among them", "add them: the motion must stay near")
+    if study.exoskeleton and "strap" not in tracks:
+        raise InputError(file, "tracks", "strap is not among them", "add it, or leave out exoskeleton = true")
+    chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
+    trials = tuple(channels_of(each, chain, tracks, file, record) for each in study.trials)
+    return StandingUpTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks)
+
+
+def _known(
+    study: Path, key: str, told: tuple[str, ...] | None, usual: tuple[str, ...], names: tuple[str, ...]
+) -> tuple[str, ...]:
+    """In the order of all names; the usual ones where nothing is told."""
+    if told is None:
+        return usual
+    odd = [name for name in told if name not in names]
+    if odd or not told:
+        what = f"{odd[0]!r} is not known here" if odd else "names nothing"
+        raise InputError(study, key, what, f"names are {', '.join(names)}")
+    return tuple(name for name in names if name in told)

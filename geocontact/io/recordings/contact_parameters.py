@@ -1,0 +1,42 @@
+"""Parameters of contacts as a calibration wrote them: `parameter, unit, value` and more columns (.csv)."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Mapping
+from pathlib import Path
+
+from geocontact.data.errors import InputError
+from geocontact.io.text.csv_text import text_of
+
+LARGEST = 1_000_000
+"""Bytes."""
+
+
+def read_contact_parameters(path: Path, units: Mapping[str, str]) -> dict[str, float]:
+    """Values by name in SI; InputError where one of `units` is missing, twice there, or in another unit."""
+    text = text_of(path, LARGEST, "a table of parameters").decode("utf-8")
+    rows = csv.DictReader(text.splitlines())
+    if not {"parameter", "unit", "value"} <= set(rows.fieldnames or ()):
+        remedy = "give parameters.csv of a calibration"
+        raise InputError(path, "line 1", "has no columns parameter, unit and value", remedy)
+    found: dict[str, float] = {}
+    for number, row in enumerate(rows, 2):
+        name, unit = row["parameter"], row["unit"]
+        if name not in units:
+            continue
+        if name in found:
+            raise InputError(path, f"line {number}", f"{name} is there twice", "keep one of them")
+        if unit != units[name]:
+            raise InputError(path, f"line {number}", f"{name} is in {unit!r}", f"it is in {units[name]} here")
+        try:
+            found[name] = float(row["value"])
+        except (TypeError, ValueError):
+            found[name] = math.nan
+        if not math.isfinite(found[name]):
+            raise InputError(path, f"line {number}", f"{name} is no number", "calibrate it, or write its value")
+    missing = [name for name in units if name not in found]
+    if missing:
+        raise InputError(path, "", f"no {', '.join(missing)}", "calibrate trials with the exoskeleton")
+    return found

@@ -1,0 +1,139 @@
+"""One phase solved: the best of several starts, corrected by what resampled trials show, its motions certified."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from geocontact.dynamics.collocation.solve import CollocationResult, Progress, SolverOptions, solve
+from geocontact.standing_up.contact_numbers import ContactNumbers, contact_numbers, unsettled_numbers
+from geocontact.standing_up.cost_shares import cost_shares
+from geocontact.standing_up.judged import JudgedMotion, judged
+from geocontact.standing_up.phase import PhaseProblem
+from geocontact.standing_up.resample import Build, Solve, resampled
+from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.trials import StandingNoise, StandingTrial
+
+SAME = 1e-3
+"""Of the cost: starts that come so near to the best found the same minimum."""
+INTERRUPTED = "interrupted"
+
+
+@dataclass(frozen=True)
+class PhaseSearch:
+    """How a phase is solved.
+
+    Parameters
+    ----------
+    options
+        Of the solver; its intervals do not count.
+    nodes
+        Intervals a second.
+    starts
+        Further starts, drawn from what is believed.
+    resamples
+        Calibrations of trials that the answer makes; 0 or 1 for none.
+    level
+        Probability of the intervals.
+    """
+
+    options: SolverOptions
+    nodes: float = 30.0
+    starts: int = 0
+    resamples: int = 0
+    seed: int = 0
+    level: float = 0.95
+
+
+@dataclass(frozen=True, eq=False)
+class CalibratedPhase:
+    """A phase and its answer.
+
+    Parameters
+    ----------
+    name
+        A or B.
+    found
+        Motions and parameters that belong together: the corrected ones where there were resamples.
+    numbers
+        What the trials tell of each parameter.
+    motions
+        Certificate and residual of each trial.
+    shares
+        Of the cost, by term.
+    ends
+        Objective of each start, and whether it was solved; the first is the search's own.
+    doubt
+        Why there are no intervals; empty where there are.
+    """
+
+    name: str
+    model: StandingModel
+    phase: PhaseProblem
+    found: CollocationResult
+    numbers: ContactNumbers
+    motions: tuple[JudgedMotion, ...]
+    shares: dict[str, float]
+    ends: tuple[tuple[float, bool], ...]
+    doubt: str = ""
+
+    @property
+    def certified(self) -> bool:
+        """Whether the search was solved and every motion passes."""
+        seen = [motion.certificate for motion in self.motions]
+        return self.found.solved and all(each is not None and each.converged for each in seen)
+
+
+def calibrated_phase(
+    name: str,
+    model: StandingModel,
+    trials: Sequence[StandingTrial],
+    noise: StandingNoise,
+    build: Build,
+    search: PhaseSearch,
+    progress: Progress | None = None,
+) -> CalibratedPhase:
+    """Solve what `build` makes of trials and of where the parameters start (None: where the phase itself says)."""
+    meshes = tuple(np.linspace(0.0, 1.0, round(search.nodes * float(t.time[-1])) + 1) for t in trials)
+
+    def solved(phase: PhaseProblem, warm: CollocationResult | None) -> CollocationResult:
+        return solve(phase.control, search.options, meshes=meshes, warm=warm, progress=progress)
+
+    runs = _runs(trials, build, search, solved)
+    ended = tuple((run[1].objective, run[1].solved) for run in runs)
+    phase, found = min([run for run in runs if run[1].solved] or runs, key=lambda run: run[1].objective)
+    numbers, doubt = unsettled_numbers(phase, found), ""
+    if found.solved:
+        again = None
+        if search.resamples > 1:
+            again = resampled(model, trials, noise, found, build, solved, search.resamples, search.seed)
+        try:
+            numbers = contact_numbers(phase, found, search.level, again)
+        except ValueError as error:
+            doubt = str(error)
+        if again is not None:
+            p = np.clip(found.p - again.bias, *phase.control.p)
+            held = replace(phase, control=replace(phase.control, p=(p, p), guess_p=p))
+            found = solved(held, found)
+            phase = held
+    controlled = range(len(model.joints))
+    motions = judged(model.equations, controlled, model.turning, phase, found, certify=found.solved)
+    return CalibratedPhase(name, model, phase, found, numbers, motions, cost_shares(phase, found), ended, doubt)
+
+
+def _runs(
+    trials: Sequence[StandingTrial], build: Build, search: PhaseSearch, solved: Solve
+) -> list[tuple[PhaseProblem, CollocationResult]]:
+    rng = np.random.default_rng(search.seed)
+    runs: list[tuple[PhaseProblem, CollocationResult]] = []
+    for k in range(search.starts + 1):
+        phase = build(trials, None)
+        if k:
+            sd = np.array([each.sd for each in phase.parameters])
+            phase = build(trials, phase.control.guess_p + sd * rng.normal(size=len(sd)))
+        runs.append((phase, solved(phase, None)))
+        if runs[-1][1].ending.startswith(INTERRUPTED):
+            break
+    return runs

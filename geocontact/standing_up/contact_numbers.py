@@ -1,0 +1,135 @@
+"""What trials tell of each parameter of a contact: value, interval, and whether it is known or only believed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Float
+from scipy.stats import norm
+
+from geocontact.dynamics.collocation.reduced_hessian import inverse_reduced_hessian
+from geocontact.dynamics.collocation.solve import CollocationResult
+from geocontact.identify.identifiability import Identifiability, identifiability
+from geocontact.standing_up.contact_parameter import ContactParameter
+from geocontact.standing_up.phase import RATE, PhaseProblem
+from geocontact.standing_up.resample import Resampled
+
+Told = Literal["known", "believed", "held", "on its bound", "not settled"]
+HALF = 0.5
+"""Share of the belief's standard deviation that is left of a number that the trials make known, at most."""
+NEAR = 1e-3
+"""Of the room between the bounds: a parameter that near to one is on it."""
+
+
+@dataclass(frozen=True)
+class ContactNumber:
+    """One parameter.
+
+    Parameters
+    ----------
+    value, lower, upper
+        In `unit`; of the interval, not a number where none is told.
+    before, after
+        Standard deviation of what is searched, as believed and with the trials; `after` is infinite on a bound.
+    verdict
+        "known": the trials at least halve what was believed. "believed": they do not. "held": it was not sought. "on
+        its bound": the search wanted to go on, so that the value says where the bound is. "not settled": the search
+        was ended before its time.
+    """
+
+    name: str
+    unit: str
+    value: float
+    lower: float
+    upper: float
+    before: float
+    after: float
+    verdict: Told
+
+
+@dataclass(frozen=True, eq=False)
+class ContactNumbers:
+    """Of all parameters.
+
+    Parameters
+    ----------
+    numbers
+        In the order of the parameters.
+    correlation
+        Of those that are sought and on no bound, in their order: `names`.
+    told_apart
+        By the trials alone, without what is believed; None where fewer than two are sought.
+    directions
+        How often more sharply than believed the trials alone tell the combinations that they tell best to worst: ratio
+        of standard deviations; below 1 the belief is all there is.
+    """
+
+    numbers: tuple[ContactNumber, ...]
+    names: tuple[str, ...]
+    correlation: Float[np.ndarray, "k k"]
+    told_apart: Identifiability | None
+    directions: Float[np.ndarray, " k"]
+
+
+def contact_numbers(
+    phase: PhaseProblem, found: CollocationResult, level: float = 0.95, again: Resampled | None = None
+) -> ContactNumbers:
+    """Of a phase that was solved.
+
+    Intervals are Laplace's: the curvature of the cost at its least, with what is believed in it. With resampled trials
+    the bias that they show is taken off, and the intervals are widened for its own error.
+
+    ValueError where the curvature does not exist.
+    """
+    low, high = phase.control.p
+    sought = low < high
+    margin = NEAR * (high - low)
+    on_bound = sought & ((found.p <= low + margin) | (found.p >= high - margin))
+    covariance = 2.0 / RATE * inverse_reduced_hessian(phase.control, found, on_bound.tolist())
+    sd = np.sqrt(np.diag(covariance))
+    reach = float(norm.ppf(0.5 + 0.5 * level))
+    best = found.p
+    if again is not None:
+        sd, best = sd * again.widening, np.where(sought & ~on_bound, found.p - again.bias, found.p)
+    numbers = []
+    for k, each in enumerate(phase.parameters):
+        verdict: Told = "known" if sd[k] <= HALF * each.sd else "believed"
+        verdict = "held" if not sought[k] else "on its bound" if on_bound[k] else verdict
+        told = verdict in ("known", "believed")
+        low_end, high_end = (each.value(best[k] + s * reach * sd[k]) if told else float("nan") for s in (-1.0, 1.0))
+        after = {"held": 0.0, "on its bound": np.inf}.get(verdict, float(sd[k]))
+        before = each.sd if sought[k] else 0.0
+        value = each.value(float(best[k]))
+        numbers.append(ContactNumber(each.name, each.unit, value, low_end, high_end, before, after, verdict))
+    kept = np.flatnonzero(sought & ~on_bound)
+    return _together(tuple(numbers), [phase.parameters[k] for k in kept], covariance[np.ix_(kept, kept)])
+
+
+def unsettled_numbers(phase: PhaseProblem, found: CollocationResult) -> ContactNumbers:
+    """Values of a search that was ended before its time: nothing is told of their intervals."""
+    low, high = phase.control.p
+    none, numbers = float("nan"), []
+    for k, each in enumerate(phase.parameters):
+        sought = bool(low[k] < high[k])
+        value, before, after = each.value(float(found.p[k])), each.sd if sought else 0.0, np.inf if sought else 0.0
+        verdict: Told = "not settled" if sought else "held"
+        numbers.append(ContactNumber(each.name, each.unit, value, none, none, before, after, verdict))
+    return ContactNumbers(tuple(numbers), (), np.zeros((0, 0)), None, np.zeros(0))
+
+
+def _together(
+    numbers: tuple[ContactNumber, ...], kept: Sequence[ContactParameter], covariance: Float[np.ndarray, "k k"]
+) -> ContactNumbers:
+    names = tuple(each.name for each in kept)
+    sd = np.sqrt(np.diag(covariance))
+    correlation = covariance / np.outer(sd, sd)
+    belief = np.array([each.sd for each in kept])
+    # in parts of what is believed, the trials' own information is the whole less 1
+    scaled = np.linalg.inv(covariance / np.outer(belief, belief)) - np.eye(len(kept)) if len(kept) else covariance
+    values, vectors = np.linalg.eigh(scaled)
+    sharp = np.sqrt(np.maximum(values, 0.0))
+    apart = identifiability(names, sharp[:, None] * vectors.T) if len(kept) > 1 else None
+    return ContactNumbers(numbers, names, correlation, apart, sharp[::-1])

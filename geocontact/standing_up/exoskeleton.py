@@ -1,0 +1,156 @@
+"""A leg exoskeleton on the same feet: three more hinges beside the person's, and one strap at the thigh.
+
+Both legs are one planar chain, here as for the person: masses of the exoskeleton's bodies are those of both sides. The
+strap's numbers are those of one leg, as a mat on one leg sees it; two of them act in parallel between the chains. That
+is the only place where a 2 enters besides the masses. All numbers of the exoskeleton are invented. A hinge of the
+exoskeleton lies where the person's does, but for the knee, which is higher by `SHIFT`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.contact.bushing import bushing_force
+from geocontact.data.multibody.joint_kinds import revolute
+from geocontact.data.multibody.model import Body, Multibody
+from geocontact.dynamics.body_contact import together
+from geocontact.dynamics.equations import equations_of_motion
+from geocontact.dynamics.inverse_dynamics import Wrenches
+from geocontact.dynamics.tree import Tree, tree_of
+from geocontact.standing_up.chain import SHANK, THIGH, Subject, leg_chain
+from geocontact.standing_up.contact_parameter import ContactParameter, searched
+from geocontact.standing_up.feet import FOOT_PARAMETERS, ground_on_feet
+from geocontact.standing_up.standing_model import StandingModel
+
+if TYPE_CHECKING:
+    from casadi import SX
+
+LEGS = 2
+"""Straps in parallel."""
+DAMPING, TURNING_DAMPING = 10.0, 0.1
+"""Of one strap [N s/m], [N m s/rad]: the study's, held."""
+PLATE, LOWER, UPPER, MODULE = 2.0, 3.0, 4.0, 5.0
+"""Masses of foot plates, shank and thigh parts of both sides and the module at the pelvis [kg]."""
+SHIFT = 0.01
+"""The exoskeleton's knee above the person's [m]."""
+HEIGHT = 0.25
+"""Of the module [m]."""
+EXO_JOINTS = ("exo_ankle", "exo_knee", "exo_hip")
+STRAP_PARAMETERS = (
+    ContactParameter("strap normal", "N/m", 3e3, 1.0, 1e2, 1e5, logarithm=True),
+    ContactParameter("strap tangential", "N/m", 3e3, 1.0, 1e2, 1e5, logarithm=True),
+    ContactParameter("strap turning", "N m/rad", 20.0, 1.0, 0.5, 1e3, logarithm=True),
+    ContactParameter("strap place", "m", 0.2, 0.03, 0.05, 0.38),
+)
+"""Of one strap: stiffness across the thigh, along it and in turning, and its distance from the knee."""
+STRAP = tuple(each.name for each in STRAP_PARAMETERS)
+STRAP_PLANTED = searched(STRAP_PARAMETERS, [4.5e3, 2e3, 30.0, 0.22])
+"""Of synthetic trials, invented."""
+
+
+@dataclass(frozen=True)
+class Strap:
+    """Force and moment of both straps on the person's thigh, and what one of them is like.
+
+    Parameters
+    ----------
+    loads
+        On the person's thigh and against it on the exoskeleton's.
+    normal
+        Force of one strap on the person across the thigh, forwards positive [N].
+    energy, normal_energy
+        Of the springs of both, without the normal one, which a mat sees, and of that one [J].
+    """
+
+    loads: Wrenches
+    normal: SX
+    energy: SX
+    normal_energy: SX
+
+
+def two_chains(subject: Subject) -> Multibody:
+    """The person's chain, with foot plates, and the exoskeleton's on the same feet."""
+    alone = leg_chain(subject)
+    bodies = [_heavier(body, PLATE) if body.name == "foot" else body for body in alone.bodies]
+    joints = list(alone.joints)
+    lengths = (SHANK.length * subject.height + SHIFT, THIGH.length * subject.height - SHIFT, HEIGHT)
+    parent, at = "foot", RigidTransform.identity()
+    names = ("exo_shank", "exo_thigh", "exo_module")
+    for name, joint, mass, length in zip(names, EXO_JOINTS, (LOWER, UPPER, MODULE), lengths, strict=True):
+        inertia = mass * length**2 / 12.0
+        bodies.append(Body(name, mass, np.array([0.0, 0.5 * length, 0.0]), inertia * np.eye(3)))
+        joints.append(revolute(joint, parent, name, np.array([0.0, 0.0, 1.0]), at))
+        parent, at = name, RigidTransform.from_translation([0.0, length, 0.0])
+    return Multibody("sit to stand with an exoskeleton", tuple(bodies), tuple(joints), (), alone.gravity)
+
+
+def _heavier(body: Body, more: float) -> Body:
+    """With a plate whose mass centre is the body's."""
+    return Body(body.name, body.mass + more, body.centre, body.inertia)
+
+
+def with_exoskeleton(subject: Subject) -> StandingModel:
+    """Nine coordinates: the person's six, then the exoskeleton's; torques of both."""
+    from casadi import SX
+
+    tree = tree_of(two_chains(subject))
+    feet, p = len(FOOT_PARAMETERS), SX.sym("p", len(FOOT_PARAMETERS) + len(STRAP_PARAMETERS))
+    ground, strap = ground_on_feet(tree, p[:feet, :]), thigh_strap(tree, p[feet:, :])
+    torque = SX.sym("torque", len(tree.names) - 3)
+    along = {name: torque[k] for k, name in enumerate(tree.names[3:])}
+    loads = together(ground, strap.loads)
+    equations = equations_of_motion(tree, loads=loads, along=along, inputs=[torque], parameters=[p])
+    force, moment = ground["foot"]
+    parameters = (*FOOT_PARAMETERS, *STRAP_PARAMETERS)
+    return StandingModel(
+        equations,
+        parameters,
+        force[:2, :],
+        moment[2] / force[1],
+        strap.normal,
+        strap.energy,
+        strap.normal_energy,
+    )
+
+
+def thigh_strap(tree: Tree, p: SX) -> Strap:
+    """Springs and dashpots in the frame of the person's thigh; `p` is what is searched of `STRAP_PARAMETERS`.
+
+    The force acts at the exoskeleton's point on both bodies, as that of springs whose displacement is seen from the
+    thigh must: then it is the derivative of their energy.
+    """
+    from casadi import cross, exp, mtimes, vertcat
+
+    person, device = tree.bodies["thigh"], tree.bodies["exo_thigh"]
+    normal, tangential, turning = (STRAP_PARAMETERS[k].usual * exp(p[k]) for k in range(3))
+    own = mtimes(person.rotation, vertcat(0.0, p[3], 0.0))
+    # the same height over the person's knee, so that nothing is displaced while all angles are 0
+    other = mtimes(device.rotation, vertcat(0.0, p[3] - SHIFT, 0.0))
+    gap = device.place + other - person.place - own
+    speed = device.speed + cross(device.spin, other) - person.speed - cross(person.spin, own)
+    off = mtimes(person.rotation.T, gap)
+    rate = mtimes(person.rotation.T, speed - cross(person.spin, gap))
+    turn, turn_rate = _turn_between(tree)
+    across = bushing_force(off[0], rate[0], normal, DAMPING)
+    lengthwise = bushing_force(off[1], rate[1], tangential, DAMPING)
+    force = LEGS * mtimes(person.rotation, vertcat(across, lengthwise, 0.0))
+    moment = LEGS * vertcat(0.0, 0.0, bushing_force(turn, turn_rate, turning, TURNING_DAMPING))
+    about = cross(device.place + other, force) + moment
+    energy = 0.5 * LEGS * (tangential * off[1] ** 2 + turning * turn**2)
+    loads = {"thigh": (force, about), "exo_thigh": (-force, -about)}
+    return Strap(loads, across, energy, 0.5 * LEGS * normal * off[0] ** 2)
+
+
+def _turn_between(tree: Tree) -> tuple[SX, SX]:
+    """How far the exoskeleton's thigh is turned against the person's [rad], and its rate: sums along both chains."""
+    at = {name: k for k, name in enumerate(tree.names)}
+    person, device = ("ankle", "knee"), EXO_JOINTS[:2]
+
+    def between(values: SX) -> SX:
+        return values[at[device[0]]] + values[at[device[1]]] - values[at[person[0]]] - values[at[person[1]]]
+
+    return between(tree.q), between(tree.u)

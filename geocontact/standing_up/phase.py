@@ -1,0 +1,171 @@
+"""A phase of the study as a control problem: what is tracked, what is kept small, what is believed.
+
+Each deviation counts in parts of its noise and in proportion to the samples a second, so that the cost, with what is
+believed of the parameters, is minus twice the logarithm of the joint posterior of motion and parameters over `RATE`.
+Jerk is beside it as white noise of a size that standing up has; that weight is ours, the study's are not printed. The
+ground's and the strap's forces follow from the states; in the study they are controls that are held to the laws.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+from numpy.polynomial import Polynomial
+from scipy.interpolate import CubicSpline
+
+from geocontact.dynamics.collocation.multibody import jerk_controlled
+from geocontact.dynamics.collocation.problem import ControlProblem, Course
+from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.contact_parameter import ContactParameter, bounds, usual
+from geocontact.standing_up.first_fit import first_fit
+from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.trials import StandingNoise, StandingTrial, problem_scales, standing_trial
+
+if TYPE_CHECKING:
+    from casadi import SX
+
+RATE = 100.0
+"""Samples a second at which a deviation counts as itself [Hz]."""
+FOOT_JERK, JOINT_JERK = 20.0, 60.0
+"""Sizes of the jerk [m/s^3, rad/s^3], several times those of a smooth rise.
+
+Smaller ones bend the motion and with it the parameters, larger ones let both follow the noise.
+"""
+
+
+@dataclass(frozen=True)
+class PhaseProblem:
+    """A phase as a control problem, and what its cost consists of.
+
+    Parameters
+    ----------
+    control
+        Its solution has the parameters.
+    terms
+        Integrands of the cost, by name.
+    parameters
+        All of them.
+    free
+        Names of those that are sought.
+    """
+
+    control: ControlProblem
+    terms: Mapping[str, SX]
+    parameters: tuple[ContactParameter, ...]
+    free: tuple[str, ...]
+
+
+def standing_phase(
+    model: StandingModel,
+    subject: Subject,
+    trials: Sequence[StandingTrial],
+    noise: StandingNoise,
+    *,
+    free: Sequence[str],
+    tracks: Sequence[str],
+    small: Mapping[str, SX],
+    held: Float[np.ndarray, " p"] | None = None,
+    start: Float[np.ndarray, " p"] | None = None,
+    guess: Sequence[Course] | None = None,
+) -> PhaseProblem:
+    """The problem of all trials at once.
+
+    Parameters
+    ----------
+    free
+        Names of the parameters that are sought; the others keep their usual values, or those of `held`.
+    tracks
+        Channels that the cost knows: coordinates, rates, force, centre, torque, strap.
+    small
+        Further integrands, by name.
+    start
+        Where the search of the parameters starts, unless at `first_fit`.
+    guess
+        Coordinates where the search of each motion starts, from its own start on; the recorded ones unless given.
+    """
+    from casadi import SX, sumsqr
+
+    e, n = model.equations, model.count
+    channels = {
+        "coordinates": (e.q, model.per_coordinate(noise.length, noise.angle)),
+        "rates": (e.u, np.full(n, noise.rate)),
+        "force": (model.force, np.full(2, noise.force)),
+        "centre": (model.centre, np.array([noise.centre])),
+        "torque": (e.w, np.full(n - 3, noise.torque)),
+        "strap": (model.strap, np.full(model.strap.numel(), noise.strap)),
+    }
+    width = {name: len(channels[name][1]) for name in tracks}
+    seen, jerk = SX.sym("seen", sum(width.values()) + 1), SX.sym("jerk", n)
+    terms, at = {}, 0
+    for name in tracks:
+        symbol, size = channels[name]
+        terms[name] = seen[-1] * sumsqr((symbol - seen[at : at + width[name], :]) / size)
+        at += width[name]
+    sizes = np.r_[np.full(3, FOOT_JERK), np.full(n - 3, JOINT_JERK)]
+    terms |= {**small, "jerk": sumsqr(jerk / sizes)}
+    system = jerk_controlled(
+        e,
+        controlled=range(n - 3),
+        control_names=[f"{name} torque" for name in model.joints],
+        data=seen,
+        jerk=jerk,
+        cost=sum(terms.values(), SX(0)),
+        prior=belief(e.p, model.parameters, free),
+        parameter_names=[each.name for each in model.parameters],
+    )
+    low, high = bounds(model.parameters, free)
+    if held is not None:
+        fixed = np.array([each.name not in free for each in model.parameters])
+        low, high = np.where(fixed, held, low), np.where(fixed, held, high)
+    smooth = [smooth_coordinates(trial) for trial in trials]
+    begin = first_fit(model, trials, smooth, free, tracks, held) if start is None else start
+    begin = np.clip(begin, low, high)
+    made = tuple(
+        standing_trial(trial.name, float(np.ptp(trial.time)), model, begin, course, _data(trial, tracks))
+        for trial, course in zip(trials, guess or smooth, strict=True)
+    )
+    control = ControlProblem(system, made, (low, high), begin, *problem_scales(subject, n))
+    return PhaseProblem(control, terms, model.parameters, tuple(free))
+
+
+def belief(p: SX, parameters: Sequence[ContactParameter], free: Sequence[str]) -> SX:
+    """What is believed of the free parameters beforehand, as the cost counts it."""
+    from casadi import SX
+
+    middle, total = usual(parameters), SX(0)
+    for k, each in enumerate(parameters):
+        if each.name in free:
+            total = total + ((p[k] - middle[k]) / each.sd) ** 2 / RATE
+    return total
+
+
+def _data(trial: StandingTrial, tracks: Sequence[str]) -> Course:
+    """Channels, and what one sample counts, from the trial's own first time on."""
+    channels = {
+        "coordinates": trial.q,
+        "rates": trial.u,
+        "force": trial.force,
+        "centre": trial.centre,
+        "torque": trial.torque,
+        "strap": trial.strap,
+    }
+    columns = [each for name in tracks if (each := channels[name]) is not None]
+    if len(columns) < len(tracks):
+        raise ValueError(f"{trial.name} lacks a channel of {', '.join(tracks)}")
+    course = CubicSpline(trial.time - trial.time[0], np.column_stack(columns))
+    share = trial.rate / RATE
+    return lambda time: np.column_stack([course(time), np.full(len(time), share)])
+
+
+def smooth_coordinates(trial: StandingTrial) -> Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, "t n"]]:
+    """Polynomials of degree 7 through the coordinates: where the search starts, accelerations must not be noise."""
+    fits = [Polynomial.fit(trial.time - trial.time[0], q, 7) for q in trial.q.T]
+
+    def coordinates(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t n"]:
+        return np.column_stack([fit(time) for fit in fits])
+
+    return coordinates

@@ -1,0 +1,59 @@
+"""A model that stands up: its equations, its parameters, and what plates, encoders and mats see of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.dynamics.equations import Equations
+from geocontact.standing_up.contact_parameter import ContactParameter
+
+if TYPE_CHECKING:
+    from casadi import SX
+
+
+@dataclass(frozen=True)
+class StandingModel:
+    """Coordinates are the foot's place (two) and turns; inputs are the torques of the joints, all turns but the first.
+
+    Parameters
+    ----------
+    equations
+        Their parameters are what is searched of `parameters`.
+    force, centre
+        Of the ground on both feet, forwards and up [N], (2, 1), and its centre of pressure, forwards [m].
+    strap
+        Normal force of the strap of one leg on the person [N]; no entry without an exoskeleton.
+    energy, normal_energy
+        Of those components of the straps that no mat sees, and of the normal one [J].
+    """
+
+    equations: Equations
+    parameters: tuple[ContactParameter, ...]
+    force: SX
+    centre: SX
+    strap: SX
+    energy: SX
+    normal_energy: SX
+
+    @property
+    def count(self) -> int:
+        """Number of coordinates."""
+        return len(self.equations.names)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Coordinates that a torque drives."""
+        return self.equations.names[3:]
+
+    @property
+    def turning(self) -> tuple[bool, ...]:
+        """Which coordinates are angles."""
+        return (False, False, *(True for _ in self.equations.names[2:]))
+
+    def per_coordinate(self, place: float, turn: float) -> Float[np.ndarray, " n"]:
+        """One number for the foot's places and one for all turns."""
+        return np.where(np.array(self.turning), turn, place)

@@ -1,0 +1,224 @@
+"""A synthetic passive trial: the feet's model itself stands up, so that what is planted can be found again.
+
+Not a recording, and no test of the model's form: calibration and truth share their equations. Noise is white; its
+sizes and the course of the angles are invented.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.dynamics.collocation.motion import CollocatedMotion
+from geocontact.dynamics.collocation.multibody import jerk_controlled
+from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem, Course
+from geocontact.dynamics.collocation.solve import CollocationResult, SolverOptions, solve
+from geocontact.standing_up.chain import COORDINATES, Subject
+from geocontact.standing_up.feet import PLANTED
+from geocontact.standing_up.standing_model import StandingModel
+
+SEATED = np.radians([22.0, 70.0, 45.0])
+"""Lean of shank forwards, thigh backwards and trunk forwards at seat-off [rad]."""
+STANDING = np.radians([4.0, 4.0, 4.0])
+SETTLED = 0.006
+"""Depth of the spheres where the search starts [m]."""
+COARSE = 10
+"""Intervals of a first search, whose answer is where the finer one starts."""
+MOST_TORQUE = 1000.0
+"""Of both legs [N m]."""
+UNPOWERED = 1e-3
+"""Weight of the exoskeleton's torques beyond its assistance [1/(N m)^2]: straps carry it where they can."""
+N = len(COORDINATES)
+
+
+@dataclass(frozen=True)
+class StandingTrial:
+    """What a passive trial records.
+
+    Parameters
+    ----------
+    time
+        From seat-off on, even [s].
+    q, u
+        Coordinates and rates [m, rad, m/s, rad/s].
+    force, centre
+        Of the ground on both feet [N], and its centre of pressure ahead of the origin [m].
+    name
+        As messages call it.
+    torque
+        Of the joints of both legs [N m]; None where it is not recorded.
+    strap
+        Normal force of one leg's strap on the person [N]; None where it is not recorded.
+    """
+
+    time: Float[np.ndarray, " t"]
+    q: Float[np.ndarray, "t n"]
+    u: Float[np.ndarray, "t n"]
+    force: Float[np.ndarray, "t 2"]
+    centre: Float[np.ndarray, " t"]
+    name: str = "trial"
+    torque: Float[np.ndarray, "t j"] | None = None
+    strap: Float[np.ndarray, " t"] | None = None
+
+    @property
+    def rate(self) -> float:
+        """Samples a second."""
+        return float((len(self.time) - 1) / np.ptp(self.time))
+
+
+@dataclass(frozen=True)
+class StandingNoise:
+    """Standard deviations: of lengths [m], angles [rad], rates [m/s, rad/s], force [N], centre [m].
+
+    And of torques of the joints [N m] and a strap's normal force [N].
+    """
+
+    length: float = 5e-4
+    angle: float = np.radians(0.3)
+    rate: float = 0.02
+    force: float = 2.0
+    centre: float = 1e-3
+    torque: float = 2.0
+    strap: float = 1.0
+
+
+def rising(seconds: float, seated: Float[np.ndarray, " 3"] = SEATED, p: Float[np.ndarray, " p"] = PLANTED) -> Course:
+    """Coordinates of a person by the polynomial of least jerk, seat-off to standing, the foot flat on the ground."""
+    height = p[3] - SETTLED
+
+    def course(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 6"]:
+        s = np.clip(time / seconds, 0.0, 1.0)[:, None]
+        shank, thigh, trunk = (seated + (STANDING - seated) * (10 * s**3 - 15 * s**4 + 6 * s**5)).T
+        foot = np.tile([0.0, height, 0.0], (len(time), 1))
+        return np.column_stack([foot, -shank, shank + thigh, -thigh - trunk])
+
+    return course
+
+
+def standing_up(
+    model: StandingModel,
+    subject: Subject,
+    *,
+    seconds: float = 1.5,
+    seated: Float[np.ndarray, " 3"] = SEATED,
+    planted: Float[np.ndarray, " p"] = PLANTED,
+    assistance: float = 0.0,
+    intervals: int = 50,
+) -> tuple[ControlProblem, CollocationResult]:
+    """The motion with planted parameters closest to `rising`, with little jerk and torque; an exoskeleton along.
+
+    `assistance` is what the exoskeleton's torques are to be of the person's.
+    """
+    from casadi import SX, sumsqr
+
+    n, e = model.count, model.equations
+    wanted, jerk = SX.sym("wanted", n), SX.sym("jerk", n)
+    off = (e.q - wanted) / model.per_coordinate(0.01, np.radians(2.0))
+    extra = e.w[3:, :] - assistance * e.w[:3, :] if n > N else SX(0)
+    cost = sumsqr(off) + 1e-5 * sumsqr(jerk) + 1e-6 * sumsqr(e.w) + UNPOWERED * sumsqr(extra)
+    system = jerk_controlled(
+        e,
+        controlled=range(n - 3),
+        control_names=model.joints,
+        data=wanted,
+        jerk=jerk,
+        cost=cost,
+        parameter_names=[each.name for each in model.parameters],
+    )
+    alone = rising(seconds, seated, planted)
+
+    def course(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t n"]:
+        q = alone(time)
+        return np.hstack([q, q[:, 3 : model.count - 3]])
+
+    trial = standing_trial("synthetic", seconds, model, planted, course, course)
+    problem = ControlProblem(system, (trial,), (planted, planted), planted, *problem_scales(subject, n))
+    coarse = solve(problem, SolverOptions("legendre", 4, COARSE, 1e-7))
+    return problem, solve(problem, SolverOptions("legendre", 4, intervals, 1e-7), warm=coarse)
+
+
+def standing_trial(
+    name: str, seconds: float, model: StandingModel, p: Float[np.ndarray, " p"], guess: Course, data: Course
+) -> ControlledTrial:
+    """No bounds, free ends; the search starts on courses of the coordinates and the torques that they need."""
+    from casadi import Function
+
+    e, n = model.equations, model.count
+    needed = Function("needed", [e.q, e.u, e.a, e.w, e.p], [-e.balance[3:, :]])
+
+    def guess_x(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t x"]:
+        h = 1e-2
+        before, at, after = (guess(np.clip(time + k * h, 0.0, seconds)) for k in (-1, 0, 1))
+        return np.hstack([at, (after - before) / (2 * h), (after - 2 * at + before) / h**2])
+
+    def guess_u(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t u"]:
+        x, many = guess_x(time), needed.map(len(time))
+        none = np.zeros((n - 3, len(time)))
+        torque = many(x[:, :n].T, x[:, n : 2 * n].T, x[:, 2 * n :].T, none, np.tile(p[:, None], (1, len(time))))
+        return np.hstack([np.zeros((len(time), n)), np.clip(torque.full().T, -MOST_TORQUE, MOST_TORQUE)])
+
+    wide, most = np.full(3 * n, np.inf), np.full(2 * n - 3, np.inf)
+    return ControlledTrial(
+        name,
+        0.0,
+        (seconds, seconds),
+        (-wide, wide),
+        (-most, most),
+        (-wide, wide),
+        (-wide, wide),
+        guess_x,
+        guess_u,
+        data,
+    )
+
+
+def problem_scales(
+    subject: Subject, count: int = N
+) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " x"], Float[np.ndarray, " u"]]:
+    """Of the balance a tenth of body weight, along and about; of the states and the controls what standing up has."""
+    turns = count - 3
+    place = np.r_[[0.01, 0.01, 0.05], np.ones(turns)]
+    speed = np.r_[[0.1, 0.1, 0.5], np.ones(turns)]
+    change = np.r_[[1.0, 1.0, 5.0], np.full(turns, 5.0)]
+    jerk = np.r_[[20.0, 20.0, 100.0], np.full(turns, 50.0)]
+    return np.full(count, subject.mass), np.r_[place, speed, change], np.r_[jerk, np.full(turns, 100.0)]
+
+
+def seen_in(
+    model: StandingModel, motion: CollocatedMotion, p: Float[np.ndarray, " p"], time: Float[np.ndarray, " t"], name: str
+) -> StandingTrial:
+    """What perfect encoders, plates and mats see of a motion at times [s]."""
+    from casadi import Function
+
+    e, n, x = model.equations, model.count, motion.state(time)
+    seen = Function("seen", [e.q, e.u, e.p], [model.force, model.centre, model.strap]).map(len(time))
+    given = (x[:, :n].T, x[:, n : 2 * n].T, np.tile(p[:, None], (1, len(time))))
+    force, centre, strap = (each.full() for each in seen(*given))
+    worn = strap[0] if len(strap) else None
+    return StandingTrial(time, x[:, :n], x[:, n : 2 * n], force.T, centre[0], name, motion.control(time)[:, n:], worn)
+
+
+def recorded(
+    model: StandingModel,
+    motion: CollocatedMotion,
+    p: Float[np.ndarray, " p"],
+    rate: float,
+    noise: StandingNoise,
+    seed: int,
+    name: str = "trial",
+) -> StandingTrial:
+    """What encoders, plates and mats record of a motion, `rate` samples a second."""
+    rng = np.random.default_rng(seed)
+    time = np.linspace(motion.breaks[0], motion.breaks[-1], round(rate * float(np.ptp(motion.breaks))) + 1)
+    true = seen_in(model, motion, p, time, name)
+
+    def off(of: Float[np.ndarray, "t ..."], size: float | Float[np.ndarray, " n"]) -> Float[np.ndarray, "t ..."]:
+        return np.asarray(of + size * rng.normal(size=of.shape))
+
+    q = off(true.q, model.per_coordinate(noise.length, noise.angle))
+    u, force, centre = off(true.u, noise.rate), off(true.force, noise.force), off(true.centre, noise.centre)
+    torque = None if true.torque is None else off(true.torque, noise.torque)
+    strap = None if true.strap is None else off(true.strap, noise.strap)
+    return StandingTrial(time, q, u, force, centre, name, torque, strap)

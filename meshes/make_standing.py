@@ -1,0 +1,39 @@
+"""Write the synthetic trials of standing up that the documentation runs on: `python meshes/make_standing.py`.
+
+It takes some seconds, for the truth is a motion that is found by collocation.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from geocontact.analyses.sit_to_stand.synthetic_files import synthetic_files
+from geocontact.standing_up.synthetic_study import synthetic_study
+
+FOLDERS = {
+    "standing_up": {},
+    "standing_up_exoskeleton": {"exoskeleton": True},
+    "standing_up_held_out": {"exoskeleton": True, "held_out": True, "seed": 35},
+}
+"""What is made, by folder."""
+
+
+def standing_files() -> dict[str, bytes]:
+    """The studies, by name."""
+    return {
+        f"{folder}/{name}": text.encode("ascii")
+        for folder, what in FOLDERS.items()
+        for name, text in synthetic_files(synthetic_study(**what)).items()
+    }
+
+
+def main() -> None:
+    """Write the files beside this script."""
+    for name, data in standing_files().items():
+        path = Path(__file__).parent / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+
+
+if __name__ == "__main__":
+    main()

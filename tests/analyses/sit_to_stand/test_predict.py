@@ -1,0 +1,75 @@
+"""A prediction by the analysis: what is refused at once, the trivial predictor, and the shipped trial."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.standing_up.phase_c import mean_trial
+from geocontact.standing_up.trials import StandingTrial
+from tests.cli.calls import MESHES
+
+WORN, ALONE, HELD_OUT = (MESHES / f"standing_up{kind}" / "study.toml" for kind in ("_exoskeleton", "", "_held_out"))
+TRUTH = WORN.parent / "truth.csv"
+
+
+@pytest.mark.parametrize(
+    ("study", "against", "words"),
+    [(ALONE, WORN, "is not of a person with an exoskeleton"), (HELD_OUT, ALONE, "is not of a person with an")],
+)
+def test_trials_without_an_exoskeleton_are_refused(study: Path, against: Path, words: str) -> None:
+    with pytest.raises(gc.InputError, match=words):
+        gc.sit_to_stand.predict(study, parameters=TRUTH, against=against)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("parameter,unit", "name,unit", "has no columns"),
+        ("strap normal,N/m,4500", "strap normal,N/mm,4.5", "'N/mm'"),
+        ("strap normal,N/m,4500", "strap normal,N/m,soft", "is no number"),
+        ("strap normal,", "strap_normal,", "no strap normal"),
+        ("heel,m,-0.045", "heel,m,-0.045\nheel,m,-0.04", "is there twice"),
+    ],
+)
+def test_parameters_that_cannot_be_are_refused(tmp_path: Path, old: str, new: str, words: str) -> None:
+    text = TRUTH.read_text()
+    assert old in text
+    file = tmp_path / "parameters.csv"
+    file.write_text(text.replace(old, new))
+    with pytest.raises(gc.InputError, match=words):
+        gc.sit_to_stand.predict(HELD_OUT, parameters=file, against=WORN)
+
+
+def test_mean_of_trials_is_over_parts_of_the_movement() -> None:
+    """Straight lines of one course and different durations: their mean is that course."""
+
+    def line(seconds: float, end: float) -> StandingTrial:
+        time = np.linspace(0.0, seconds, 21)
+        part = time / seconds
+        return StandingTrial(
+            time, part[:, None] * end, np.zeros((21, 1)), np.zeros((21, 2)), part, "T", None, end * part
+        )
+
+    mean = mean_trial([line(1.0, 1.0), line(3.0, 3.0)], np.linspace(5.0, 7.0, 11))
+    np.testing.assert_allclose(mean.q[:, 0], 2.0 * np.linspace(0.0, 1.0, 11), atol=1e-12)
+    np.testing.assert_allclose(mean.strap, 2.0 * np.linspace(0.0, 1.0, 11), atol=1e-12)
+
+
+@pytest.mark.slow
+def test_shipped_trial_is_predicted(tmp_path: Path) -> None:
+    """The strap follows from torques and ground reaction, not without the torques; the motion is certified."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        found = gc.sit_to_stand.predict(HELD_OUT, parameters=TRUTH, against=WORN)
+    assert found.accepted, found.warnings
+    errors = found.table("errors")
+    strap = errors[errors["quantity"] == "strap"].set_index("predictor")["rmsd"]
+    assert strap["all given"] < 10.0 < strap["without torques"]
+    assert set(strap.index) == {"all given", "without ground reaction", "without torques", "mean of the calibration"}
+    names = {each.name for each in found.write(tmp_path / "pred").iterdir()}
+    assert {"errors.csv", "certificate.csv", "trial_P1.csv", "solution_P1.sto", "strap.png", "report.html"} <= names

@@ -1,0 +1,59 @@
+"""Two chains and a strap: forces are the derivatives of an energy, action is reaction, and one leg sees half."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from geocontact.standing_up import exoskeleton
+from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.exoskeleton import LEGS, STRAP_PARAMETERS, STRAP_PLANTED, two_chains, with_exoskeleton
+from geocontact.standing_up.feet import PLANTED
+
+SUBJECT = Subject()
+P = np.r_[PLANTED, STRAP_PLANTED]
+HIGH = np.array([0.1, 3.0, 0.2, -0.3, 0.9, -0.7, -0.25, 0.8, -0.6])
+
+
+def test_strap_force_is_the_derivative_of_its_energy(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In air and at rest: what the springs add to the balance is -dV/dq, V of both legs."""
+    from casadi import Function, gradient
+
+    monkeypatch.setattr(exoskeleton, "DAMPING", 0.0)
+    model = with_exoskeleton(SUBJECT)
+    e = model.equations
+    energy = model.energy + model.normal_energy
+    normal = model.strap**2 / (2.0 * STRAP_PARAMETERS[0].usual * np.exp(STRAP_PLANTED[0]))
+    outputs = [e.balance, gradient(energy, e.q), energy, LEGS * normal, model.normal_energy]
+    both = Function("both", [e.q, e.u, e.a, e.w, e.p], outputs)
+    still = np.zeros(9)
+    soft = P.copy()
+    soft[7:10] = -40.0
+    at = (HIGH, still, still, np.zeros(6))
+    with_strap, slope, stored, of_one_leg, of_both = (each.full().ravel() for each in both(*at, P))
+    without, _, none, _, _ = (each.full().ravel() for each in both(*at, soft))
+    assert stored[0] > 0.1 and none[0] < 1e-12
+    np.testing.assert_allclose(of_one_leg, of_both, rtol=1e-12)
+    np.testing.assert_allclose(with_strap - without, -slope, rtol=1e-9, atol=1e-9)
+
+
+def test_straps_are_within_the_two_chains() -> None:
+    """All of the weight along the foot's places, whatever the strap does; nothing is displaced upright."""
+    from casadi import Function
+
+    model = with_exoskeleton(SUBJECT)
+    e = model.equations
+    seen = Function("seen", [e.q, e.u, e.a, e.w, e.p], [e.balance, model.strap, model.energy])
+    rng = np.random.default_rng(3)
+    balance, strap, _ = (each.full().ravel() for each in seen(HIGH, rng.normal(size=9), np.zeros(9), np.zeros(6), P))
+    stiff = P.copy()
+    stiff[7:10] += 2.0
+    other = seen(HIGH, rng.normal(size=9) * 0.0, np.zeros(9), np.zeros(6), stiff)[0].full().ravel()
+    still = seen(HIGH, np.zeros(9), np.zeros(9), np.zeros(6), P)[0].full().ravel()
+    weight = two_chains(SUBJECT).mass * 9.81
+    assert weight == pytest.approx((70.0 + 14.0) * 9.81)
+    np.testing.assert_allclose([still[:2], other[:2]], [[0.0, -weight]] * 2, atol=1e-6)
+    assert abs(strap[0]) > 1.0 and np.isfinite(balance).all()
+    upright = np.r_[0.0, 3.0, np.zeros(7)]
+    _, none, energy = seen(upright, np.zeros(9), np.zeros(9), np.zeros(6), P)
+    assert float(none) == pytest.approx(0.0, abs=1e-12) and float(energy) == pytest.approx(0.0, abs=1e-12)
