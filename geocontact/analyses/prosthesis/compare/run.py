@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
@@ -67,16 +68,16 @@ def _say(r: ProsthesisCompareResult) -> None:
     record, stances = r.record, r.stances
     fitted = [one.name for one in stances if one.calibrated]
     transfer = len(stances) - len(fitted)
-    settings = len(dict.fromkeys(one.setting for one in stances))
+    persons, settings = (len({getattr(one, key) for one in stances}) for key in ("person", "setting"))
     record.say(
-        f"{transfer} stances of {len(dict.fromkeys(one.person for one in stances))} persons on {settings} settings"
+        f"{transfer} stances, {persons} person{'s'[: persons - 1]}, {settings} setting{'s'[: settings - 1]} of the foot"
         + (f", beside {len(fitted)} that a sole was fitted to: {', '.join(fitted)}" if fitted else "")
     )
     summary = summary_table(errors_table(stances))
     rows = summary[summary["setting"] == ALL].set_index("quantity")
     for name in SAID:
         if name in rows.index:
-            record.say(_told(name, rows.loc[name].to_dict()))
+            record.say(_told(name, rows.loc[name]))
     late = [one.errors.stance[0] - one.errors.stance[1] for one in stances if not one.calibrated]
     if late:
         record.say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
@@ -89,7 +90,7 @@ def _say(r: ProsthesisCompareResult) -> None:
     record.results["compare"] = plain({one.name: _numbers(one) for one in stances})
 
 
-def _told(name: str, row: dict[str, float]) -> str:
+def _told(name: str, row: pd.Series) -> str:
     percent = row["unit"] == "-"
     what = {"resultant": "BW", "cop_ground": "of the foot"}.get(name, "N m/kg")
 

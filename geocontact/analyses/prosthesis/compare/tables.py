@@ -9,7 +9,7 @@ import pandas as pd
 
 from geocontact.below_knee_prosthesis.evaluation.judged_stance import ANKLE, QUANTITIES, JudgedStance
 from geocontact.below_knee_prosthesis.evaluation.outliers import Oddness, reasons
-from geocontact.below_knee_prosthesis.evaluation.trivial_predictors import ANOTHER, MEAN, trivial_curves
+from geocontact.below_knee_prosthesis.evaluation.trivial_predictors import ANOTHER, MEAN, MeasuredCurve, trivial_curves
 from geocontact.identify.signals.agreement import agreement
 
 ALL = "all"
@@ -20,8 +20,13 @@ UNITS = {"impulse": "s", ANKLE: "N m/kg"}
 def errors_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
     """One row for each stance and quantity: the model's R² and error, and those of both trivial predictors."""
     rows = []
+    plates = {
+        name: {each.name: MeasuredCurve(each.name, each.person, each.setting, each.measured(name)) for each in stances}
+        for name in QUANTITIES
+    }
     for one in stances:
         for name in QUANTITIES:
+            own_plate = plates[name][one.name]
             r2, off = one.errors.table[name]
             row: dict[str, object] = {
                 "trial": one.name,
@@ -34,8 +39,8 @@ def errors_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
                 "rmse": off,
             }
             told = {
-                label: agreement(curve, one.measured(name), 1.0, 0.0)
-                for label, curve in trivial_curves(stances, one, name).items()
+                label: agreement(curve, own_plate.values, 1.0, 0.0)
+                for label, curve in trivial_curves(list(plates[name].values()), own_plate).items()
             }
             for label, column in ((MEAN, MEAN), (ANOTHER, "another")):
                 own = told.get(label)
