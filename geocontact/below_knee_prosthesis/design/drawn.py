@@ -1,0 +1,102 @@
+"""Draws of what is not known: numbers of the sole, stiffness of the keel, markers and plate; what a sweep makes of each.
+
+Each foot is drawn once and walked along several draws of the kinematics. Differences between settings are taken within
+a draw, so that what all settings share falls out of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.design.foot_task import FootTask
+from geocontact.below_knee_prosthesis.design.knob import Knob
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot
+
+KEEL = 0.04
+"""Standard deviation of the logarithm of EI: compressions rounded to 1 N/mm leave 3 %, hinges for a beam the rest."""
+FEWEST = 0.5
+"""Share of the draws that must be left for a band."""
+
+
+@dataclass(frozen=True, eq=False)
+class Draws:
+    """Outcomes of a sweep.
+
+    Parameters
+    ----------
+    nominal
+        With the numbers as they are, by response, value and aim.
+    drawn
+        Of each draw.
+    lost
+        Draws in which the keel had no equilibrium, and which are left out.
+    """
+
+    nominal: Float[np.ndarray, "two n aims"]
+    drawn: Float[np.ndarray, "d two n aims"]
+    lost: int
+
+
+def draws(
+    knob: Knob,
+    foot: VariableStiffnessFoot,
+    task: FootTask,
+    again: Callable[[np.random.Generator], FootTask],
+    sd: Float[np.ndarray, " p"],
+    *,
+    feet: int,
+    walks: int,
+    seed: int = 0,
+    keel: float = KEEL,
+    step: Callable[[], None] = lambda: None,
+) -> Draws:
+    """Of a sweep.
+
+    Parameters
+    ----------
+    again
+        A draw of the stance, as other errors of markers and plate would have shown it.
+    sd
+        Of the logarithms of the sole's numbers, in the order of `ZoneParameters`.
+    feet, walks
+        Drawn feet, and draws of the stance for each.
+
+    ArithmeticError where the nominal foot, or more than half of the drawn ones, have no equilibrium.
+    """
+    nominal = knob.measured(knob.maps(foot, task), task)
+    rng, found, lost = np.random.default_rng(seed), [], 0
+    for _ in range(feet):
+        other = drawn_foot(foot, sd, keel, rng)
+        tasks = [again(rng) for _ in range(walks)]
+        try:
+            maps = knob.maps(other, _widest(tasks))
+            found += [knob.measured(maps, each) for each in tasks]
+        except ArithmeticError:
+            lost += 1
+        step()
+    if lost > FEWEST * feet:
+        raise ArithmeticError(f"{lost} of {feet} drawn feet have no equilibrium along the stance")
+    return Draws(nominal, np.array(found), lost)
+
+
+def drawn_foot(
+    foot: VariableStiffnessFoot, sd: Float[np.ndarray, " p"], keel: float, rng: np.random.Generator
+) -> VariableStiffnessFoot:
+    """Another foot that the same knowledge allows."""
+    zones = ZoneParameters(foot.sole, foot.law)
+    factor = np.exp(np.clip(sd * rng.standard_normal(len(sd)), -zones.reach, zones.reach))
+    bending = foot.keel.bending * float(np.exp(keel * rng.standard_normal()))
+    return VariableStiffnessFoot(
+        replace(foot.keel, bending=bending), foot.sole, zones.law(zones.values_of(foot.law) * factor)
+    )
+
+
+def _widest(tasks: list[FootTask]) -> FootTask:
+    """Pitches and loads of all draws of a stance as one, so that one table serves them."""
+    pitch, load = (np.concatenate([getattr(each, name) for each in tasks]) for name in ("pitch", "load"))
+    return replace(tasks[0], pitch=pitch, load=load)
