@@ -1,6 +1,6 @@
-"""Planted best fulcrums: `python -m benchmarks.prosthesis_design [--persons 50] [--feet 10] [--walks 4] [--workers 2]`.
+"""Planted best fulcrums: `python -m benchmarks.prosthesis_design [--persons 50] [--feet 12] [--walks 3] [--workers 2]`.
 
-Invented persons walk on a finer foot (12 joints, 48 spheres) whose numbers differ from the usual ones by as much as is
+Invented persons walk on a finer foot (12 joints, 72 spheres) whose numbers differ from the usual ones by as much as is
 said to be known of them, and answer to another fulcrum somewhere between keeping angles and keeping torque. For each,
 a fulcrum is planted: what the finer foot does there is what is wanted. The design sees markers and a plate at the
 present setting, with errors, and the coarser usual foot. Found is a planted fulcrum that lies within the told interval.
@@ -37,13 +37,15 @@ from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY, recorded_tr
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance
 from geocontact.below_knee_prosthesis.synthetic.course import course, reactions
 from geocontact.below_knee_prosthesis.synthetic.persons import Walker, marker_places, true_leg
-from geocontact.below_knee_prosthesis.synthetic.trial import CAMERA_NOISE, FORCE_NOISE, OFFSET, standing_places, true_foot
+from geocontact.below_knee_prosthesis.synthetic.trial import CAMERA_NOISE, FORCE_NOISE, OFFSET, standing_places
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 
 KNOWN = TrialErrors()
 BLIND = replace(KNOWN, pitch=np.radians(3.0))
 SD = {"known": (0.25, 0.5, 0.3), "blind": (1.1, 2.0, 0.7)}
 """Standard deviation of the logarithms of stiffness, damping and friction."""
+JOINTS, FINER = 12, 3
+"""Of the true foot: neither is among those that are drawn (8 joints; 1, 2 and 4 times the rows of spheres)."""
 VALUES = 9
 """Fulcrums of the sweep."""
 INSIDE = (0.070, 0.147)
@@ -77,7 +79,7 @@ def planted(task: tuple[int, str, int, int]) -> Planted:
     setting = ("low", "medium", "high")[int(rng.integers(3))]
     present, best = fulcrum_of(setting), float(rng.uniform(*INSIDE))
     sd = np.repeat(SD[known], len(ZoneParameters(foot.sole, foot.law).zones))
-    true = drawn_foot(true_foot(), sd, KEEL, rng)
+    true = drawn_foot(vsf_foot(joints=JOINTS, finer=FINER), sd, KEEL, rng)
     leg = true_leg(person, below)
     exact, poses, time_ = _walk(leg, present, rng)
     rows = needed(exact.pitch, exact.load, REACH)
@@ -89,7 +91,7 @@ def planted(task: tuple[int, str, int, int]) -> Planted:
     start = time.process_time()
     knob = Knob("fulcrum", np.linspace(0.066, 0.151, VALUES), present)
     drawn = draws(
-        knob, foot, trial.task(), lambda own: task_again(trial, errors, own), sd, feet=feet, walks=walks, seed=number
+        knob, foot, lambda own: task_again(trial, errors, own), sd, feet=feet, walks=walks, seed=number
     ).drawn
     choices = {
         aim: choose(knob.values, drawn[..., k], MEASURES[aim].sense, wanted[aim], present, LEVEL)
@@ -190,8 +192,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--persons", type=int, default=50)
     parser.add_argument("--blind", type=int, default=10)
-    parser.add_argument("--feet", type=int, default=10)
-    parser.add_argument("--walks", type=int, default=4)
+    parser.add_argument("--feet", type=int, default=12)
+    parser.add_argument("--walks", type=int, default=3)
     parser.add_argument("--workers", type=int, default=2)
     asked = parser.parse_args()
     tasks = [(k, known, asked.feet, asked.walks) for known, n in (("known", asked.persons), ("blind", asked.blind)) for k in range(n)]

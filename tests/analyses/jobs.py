@@ -26,6 +26,7 @@ JOBS: tuple[Job, ...] = (
     gc.prosthesis.calibrate,
     gc.prosthesis.scale,
     gc.prosthesis.compare,
+    gc.prosthesis.design,
     gc.prosthesis.simulate,
     gc.shoulder.simulate,
     gc.shoulder.compare,

@@ -146,9 +146,10 @@ def _gain(
 
 
 def _interval(sample: Float[np.ndarray, " d"], level: float) -> tuple[float, float, float]:
-    """Median, and the interval of that probability with as much outside on either side."""
-    told = np.quantile(sample, [0.5, 0.5 * (1.0 - level), 0.5 * (1.0 + level)])
-    return float(told[0]), float(told[1]), float(told[2])
+    """Median, and the interval of that probability with as much outside on either side, of draws: rather too wide."""
+    lower = np.quantile(sample, 0.5 * (1.0 - level), method="lower")
+    upper = np.quantile(sample, 0.5 * (1.0 + level), method="higher")
+    return float(np.median(sample)), float(lower), float(upper)
 
 
 def away(outcome: Float[np.ndarray, "*d n"], sense: Sense, target: float | None) -> Float[np.ndarray, "*d n"]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
 from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
@@ -73,11 +74,16 @@ def roll_over_radius(found: CarriedLoad) -> float:
     task = found.task
     share = (task.time - task.time[0]) / (task.time[-1] - task.time[0])
     kept = (share <= ROLLS) & (task.load >= FIRM * task.weight)
+    return arc_through(shank_path(found)[kept]).radius
+
+
+def shank_path(found: CarriedLoad) -> Float[np.ndarray, "t 2"]:
+    """Centre of pressure in the shank's frame, forward and up from the ankle [m]: the roll-over shape."""
+    task = found.task
     up = task.knee - task.ankle
     turn = Rotation.from_euler("z", 0.5 * np.pi - np.arctan2(up[1], up[0]))
     places = np.column_stack([found.centre - task.ankle[:2], np.zeros(len(found.centre))])
-    radius = arc_through(turn.apply(places)[kept, :2]).radius
-    return radius
+    return np.asarray(turn.apply(places)[:, :2])
 
 
 def loading_rate(found: CarriedLoad) -> float:

@@ -10,5 +10,6 @@ prosthesis = App(
 )
 prosthesis.command("geocontact.cli.prosthesis.calibrate:calibrate", name="calibrate")
 prosthesis.command("geocontact.cli.prosthesis.compare:compare", name="compare")
+prosthesis.command("geocontact.cli.prosthesis.design:design", name="design")
 prosthesis.command("geocontact.cli.prosthesis.scale:scale", name="scale")
 prosthesis.command("geocontact.cli.prosthesis.simulate:simulate", name="simulate")
