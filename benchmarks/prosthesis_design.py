@@ -1,4 +1,4 @@
-"""Planted best fulcrums: `python -m benchmarks.prosthesis_design [--persons 50] [--feet 12] [--walks 3] [--workers 2]`.
+"""Planted best fulcrums: `python -m benchmarks.prosthesis_design [--persons 50] [--feet 6] [--walks 4] [--workers 2]`.
 
 Invented persons walk on a finer foot (12 joints, 72 spheres) whose numbers differ from the usual ones by as much as is
 said to be known of them, and answer to another fulcrum somewhere between keeping angles and keeping torque. For each,
@@ -46,7 +46,7 @@ SD = {"known": (0.25, 0.5, 0.3), "blind": (1.1, 2.0, 0.7)}
 """Standard deviation of the logarithms of stiffness, damping and friction."""
 JOINTS, FINER = 12, 3
 """Of the true foot: neither is among those that are drawn (8 joints; 1, 2 and 4 times the rows of spheres)."""
-VALUES = 9
+VALUES = 7
 """Fulcrums of the sweep."""
 INSIDE = (0.070, 0.147)
 """m; within which a best fulcrum is planted."""
@@ -172,6 +172,15 @@ def _recorded(
     )
 
 
+def _words(one: Planted) -> str:
+    """What is told of each aim in mm; a dash where nothing is."""
+    rows = []
+    for aim, choice in one.choices.items():
+        interval = f"{1e3 * choice.lower:.0f}-{1e3 * choice.upper:.0f}{'' if one.found(aim) else ' missed'}"
+        rows.append(f"{aim} {interval if choice.told else '-'}")
+    return ", ".join(rows)
+
+
 def told(found: list[Planted]) -> None:
     """Print how often the planted fulcrum is found, and how wide the intervals are."""
     for known in SD:
@@ -192,8 +201,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--persons", type=int, default=50)
     parser.add_argument("--blind", type=int, default=10)
-    parser.add_argument("--feet", type=int, default=12)
-    parser.add_argument("--walks", type=int, default=3)
+    parser.add_argument("--feet", type=int, default=6)
+    parser.add_argument("--walks", type=int, default=4)
     parser.add_argument("--workers", type=int, default=2)
     asked = parser.parse_args()
     tasks = [(k, known, asked.feet, asked.walks) for known, n in (("known", asked.persons), ("blind", asked.blind)) for k in range(n)]
@@ -203,6 +212,7 @@ def main() -> None:
             print(f"person {task[0]}, {task[1]}: {became}")
             continue
         found.append(became)
+        print(f"person {task[0]}, {task[1]}: planted {1e3 * became.fulcrum:.0f} mm, {_words(became)}", flush=True)
     told(found)
 
 

@@ -17,7 +17,7 @@ from jaxtyping import Float
 from geocontact.below_knee_prosthesis.design.foot_map import PLACES, FootMap
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 
-REACH, STEP = np.radians(10.0), np.radians(0.1)
+REACH, STEP = np.radians(8.0), np.radians(0.1)
 """How far a foot is turned to keep a torque, and in which steps it is looked for [rad]."""
 
 

@@ -19,10 +19,10 @@ from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.centre_of_pressure import GROUND_POINT, centre_of_pressure
 
 FLOOR = HalfSpace()
-PITCHES, LOADS, DEPTHS = np.radians(1.5), 25, 24
+PITCHES, LOADS, DEPTHS = np.radians(2.0), 21, 16
 """Step of pitch [rad], rows of load, and depths that each pitch is pressed to."""
-SHALLOW, DEEPER, DEEPEST, ROUNDS = 8e-3, 1.35, 0.12, 12
-"""m; first depth that is tried, factor to the next, most of all, and how often."""
+SHALLOW, DEEPER, DEEPEST, ROUNDS, PROBES = 12e-3, 1.4, 0.12, 14, 5
+"""m; first depth that is tried, factor to the next, most of all, how often, and steps from the air to it."""
 MARGIN = 1.05
 """Of the loads of a stance, over them."""
 PLACES = 3
@@ -64,17 +64,10 @@ def foot_map(keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], most: Float[
 
     ArithmeticError where the foot does not reach a load, or the keel has no equilibrium on the way.
     """
-    deepest = _deep_enough(keel, pitch, most)
-    share = np.linspace(0.0, 1.0, DEPTHS + 1)[1:]
-    depth = deepest[:, None] * share
-    depth[1::2] = depth[1::2, ::-1]  # to and fro: each frame is sought from the one before
-    motion, poses = _pressed(keel, np.repeat(pitch, DEPTHS), depth.ravel())
+    motion, poses, shape = _pressed(keel, pitch, _deep_enough(keel, pitch, most), DEPTHS)
     centre = poses.inv().apply(centre_of_pressure(motion.loads, GROUND_POINT).centre)
-    channels = np.column_stack([poses.translation[:, 1], centre[:, :2], motion.angles])
-    channels = channels.reshape(len(pitch), DEPTHS, -1)
-    force = motion.force[:, 1].reshape(len(pitch), DEPTHS)
-    for each in (channels, force):
-        each[1::2] = each[1::2, ::-1].copy()
+    channels = np.column_stack([poses.translation[:, 1], centre[:, :2], motion.angles]).reshape(*shape, -1)
+    force = motion.force[:, 1].reshape(shape)
     force = np.maximum.accumulate(force, axis=1)
     load = np.linspace(0.0, float(most.max()), LOADS)
     table = np.empty((len(pitch), LOADS, channels.shape[-1]))
@@ -98,9 +91,11 @@ def needed(
 def _deep_enough(
     keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], most: Float[np.ndarray, " p"]
 ) -> Float[np.ndarray, " p"]:
+    """Depth of each row at which it carries its load [m]."""
     depth = np.full(len(pitch), SHALLOW)
     for _ in range(ROUNDS):
-        force = _pressed(keel, pitch, depth)[0].force[:, 1]
+        motion, _, shape = _pressed(keel, pitch, depth, PROBES)
+        force = motion.force[:, 1].reshape(shape).max(axis=1)
         if (force >= most).all():
             return depth
         wanted = np.where(force > 0.2 * most, most / np.maximum(force, 1.0) * 1.05, DEEPER)
@@ -109,13 +104,19 @@ def _deep_enough(
 
 
 def _pressed(
-    keel: QuasiStaticKeel, pitch: Float[np.ndarray, " n"], depth: Float[np.ndarray, " n"]
-) -> tuple[KeelMotion, RigidTransform]:
-    """Upright feet pressed into the floor so far below where each straight foot just touches."""
-    turn = Rotation.from_euler("z", pitch[:, None])
+    keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], deepest: Float[np.ndarray, " p"], count: int
+) -> tuple[KeelMotion, RigidTransform, tuple[int, int]]:
+    """Upright feet from the air to their depths below where each straight foot just touches.
+
+    In that order, and from the air again at each pitch, so that of several equilibria the one is found that a foot
+    comes to which is put down.
+    """
+    share = np.concatenate([[-0.1], np.linspace(0.0, 1.0, count + 1)[1:]])
+    depth = (deepest[:, None] * share).ravel()
+    turn = Rotation.from_euler("z", np.repeat(pitch, len(share))[:, None])
     spheres = keel.sole.spheres
     centres = np.einsum("tij,nj->tni", turn.as_matrix(), spheres.centre)
     lowest = (centres[..., 1] - spheres.radius).min(axis=1)
     place = np.stack([0.0 * depth, -lowest - depth, 0.0 * depth], axis=1)
     poses = RigidTransform.from_components(place, turn)
-    return keel.solve(poses, FLOOR), poses
+    return keel.solve(poses, FLOOR), poses, (len(pitch), len(share))
