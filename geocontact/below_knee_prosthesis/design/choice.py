@@ -1,7 +1,7 @@
 """Which value is best, within which interval, and whether that can be told.
 
-The best value of each draw makes an interval, for each response of the person. It is an answer where it is narrower
-than most of the range; where the value has no effect on the aim, or the two responses call for different values, there
+The values of each draw that are as good as its best, within a hundredth of the outcome, make an interval, for each
+response of the person. It is an answer where it is narrower than most of the range; where the value has no effect on the aim, or the two responses call for different values, there
 is none. What a band cannot tell from nothing is not called a difference.
 """
 
@@ -21,7 +21,7 @@ from geocontact.below_knee_prosthesis.design.outcomes import Sense
 FINE = 401
 """Values between which the best is sought."""
 FLAT, WIDE = 0.01, 0.6
-"""Span of an outcome over its size below which a value has no effect; share of the range that is no answer."""
+"""Difference of an outcome over its size that is none; share of the range that is no answer."""
 SideVerdict = Literal["told", "no effect", "cannot tell"]
 
 
@@ -121,15 +121,19 @@ def _side(
     values: Float[np.ndarray, " n"], drawn: Float[np.ndarray, "d n"], sense: Sense, target: float | None, level: float
 ) -> Side:
     fine = np.linspace(values[0], values[-1], FINE)
-    best = fine[np.argmin(away(PchipInterpolator(values, drawn, axis=1)(fine), sense, target), axis=1)]
-    median, lower, upper = _interval(best, level)
+    worth = away(PchipInterpolator(values, drawn, axis=1)(fine), sense, target)
+    size = float(np.median(np.abs(drawn)))
+    near = worth <= worth.min(axis=1, keepdims=True) + FLAT * size
+    lower = _interval(fine[np.argmax(near, axis=1)], level)[1]
+    upper = _interval(fine[len(fine) - 1 - np.argmax(near[:, ::-1], axis=1)], level)[2]
+    best = float(np.median(fine[np.argmin(worth, axis=1)]))
     span = float(np.median(drawn.max(axis=1) - drawn.min(axis=1)))
     verdict: SideVerdict = "told"
-    if span < FLAT * float(np.median(np.abs(drawn))):
+    if span < FLAT * size:
         verdict = "no effect"
     elif upper - lower > WIDE * (values[-1] - values[0]):
         verdict = "cannot tell"
-    return Side(median, lower, upper, verdict)
+    return Side(best, lower, upper, verdict)
 
 
 def _gain(
