@@ -7,14 +7,11 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import Degrees, Expression, Fraction, Length, Options, PartLength, Spelled
+from geocontact.analyses.options import BodyMass, Degrees, Expression, Fraction, Length, Options, PartLength, Spelled
+from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import KG, Plausible
 from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, TILT
-from geocontact.data.units import mm
 
-FULCRUM = Plausible("a fulcrum of the variable-stiffness foot", mm, (66.0, 151.0))
-PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
 FEWEST, MOST = 6, 600
 """Feet that may be drawn."""
 PITCH = math.radians(0.5)
@@ -34,7 +31,7 @@ class ProsthesisDesignOptions(Options):
     static
         Standing trial with all markers, the foot flat on the floor.
     mass
-        Of the body with the prosthesis [kg].
+        Of the body with the prosthesis.
     side
         Of the prosthesis.
 
@@ -99,7 +96,7 @@ class ProsthesisDesignOptions(Options):
     markers: Path
     _: KW_ONLY
     static: Path
-    mass: Annotated[float, PERSON]
+    mass: Annotated[BodyMass, PERSON]
     plates: Path
     side: Literal["right", "left"] = "right"
     setting: Literal["low", "medium", "high"] = "medium"
