@@ -26,7 +26,7 @@ class ProsthesisScaleOptions(Options):
     The person
     ----------
     mass
-        Of the body with the prosthesis [kg].
+        Of the body with the prosthesis.
     height
         Of the person [m]; only compared with the lengths of the legs.
     side
@@ -39,7 +39,7 @@ class ProsthesisScaleOptions(Options):
     The prosthesis
     ----------
     prosthesis_mass
-        Of socket, pylon and foot together [kg]; else invented.
+        Of socket, pylon and foot together; else invented.
     setting
         Stiffness of the foot: low, medium or high, 10, 19 or 32 N/mm.
     fulcrum
