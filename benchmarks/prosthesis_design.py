@@ -22,7 +22,7 @@ from geocontact.analyses.workers import each
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.design.carried_load import REACH, CarriedLoad, with_angles_kept, with_torque_kept
 from geocontact.below_knee_prosthesis.design.choice import Choice, choose
-from geocontact.below_knee_prosthesis.design.drawn import KEEL, draws, drawn_foot
+from geocontact.below_knee_prosthesis.design.drawn import KEEL, drawn_foot, draws
 from geocontact.below_knee_prosthesis.design.foot_map import foot_map, needed
 from geocontact.below_knee_prosthesis.design.foot_task import LOADED, FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
@@ -90,11 +90,9 @@ def planted(task: tuple[int, str, int, int]) -> Planted:
     trial = _recorded(leg, person, poses, time_, height, exact, present, errors, rng)
     start = time.process_time()
     knob = Knob("fulcrum", np.linspace(0.066, 0.151, VALUES), present)
-    drawn = draws(
-        knob, foot, lambda own: task_again(trial, errors, own), sd, feet=feet, walks=walks, seed=number
-    ).drawn
+    drawn = draws(knob, foot, lambda own: task_again(trial, errors, own), sd, feet=feet, walks=walks, seed=number).drawn
     choices = {
-        aim: choose(knob.values, drawn[..., k], MEASURES[aim].sense, wanted[aim], present, LEVEL)
+        aim: choose(knob.settings, drawn[..., k], MEASURES[aim].sense, wanted[aim], present, LEVEL)
         for k, aim in enumerate(AIMS)
     }
     return Planted(number, known, best, present, choices, time.process_time() - start)
@@ -124,7 +122,7 @@ def _walk(leg: Leg, fulcrum: float, rng: np.random.Generator) -> tuple[FootTask,
     return exact, poses, motion.time
 
 
-def _responding(new, exact: FootTask, before, share: float) -> CarriedLoad:  # noqa: ANN001 two foot maps
+def _responding(new, exact: FootTask, before, share: float) -> CarriedLoad:
     """Turned by that share of what would keep the torque."""
     kept = with_torque_kept(new, exact, with_angles_kept(before, exact).ankle_moment)
     return with_angles_kept(new, replace(exact, pitch=exact.pitch + share * kept.tilt))
@@ -205,7 +203,11 @@ def main() -> None:
     parser.add_argument("--walks", type=int, default=4)
     parser.add_argument("--workers", type=int, default=2)
     asked = parser.parse_args()
-    tasks = [(k, known, asked.feet, asked.walks) for known, n in (("known", asked.persons), ("blind", asked.blind)) for k in range(n)]
+    tasks = [
+        (k, known, asked.feet, asked.walks)
+        for known, n in (("known", asked.persons), ("blind", asked.blind))
+        for k in range(n)
+    ]
     found: list[Planted] = []
     for task, became in each(planted, tasks, asked.workers):
         if isinstance(became, BaseException):

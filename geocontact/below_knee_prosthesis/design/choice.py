@@ -1,8 +1,9 @@
 """Which value is best, within which interval, and whether that can be told.
 
 The values of each draw that are as good as its best, within a hundredth of the outcome, make an interval, for each
-response of the person. It is an answer where it is narrower than most of the range; where the value has no effect on the aim, or the two responses call for different values, there
-is none. What a band cannot tell from nothing is not called a difference.
+response of the person. It is an answer where it is narrower than most of the range; where the value has no effect on
+the aim, or the two responses call for different values, there is none. What a band cannot tell from nothing is not
+called a difference.
 """
 
 from __future__ import annotations

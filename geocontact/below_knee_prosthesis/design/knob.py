@@ -34,14 +34,14 @@ class Knob:
     ----------
     vary
         Fulcrum [m], alignment [rad] (toes up against the socket), or stiffness (factor on the keel's EI).
-    values
-        Increasing.
+    settings
+        Its values, increasing.
     fulcrum
         That the stance was recorded on [m], which stays where something else is varied.
     """
 
     vary: Vary
-    values: Float[np.ndarray, " n"]
+    settings: Float[np.ndarray, " n"]
     fulcrum: float
 
     @property
@@ -51,12 +51,12 @@ class Knob:
 
     def maps(self, foot: VariableStiffnessFoot, task: FootTask) -> tuple[FootMap, ...]:
         """Of each value, the present one last, for stances not much beyond this one; ArithmeticError as `foot_map`."""
-        reach = REACH + (float(np.abs(self.values).max()) if self.vary == "alignment" else 0.0)
+        reach = REACH + (float(np.abs(self.settings).max()) if self.vary == "alignment" else 0.0)
         rows = needed(task.pitch, task.load, reach)
         if self.vary == "alignment":
-            return (foot_map(foot.at(self.fulcrum), *rows),) * (len(self.values) + 1)
+            return (foot_map(foot.at(self.fulcrum), *rows),) * (len(self.settings) + 1)
         found = []
-        for value in (*self.values, self.present):
+        for value in (*self.settings, self.present):
             keel, fulcrum = foot.keel, value
             if self.vary == "stiffness":
                 keel, fulcrum = replace(keel, bending=value * keel.bending), self.fulcrum
@@ -67,7 +67,7 @@ class Knob:
     def carried(self, maps: Sequence[FootMap], task: FootTask) -> Mapping[Response, tuple[CarriedLoad, ...]]:
         """The foot along the stance at each value, for both responses of the person."""
         moment = with_angles_kept(maps[-1], task).ankle_moment
-        tasks = [task.aligned(value) if self.vary == "alignment" else task for value in self.values]
+        tasks = [task.aligned(value) if self.vary == "alignment" else task for value in self.settings]
         pairs = list(zip(maps[:-1], tasks, strict=True))
         return {
             "angles kept": tuple(with_angles_kept(*each) for each in pairs),

@@ -34,9 +34,9 @@ MEASURES: Mapping[Aim, Measure] = {
     "loading_rate": Measure("rate of loading at touch-down", "N/s", "least"),
 }
 ROLLING = 0.3
-"""Radius over the length of the leg: where rolling costs a walker least (Adamczyk, Collins & Kuo 2006, J Exp Biol 209)."""
+"""Radius over the length of the leg: where walking costs least (Adamczyk, Collins & Kuo 2006, J Exp Biol 209)."""
 ROLLS = 0.8
-"""Share of the stance up to which the path of the centre of pressure is a roll-over shape: about opposite heel contact."""
+"""Share of the stance up to which the path of the centre of pressure is a roll-over shape: to opposite heel contact."""
 FIRM = 0.2
 """Of body weight; load from which it counts."""
 LANDING = 0.3

@@ -54,7 +54,10 @@ def test_shipped_trial_to_files(tmp_path: Path) -> None:
     assert known.loc["radius", "told"]
     assert not known.loc["loading_rate", "told"]
     lower, upper = "lower fulcrum [mm]", "upper fulcrum [mm]"
-    assert known.loc["radius", upper] - known.loc["radius", lower] <= unknown.loc["radius", upper] - unknown.loc["radius", lower]
+    assert (
+        known.loc["radius", upper] - known.loc["radius", lower]
+        <= unknown.loc["radius", upper] - unknown.loc["radius", lower]
+    )
     sweep = found.table("sweep").set_index(["response", "outcome"])
     energy = sweep.loc[("angles kept", "energy"), "median"].to_numpy(float)
     assert np.all(np.diff(energy) < 0.0)

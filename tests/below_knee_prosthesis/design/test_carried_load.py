@@ -51,7 +51,7 @@ def test_on_the_recorded_foot_the_kept_torque_turns_nothing(maps: dict[float, Fo
 
 
 def test_alignment_turns_the_foot_about_the_ankle(maps: dict[float, FootMap]) -> None:
-    """Turned back in the ground by as much, the ankle's moment is what it was, that at the knee moved with the shank."""
+    """Turned back in the ground by as much, the ankle's moment is what it was; the knee keeps its distance."""
     task, angle = a_task(), np.radians(3.0)
     turned = task.aligned(angle)
     back = with_angles_kept(maps[0.117], replace(turned, pitch=turned.pitch - angle))

@@ -22,7 +22,7 @@ from geocontact.view.page.write import write_page
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-FIGURE = "Grey the plates, coloured the model: mean over the stances of a setting, with a band of one standard deviation."
+FIGURE = "Grey the plates, coloured the model: mean over a setting's stances, a band of one standard deviation."
 SHOWN = {
     "vertical": "Vertical force over body weight",
     "fore_aft": "Fore-aft force over body weight, forward positive",
@@ -32,13 +32,15 @@ SHOWN = {
 }
 WITHOUT = [
     "Both predictors without a model know when the stance on the plate begins and ends; the simulation has to find it.",
-    "Mean of the others: of the same person's other trials, whatever their setting; of all others where there are none.",
+    "Mean of the others: of the same person's other trials at any setting; of all others where there are none.",
     "Another setting: the plate of the person's first trial on another setting of the foot.",
     "The pelvis is free upwards, so that the impulse is nearly body weight times time, whatever the foot is.",
 ]
 MEASURES = [
-    "Errors are over the stance that the plate saw. The study takes a quarter of a second of swing on both sides as "
-    "well, where both forces are nothing, which makes its errors smaller.",
+    (
+        "Errors are over the stance that the plate saw. The study takes a quarter of a second of swing on both sides "
+        "as well, where both forces are nothing, which makes its errors smaller."
+    ),
     "Force and centre of pressure of the other leg are recorded and given; trials that a sole was fitted to are apart.",
     "An outlier is further off than three standard deviations by the study's rule, or by the median.",
 ]

@@ -28,7 +28,7 @@ def design_figure(
     ends: Knob,
     shapes: Mapping[Response, tuple[CarriedLoad, ...]],
 ) -> Figure:
-    """Blue with the angles kept, orange with the torque kept; grey the present value, green the interval of the best."""
+    """Blue with the angles kept, orange with the torque; grey the present value, green the interval of the best."""
     figure, axes = panels(2, 3, DOUBLE, HEIGHT)
     factor, bands = SHOWN[sweep.knob.vary][0], sweep.bands
     for k, answer in enumerate(answers):
@@ -50,7 +50,7 @@ def design_figure(
 
 def _shapes(panel: Axes, ends: Knob, carried: Sequence[CarriedLoad]) -> None:
     factor, unit = SHOWN[ends.vary]
-    for k, (value, found) in enumerate(zip(ends.values, carried, strict=True)):
+    for k, (value, found) in enumerate(zip(ends.settings, carried, strict=True)):
         x, y = 1e3 * shank_path(found).T
         label = f"{factor * value:.{DIGITS[ends.vary]}f} {unit}".strip()
         panel.plot(x, y, color=PALETTE[k], ls=LINES[k], label=label)

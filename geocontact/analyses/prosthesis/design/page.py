@@ -27,14 +27,21 @@ FIGURE = (
     "present value, green the interval of the best one."
 )
 LIMITS = [
-    "What a person does on another foot is not known. With angles kept the socket turns as recorded; with torque kept "
-    "the foot turns until the ankle has the moment of the recorded foot. What people do is taken to lie between.",
+    (
+        "What a person does on another foot is not known. With angles kept the socket turns as recorded; with torque "
+        "kept the foot turns until the ankle has the moment of the recorded foot. What people do is taken to lie "
+        "between."
+    ),
     "The load over time is the recorded one, and nothing has inertia: kept torques of hip and knee are not simulated.",
-    "Bands hold what is not known of the sole, rounding of the keel's compressions, the count of spheres in the model, "
-    "errors of markers and plate. How a person differs from step to step is not in them.",
+    (
+        "Bands hold what is not known of the sole, rounding of the keel's compressions, the count of spheres in the "
+        "model, errors of markers and plate. How a person differs from step to step is not in them."
+    ),
     "A best value is told where its interval is narrower than 60 % of the range in every response that it matters in.",
-    "Rate of loading: stiffness of the landing foot times its speed; the sole's damping, whose numbers are invented, "
-    "is not in it.",
+    (
+        "Rate of loading: stiffness of the landing foot times its speed; the sole's damping, whose numbers are "
+        "invented, is not in it."
+    ),
 ]
 
 

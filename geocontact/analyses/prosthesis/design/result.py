@@ -73,7 +73,7 @@ class ProsthesisDesignResult(Result):
         vary = self.ends.vary
         frames = []
         for response, carried in self.shapes.items():
-            for value, found in zip(self.ends.values, carried, strict=True):
+            for value, found in zip(self.ends.settings, carried, strict=True):
                 forward, up = shank_path(found).T
                 columns = {
                     f"{vary} [{UNITS[vary]}]": SHOWN[vary][0] * float(value),

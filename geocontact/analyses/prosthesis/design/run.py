@@ -64,14 +64,14 @@ def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> Pros
 
 def _ends(knob: Knob) -> Knob:
     """The first value, the present one and the last, in order."""
-    return Knob(knob.vary, np.unique([knob.values[0], knob.present, knob.values[-1]]), knob.fulcrum)
+    return Knob(knob.vary, np.unique([knob.settings[0], knob.present, knob.settings[-1]]), knob.fulcrum)
 
 
 def _answer(sweep: Sweep, task: FootTask, o: ProsthesisDesignOptions, k: int) -> Answer:
     aim = AIMS[k]
     target = o.target if aim == o.aim and o.target is not None else wanted_of(aim, task)
     knob = sweep.knob
-    choice = choose(knob.values, sweep.drawn[..., k], MEASURES[aim].sense, target, knob.present, o.level)
+    choice = choose(knob.settings, sweep.drawn[..., k], MEASURES[aim].sense, target, knob.present, o.level)
     return Answer(aim, target, choice)
 
 
@@ -94,7 +94,7 @@ def _say(r: ProsthesisDesignResult) -> None:
         )
         record.say(_beside_present(choice, measure.unit, shown(knob.present)))
     for response, rows in r.sweep.differences().items():
-        record.say(f"{response}, {shown(knob.values[-1])} in place of {shown(knob.values[0])}: {'; '.join(rows)}")
+        record.say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {'; '.join(rows)}")
     record.results["design"] = plain(
         {
             each.aim: {

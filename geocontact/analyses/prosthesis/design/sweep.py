@@ -49,7 +49,7 @@ class Sweep:
     @property
     def shown(self) -> Float[np.ndarray, " n"]:
         """Values in the unit that they are shown in."""
-        return SHOWN[self.knob.vary][0] * self.knob.values
+        return SHOWN[self.knob.vary][0] * self.knob.settings
 
     def table(self) -> pd.DataFrame:
         """Long: one row for each value, response and outcome."""
