@@ -81,6 +81,6 @@ def _panel(name: str, title: str, stances: Sequence[JudgedStance]) -> Curves:
             (f"{setting}, plate", [one.measured(name) for one in own]),
         ):
             mean, sd = np.mean(values, axis=0), np.std(values, axis=0)
-            band = (mean - sd, mean + sd) if len(own) > 1 else (None, None)
-            curves.append(Curve(label, mean, *band, stroke=2 * k + int(label.endswith("plate"))))
+            lower, upper = (mean - sd, mean + sd) if len(own) > 1 else (None, None)
+            curves.append(Curve(label, mean, lower, upper, 2 * k + int(label.endswith("plate"))))
     return Curves(title, UNITS.get(name, "-"), curves)

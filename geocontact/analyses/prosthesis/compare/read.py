@@ -9,6 +9,7 @@ from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOp
 from geocontact.analyses.prosthesis.simulate.read import Walk
 from geocontact.analyses.prosthesis.simulate.read import read as read_walk
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.model.leg import RESIDUAL
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance
 from geocontact.io.recordings.gait_study import GaitPerson, GaitStance, read_gait_study
 
@@ -46,7 +47,6 @@ def _stance(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions, 
 
 
 def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -> ProsthesisSimulateOptions:
-    given = {} if person.residual is None else {"residual": person.residual}
     return ProsthesisSimulateOptions(
         trial.markers,
         static=person.static,
@@ -66,5 +66,5 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         machine_code=o.machine_code,
         markers_map=o.markers_map,
         axes=o.axes,
-        **given,
+        residual=RESIDUAL if person.residual is None else person.residual,
     )

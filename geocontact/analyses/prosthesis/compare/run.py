@@ -77,7 +77,7 @@ def _say(r: ProsthesisCompareResult) -> None:
     rows = summary[summary["setting"] == ALL].set_index("quantity")
     for name in SAID:
         if name in rows.index:
-            record.say(_told(name, rows.loc[name]))
+            record.say(_told(name, rows.loc[[name]].iloc[0]))
     late = [one.errors.stance[0] - one.errors.stance[1] for one in stances if not one.calibrated]
     if late:
         record.say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")

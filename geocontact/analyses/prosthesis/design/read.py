@@ -74,10 +74,9 @@ def _known(file: Path, zones: ZoneParameters, record: Record) -> Float[np.ndarra
         raise InputError(file, "", f"no row {lost[0]!r}", "give numbers.csv of prosthesis calibrate")
     found = []
     for name, believed in zip(zones.names, zones.sd, strict=True):
-        row = told.loc[name]
-        lower, upper = float(row["lower"]), float(row["upper"])
+        lower, upper = (float(told[column].to_dict()[name]) for column in ("lower", "upper"))
         if not 0.0 < lower <= upper < np.inf:
             raise InputError(file, name, f"{lower:g} to {upper:g} is no interval", "give positive bounds, lower first")
         own = np.log(upper / lower) / (2.0 * norm.ppf(0.5 + 0.5 * INTERVAL))
-        found.append(believed if row["verdict"] == "unknown" else min(float(own), float(believed)))
+        found.append(believed if told["verdict"].to_dict()[name] == "unknown" else min(float(own), float(believed)))
     return np.array(found)

@@ -44,7 +44,8 @@ class Sweep:
     @property
     def bands(self) -> Float[np.ndarray, "three two n aims"]:
         """Median, lower and upper end."""
-        return np.quantile(self.drawn, [0.5, 0.5 * (1.0 - self.level), 0.5 * (1.0 + self.level)], axis=0)
+        ends = [0.5, 0.5 * (1.0 - self.level), 0.5 * (1.0 + self.level)]
+        return np.asarray(np.quantile(self.drawn, ends, axis=0))
 
     @property
     def shown(self) -> Float[np.ndarray, " n"]:
