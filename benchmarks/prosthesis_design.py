@@ -21,7 +21,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from geocontact.analyses.workers import each
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.design.carried_load import REACH, CarriedLoad, with_angles_kept, with_torque_kept
-from geocontact.below_knee_prosthesis.design.choice import Choice, choose
+from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
 from geocontact.below_knee_prosthesis.design.drawn import KEEL, drawn_foot, draws
 from geocontact.below_knee_prosthesis.design.foot_map import foot_map, needed
 from geocontact.below_knee_prosthesis.design.foot_task import LOADED, FootTask
@@ -61,7 +61,7 @@ class Planted:
     known: str
     fulcrum: float
     present: float
-    choices: Mapping[Aim, Choice]
+    choices: Mapping[Aim, FootChoice]
     seconds: float
 
     def found(self, aim: Aim) -> bool:

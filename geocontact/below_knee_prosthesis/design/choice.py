@@ -43,7 +43,7 @@ class Side:
 
 
 @dataclass(frozen=True)
-class Choice:
+class FootChoice:
     """The answer.
 
     Parameters
@@ -80,7 +80,7 @@ def choose(
     target: float | None,
     present: float,
     level: float,
-) -> Choice:
+) -> FootChoice:
     """Of draws of one outcome by response and value.
 
     Parameters
@@ -96,8 +96,8 @@ def choose(
     telling = {name: side for name, side in sides.items() if side.verdict == "told"}
     whole = float(values[0]), float(values[-1])
 
-    def silent(why: str) -> Choice:
-        return Choice(sides, False, float("nan"), *whole, {}, why)
+    def silent(why: str) -> FootChoice:
+        return FootChoice(sides, False, float("nan"), *whole, {}, why)
 
     if any(side.verdict == "cannot tell" for side in sides.values()):
         blind = " and ".join(name for name, side in sides.items() if side.verdict == "cannot tell")
@@ -115,7 +115,7 @@ def choose(
     }
     idle = [name for name in sides if name not in telling]
     why = f"with {idle[0]} it has no effect" if idle else "whether angles or torque are kept"
-    return Choice(sides, True, best, lower, upper, gain, why)
+    return FootChoice(sides, True, best, lower, upper, gain, why)
 
 
 def _side(

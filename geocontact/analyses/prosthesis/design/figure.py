@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, UNITS, Answer, Sweep
+from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, UNITS, AimAnswer, Sweep
 from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob, Response
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, shank_path
@@ -24,7 +24,7 @@ HEIGHT = 0.1
 @in_style
 def design_figure(
     sweep: Sweep,
-    answers: Sequence[Answer],
+    answers: Sequence[AimAnswer],
     ends: Knob,
     shapes: Mapping[Response, tuple[CarriedLoad, ...]],
 ) -> Figure:

@@ -13,7 +13,7 @@ from geocontact.analyses.figure_files import save_both
 from geocontact.analyses.prosthesis.design.figure import design_figure, stance_share
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.page import write_design_page
-from geocontact.analyses.prosthesis.design.sweep import SHOWN, UNITS, Answer, Sweep, answers_table
+from geocontact.analyses.prosthesis.design.sweep import SHOWN, UNITS, AimAnswer, Sweep, answers_table
 from geocontact.analyses.result import Result
 from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
@@ -41,7 +41,7 @@ class ProsthesisDesignResult(Result):
 
     options: ProsthesisDesignOptions
     sweep: Sweep
-    answers: tuple[Answer, ...]
+    answers: tuple[AimAnswer, ...]
     ends: Knob
     shapes: Mapping[Response, tuple[CarriedLoad, ...]]
     task: FootTask

@@ -9,9 +9,9 @@ from geocontact.analyses.json_file import plain
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.design.read import FootAndTrial
 from geocontact.analyses.prosthesis.design.result import ProsthesisDesignResult
-from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, Answer, Sweep, wanted_of
+from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, AimAnswer, Sweep, wanted_of
 from geocontact.analyses.run_record import Record
-from geocontact.below_knee_prosthesis.design.choice import Choice, choose
+from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
 from geocontact.below_knee_prosthesis.design.drawn import draws
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob, Vary
@@ -67,12 +67,12 @@ def _ends(knob: Knob) -> Knob:
     return Knob(knob.vary, np.unique([knob.settings[0], knob.present, knob.settings[-1]]), knob.fulcrum)
 
 
-def _answer(sweep: Sweep, task: FootTask, o: ProsthesisDesignOptions, k: int) -> Answer:
+def _answer(sweep: Sweep, task: FootTask, o: ProsthesisDesignOptions, k: int) -> AimAnswer:
     aim = AIMS[k]
     target = o.target if aim == o.aim and o.target is not None else wanted_of(aim, task)
     knob = sweep.knob
     choice = choose(knob.settings, sweep.drawn[..., k], MEASURES[aim].sense, target, knob.present, o.level)
-    return Answer(aim, target, choice)
+    return AimAnswer(aim, target, choice)
 
 
 def _say(r: ProsthesisDesignResult) -> None:
@@ -109,7 +109,7 @@ def _say(r: ProsthesisDesignResult) -> None:
     )
 
 
-def _beside_present(choice: Choice, unit: str, present: str) -> str:
+def _beside_present(choice: FootChoice, unit: str, present: str) -> str:
     gains = ", ".join(
         f"{name} nearer by {median:.3g} ({lower:.3g} to {upper:.3g}) {unit}"
         for name, (median, lower, upper) in choice.gain.items()

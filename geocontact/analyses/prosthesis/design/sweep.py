@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.below_knee_prosthesis.design.choice import Choice
+from geocontact.below_knee_prosthesis.design.choice import FootChoice
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob, Vary
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, ROLLING, Aim
@@ -93,7 +93,7 @@ class Sweep:
 
 
 @dataclass(frozen=True)
-class Answer:
+class AimAnswer:
     """The best value for one aim.
 
     Parameters
@@ -104,7 +104,7 @@ class Answer:
 
     aim: Aim
     target: float | None
-    choice: Choice
+    choice: FootChoice
 
     @property
     def wanted(self) -> str:
@@ -118,7 +118,7 @@ def wanted_of(aim: Aim, task: FootTask) -> float | None:
     return ROLLING * task.leg_length if MEASURES[aim].sense == "nearest" else None
 
 
-def answers_table(answers: tuple[Answer, ...], vary: Vary) -> pd.DataFrame:
+def answers_table(answers: tuple[AimAnswer, ...], vary: Vary) -> pd.DataFrame:
     """One row for each aim."""
     factor, unit = SHOWN[vary][0], UNITS[vary]
     rows = []
