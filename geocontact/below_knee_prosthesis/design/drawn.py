@@ -113,5 +113,7 @@ def drawn_foot(
 
 def _widest(tasks: list[FootTask]) -> FootTask:
     """Pitches and loads of all draws of a stance as one, so that one table serves them."""
-    pitch, load = (np.concatenate([getattr(each, name) for each in tasks]) for name in ("pitch", "load"))
-    return replace(tasks[0], pitch=pitch, load=load)
+    time, pitch, load, forward = (
+        np.concatenate([getattr(each, name) for each in tasks]) for name in ("time", "pitch", "load", "forward")
+    )
+    return replace(tasks[0], time=time, pitch=pitch, load=load, forward=forward)
