@@ -42,7 +42,6 @@ def main() -> None:
         "elastica": convergence(),
         "without and with inertia": stances(options.rounds),
         "spheres": soles(options.rounds),
-        "zone numbers": zones(),
         "torsion": torsion(),
     }
     (options.out / "prosthesis_keel.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
@@ -225,53 +224,6 @@ def soles(rounds: int) -> dict[str, Any]:
         each["centre rms [mm]"] = float(1e3 * np.sqrt(np.nanmean(away**2)))
         each["centre worst [mm]"] = float(1e3 * np.nanmax(np.abs(away)))
     return {str(finer): each for finer, each in found.items()}
-
-
-def zones() -> dict[str, Any]:
-    """Ten planted numbers of the sole from one stance at medium, without and with noise, and the load they predict."""
-    import numpy as np
-
-    from benchmarks.keel_stance import LEVEL, WEIGHT, stance
-    from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
-    from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
-    from geocontact.below_knee_prosthesis.keel.zone_numbers import zone_numbers
-
-    foot, rng = vsf_foot(), np.random.default_rng(33)
-    factor = dict(zip(foot.sole.spheres.zones, np.exp(rng.normal(0.0, 0.3, (5, 2))), strict=True))
-    by = np.array([factor[zone] for zone in foot.sole.spheres.zone])
-    law = replace(foot.law, stiffness=by[:, 0] * foot.law.stiffness, damping=by[:, 1] * foot.law.damping)
-    planted, rows = replace(foot, law=law), {n: stance(foot, fulcrum_of(n)) for n in ("low", "medium", "high")}
-
-    def load(one: Any, setting: str) -> Any:
-        at = rows[setting]
-        return one.at(fulcrum_of(setting)).solve(at.poses, LEVEL, rate=at.rate, time=at.time).force[:, 1]
-
-    found: dict[str, Any] = {}
-    for noise in (0.0, 0.01):
-        at = rows["medium"]
-        seen = load(planted, "medium") + noise * WEIGHT * rng.normal(size=len(at.time))
-        started = time.process_time()
-        result = zone_numbers(foot.at(fulcrum_of("medium")), at.poses, at.rate, at.time, LEVEL, seen)
-        taken = time.process_time() - started
-        fitted = replace(foot, law=result.law)
-        missed = [
-            np.abs(getattr(result.law, name) / getattr(law, name) - 1.0).max() for name in ("stiffness", "damping")
-        ]
-        found[f"noise of {100.0 * noise:g} % BW"] = {
-            "CPU [s]": taken,
-            "turns": len(result.residual),
-            "converged": result.converged,
-            "stiffness, worst relative error": float(missed[0]),
-            "damping, worst relative error": float(missed[1]),
-            "load rms [% BW]": {
-                n: [
-                    100.0 * float(np.sqrt(np.mean((load(each, n) - load(planted, n)) ** 2))) / WEIGHT
-                    for each in (foot, fitted)
-                ]
-                for n in rows
-            },
-        }
-    return found
 
 
 def torsion() -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """Write the synthetic gait and standing trials that the documentation runs on: `python meshes/make_gait.py`.
 
-It takes half a minute, for the truth is a stance on a finer foot.
+It takes two minutes, for the truth is a stance on a finer foot.
 """
 
 from __future__ import annotations
@@ -14,19 +14,26 @@ from geocontact.below_knee_prosthesis.synthetic.amputee import standing_trials
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS
 from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
 
-PERSON, SETTING = 0, "medium"
+PERSON = 0
+RECORDED = ("walking.trc", "plates.mot")
+SETTINGS = {"medium": (*RECORDED, "standing.trc", "truth.csv"), "low": RECORDED, "high": RECORDED}
+"""Files of the trial of each setting: one trial has all of them."""
 
 
 def gait_files() -> dict[str, bytes]:
-    """One trial of one participant, by name."""
-    trial = synthetic_trial(PARTICIPANTS[PERSON], SETTING, machine_code=False)
-    return {f"gait_{trial.name}/{name}": text.encode("ascii") for name, text in trial_files(trial).items()}
+    """One trial of one participant at each setting, by name."""
+    found = {}
+    for setting, kept in SETTINGS.items():
+        trial = synthetic_trial(PARTICIPANTS[PERSON], setting, machine_code=False)
+        files = trial_files(trial)
+        found |= {f"gait_{trial.name}/{name}": files[name].encode("ascii") for name in kept}
+    return found
 
 
 def standing_files() -> dict[str, bytes]:
     """A participant who stands and moves both legs' joints, by name."""
     person = PARTICIPANTS[PERSON]
-    trials = standing_trials(person, vsf_foot(), fulcrum_of(SETTING, "pinned"))
+    trials = standing_trials(person, vsf_foot(), fulcrum_of("medium", "pinned"))
     texts = amputee_files(person.name, trials)
     return {f"amputee_{person.name}/{name}": text.encode("ascii") for name, text in texts.items()}
 

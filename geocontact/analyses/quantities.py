@@ -103,6 +103,26 @@ def pressure(text: str, option: str) -> float:
     return value
 
 
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def body_mass(text: str, option: str) -> float:
+    """ "77.3", "77.3kg", "170 lb" to kilograms; kg when no unit is written."""
+    example = f"{option} 77.3 or {option} 77.3kg"
+    found = None if _is_number(text) else _NUMBER_AND_UNIT.fullmatch(text.strip())
+    if found is None:
+        return number(text, option, example)
+    known = si_unit(found["unit"])
+    if known is None or known[0] != "kg":
+        raise InputError("", option, f"{found['unit']!r} is no unit of mass", f"write for example {example}")
+    return number(found["number"], option, example) * known[1]
+
+
 def lengths(text: str, option: str) -> tuple[float, ...]:
     """Comma-separated lengths [m], in the order given; mm unless a unit is written."""
     parts = text.split(",")

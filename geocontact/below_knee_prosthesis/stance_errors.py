@@ -53,12 +53,15 @@ class StanceErrors:
         By quantity: R² and root mean square error in the curve's unit.
     stance
         Length by simulation and by the plate [s].
+    start
+        Touch-down by the plate [s].
     """
 
     share: Float[np.ndarray, " s"]
     curves: Mapping[str, tuple[Float[np.ndarray, " s"], Float[np.ndarray, " s"]]]
     table: Mapping[str, tuple[float, float]]
     stance: tuple[float, float]
+    start: float
 
 
 def stance_errors(found: Stance, plate: PlateStance) -> StanceErrors:
@@ -88,7 +91,7 @@ def stance_errors(found: Stance, plate: PlateStance) -> StanceErrors:
         table[name] = (told.r2, told.rmsd)
     own_span = longest_stance(found.time, found.force[:, 1])
     lasting = np.nan if own_span is None else own_span[1] - own_span[0]
-    return StanceErrors(share, curves, table, (float(lasting), float(span[1] - span[0])))
+    return StanceErrors(share, curves, table, (float(lasting), float(span[1] - span[0])), float(span[0]))
 
 
 def longest_stance(time: Float[np.ndarray, " t"], load: Float[np.ndarray, " t"]) -> tuple[float, float] | None:

@@ -25,6 +25,8 @@ JOBS: tuple[Job, ...] = (
     gc.misalignment.population,
     gc.prosthesis.calibrate,
     gc.prosthesis.scale,
+    gc.prosthesis.compare,
+    gc.prosthesis.design,
     gc.prosthesis.simulate,
     gc.shoulder.simulate,
     gc.shoulder.compare,

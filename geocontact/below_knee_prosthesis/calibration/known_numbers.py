@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import PAUSE, SoleResiduals
 from geocontact.identify.identifiability import Identifiability, identifiability
@@ -20,6 +20,9 @@ from geocontact.identify.noise.autocorrelation import Autocorrelation, autocorre
 Verdict = Literal["known", "believed", "unknown"]
 HALF = 0.5
 """Share of the belief's standard deviation that is left of a number that the data make known, at most."""
+EARNEST, LASTING, BEARING = 2.5, 0.05, 0.05
+"""A zone slips in earnest: faster than so many errors of the recorded speed, for at least so long [s] in sum, while it
+bears that share of body weight. Below, friction is what the search for the slip makes of it."""
 DEAD = 1e-9
 """Sensitivity, over the largest, of a number that has no effect."""
 
@@ -33,7 +36,8 @@ class KnownNumber:
     lower, upper
         Of the interval; the bounds of the search where it is unknown.
     verdict
-        "known": the data at least halve the width of the belief. "believed": they do not. "unknown": the stances never
+        "known": the data at least halve the width of the belief, and of friction the zone slips in earnest.
+        "believed": they do not. "unknown": the stances never
         loaded the zone so that the number has any effect; its value is the usual one and says nothing.
     """
 
@@ -77,14 +81,31 @@ def knowledge(residuals: SoleResiduals, z: Float[np.ndarray, " p"], level: float
     half[alive] = [memory.half_width(np.sqrt(covariance[:, k, k]), level) for k in range(int(alive.sum()))]
     sd = np.full(len(z), np.inf)
     sd[alive] = np.sqrt(np.einsum("g,gkk->k", memory.weight, covariance))
-    rows = []
+    rows, slips = [], np.concatenate([np.ones(2 * len(zones.zones), bool), slipping_zones(residuals, z)])
     for k, each in enumerate(zones.parameters()):
-        verdict: Verdict = "unknown" if not alive[k] else "known" if sd[k] <= HALF * zones.sd[k] else "believed"
+        known = sd[k] <= HALF * zones.sd[k] and slips[k]
+        verdict: Verdict = "unknown" if not alive[k] else "known" if known else "believed"
         reach = np.exp(half[k]) if alive[k] else np.inf
         ends = max(each.lower, values[k] / reach), min(each.upper, values[k] * reach)
         rows.append(KnownNumber(each.name, each.unit, float(values[k]), float(ends[0]), float(ends[1]), verdict))
     names = [name for name, on in zip(zones.names, alive, strict=True) if on]
     return Knowledge(tuple(rows), identifiability(names, slope[:, alive]), memory, half)
+
+
+def slipping_zones(residuals: SoleResiduals, z: Float[np.ndarray, " p"]) -> Bool[np.ndarray, " zones"]:
+    """Whether each zone slips in earnest in any of the stances, in their order."""
+    chosen = list(residuals.zones.sole.spheres.zones.values())
+    lasting = np.zeros(len(chosen))
+    for place, stance in enumerate(residuals.stances):
+        motion, _ = residuals.motion(z, place)
+        step = float(np.median(np.diff(stance.time)))
+        speed, pressing = np.linalg.norm(motion.sliding, axis=2), motion.loads.pressing
+        for k, of in enumerate(chosen):
+            bearing = pressing[:, of].sum(axis=1)
+            mean = (pressing * speed)[:, of].sum(axis=1) / np.maximum(bearing, 1.0)
+            fast = (mean > EARNEST * stance.errors.speed) & (bearing > BEARING * stance.weight)
+            lasting[k] += step * fast.sum()
+    return lasting >= LASTING
 
 
 def _remembering(

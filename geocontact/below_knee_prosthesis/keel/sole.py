@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.data.sourced_number import Number, Source
@@ -120,19 +119,3 @@ def law_of(sole: KeelSole) -> SoleLaw:
         kinetic=np.full(len(share), value["kinetic"]),
         threshold_speed=value["threshold_speed"],
     )
-
-
-def force_bases(
-    depth: Float[np.ndarray, "t n"], rate: Float[np.ndarray, "t n"], sole: KeelSole, exponent: float, full_depth: float
-) -> tuple[Float[np.ndarray, "t zones"], Float[np.ndarray, "t zones"]]:
-    """What stiffness and damping of each zone are multiplied by in the sum of the normal forces, zones in their order.
-
-    Stiffness times the first plus damping times the second: linear in both while depths and rates are held, as for
-    a least-squares step between two solutions of the keel.
-    """
-    from geocontact.contact.sphere_foot import normal_force
-
-    elastic = normal_force(depth, rate, 1.0, exponent, 0.0, full_depth)
-    viscous = normal_force(depth, rate, 0.0, exponent, 1.0, full_depth)
-    zones = np.stack(list(sole.spheres.zones.values()), axis=1).astype(float)
-    return np.asarray(elastic @ zones), np.asarray(viscous @ zones)

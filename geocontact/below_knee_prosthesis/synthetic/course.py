@@ -89,7 +89,7 @@ def course(leg: Leg, foot: VariableStiffnessFoot, fulcrum: float, stance: float,
     count = round((stance + BEFORE + AFTER) * RATE)
     time = -BEFORE + np.arange(count + 1) / RATE
     weight = leg.person.mass * GRAVITY
-    own, other = (weight * each for each in _reactions(time, stance))
+    own, other = (weight * each for each in reactions(time, stance))
     reach = _Reach(leg, _heights(foot, fulcrum, weight))
     pelvis = _pelvis(reach, time, stance, (own + other) / leg.person.mass, phase)
     on = (time >= 0.0) & (time <= stance)
@@ -154,7 +154,7 @@ def _keel_pose(leg: Leg) -> Function:
     return Function("keel", [tree.q], [vertcat(forward, tree.point("shank", constant(leg.keel)))])
 
 
-def _reactions(
+def reactions(
     time: Float[np.ndarray, " t"], stance: float
 ) -> tuple[Float[np.ndarray, "t 3"], Float[np.ndarray, "t 3"]]:
     """Of the prosthetic and the other leg over body weight, such that both carry the body on average."""

@@ -106,7 +106,7 @@ def synthetic_trial(person: Walker, setting: str, number: int = 1, *, machine_co
         name,
         person,
         setting,
-        _of_side(_standing(leg, places, rng), side, "standing"),
+        _of_side(standing_places(leg, places, rng), side, "standing"),
         _of_side(walking, side, "walking"),
         truth.time,
         of_side(noisy[0], side),
@@ -147,7 +147,7 @@ def skin_error(body: str, frames: int, step: float, rng: np.random.Generator) ->
     return smooth + rng.normal(0.0, CAMERA_NOISE, (frames, 3))
 
 
-def _standing(
+def standing_places(
     leg: Leg, places: dict[str, dict[str, Float[np.ndarray, " 3"]]], rng: np.random.Generator
 ) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, "t m 3"]]:
     """Upright with the foot flat: the shank vertical, hip and knee nearly straight."""

@@ -6,8 +6,10 @@ from cyclopts import App
 
 prosthesis = App(
     name="prosthesis",
-    help="Below-knee prosthesis with a variable-stiffness foot: its sole calibrated, its ground reaction along a walk.",
+    help="Below-knee prosthesis with a variable-stiffness foot: scaled, calibrated, simulated, and which one for whom.",
 )
 prosthesis.command("geocontact.cli.prosthesis.calibrate:calibrate", name="calibrate")
+prosthesis.command("geocontact.cli.prosthesis.compare:compare", name="compare")
+prosthesis.command("geocontact.cli.prosthesis.design:design", name="design")
 prosthesis.command("geocontact.cli.prosthesis.scale:scale", name="scale")
 prosthesis.command("geocontact.cli.prosthesis.simulate:simulate", name="simulate")

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from geocontact.below_knee_prosthesis.keel.beam import deflected, root_compliance, tip_compliance
 from geocontact.below_knee_prosthesis.keel.keel import torsional_stiffness
-from geocontact.below_knee_prosthesis.keel.sole import force_bases, law_of, sole_of
+from geocontact.below_knee_prosthesis.keel.sole import law_of, sole_of
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_keel
 
 
@@ -77,15 +77,3 @@ def test_finer_soles_are_as_stiff(finer: int, columns: int, count: int) -> None:
     assert list(sole.spheres.zones) == ["heel_back", "heel_middle", "heel_front", "midfoot", "forefoot"]
     stiffness = [law.stiffness[chosen].sum() for chosen in sole.spheres.zones.values()]
     assert stiffness == pytest.approx([30e3, 30e3, 30e3, 120e3, 460e3])
-
-
-def test_force_is_linear_in_stiffness_and_damping() -> None:
-    from geocontact.contact.sphere_foot import normal_force
-
-    sole, rng = sole_of(vsf_keel()), np.random.default_rng(1)
-    law = law_of(sole)
-    depth, rate = rng.uniform(-5e-3, 5e-3, (7, 24)), rng.uniform(-0.3, 0.3, (7, 24))
-    whole = normal_force(depth, rate, law.stiffness, law.exponent, law.damping, law.full_depth).sum(axis=1)
-    elastic, viscous = force_bases(depth, rate, sole, law.exponent, law.full_depth)
-    first = [int(np.argmax(chosen)) for chosen in sole.spheres.zones.values()]
-    assert elastic @ law.stiffness[first] + viscous @ law.damping[first] == pytest.approx(whole, rel=1e-12)

@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import Degrees, Expression, Fraction, Length, Options, PartLength, Spelled
+from geocontact.analyses.options import BodyMass, Degrees, Expression, Fraction, Length, Options, PartLength, Spelled
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, SPEED, TILT
@@ -29,7 +29,7 @@ class ProsthesisCalibrateOptions(Options):
     static
         Standing trial with all markers, the foot flat on the floor.
     mass
-        Of the body with the prosthesis [kg].
+        Of the body with the prosthesis.
     side
         Of the prosthesis.
 
@@ -85,7 +85,7 @@ class ProsthesisCalibrateOptions(Options):
     markers: Path
     _: KW_ONLY
     static: Path
-    mass: Annotated[float, PERSON]
+    mass: Annotated[BodyMass, PERSON]
     plates: Path
     side: Literal["right", "left"] = "right"
     setting: Literal["low", "medium", "high"] = "medium"

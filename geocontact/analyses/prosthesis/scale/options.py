@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import Expression, Fraction, Options, PartLength, Spelled
+from geocontact.analyses.options import BodyMass, Expression, Fraction, Options, PartLength, Spelled
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, PROSTHESIS, RESIDUAL, STATURE
 from geocontact.data.errors import InputError
 
@@ -26,7 +26,7 @@ class ProsthesisScaleOptions(Options):
     The person
     ----------
     mass
-        Of the body with the prosthesis [kg].
+        Of the body with the prosthesis.
     height
         Of the person [m]; only compared with the lengths of the legs.
     side
@@ -39,7 +39,7 @@ class ProsthesisScaleOptions(Options):
     The prosthesis
     ----------
     prosthesis_mass
-        Of socket, pylon and foot together [kg]; else invented.
+        Of socket, pylon and foot together; else invented.
     setting
         Stiffness of the foot: low, medium or high, 10, 19 or 32 N/mm.
     fulcrum
@@ -56,12 +56,12 @@ class ProsthesisScaleOptions(Options):
     static: Path
     _: KW_ONLY
     functional: Path | None = None
-    mass: Annotated[float | None, PERSON] = None
+    mass: Annotated[BodyMass | None, PERSON] = None
     height: Annotated[float | None, STATURE] = None
     side: Literal["right", "left"] = "right"
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
-    prosthesis_mass: Annotated[float | None, PROSTHESIS] = None
+    prosthesis_mass: Annotated[BodyMass | None, PROSTHESIS] = None
     setting: Literal["low", "medium", "high"] = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     markers_map: str | None = None

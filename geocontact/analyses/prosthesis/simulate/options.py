@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.options import Expression, Fraction, Options, PartLength, Spelled, TimeSpan
+from geocontact.analyses.options import BodyMass, Expression, Fraction, Options, PartLength, Spelled, TimeSpan
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, RESIDUAL
 from geocontact.data.errors import InputError
 from geocontact.data.ranges import CUTOFF, GAP
@@ -26,7 +26,7 @@ class ProsthesisSimulateOptions(Options):
     static
         Standing trial with all markers, the foot flat on the floor.
     mass
-        Of the body with the prosthesis [kg].
+        Of the body with the prosthesis.
     side
         Of the prosthesis.
     sex
@@ -78,7 +78,7 @@ class ProsthesisSimulateOptions(Options):
     markers: Path
     _: KW_ONLY
     static: Path | None = None
-    mass: Annotated[float | None, PERSON] = None
+    mass: Annotated[BodyMass | None, PERSON] = None
     side: Literal["right", "left"] = "right"
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45

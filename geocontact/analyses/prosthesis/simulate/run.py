@@ -30,7 +30,7 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     invented = sum(number.source == "invented" for number in numbers.values())
     record.warn(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
     record.warn("the socket's own turn is in the recorded knee angle as well, by up to what its bushing turns")
-    found = _simulated(walk, o)
+    found = simulated(walk, o)
     if not found.on.any():
         raise InputError(o.markers, "", "the foot never touches the floor", "is y = 0 the floor, and `mass` right?")
     errors = _compared(walk, found)
@@ -48,7 +48,8 @@ def run(walk: Walk, o: ProsthesisSimulateOptions, record: Record) -> ProsthesisS
     return ProsthesisSimulateResult(record=record, options=o, walk=walk, stance=found, errors=errors, numbers=numbers)
 
 
-def _simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
+def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> Stance:
+    """From before touch-down to after toe-off; InputError where it cannot go on."""
     time = walk.walked.motion.time
     span = (float(time[INSIDE]), float(time[-1 - INSIDE]))
     if walk.plate is not None:

@@ -1,0 +1,1 @@
+"""Many stances of a prosthetic foot beside their plates."""

@@ -1,0 +1,58 @@
+"""What a comparison of many prosthetic stances may be asked for."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from geocontact.analyses.options import Expression, Options
+from geocontact.data.errors import InputError
+from geocontact.data.ranges import CUTOFF, GAP
+
+
+@dataclass(frozen=True)
+class ProsthesisCompareOptions(Options):
+    """Simulate the stances of a study and set each beside its force plate and beside two predictors without a model.
+
+    Parameters
+    ----------
+    study
+        Persons and trials (.toml), with markers, plates and the setting of the foot.
+
+    The motion
+    ----------
+    cutoff
+        Zero-lag low-pass of the recorded coordinates [Hz]; 0 leaves them as they are.
+    gap_limit
+        Longest time for which a coordinate may be unknown [s].
+    markers_map
+        Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
+    axes
+        Which of the markers' axes are x (forward along the walk), y (upwards) and z: x,z,-y where the laboratory's z
+        is up.
+
+    How it is simulated
+    ----------
+    socket
+        Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
+    machine_code
+        Compile the equations first: the first run takes half a minute longer, every one after it is faster.
+    workers
+        Processes; as many as there are cores by default. Results do not depend on it.
+    """
+
+    study: Path
+    _: KW_ONLY
+    cutoff: Annotated[float, CUTOFF] = 6.0
+    gap_limit: Annotated[float, GAP] = 0.2
+    markers_map: str | None = None
+    axes: Expression | None = None
+    socket: Literal["as_meant", "as_printed"] = "as_meant"
+    machine_code: bool = False
+    workers: int | None = None
+
+    def refuse_impossible(self) -> None:
+        """No process at all."""
+        if self.workers is not None and self.workers < 1:
+            raise InputError("", "`workers`", f"{self.workers} is less than one process", "give 1 or more")

@@ -1,0 +1,86 @@
+"""The page of a comparison: ensembles, errors beside trivial predictors, outliers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from geocontact.analyses.figure_files import drawing
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.prosthesis.compare.tables import UNITS, by_setting
+from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
+from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FIGURE = "Grey the plates, coloured the model: mean over a setting's stances, a band of one standard deviation."
+SHOWN = {
+    "vertical": "Vertical force over body weight",
+    "fore_aft": "Fore-aft force over body weight, forward positive",
+    "medio_lateral": "Sideways force over body weight",
+    "cop_ground": "Centre of pressure from heel to toe, share of the foot",
+    "ankle_moment": "Ankle moment over body mass",
+}
+WITHOUT = [
+    "Both predictors without a model know when the stance on the plate begins and ends; the simulation has to find it.",
+    "Mean of the others: of the same person's other trials at any setting; of all others where there are none.",
+    "Another setting: the plate of the person's first trial on another setting of the foot.",
+    "The pelvis is free upwards, so that the impulse is nearly body weight times time, whatever the foot is.",
+]
+MEASURES = [
+    (
+        "Errors are over the stance that the plate saw. The study takes a quarter of a second of swing on both sides "
+        "as well, where both forces are nothing, which makes its errors smaller."
+    ),
+    "Force and centre of pressure of the other leg are recorded and given; trials that a sole was fitted to are apart.",
+    "An outlier is further off than three standard deviations by the study's rule, or by the median.",
+]
+
+
+def write_comparison_page(
+    path: Path, record: Record, figure: Figure, stances: Sequence[JudgedStance], tables: Mapping[str, pd.DataFrame]
+) -> int:
+    """Write the self-contained page; returns its size in bytes."""
+    sections: list[Section] = [
+        Picture("Ensembles by setting", FIGURE, drawing(figure), wide=True),
+        frame_table("Means by setting, beside predictors without a model", tables["summary"], 3),
+        frame_table("Stances", tables["trials"], 3),
+        *(_panel(name, title, stances) for name, title in SHOWN.items()),
+        frame_table("Errors of each stance", tables["errors"], 3),
+        inputs_table(record.inputs),
+        options_table(record),
+        Words("How to read the numbers", [*WITHOUT, *MEASURES, NOT_A_DEVICE]),
+    ]
+    page = Page(
+        title=f"{len(stances)} prosthetic stances beside their plates",
+        subtitle="Ground reaction, centre of pressure and ankle moment of a variable-stiffness foot",
+        time=100.0 * stances[0].errors.share,
+        time_label="stance on the plate [%]",
+        headline=headline(record.sentences, most=2),
+        reservations=tuple(record.warnings),
+        sections=tuple(sections),
+        plays=False,
+    )
+    return write_page(page, path)
+
+
+def _panel(name: str, title: str, stances: Sequence[JudgedStance]) -> Curves:
+    curves = []
+    for k, (setting, own) in enumerate(by_setting(stances).items()):
+        for label, values in (
+            (f"{setting}, model", [one.simulated(name) for one in own]),
+            (f"{setting}, plate", [one.measured(name) for one in own]),
+        ):
+            mean, sd = np.mean(values, axis=0), np.std(values, axis=0)
+            lower, upper = (mean - sd, mean + sd) if len(own) > 1 else (None, None)
+            curves.append(Curve(label, mean, lower, upper, 2 * k + int(label.endswith("plate"))))
+    return Curves(title, UNITS.get(name, "-"), curves)

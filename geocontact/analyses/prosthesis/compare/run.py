@@ -1,0 +1,116 @@
+"""Stances of a study simulated in processes of their own, and how far each is from its plate."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from geocontact.analyses.json_file import plain
+from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
+from geocontact.analyses.prosthesis.compare.read import StudiedStance
+from geocontact.analyses.prosthesis.compare.result import ProsthesisCompareResult
+from geocontact.analyses.prosthesis.compare.tables import ALL, errors_table, summary_table
+from geocontact.analyses.prosthesis.simulate.run import simulated
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.workers import each
+from geocontact.below_knee_prosthesis.evaluation.judged_stance import JudgedStance, judged
+from geocontact.below_knee_prosthesis.evaluation.outliers import FEWEST, oddness, reasons
+from geocontact.below_knee_prosthesis.simulate import Stance
+from geocontact.data.errors import InputError
+
+SAID = ("resultant", "cop_ground", "ankle_moment")
+"""Quantities that are told in a sentence."""
+
+
+def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions, record: Record) -> ProsthesisCompareResult:
+    """Every stance that can be simulated; InputError where none can."""
+    found: dict[str, Stance] = {}
+    with record.listener.progress("stances", len(given)) as step:
+        for one, became in each(_stance_of, given, o.workers):
+            if isinstance(became, BaseException):
+                raise became
+            if isinstance(became, str):
+                record.warn(f"{one.trial.name} is left out: {became}")
+            else:
+                found[one.trial.name] = became
+            step()
+    if not found:
+        raise InputError(o.study, "[[trials]]", "no stance could be simulated", "look at one with prosthesis simulate")
+    stances = tuple(_judged(one, found[one.trial.name]) for one in given if one.trial.name in found)
+    transfer = [one for one in stances if not one.calibrated]
+    odd = oddness({one.name: one.errors.table["resultant"][1] for one in transfer})
+    result = ProsthesisCompareResult(
+        record=record,
+        options=o,
+        stances=stances,
+        sides={one.trial.name: one.person.side for one in given},
+        odd=odd,
+    )
+    _say(result)
+    return result
+
+
+def _stance_of(one: StudiedStance) -> Stance | str:
+    """A stance, or why there is none; runs in a process of its own."""
+    try:
+        found = simulated(one.walk, one.asked)
+    except InputError as error:
+        return error.what
+    return found if found.on.any() else "the foot never touches the floor"
+
+
+def _judged(one: StudiedStance, stance: Stance) -> JudgedStance:
+    trial = one.trial
+    return judged(trial.name, trial.person, trial.foot, stance, one.plate, calibrated=trial.calibrated)
+
+
+def _say(r: ProsthesisCompareResult) -> None:
+    record, stances = r.record, r.stances
+    fitted = [one.name for one in stances if one.calibrated]
+    transfer = len(stances) - len(fitted)
+    persons, settings = (len({getattr(one, key) for one in stances}) for key in ("person", "setting"))
+    record.say(
+        f"{transfer} stances, {persons} person{'s'[: persons - 1]}, {settings} setting{'s'[: settings - 1]} of the foot"
+        + (f", beside {len(fitted)} that a sole was fitted to: {', '.join(fitted)}" if fitted else "")
+    )
+    summary = summary_table(errors_table(stances))
+    rows = summary[summary["setting"] == ALL].set_index("quantity")
+    for name in SAID:
+        if name in rows.index:
+            record.say(_told(name, rows.loc[[name]].iloc[0]))
+    late = [one.errors.stance[0] - one.errors.stance[1] for one in stances if not one.calibrated]
+    if late:
+        record.say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
+    for one in stances:
+        if (oddness_of := r.odd.get(one.name)) is not None and oddness_of.outlier:
+            seen = "; ".join(reasons(one)) or "nothing that is looked at tells why"
+            record.warn(f"{one.name} stands out with {one.errors.table['resultant'][1]:.1%} BW: {seen}")
+    if transfer < FEWEST:
+        record.warn(f"with {transfer} stances none can stand out: {FEWEST} are needed")
+    record.results["compare"] = plain({one.name: _numbers(one) for one in stances})
+
+
+def _told(name: str, row: pd.Series) -> str:
+    percent = row["unit"] == "-"
+    what = {"resultant": "BW", "cop_ground": "of the foot"}.get(name, "N m/kg")
+
+    def size(value: float) -> str:
+        return f"{value:.1%} {what}" if percent else f"{value:.2f} {what}"
+
+    plain_words = ", ".join(
+        f"{label} {size(row[column])}"
+        for label, column in (("mean of the others", "mean of the others rmse"), ("another setting", "another rmse"))
+        if np.isfinite(row[column])
+    )
+    words = {"resultant": "resultant force", "cop_ground": "centre of pressure", "ankle_moment": "ankle moment"}[name]
+    beside = f"; without a model {plain_words}; better than both on {row['better']:.0f} of {row['trials']:.0f}"
+    return f"{words}: R² {row['r2 [-]']:.2f}, {size(row['rmse'])}{beside if plain_words else ''}"
+
+
+def _numbers(one: JudgedStance) -> dict[str, object]:
+    return {
+        "calibrated": one.calibrated,
+        "stance_s": one.errors.stance[0],
+        "plate_stance_s": one.errors.stance[1],
+        **{name: {"r2": r2, "rmse": off} for name, (r2, off) in one.errors.table.items()},
+    }

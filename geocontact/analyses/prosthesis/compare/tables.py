@@ -1,0 +1,127 @@
+"""Tables of a comparison: errors of each stance beside trivial predictors, means by setting, ensembles, outliers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+
+from geocontact.below_knee_prosthesis.evaluation.judged_stance import ANKLE, QUANTITIES, JudgedStance
+from geocontact.below_knee_prosthesis.evaluation.outliers import Oddness, reasons
+from geocontact.below_knee_prosthesis.evaluation.trivial_predictors import ANOTHER, MEAN, MeasuredCurve, trivial_curves
+from geocontact.identify.signals.agreement import agreement
+
+ALL = "all"
+UNITS = {"impulse": "s", ANKLE: "N m/kg"}
+"""Of quantities that are no shares: forces are over body weight, centres over the foot's length."""
+
+
+def errors_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
+    """One row for each stance and quantity: the model's R² and error, and those of both trivial predictors."""
+    rows = []
+    plates = {
+        name: {each.name: MeasuredCurve(each.name, each.person, each.setting, each.measured(name)) for each in stances}
+        for name in QUANTITIES
+    }
+    for one in stances:
+        for name in QUANTITIES:
+            own_plate = plates[name][one.name]
+            r2, off = one.errors.table[name]
+            row: dict[str, object] = {
+                "trial": one.name,
+                "person": one.person,
+                "setting": one.setting,
+                "calibrated": one.calibrated,
+                "quantity": name,
+                "unit": UNITS.get(name, "-"),
+                "r2 [-]": r2,
+                "rmse": off,
+            }
+            told = {
+                label: agreement(curve, own_plate.values, 1.0, 0.0)
+                for label, curve in trivial_curves(list(plates[name].values()), own_plate).items()
+            }
+            for label, column in ((MEAN, MEAN), (ANOTHER, "another")):
+                own = told.get(label)
+                row[f"{column} r2 [-]"] = np.nan if own is None else own.r2
+                row[f"{column} rmse"] = np.nan if own is None else own.rmsd
+            row["better"] = all(off < each.rmsd for each in told.values()) if told else np.nan
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def summary_table(errors: pd.DataFrame) -> pd.DataFrame:
+    """Means and standard deviations by setting and over all, as the study's table 3; calibrated stances apart."""
+    rows = []
+    names = ("r2 [-]", "rmse", f"{MEAN} rmse", "another rmse")
+    for calibrated, part in errors.groupby("calibrated", sort=False):
+        settings = list(dict.fromkeys(part["setting"]))
+        for setting in [*settings, ALL] if not calibrated else ["calibrated"]:
+            own = part if setting in (ALL, "calibrated") else part[part["setting"] == setting]
+            for quantity, group in own.groupby("quantity", sort=False):
+                numbers: dict[str, float] = {}
+                for name in names:
+                    numbers[name] = float(group[name].mean())
+                    if name in names[:2]:
+                        spread = float(group[name].std(ddof=1)) if len(group) > 1 else np.nan
+                        numbers[f"{name.partition(' ')[0]} sd"] = spread
+                better = group["better"].dropna()
+                told = {"setting": setting, "quantity": quantity, "unit": group["unit"].iloc[0]}
+                rows.append({**told, **numbers, "better": int(better.astype(bool).sum()), "trials": len(group)})
+    return pd.DataFrame(rows)
+
+
+def trials_table(stances: Sequence[JudgedStance], odd: Mapping[str, Oddness]) -> pd.DataFrame:
+    """One row for each stance: its length, peaks, how far it stands out, and what is seen in it."""
+    rows = []
+    for one in stances:
+        own = odd.get(one.name, Oddness(float("nan"), float("nan")))
+        model, seen = one.simulated(ANKLE), one.measured(ANKLE)
+        rows.append(
+            {
+                "trial": one.name,
+                "person": one.person,
+                "setting": one.setting,
+                "calibrated": one.calibrated,
+                "fulcrum [mm]": 1e3 * one.stance.fulcrum,
+                "stance [s]": one.errors.stance[0],
+                "stance on the plate [s]": one.errors.stance[1],
+                "most vertical [-]": float(one.simulated("vertical").max()),
+                "most vertical on the plate [-]": float(one.measured("vertical").max()),
+                "most ankle moment [N m/kg]": float(model.max()),
+                "most ankle moment on the plate [N m/kg]": float(seen.max()),
+                "resultant rmse [-]": one.errors.table["resultant"][1],
+                "off by the study's rule [-]": own.by_study,
+                "off by the median [-]": own.by_median,
+                "outlier": own.outlier,
+                "what is seen": "; ".join(reasons(one)),
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def ensembles_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
+    """Mean and standard deviation over the stances of each setting, simulated and measured, at 101 points."""
+    frames = []
+    for setting, own in by_setting(stances).items():
+        columns: dict[str, object] = {"setting": setting, "stance [-]": own[0].errors.share}
+        for name in QUANTITIES:
+            unit = UNITS.get(name, "-")
+            for label, curves in (
+                (name, [one.simulated(name) for one in own]),
+                (f"{name} measured", [one.measured(name) for one in own]),
+            ):
+                columns[f"{label} [{unit}]"] = np.mean(curves, axis=0)
+                columns[f"{label} sd [{unit}]"] = np.std(curves, axis=0)
+        frames.append(pd.DataFrame(columns))
+    return pd.concat(frames, ignore_index=True)
+
+
+def by_setting(stances: Sequence[JudgedStance]) -> dict[str, list[JudgedStance]]:
+    """Stances that nothing was fitted to, by setting; all of them where there are none such."""
+    kept = [one for one in stances if not one.calibrated] or list(stances)
+    found: dict[str, list[JudgedStance]] = {}
+    for one in kept:
+        found.setdefault(one.setting, []).append(one)
+    return found

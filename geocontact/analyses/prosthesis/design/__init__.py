@@ -1,0 +1,1 @@
+"""Which fulcrum, alignment or stiffness of a prosthetic foot suits a person."""

@@ -1,0 +1,131 @@
+"""What the choice of a prosthetic foot may be asked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from geocontact.analyses.options import BodyMass, Degrees, Expression, Fraction, Length, Options, PartLength, Spelled
+from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON
+from geocontact.data.errors import InputError
+from geocontact.data.ranges import CUTOFF, GAP, NOISE, SHIFT, TILT
+
+FEWEST, MOST = 6, 600
+"""Feet that may be drawn."""
+PITCH = math.radians(0.5)
+
+
+@dataclass(frozen=True)
+class ProsthesisDesignOptions(Options):
+    """Fulcrum, alignment or stiffness of a prosthetic foot that suits a person best, and whether that can be told.
+
+    Parameters
+    ----------
+    markers
+        Walking trial (.trc, .c3d, .csv) with the markers of socket, adapter and heel.
+
+    The person
+    ----------
+    static
+        Standing trial with all markers, the foot flat on the floor.
+    mass
+        Of the body with the prosthesis.
+    side
+        Of the prosthesis.
+
+    The foot
+    ----------
+    setting
+        Stiffness of the foot in this trial: low, medium or high, 10, 19 or 32 N/mm.
+    fulcrum
+        Place of the fulcrum from the keel's posterior end, 66 to 151 mm, in place of a setting.
+    law
+        Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in unless given.
+    numbers
+        Their intervals of 95 % (numbers.csv of `prosthesis calibrate`); what is believed of any sole unless given.
+
+    Force plates
+    ----------
+    plates
+        Ground reactions in the markers' axes (.mot, .sto, .c3d).
+    plate
+        Name or number of the plate under the prosthetic foot.
+
+    What is best
+    ------------
+    vary
+        What is changed: fulcrum, alignment (turn of the foot on the socket) or stiffness (of the keel).
+    aim
+        Peak ankle moment, peak moment at the socket or rate of loading: the least; energy that the keel returns: the
+        most; radius of the roll-over shape: 0.3 of the leg's length.
+    target
+        Value of the aim that is wanted instead, such as that of the other side [N m, J, m or N/s].
+
+    How it is judged
+    ----------------
+    feet
+        Drawn feet: numbers of the sole, keel and count of spheres as far as they are not known.
+    walks
+        Drawn errors of markers and plate for each foot.
+    seed
+        Of these draws.
+    level
+        Probability of the intervals.
+    marker_error
+        Standard deviation of a marker's place along each axis [mm].
+    pitch_error
+        Of the foot's pitch: how far it may not have stood flat.
+    force_noise
+        Of a component of the plate's force [N].
+
+    The motion
+    ----------
+    cutoff
+        Zero-lag low-pass of the markers [Hz]; 0 leaves them as they are.
+    gap_limit
+        Longest time for which a marker may be out of sight [s].
+    markers_map
+        Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
+    axes
+        Which of the markers' axes are x (forward along the walk), y (upwards) and z: x,z,-y where the laboratory's z
+        is up.
+    """
+
+    markers: Path
+    _: KW_ONLY
+    static: Path
+    mass: Annotated[BodyMass, PERSON]
+    plates: Path
+    side: Literal["right", "left"] = "right"
+    setting: Literal["low", "medium", "high"] = "medium"
+    fulcrum: Annotated[PartLength | None, FULCRUM] = None
+    law: Path | None = None
+    numbers: Path | None = None
+    plate: str | None = None
+    vary: Literal["fulcrum", "alignment", "stiffness"] = "fulcrum"
+    aim: Literal["ankle_moment", "socket_moment", "energy", "radius", "loading_rate"] = "radius"
+    target: float | None = None
+    feet: int = 12
+    walks: int = 3
+    seed: int = 0
+    level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
+    marker_error: Annotated[Length, SHIFT, Spelled(default="0.5mm")] = 0.5e-3
+    pitch_error: Annotated[Degrees, TILT, Spelled(default=0.5)] = PITCH
+    force_noise: Annotated[float, NOISE] = 3.0
+    cutoff: Annotated[float, CUTOFF] = 15.0
+    gap_limit: Annotated[float, GAP] = 0.2
+    markers_map: str | None = None
+    axes: Expression | None = None
+
+    def refuse_impossible(self) -> None:
+        """Too few draws, a probability that is none."""
+        if not FEWEST <= self.feet <= MOST:
+            raise InputError("", "`feet`", f"{self.feet} is not {FEWEST} to {MOST}", "give for example 12")
+        if not 1 <= self.walks <= MOST:
+            raise InputError("", "`walks`", f"{self.walks} is not 1 to {MOST}", "give for example 3")
+        if not 0.0 < self.level < 1.0:
+            raise InputError("", "`level`", f"{self.level:g} is not between 0 and 1", "give for example 0.95")
+        if self.target is not None and not 0.0 < self.target < math.inf:
+            raise InputError("", "`target`", f"{self.target:g} cannot be reached", "give a positive number")

@@ -1,0 +1,80 @@
+"""The page of a choice: outcomes over what is varied with bands, answers, roll-over shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from geocontact.analyses.figure_files import drawing
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.prosthesis.design.sweep import UNITS, Sweep
+from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
+from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FIGURE = (
+    "Blue with the person's angles kept, orange with the ankle's torque kept; bands over the draws. A grey line is the "
+    "present value, green the interval of the best one."
+)
+LIMITS = [
+    (
+        "What a person does on another foot is not known. With angles kept the socket turns as recorded; with torque "
+        "kept the foot turns until the ankle has the moment of the recorded foot. What people do is taken to lie "
+        "between."
+    ),
+    "The load over time is the recorded one, and nothing has inertia: kept torques of hip and knee are not simulated.",
+    (
+        "Bands hold what is not known of the sole, rounding of the keel's compressions, the count of spheres in the "
+        "model, errors of markers and plate. How a person differs from step to step is not in them."
+    ),
+    "A best value is told where its interval is narrower than 60 % of the range in every response that it matters in.",
+    (
+        "Rate of loading: stiffness of the landing foot times its speed; the sole's damping, whose numbers are "
+        "invented, is not in it."
+    ),
+]
+
+
+def write_design_page(
+    path: Path, record: Record, figure: Figure, sweep: Sweep, tables: Mapping[str, pd.DataFrame]
+) -> int:
+    """Write the self-contained page; returns its size in bytes."""
+    bands = sweep.bands
+    curves = [
+        Curves(
+            f"{MEASURES[aim].words[:1].upper()}{MEASURES[aim].words[1:]}",
+            MEASURES[aim].unit,
+            [Curve(response, *bands[:, j, :, k]) for j, response in enumerate(RESPONSES)],
+        )
+        for k, aim in enumerate(AIMS)
+    ]
+    sections: list[Section] = [
+        Picture("Outcomes and roll-over shapes", FIGURE, drawing(figure), wide=True),
+        frame_table("What is best, and whether that can be told", tables["answers"], 3),
+        *curves,
+        inputs_table(record.inputs),
+        options_table(record),
+        Words("What the numbers do and do not contain", [*LIMITS, NOT_A_DEVICE]),
+    ]
+    vary = sweep.knob.vary
+    page = Page(
+        title=f"Which {vary} of the foot suits this person",
+        subtitle=f"Recorded at the fulcrum of {1e3 * sweep.knob.fulcrum:.0f} mm; {len(sweep.drawn)} draws",
+        time=sweep.shown,
+        time_label=f"{vary} [{UNITS[vary]}]",
+        headline=headline(record.sentences, most=2),
+        reservations=tuple(record.warnings),
+        sections=tuple(sections),
+        plays=False,
+    )
+    return write_page(page, path)

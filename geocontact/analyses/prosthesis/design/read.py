@@ -1,0 +1,82 @@
+"""What a choice starts from: a foot, what is known of its sole, and a trial on a plate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+from scipy.stats import norm
+
+from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
+from geocontact.analyses.prosthesis.foot_law import foot_with_law
+from geocontact.analyses.prosthesis.recorded_files import plate_under_foot, right_markers
+from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.design.stance_again import RecordedTrial
+from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
+from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.data.errors import InputError
+
+INTERVAL = 0.95
+"""Probability of the intervals of a calibration."""
+COLUMNS = ("number", "value", "lower", "upper", "verdict")
+
+
+@dataclass(frozen=True, eq=False)
+class FootAndTrial:
+    """A foot, a trial on it, and the standard deviation of the logarithm of each number of its sole."""
+
+    foot: VariableStiffnessFoot
+    trial: RecordedTrial
+    sd: Float[np.ndarray, " p"]
+
+
+def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
+    """Everything the options name."""
+    with record.listener.preparing():
+        foot = foot_with_law(record, vsf_foot(), o.law)
+    trial = RecordedTrial(
+        standing=right_markers(record, "`static`", o.static, o.side, o.axes, o.markers_map),
+        walking=right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map),
+        plate=plate_under_foot(record, o.plates, o.plate, o.side),
+        person=Person(o.mass),
+        keel=foot.keel,
+        fulcrum=fulcrum_of(o.setting) if o.fulcrum is None else o.fulcrum,
+        below=sole_numbers()["below"].value,
+        cutoff=None if o.cutoff == 0.0 else o.cutoff,
+        gap_limit=o.gap_limit,
+    )
+    zones = ZoneParameters(foot.sole, foot.law)
+    if o.numbers is None:
+        record.warn("nothing is known of this sole but what is believed of any: give the `numbers` of a calibration")
+        return FootAndTrial(foot, trial, zones.sd)
+    return FootAndTrial(foot, trial, _known(o.numbers, zones, record))
+
+
+def _known(file: Path, zones: ZoneParameters, record: Record) -> Float[np.ndarray, " p"]:
+    """From intervals; a number that is not known from any stance keeps its belief."""
+    try:
+        table = pd.read_csv(file)
+    except (OSError, ValueError) as error:
+        raise InputError(file, "", "cannot be read as a table", "give numbers.csv of prosthesis calibrate") from error
+    missing = [name for name in COLUMNS if name not in table.columns]
+    if missing:
+        raise InputError(file, "", f"no column {missing[0]!r}", "give numbers.csv of prosthesis calibrate")
+    record.add_input("`numbers`", file, rows=len(table))
+    told = table.set_index("number")
+    lost = [name for name in zones.names if name not in told.index]
+    if lost:
+        raise InputError(file, "", f"no row {lost[0]!r}", "give numbers.csv of prosthesis calibrate")
+    found = []
+    for name, believed in zip(zones.names, zones.sd, strict=True):
+        lower, upper = (float(told[column].to_dict()[name]) for column in ("lower", "upper"))
+        if not 0.0 < lower <= upper < np.inf:
+            raise InputError(file, name, f"{lower:g} to {upper:g} is no interval", "give positive bounds, lower first")
+        own = np.log(upper / lower) / (2.0 * norm.ppf(0.5 + 0.5 * INTERVAL))
+        found.append(believed if told["verdict"].to_dict()[name] == "unknown" else min(float(own), float(believed)))
+    return np.array(found)

@@ -1,0 +1,89 @@
+"""What a choice of a foot finds: bands over what is varied, the best value for every aim, roll-over shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.prosthesis.design.figure import design_figure, stance_share
+from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
+from geocontact.analyses.prosthesis.design.page import write_design_page
+from geocontact.analyses.prosthesis.design.sweep import SHOWN, UNITS, AimAnswer, Sweep, answers_table
+from geocontact.analyses.result import Result
+from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
+from geocontact.below_knee_prosthesis.design.foot_task import FootTask
+from geocontact.below_knee_prosthesis.design.knob import Knob, Response
+from geocontact.below_knee_prosthesis.design.outcomes import shank_path
+from geocontact.io.text.results import write_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class ProsthesisDesignResult(Result):
+    """A foot varied for one person.
+
+    Parameters
+    ----------
+    answers
+        By aim.
+    ends, shapes
+        First, present and last value, and the foot along the stance at each, with the numbers as they are.
+    task
+        What the foot carries.
+    """
+
+    options: ProsthesisDesignOptions
+    sweep: Sweep
+    answers: tuple[AimAnswer, ...]
+    ends: Knob
+    shapes: Mapping[Response, tuple[CarriedLoad, ...]]
+    task: FootTask
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`answers`, `sweep`, `shapes`."""
+        return {
+            "answers": answers_table(self.answers, self.sweep.knob.vary),
+            "sweep": self.sweep.table(),
+            "shapes": self._shapes(),
+        }
+
+    def figure(self) -> Figure:
+        """Outcomes with bands, roll-over shapes."""
+        return design_figure(self.sweep, self.answers, self.ends, self.shapes)
+
+    def write_files(self, folder: Path) -> None:
+        """Tables, figure, page."""
+        for name, rows in self.tables().items():
+            write_table(rows, folder, name)
+        save_both(self.figure(), folder, "design")
+        self.write_page(folder / "report.html")
+
+    def write_page(self, file: Path) -> None:
+        """Outcomes, answers, shapes, inputs."""
+        write_design_page(file, self.record, self.figure(), self.sweep, self.tables())
+
+    def _shapes(self) -> pd.DataFrame:
+        vary = self.ends.vary
+        frames = []
+        for response, carried in self.shapes.items():
+            for value, found in zip(self.ends.settings, carried, strict=True):
+                forward, up = shank_path(found).T
+                columns = {
+                    f"{vary} [{UNITS[vary]}]": SHOWN[vary][0] * float(value),
+                    "response": response,
+                    "stance [-]": stance_share(found),
+                    "forward of ankle [mm]": 1e3 * forward,
+                    "above ankle [mm]": 1e3 * up,
+                    "ankle moment [N m]": found.ankle_moment,
+                    "stored [J]": found.stored,
+                    "turned [deg]": found.tilt * SHOWN["alignment"][0],
+                }
+                frames.append(pd.DataFrame(columns))
+        return pd.concat(frames, ignore_index=True)

@@ -1,0 +1,118 @@
+"""Sweep of one thing about the foot, its bands, and what is best for the person."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.json_file import plain
+from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
+from geocontact.analyses.prosthesis.design.read import FootAndTrial
+from geocontact.analyses.prosthesis.design.result import ProsthesisDesignResult
+from geocontact.analyses.prosthesis.design.sweep import DIGITS, SHOWN, AimAnswer, Sweep, wanted_of
+from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
+from geocontact.below_knee_prosthesis.design.drawn import draws
+from geocontact.below_knee_prosthesis.design.foot_task import FootTask
+from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob, Vary
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
+from geocontact.below_knee_prosthesis.design.stance_again import TrialErrors, task_again
+from geocontact.data.errors import InputError
+
+VALUES: dict[Vary, Float[np.ndarray, " n"]] = {
+    "fulcrum": np.linspace(0.066, 0.151, 9),
+    "alignment": np.radians(np.linspace(-6.0, 6.0, 9)),
+    "stiffness": np.linspace(0.6, 1.6, 9),
+}
+
+
+def run(given: FootAndTrial, o: ProsthesisDesignOptions, record: Record) -> ProsthesisDesignResult:
+    """Bands of every outcome over the values, the best value for every aim."""
+    trial, knob = given.trial, Knob(o.vary, VALUES[o.vary], given.trial.fulcrum)
+    errors = TrialErrors(marker=o.marker_error, pitch=o.pitch_error, force=o.force_noise)
+    try:
+        task = trial.task()
+        with record.listener.progress("feet", o.feet) as step:
+            found = draws(
+                knob,
+                given.foot,
+                lambda rng: task_again(trial, errors, rng),
+                given.sd,
+                feet=o.feet,
+                walks=o.walks,
+                seed=o.seed,
+                step=step,
+            )
+        shapes = _ends(knob).carried(_ends(knob).maps(given.foot, task), task)
+    except (ArithmeticError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        remedy = "check `mass`, the plate and how flat the foot stood"
+        raise InputError(o.markers, "", str(error), remedy) from error
+    sweep = Sweep(knob, found.drawn, o.level)
+    answers = tuple(_answer(sweep, task, o, k) for k in range(len(AIMS)))
+    result = ProsthesisDesignResult(
+        record=record, options=o, sweep=sweep, answers=answers, ends=_ends(knob), shapes=shapes, task=task
+    )
+    if found.lost:
+        record.warn(f"{found.lost} of {o.feet} drawn feet found no equilibrium and are left out")
+    record.warn("torque kept means the ankle's, without inertia: torques kept in all joints are not simulated")
+    record.warn("bands are of one trial: how a person differs from step to step is not in them")
+    _say(result)
+    return result
+
+
+def _ends(knob: Knob) -> Knob:
+    """The first value, the present one and the last, in order."""
+    return Knob(knob.vary, np.unique([knob.settings[0], knob.present, knob.settings[-1]]), knob.fulcrum)
+
+
+def _answer(sweep: Sweep, task: FootTask, o: ProsthesisDesignOptions, k: int) -> AimAnswer:
+    aim = AIMS[k]
+    target = o.target if aim == o.aim and o.target is not None else wanted_of(aim, task)
+    knob = sweep.knob
+    choice = choose(knob.settings, sweep.drawn[..., k], MEASURES[aim].sense, target, knob.present, o.level)
+    return AimAnswer(aim, target, choice)
+
+
+def _say(r: ProsthesisDesignResult) -> None:
+    record, knob = r.record, r.sweep.knob
+    factor, unit = SHOWN[knob.vary]
+
+    def shown(value: float) -> str:
+        return f"{factor * value:.{DIGITS[knob.vary]}f}{unit and ' '}{unit}"
+
+    chosen = next(each for each in r.answers if each.aim == r.options.aim)
+    measure, choice = MEASURES[chosen.aim], chosen.choice
+    what = f"{measure.words}, {chosen.wanted}"
+    if not choice.told:
+        record.say(f"{what}: cannot tell which {knob.vary} is best: {choice.why}")
+    else:
+        record.say(
+            f"{what}: {knob.vary} {shown(choice.best)} ({shown(choice.lower)} to {shown(choice.upper)}) is best, "
+            f"{choice.why}"
+        )
+        record.say(_beside_present(choice, measure.unit, shown(knob.present)))
+    for response, rows in r.sweep.differences().items():
+        record.say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {'; '.join(rows)}")
+    record.results["design"] = plain(
+        {
+            each.aim: {
+                "told": each.choice.told,
+                "best": each.choice.best,
+                "lower": each.choice.lower,
+                "upper": each.choice.upper,
+                "better_than_present": each.choice.better,
+            }
+            for each in r.answers
+        }
+    )
+
+
+def _beside_present(choice: FootChoice, unit: str, present: str) -> str:
+    gains = ", ".join(
+        f"{name} nearer by {median:.3g} ({lower:.3g} to {upper:.3g}) {unit}"
+        for name, (median, lower, upper) in choice.gain.items()
+    )
+    words = "it is better than" if choice.better else "cannot tell whether it is better than"
+    return f"{words} the present {present}: {gains}"

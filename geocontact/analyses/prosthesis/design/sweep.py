@@ -1,0 +1,142 @@
+"""A sweep of one thing about a foot, with bands, in numbers and words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.below_knee_prosthesis.design.choice import FootChoice
+from geocontact.below_knee_prosthesis.design.foot_task import FootTask
+from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob, Vary
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, ROLLING, Aim
+
+SHOWN: dict[Vary, tuple[float, str]] = {
+    "fulcrum": (1e3, "mm"),
+    "alignment": (float(np.degrees(1.0)), "deg"),
+    "stiffness": (1.0, ""),
+}
+"""How many of what a value is shown in."""
+DIGITS: dict[Vary, int] = {"fulcrum": 0, "alignment": 1, "stiffness": 2}
+UNITS: dict[Vary, str] = {"fulcrum": "mm", "alignment": "deg", "stiffness": "-"}
+NO_DIFFERENCE = 1e-3
+"""Of an outcome's size: a smaller difference is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """Outcomes of all draws over the values.
+
+    Parameters
+    ----------
+    drawn
+        By draw, response, value and aim.
+    level
+        Probability of the bands.
+    """
+
+    knob: Knob
+    drawn: Float[np.ndarray, "d two n aims"]
+    level: float
+
+    @property
+    def bands(self) -> Float[np.ndarray, "three two n aims"]:
+        """Median, lower and upper end."""
+        ends = [0.5, 0.5 * (1.0 - self.level), 0.5 * (1.0 + self.level)]
+        return np.asarray(np.quantile(self.drawn, ends, axis=0))
+
+    @property
+    def shown(self) -> Float[np.ndarray, " n"]:
+        """Values in the unit that they are shown in."""
+        return SHOWN[self.knob.vary][0] * self.knob.settings
+
+    def table(self) -> pd.DataFrame:
+        """Long: one row for each value, response and outcome."""
+        rows, bands = [], self.bands
+        for k, aim in enumerate(AIMS):
+            for j, response in enumerate(RESPONSES):
+                for i, value in enumerate(self.shown):
+                    median, lower, upper = map(float, bands[:, j, i, k])
+                    rows.append(
+                        {
+                            f"{self.knob.vary} [{UNITS[self.knob.vary]}]": float(value),
+                            "response": response,
+                            "outcome": aim,
+                            "unit": MEASURES[aim].unit,
+                            "median": median,
+                            "lower": lower,
+                            "upper": upper,
+                        }
+                    )
+        return pd.DataFrame(rows)
+
+    def differences(self) -> dict[str, list[str]]:
+        """The last value in place of the first, draw by draw, in words, by response."""
+        found: dict[str, list[str]] = {}
+        for j, response in enumerate(RESPONSES):
+            words = []
+            for k, aim in enumerate(AIMS):
+                off = self.drawn[:, j, -1, k] - self.drawn[:, j, 0, k]
+                median, lower, upper = np.quantile(off, [0.5, 0.5 * (1.0 - self.level), 0.5 * (1.0 + self.level)])
+                name, unit = MEASURES[aim].words.partition(",")[0], MEASURES[aim].unit
+                small = NO_DIFFERENCE * float(np.abs(self.drawn[..., k]).mean())
+                if max(abs(lower), abs(upper)) < small:
+                    words.append(f"{name} the same")
+                elif lower <= 0.0 <= upper:
+                    words.append(f"{name} cannot tell ({lower:+.3g} to {upper:+.3g} {unit})")
+                else:
+                    words.append(f"{name} {median:+.3g} ({lower:+.3g} to {upper:+.3g}) {unit}")
+            found[response] = words
+        return found
+
+
+@dataclass(frozen=True)
+class AimAnswer:
+    """The best value for one aim.
+
+    Parameters
+    ----------
+    target
+        Wanted value; None where the least or the most is best.
+    """
+
+    aim: Aim
+    target: float | None
+    choice: FootChoice
+
+    @property
+    def wanted(self) -> str:
+        """In words."""
+        measure = MEASURES[self.aim]
+        return f"the {measure.sense}" if self.target is None else f"nearest to {self.target:.3g} {measure.unit}"
+
+
+def wanted_of(aim: Aim, task: FootTask) -> float | None:
+    """What is wanted where the user does not say."""
+    return ROLLING * task.leg_length if MEASURES[aim].sense == "nearest" else None
+
+
+def answers_table(answers: tuple[AimAnswer, ...], vary: Vary) -> pd.DataFrame:
+    """One row for each aim."""
+    factor, unit = SHOWN[vary][0], UNITS[vary]
+    rows = []
+    for each in answers:
+        choice = each.choice
+        row: dict[str, object] = {
+            "outcome": each.aim,
+            "wanted": each.wanted,
+            "told": choice.told,
+            f"best {vary} [{unit}]": factor * choice.best,
+            f"lower {vary} [{unit}]": factor * choice.lower,
+            f"upper {vary} [{unit}]": factor * choice.upper,
+            "better than present": choice.better,
+            "unit": MEASURES[each.aim].unit,
+        }
+        for response in RESPONSES:
+            median, lower, upper = choice.gain.get(response, (np.nan, np.nan, np.nan))
+            row |= {f"{response}: verdict": choice.sides[response].verdict}
+            row |= {f"{response}: gain": median, f"{response}: lower": lower, f"{response}: upper": upper}
+        rows.append(row | {"why": choice.why})
+    return pd.DataFrame(rows)

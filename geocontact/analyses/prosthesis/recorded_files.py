@@ -1,0 +1,41 @@
+"""Markers and plates of a trial, as of a right leg."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from geocontact.analyses.motion.markers import markers_given, renamed_as_told
+from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
+from geocontact.below_knee_prosthesis.simulate import GATE
+from geocontact.below_knee_prosthesis.stance_errors import PlateStance
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
+
+Side = Literal["right", "left"]
+
+
+def right_markers(
+    record: Record,
+    role: str,
+    file: Path,
+    side: Side,
+    axes: str | None,
+    markers_map: str | None,
+    time: tuple[float, float] | None = None,
+) -> MarkerTrajectories:
+    """Markers of a file by the names used here, mirrored where the prosthesis is on the left."""
+    seen = renamed_as_told(record, markers_given(file, axes, time), markers_map)
+    record.add_input(role, file, frames=len(seen), markers=len(seen.names))
+    return as_right(seen, side)
+
+
+def plate_under_foot(record: Record, file: Path, name: str | None, side: Side) -> PlateStance:
+    """Force and centre of pressure of one plate of a file."""
+    plate = plate_named(read_force_plates(file), name, file, "`plate`")
+    record.add_input("`plates`", file, plate=plate.name)
+    force = of_side(np.nan_to_num(plate.wrench.force), side)
+    return PlateStance(plate.time, force, of_side(plate.centre_of_pressure(GATE), side))

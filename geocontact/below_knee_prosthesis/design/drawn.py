@@ -1,0 +1,119 @@
+"""Draws of what is not known: numbers of the sole, keel, count of spheres, markers, plate; what a sweep makes of each.
+
+The count of spheres is a number of the model, not of the foot, and moves what a foot does by up to a tenth, for each
+sole is fitted anew to the same compressions: feet are drawn with 24, 48 and 96 spheres in turn. Each foot is drawn once
+and walked along several draws of the kinematics. Differences between settings are taken within a draw, so that what all
+settings share falls out of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.design.foot_task import FootTask
+from geocontact.below_knee_prosthesis.design.knob import Knob
+from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
+
+KEEL = 0.03
+"""Standard deviation of the logarithm of EI, as compressions rounded to 1 N/mm leave it."""
+FINER = (1, 2, 4)
+"""Factors on the rows of spheres."""
+FEWEST = 0.5
+"""Share of the draws that must be left for a band."""
+
+
+@dataclass(frozen=True, eq=False)
+class Draws:
+    """Outcomes of a sweep.
+
+    Parameters
+    ----------
+    drawn
+        Of each draw, by response, value and aim.
+    lost
+        Draws in which the keel had no equilibrium, and which are left out.
+    """
+
+    drawn: Float[np.ndarray, "d two n aims"]
+    lost: int
+
+
+def draws(
+    knob: Knob,
+    foot: VariableStiffnessFoot,
+    again: Callable[[np.random.Generator], FootTask],
+    sd: Float[np.ndarray, " p"],
+    *,
+    feet: int,
+    walks: int,
+    seed: int = 0,
+    keel: float = KEEL,
+    step: Callable[[], None] = lambda: None,
+) -> Draws:
+    """Of a sweep.
+
+    Parameters
+    ----------
+    again
+        A draw of the stance, as other errors of markers and plate would have shown it.
+    sd
+        Of the logarithms of the sole's numbers, in the order of `ZoneParameters`.
+    feet, walks
+        Drawn feet, and draws of the stance for each.
+
+    ArithmeticError where more than half of the drawn feet have no equilibrium.
+    """
+    rng, family, found, lost = np.random.default_rng(seed), finer_feet(foot), [], 0
+    for k in range(feet):
+        other = drawn_foot(family[k % len(family)], sd, keel, rng)
+        tasks = [again(rng) for _ in range(walks)]
+        try:
+            maps = knob.maps(other, _widest(tasks))
+            found += [knob.measured(maps, each) for each in tasks]
+        except ArithmeticError:
+            lost += 1
+        step()
+    if lost > FEWEST * feet:
+        raise ArithmeticError(f"{lost} of {feet} drawn feet have no equilibrium along the stance")
+    return Draws(np.array(found), lost)
+
+
+def finer_feet(foot: VariableStiffnessFoot) -> tuple[VariableStiffnessFoot, ...]:
+    """The foot with 24, 48 and 96 spheres; zones differ from the usual ones by the same factors in all of them."""
+    usual = vsf_foot()
+    factor = _values(foot) / _values(usual)
+    found = []
+    for finer in FINER:
+        base = vsf_foot(finer=finer)
+        zones = ZoneParameters(base.sole, base.law)
+        found.append(VariableStiffnessFoot(base.keel, base.sole, zones.law(zones.values_of(base.law) * factor)))
+    return tuple(found)
+
+
+def _values(foot: VariableStiffnessFoot) -> Float[np.ndarray, " p"]:
+    return ZoneParameters(foot.sole, foot.law).values_of(foot.law)
+
+
+def drawn_foot(
+    foot: VariableStiffnessFoot, sd: Float[np.ndarray, " p"], keel: float, rng: np.random.Generator
+) -> VariableStiffnessFoot:
+    """Another foot that the same knowledge allows."""
+    zones = ZoneParameters(foot.sole, foot.law)
+    factor = np.exp(np.clip(sd * rng.standard_normal(len(sd)), -zones.reach, zones.reach))
+    bending = foot.keel.bending * float(np.exp(keel * rng.standard_normal()))
+    return VariableStiffnessFoot(
+        replace(foot.keel, bending=bending), foot.sole, zones.law(zones.values_of(foot.law) * factor)
+    )
+
+
+def _widest(tasks: list[FootTask]) -> FootTask:
+    """Pitches and loads of all draws of a stance as one, so that one table serves them."""
+    time, pitch, load, forward = (
+        np.concatenate([getattr(each, name) for each in tasks]) for name in ("time", "pitch", "load", "forward")
+    )
+    return replace(tasks[0], time=time, pitch=pitch, load=load, forward=forward)

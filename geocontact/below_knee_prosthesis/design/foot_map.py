@@ -1,0 +1,122 @@
+"""What a foot does at a pitch and under a load: height, centre of pressure and bend of its keel, tabulated once.
+
+Quasi-static, elastic, without friction and upright in the frontal plane: then a foot is a function of its pitch and its
+load alone, and a stance is a path on that table. Solving the keel along one stance for a load costs as much as the
+whole table, from which every kinematic draw is read for next to nothing. Between the rows it is linear.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.interpolate import RegularGridInterpolator
+from scipy.spatial.transform import RigidTransform, Rotation
+
+from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
+from geocontact.geometry.shapes import HalfSpace
+from geocontact.loads.centre_of_pressure import GROUND_POINT, centre_of_pressure
+
+FLOOR = HalfSpace()
+PITCHES, LOADS, DEPTHS = np.radians(2.0), 21, 16
+"""Step of pitch [rad], rows of load, and depths that each pitch is pressed to."""
+SHALLOW, DEEPER, DEEPEST, ROUNDS, PROBES = 12e-3, 1.4, 0.12, 14, 5
+"""m; first depth that is tried, factor to the next, most of all, how often, and steps from the air to it."""
+MARGIN = 1.05
+"""Of the loads of a stance, over them."""
+PLACES = 3
+"""Channels before the angles of the joints: height, and centre of pressure along x and y of the keel's frame."""
+
+
+@dataclass(frozen=True, eq=False)
+class FootMap:
+    """A foot at one fulcrum over pitch and load.
+
+    Parameters
+    ----------
+    pitch
+        Toes up [rad].
+    load
+        [N].
+    table
+        Height of the keel's origin [m], centre of pressure along x and y of the keel's frame [m], joint angles [rad].
+    """
+
+    keel: QuasiStaticKeel
+    pitch: Float[np.ndarray, " p"]
+    load: Float[np.ndarray, " l"]
+    table: Float[np.ndarray, "p l c"]
+
+    def at(self, pitch: Float[np.ndarray, "*s"], load: Float[np.ndarray, "*s"]) -> Float[np.ndarray, "*s c"]:
+        """The table's channels; pitches beyond its ends are those of its ends."""
+        read = RegularGridInterpolator((self.pitch, self.load), self.table)
+        inside = np.clip(pitch, self.pitch[0], self.pitch[-1]), np.clip(load, self.load[0], self.load[-1])
+        return np.asarray(read(np.stack(inside, axis=-1)))
+
+    def stored(self, channels: Float[np.ndarray, "*s c"]) -> Float[np.ndarray, "*s"]:
+        """Energy of the keel's springs [J]."""
+        return np.asarray(0.5 * channels[..., PLACES:] ** 2 @ self.keel.keel.stiffness(self.keel.fulcrum))
+
+
+def foot_map(keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], most: Float[np.ndarray, " p"]) -> FootMap:
+    """At increasing pitches [rad], each up to a load [N]; above it the table stays at what it is there.
+
+    ArithmeticError where the foot does not reach a load, or the keel has no equilibrium on the way.
+    """
+    motion, poses, shape = _pressed(keel, pitch, _deep_enough(keel, pitch, most), DEPTHS)
+    centre = poses.inv().apply(centre_of_pressure(motion.loads, GROUND_POINT).centre)
+    channels = np.column_stack([poses.translation[:, 1], centre[:, :2], motion.angles]).reshape(*shape, -1)
+    force = motion.force[:, 1].reshape(shape)
+    force = np.maximum.accumulate(force, axis=1)
+    load = np.linspace(0.0, float(most.max()), LOADS)
+    table = np.empty((len(pitch), LOADS, channels.shape[-1]))
+    for k, (pressing, of) in enumerate(zip(force, channels, strict=True)):
+        known = np.isfinite(of).all(axis=1) & (pressing > 0.0)
+        for channel in range(table.shape[2]):
+            table[k, :, channel] = np.interp(load, pressing[known], of[known, channel])
+    return FootMap(keel, pitch, load, table)
+
+
+def needed(
+    pitch: Float[np.ndarray, " t"], load: Float[np.ndarray, " t"], reach: float
+) -> tuple[Float[np.ndarray, " p"], Float[np.ndarray, " p"]]:
+    """Rows of pitch for a stance that may be turned by up to `reach` [rad] in any frame, and loads for them."""
+    lowest, highest = float(pitch.min()) - reach, float(pitch.max()) + reach
+    rows = np.linspace(lowest, highest, max(2, 1 + int(np.ceil((highest - lowest) / PITCHES))))
+    near = np.abs(pitch[:, None] - rows) <= reach + PITCHES
+    return rows, MARGIN * np.where(near, load[:, None], 0.0).max(axis=0)
+
+
+def _deep_enough(
+    keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], most: Float[np.ndarray, " p"]
+) -> Float[np.ndarray, " p"]:
+    """Depth of each row at which it carries its load [m]."""
+    depth = np.full(len(pitch), SHALLOW)
+    for _ in range(ROUNDS):
+        motion, _, shape = _pressed(keel, pitch, depth, PROBES)
+        force = motion.force[:, 1].reshape(shape).max(axis=1)
+        if (force >= most).all():
+            return depth
+        wanted = np.where(force > 0.2 * most, most / np.maximum(force, 1.0) * 1.05, DEEPER)
+        depth = np.where(force < most, np.minimum(depth * np.clip(wanted, 1.05, DEEPER), DEEPEST), depth)
+    raise ArithmeticError("the foot does not reach a load of the stance")
+
+
+def _pressed(
+    keel: QuasiStaticKeel, pitch: Float[np.ndarray, " p"], deepest: Float[np.ndarray, " p"], count: int
+) -> tuple[KeelMotion, RigidTransform, tuple[int, int]]:
+    """Upright feet from the air to their depths below where each straight foot just touches.
+
+    In that order, and from the air again at each pitch, so that of several equilibria the one is found that a foot
+    comes to which is put down.
+    """
+    share = np.concatenate([[-0.1], np.linspace(0.0, 1.0, count + 1)[1:]])
+    depth = (deepest[:, None] * share).ravel()
+    turn = Rotation.from_euler("z", np.repeat(pitch, len(share))[:, None])
+    spheres = keel.sole.spheres
+    centres = np.einsum("tij,nj->tni", turn.as_matrix(), spheres.centre)
+    lowest = (centres[..., 1] - spheres.radius).min(axis=1)
+    place = np.stack([0.0 * depth, -lowest - depth, 0.0 * depth], axis=1)
+    poses = RigidTransform.from_components(place, turn)
+    return keel.solve(poses, FLOOR), poses, (len(pitch), len(share))

@@ -1,0 +1,96 @@
+"""What a foot means for the person, in numbers: moments, energy, roll-over, landing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial.transform import Rotation
+
+from geocontact.below_knee_prosthesis.design.carried_load import CarriedLoad
+from geocontact.below_knee_prosthesis.design.roll_over import arc_through
+
+Sense = Literal["least", "most", "nearest"]
+Aim = Literal["ankle_moment", "socket_moment", "energy", "radius", "loading_rate"]
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A number of a stance: what it is, its unit, and which is best unless a target is given."""
+
+    words: str
+    unit: str
+    sense: Sense
+
+
+MEASURES: Mapping[Aim, Measure] = {
+    "ankle_moment": Measure("peak ankle moment", "N m", "least"),
+    "socket_moment": Measure("peak moment at the socket, in the sagittal plane", "N m", "least"),
+    "energy": Measure("energy that the keel returns", "J", "most"),
+    "radius": Measure("radius of the roll-over shape", "m", "nearest"),
+    "loading_rate": Measure("rate of loading at touch-down", "N/s", "least"),
+}
+ROLLING = 0.3
+"""Radius over the length of the leg: where walking costs least (Adamczyk, Collins & Kuo 2006, J Exp Biol 209)."""
+ROLLS = 0.8
+"""Share of the stance up to which the path of the centre of pressure is a roll-over shape: to opposite heel contact."""
+FIRM = 0.2
+"""Of body weight; load from which it counts."""
+LANDING = 0.3
+"""Of body weight; load at which the stiffness of the landing foot is taken."""
+
+
+def outcomes(found: CarriedLoad) -> dict[Aim, float]:
+    """By measure, in SI.
+
+    Energy returned is what the keel has stored at most, less what is left at the end and what its dampers take on the
+    way. The rate of loading is the foot's stiffness as it lands times the speed at which it comes down.
+    """
+    return {
+        "ankle_moment": float(found.ankle_moment.max()),
+        "socket_moment": float(np.abs(found.moment(found.task.bushing)).max()),
+        "energy": returned(found),
+        "radius": roll_over_radius(found),
+        "loading_rate": loading_rate(found),
+    }
+
+
+def returned(found: CarriedLoad) -> float:
+    """Energy [J]."""
+    at = int(np.argmax(found.stored))
+    keel = found.foot.keel
+    if at + 1 >= len(found.stored):
+        return 0.0
+    rate = np.gradient(found.angles, found.task.time, axis=0)
+    lost = np.trapezoid((rate**2 @ keel.keel.damping(keel.fulcrum))[at:], found.task.time[at:])
+    return float(found.stored[at] - found.stored[-1] - lost)
+
+
+def roll_over_radius(found: CarriedLoad) -> float:
+    """Of the arc through the centre of pressure in the shank's frame [m]."""
+    task = found.task
+    share = (task.time - task.time[0]) / (task.time[-1] - task.time[0])
+    kept = (share <= ROLLS) & (task.load >= FIRM * task.weight)
+    return arc_through(shank_path(found)[kept]).radius
+
+
+def shank_path(found: CarriedLoad) -> Float[np.ndarray, "t 2"]:
+    """Centre of pressure in the shank's frame, forward and up from the ankle [m]: the roll-over shape."""
+    task = found.task
+    up = task.knee - task.ankle
+    turn = Rotation.from_euler("z", 0.5 * np.pi - np.arctan2(up[1], up[0]))
+    places = np.column_stack([found.centre - task.ankle[:2], np.zeros(len(found.centre))])
+    return np.asarray(turn.apply(places)[:, :2])
+
+
+def loading_rate(found: CarriedLoad) -> float:
+    """At touch-down [N/s]."""
+    task = found.task
+    at = int(np.argmax(task.load >= LANDING * task.weight))
+    pitch = np.full(2, task.pitch[at] + found.tilt[at])
+    height = found.foot.at(pitch, np.array([0.5, 1.0]) * LANDING * task.weight)[:, 0]
+    stiffness = 0.5 * LANDING * task.weight / max(float(height[0] - height[1]), 1e-6)
+    return stiffness * task.falling

@@ -1,0 +1,111 @@
+"""A stance as it would have been recorded with other errors of markers and plate: Monte Carlo on kinematics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.spatial.transform import RigidTransform, Rotation
+
+from geocontact.below_knee_prosthesis.calibration.stance_from_markers import stance_from_markers
+from geocontact.below_knee_prosthesis.design.foot_task import FootTask, foot_task
+from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
+from geocontact.below_knee_prosthesis.keel.keel import Keel
+from geocontact.below_knee_prosthesis.model.leg import Person
+from geocontact.below_knee_prosthesis.stance_errors import PlateStance
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+
+SLOW = 0.1
+"""s; over which the slow half of a marker's error changes."""
+MIDDLE = 0.11
+"""m; of the keel, about which a pitch error turns it."""
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedTrial:
+    """A standing and a walking trial with a plate, of a right leg; the foot's fulcrum and what the poses are read with.
+
+    Parameters
+    ----------
+    below
+        From the sole up to the keel's axis [m].
+    cutoff
+        Of a zero-lag low-pass of the markers [Hz]; None for none.
+    """
+
+    standing: MarkerTrajectories
+    walking: MarkerTrajectories
+    plate: PlateStance
+    person: Person
+    keel: Keel
+    fulcrum: float
+    below: float
+    cutoff: float | None
+    gap_limit: float
+
+    def task(self, tilt: float = 0.0) -> FootTask:
+        """What the foot carries; InputError where markers or plate cannot tell it.
+
+        `tilt` is an error of the foot's pitch [rad], constant over the stance.
+        """
+        leg = standing_leg(self.standing, self.person, self.keel, self.below)
+        stance = stance_from_markers(
+            self.walking,
+            leg,
+            self.plate,
+            self.fulcrum,
+            self.keel.length,
+            cutoff=self.cutoff,
+            gap_limit=self.gap_limit,
+        )
+        turn = Rotation.from_euler("z", tilt)
+        middle = np.array([MIDDLE, 0.0, 0.0])
+        poses = stance.poses * RigidTransform.from_components(middle - turn.apply(middle), turn)
+        return foot_task(replace(stance, poses=poses), leg, self.below)
+
+
+@dataclass(frozen=True)
+class TrialErrors:
+    """Standard deviations of what was recorded; all invented for a marker laboratory.
+
+    Parameters
+    ----------
+    marker
+        Of each coordinate of a marker [m], half of its variance from frame to frame and half slowly.
+    pitch
+        Of the foot's pitch, from how flat it stood [rad].
+    force
+        Of a sample of the plate [N].
+    gain
+        Of the plate's sensitivity [-].
+    """
+
+    marker: float = 0.5e-3
+    pitch: float = np.radians(0.5)
+    force: float = 3.0
+    gain: float = 0.01
+
+
+def task_again(trial: RecordedTrial, errors: TrialErrors, rng: np.random.Generator) -> FootTask:
+    """One draw."""
+    plate = trial.plate
+    force = plate.force * (1.0 + errors.gain * rng.standard_normal())
+    force = force + rng.normal(0.0, errors.force, force.shape)
+    moved = replace(
+        trial,
+        standing=_moved(trial.standing, errors.marker, rng),
+        walking=_moved(trial.walking, errors.marker, rng),
+        plate=PlateStance(plate.time, force, plate.centre),
+    )
+    return moved.task(errors.pitch * rng.standard_normal())
+
+
+def _moved(seen: MarkerTrajectories, sd: float, rng: np.random.Generator) -> MarkerTrajectories:
+    """With an error on every marker."""
+    shape = seen.positions.shape
+    step = float(np.median(np.diff(seen.time))) if len(seen.time) > 1 else SLOW
+    slow = gaussian_filter1d(rng.standard_normal(shape), SLOW / step, axis=0, mode="wrap")
+    slow /= max(float(slow.std()), 1e-12)
+    error = np.sqrt(0.5) * sd * (slow + rng.standard_normal(shape))
+    return replace(seen, positions=seen.positions + error)

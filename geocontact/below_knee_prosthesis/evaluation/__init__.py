@@ -1,0 +1,1 @@
+"""Simulated stances of a study beside their plates, and beside predictors without a model."""

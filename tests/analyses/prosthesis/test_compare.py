@@ -1,0 +1,77 @@
+"""A study by the analysis: what is refused in its description, and the shipped stances from end to end."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import pytest
+
+import geocontact as gc
+from tests.cli.calls import MESHES
+
+PERSON = '[persons.P1]\nmass = {{ value = 77.3, unit = "kg" }}\nstatic = "{meshes}/gait_P1_medium_1/standing.trc"\n'
+TRIAL = """
+[[trials]]
+name = "P1_{setting}_1"
+person = "P1"
+setting = "{setting}"
+markers = "{meshes}/gait_P1_{setting}_1/walking.trc"
+plates = "{meshes}/gait_P1_{setting}_1/plates.mot"
+plate = "own_force"
+other_plate = "other_force"
+"""
+
+
+def written(folder: Path, *settings: str, changed: tuple[str, str] = ("", "")) -> Path:
+    text = PERSON.format(meshes=MESHES) + "".join(TRIAL.format(meshes=MESHES, setting=each) for each in settings)
+    file = folder / "study.toml"
+    file.write_text(text.replace(*changed))
+    return file
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('setting = "low"', 'setting = "soft"', "'soft' is none"),
+        ('setting = "low"', "", "needs a setting or a fulcrum"),
+        ('setting = "low"', 'fulcrum = { value = 60, unit = "mm" }', "goes from 66 to 151 mm"),
+        ('person = "P1"', 'person = "P2"', r"no \[persons.P2\]"),
+        ('unit = "kg"', 'unit = "N"', "is not a unit of it"),
+        ('plate = "own_force"', "", "no plate"),
+        ('name = "P1_low_1"', 'called = "P1"', "'called' is not known here"),
+        ("walking.trc", "running.trc", "there is no file"),
+    ],
+)
+def test_refused(tmp_path: Path, old: str, new: str, words: str) -> None:
+    with pytest.raises(gc.InputError, match=words):
+        gc.prosthesis.compare(written(tmp_path, "low", changed=(old, new)))
+
+
+@pytest.mark.slow
+def test_shipped_stances_from_markers_to_files(tmp_path: Path) -> None:
+    """The error of a stance is that of `prosthesis simulate`; the one that lands too hard says so."""
+    study = written(tmp_path, "low", "high")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        found = gc.prosthesis.compare(study, workers=1)
+        trial = MESHES / "gait_P1_low_1"
+        alone = gc.prosthesis.simulate(
+            trial / "walking.trc",
+            static=MESHES / "gait_P1_medium_1" / "standing.trc",
+            mass=77.3,
+            setting="low",
+            plates=trial / "plates.mot",
+            other_plate="other_force",
+            plate="own_force",
+        )
+    errors = found.table("errors").set_index(["trial", "quantity"])
+    own = alone.table("errors").set_index("quantity")
+    for quantity in ("resultant", "fore_aft", "cop_ground"):
+        assert errors.loc[("P1_low_1", quantity), "rmse"] == pytest.approx(own.loc[quantity, "rmse"], rel=1e-12)
+    assert errors.loc[("P1_low_1", "resultant"), "rmse"] < 0.08  # the plain predictors are 0.10 and more off
+    assert bool(errors.loc[("P1_low_1", "resultant"), "better"])
+    seen = found.table("trials").set_index("trial")["what is seen"]
+    assert "leaves the floor again" in seen["P1_high_1"] and "leaves" not in seen["P1_low_1"]
+    found.write(tmp_path / "out")
+    assert (tmp_path / "out" / "trials" / "P1_high_1" / "ground_reaction.xml").is_file()

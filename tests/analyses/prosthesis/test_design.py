@@ -1,0 +1,67 @@
+"""A choice of a foot by the analysis: what is refused at once, and the shipped trial from end to end."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from tests.cli.calls import MESHES
+
+TRIAL = MESHES / "gait_P1_medium_1"
+GIVEN: dict[str, Any] = {
+    "static": TRIAL / "standing.trc",
+    "mass": 77.3,
+    "plates": TRIAL / "plates.mot",
+    "plate": "own_force",
+}
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"feet": 2}, "is not 6 to 600"),
+        ({"walks": 0}, "is not 1 to 600"),
+        ({"level": 1.0}, "not between 0 and 1"),
+        ({"target": -0.3}, "cannot be reached"),
+        ({"plate": "other_force"}, "no whole stance"),
+        ({"numbers": TRIAL / "truth.csv"}, "numbers.csv of prosthesis calibrate"),
+    ],
+)
+def test_refused(changed: dict[str, Any], words: str) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        with pytest.raises(gc.InputError, match=words):
+            gc.prosthesis.design(TRIAL / "walking.trc", **(GIVEN | changed))
+
+
+@pytest.mark.slow
+def test_shipped_trial_to_files(tmp_path: Path) -> None:
+    """Of a sole that is known: the radius is told, and with what nothing is known of more is left open."""
+    numbers = tmp_path / "numbers.csv"
+    zones = ("heel_back", "heel_middle", "heel_front", "midfoot", "forefoot")
+    rows = [f"{kind}.{zone},-,1.0,0.9,1.1,known" for kind in ("stiffness", "damping", "friction") for zone in zones]
+    numbers.write_text("\n".join(["number,unit,value,lower,upper,verdict", *rows]) + "\n")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        found = gc.prosthesis.design(TRIAL / "walking.trc", **GIVEN, numbers=numbers, feet=6, walks=2)
+        blind = gc.prosthesis.design(TRIAL / "walking.trc", **GIVEN, feet=6, walks=2, seed=1)
+    known, unknown = (each.table("answers").set_index("outcome") for each in (found, blind))
+    assert known.loc["radius", "told"]
+    assert not known.loc["loading_rate", "told"]
+    lower, upper = "lower fulcrum [mm]", "upper fulcrum [mm]"
+    assert (
+        known.loc["radius", upper] - known.loc["radius", lower]
+        <= unknown.loc["radius", upper] - unknown.loc["radius", lower]
+    )
+    sweep = found.table("sweep").set_index(["response", "outcome"])
+    energy = sweep.loc[("angles kept", "energy"), "median"].to_numpy(float)
+    assert np.all(np.diff(energy) < 0.0)
+    moment = sweep.loc[("torque kept", "ankle_moment"), "median"].to_numpy(float)
+    assert np.ptp(moment) < 0.02 * moment.mean()
+    found.write(tmp_path / "out")
+    assert (tmp_path / "out" / "report.html").is_file()

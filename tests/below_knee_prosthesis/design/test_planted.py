@@ -1,0 +1,15 @@
+"""Short form of `benchmarks/prosthesis_design.py`."""
+
+from __future__ import annotations
+
+import pytest
+
+from benchmarks.prosthesis_design import planted
+
+
+@pytest.mark.slow
+def test_a_planted_fulcrum_is_within_its_interval_and_no_effect_is_not_told() -> None:
+    for person in (0, 1):
+        found = planted((person, "known", 3, 3))
+        assert found.found("radius"), found.choices["radius"]
+        assert not found.choices["loading_rate"].told
