@@ -41,7 +41,7 @@ def test_refused(changed: dict[str, Any], words: str) -> None:
 
 @pytest.mark.slow
 def test_shipped_trial_to_files(tmp_path: Path) -> None:
-    """Of a sole that is known: the radius is told, and with what nothing is known of more is left open."""
+    """Of a sole that is known: the radius is told, and what has no effect is not."""
     numbers = tmp_path / "numbers.csv"
     zones = ("heel_back", "heel_middle", "heel_front", "midfoot", "forefoot")
     rows = [f"{kind}.{zone},-,1.0,0.9,1.1,known" for kind in ("stiffness", "damping", "friction") for zone in zones]
@@ -49,15 +49,9 @@ def test_shipped_trial_to_files(tmp_path: Path) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
         found = gc.prosthesis.design(TRIAL / "walking.trc", **GIVEN, numbers=numbers, feet=6, walks=2)
-        blind = gc.prosthesis.design(TRIAL / "walking.trc", **GIVEN, feet=6, walks=2, seed=1)
-    known, unknown = (each.table("answers").set_index("outcome") for each in (found, blind))
+    known = found.table("answers").set_index("outcome")
     assert known.loc["radius", "told"]
     assert not known.loc["loading_rate", "told"]
-    lower, upper = "lower fulcrum [mm]", "upper fulcrum [mm]"
-    assert (
-        known.loc["radius", upper] - known.loc["radius", lower]
-        <= unknown.loc["radius", upper] - unknown.loc["radius", lower]
-    )
     sweep = found.table("sweep").set_index(["response", "outcome"])
     energy = sweep.loc[("angles kept", "energy"), "median"].to_numpy(float)
     assert np.all(np.diff(energy) < 0.0)
