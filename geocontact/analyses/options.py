@@ -122,6 +122,7 @@ PartLength = Annotated[float, Typed("m", "length", "gc.mm(100)", "mm unless a un
 Lengths = Annotated[tuple[float, ...], Typed("m", "lengths", "gc.mm(1, 4)", "mm unless a unit is written")]
 Millimetres = Annotated[float, Typed("m", "millimetres", "gc.mm(30)", "[mm]", float)]
 BodyMass = Annotated[float, Typed("kg", "body_mass", "77.3", "kg unless a unit is written")]
+PartMass = Annotated[float, Typed("kg", "body_mass", "1.5", "kg unless a unit is written")]
 Degrees = Annotated[float, Typed("rad", "degrees", "gc.deg(5)", "[deg]", float)]
 Fraction = Annotated[float, Typed("-", "fraction", "0.02")]
 Pressure = Annotated[float, Typed("Pa", "pressure", "gc.MPa(0.5)")]

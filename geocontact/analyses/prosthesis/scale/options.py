@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import BodyMass, Expression, Fraction, Options, PartLength, Spelled
+from geocontact.analyses.options import BodyMass, Expression, Fraction, Options, PartLength, PartMass, Spelled
 from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON, PROSTHESIS, RESIDUAL, STATURE
 from geocontact.data.errors import InputError
 
@@ -61,7 +61,7 @@ class ProsthesisScaleOptions(Options):
     side: Literal["right", "left"] = "right"
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
-    prosthesis_mass: Annotated[BodyMass | None, PROSTHESIS] = None
+    prosthesis_mass: Annotated[PartMass | None, PROSTHESIS] = None
     setting: Literal["low", "medium", "high"] = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     markers_map: str | None = None
