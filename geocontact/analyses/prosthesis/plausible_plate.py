@@ -11,6 +11,8 @@ from geocontact.data.errors import InputError
 
 LEAST, MOST = 0.3, 5.0
 """Of the body weight, between which the largest vertical force of a step lies."""
+BESIDE = 1.0
+"""Lengths of the foot from its middle beyond which a centre of pressure is not its."""
 APART = 0.06
 """s by which clocks may differ: a foot that hovers before it lands, and a plate's threshold, make up to that."""
 
@@ -31,3 +33,11 @@ def require_one_clock(file: Path, option: str, name: str, offset: float) -> None
             f"{name} is loaded {abs(offset):.2f} s {'after' if offset > 0.0 else 'before'} the markers touch the floor"
         )
         raise InputError(file, option, what, "markers and forces need one clock: shift one of them")
+
+
+def require_under_foot(file: Path, name: str, centre: Float[np.ndarray, " t"]) -> None:
+    """InputError where a centre of pressure is not under the foot; in lengths of the foot from its heel."""
+    known = centre[np.isfinite(centre)]
+    if not len(known) or np.median(np.abs(known - 0.5)) > BESIDE:
+        what = f"no plate under the foot: the centre of pressure of {name} is not under it"
+        raise InputError(file, "`plate`", what, "check frame, side and clock, and that this plate is meant")

@@ -8,8 +8,10 @@ from typing import Literal
 import numpy as np
 
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told
+from geocontact.analyses.prosthesis.plausible_plate import require_weight
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
+from geocontact.below_knee_prosthesis.model.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import GATE
 from geocontact.below_knee_prosthesis.stance_errors import PlateStance
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
@@ -33,9 +35,16 @@ def right_markers(
     return as_right(seen, side)
 
 
-def plate_under_foot(record: Record, file: Path, name: str | None, side: Side) -> PlateStance:
-    """Force and centre of pressure of one plate of a file."""
+def plate_under_foot(record: Record, file: Path, name: str | None, side: Side, mass: float) -> tuple[PlateStance, str]:
+    """Force and centre of pressure of one plate of a file, and its name; InputError where nobody of that mass stands.
+
+    Parameters
+    ----------
+    mass
+        Of the person [kg].
+    """
     plate = plate_named(read_force_plates(file), name, file, "`plate`")
     record.add_input("`plates`", file, plate=plate.name)
     force = of_side(np.nan_to_num(plate.wrench.force), side)
-    return PlateStance(plate.time, force, of_side(plate.centre_of_pressure(GATE), side))
+    require_weight(file, "`plate`", plate.name, force[:, 1], mass * GRAVITY)
+    return PlateStance(plate.time, force, of_side(plate.centre_of_pressure(GATE), side)), plate.name

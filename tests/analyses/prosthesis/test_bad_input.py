@@ -30,6 +30,7 @@ GIVEN: dict[str, Any] = {
 COMMANDS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "simulate": (gc.prosthesis.simulate, {"other_plate": "other_force"}),
     "calibrate": (gc.prosthesis.calibrate, {}),
+    "design": (gc.prosthesis.design, {}),
 }
 SPINES = {"RASI": "LASI", "LASI": "RASI", "RPSI": "LPSI", "LPSI": "RPSI"}
 CASES: dict[str, tuple[Callable[[Path], dict[str, Any]], str]] = {

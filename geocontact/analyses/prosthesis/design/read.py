@@ -12,10 +12,14 @@ from scipy.stats import norm
 
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.foot_law import foot_with_law
+from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_under_foot
 from geocontact.analyses.prosthesis.recorded_files import plate_under_foot, right_markers
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.calibration.stance_from_markers import recorded_heights, stance_from_markers
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.clocks import clock_offset
 from geocontact.below_knee_prosthesis.design.stance_again import RecordedTrial
+from geocontact.below_knee_prosthesis.from_markers.standing import standing_leg
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
@@ -40,10 +44,11 @@ def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
     """Everything the options name."""
     with record.listener.preparing():
         foot = foot_with_law(record, vsf_foot(), o.law)
+    plate, name = plate_under_foot(record, o.plates, o.plate, o.side, o.mass)
     trial = RecordedTrial(
         standing=right_markers(record, "`static`", o.static, o.side, o.axes, o.markers_map),
         walking=right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map),
-        plate=plate_under_foot(record, o.plates, o.plate, o.side),
+        plate=plate,
         person=Person(o.mass),
         keel=foot.keel,
         fulcrum=fulcrum_of(o.setting) if o.fulcrum is None else o.fulcrum,
@@ -51,6 +56,13 @@ def read(o: ProsthesisDesignOptions, record: Record) -> FootAndTrial:
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
         gap_limit=o.gap_limit,
     )
+    leg = standing_leg(trial.standing, trial.person, trial.keel, trial.below)
+    spheres = foot.sole.spheres
+    time, height = recorded_heights(trial.walking, leg, spheres, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
+    require_one_clock(o.plates, "`plate`", name, clock_offset(time, height, plate.time, plate.force[:, 1]))
+    given = (trial.walking, leg, plate, trial.fulcrum, foot.keel.length)
+    stance = stance_from_markers(*given, cutoff=trial.cutoff, gap_limit=trial.gap_limit)
+    require_under_foot(o.plates, name, stance.centre)
     zones = ZoneParameters(foot.sole, foot.law)
     if o.numbers is None:
         record.warn("nothing is known of this sole but what is believed of any: give the `numbers` of a calibration")

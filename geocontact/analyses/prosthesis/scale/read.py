@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import cast
 
 import numpy as np
 
-from geocontact.analyses.motion.markers import markers_given, renamed_as_told
+from geocontact.analyses.prosthesis.recorded_files import right_markers
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.both_sides.functional import FunctionalJoints
 from geocontact.below_knee_prosthesis.both_sides.standing import NO_JOINTS, standing_joints
-from geocontact.below_knee_prosthesis.from_markers.sides import as_right
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
 from geocontact.below_knee_prosthesis.model.leg import Person
@@ -38,9 +36,11 @@ class Stood:
 
 def read(o: ProsthesisScaleOptions, record: Record) -> Stood:
     """Everything the options name."""
-    seen = _markers(o, o.static, record, "static")
+    seen = right_markers(record, "static", o.static, o.side, o.axes, o.markers_map)
     _warn_of_motion(seen, record)
-    moving = None if o.functional is None else _markers(o, o.functional, record, "`functional`")
+    moving = None
+    if o.functional is not None:
+        moving = right_markers(record, "`functional`", o.functional, o.side, o.axes, o.markers_map)
     joints = NO_JOINTS if moving is None else standing_joints(seen, moving)
     foot = vsf_foot()
     keel = foot.keel.posterior_mass + foot.keel.joints * foot.keel.segment_mass
@@ -53,12 +53,6 @@ def read(o: ProsthesisScaleOptions, record: Record) -> Stood:
         person = Person(mass, o.sex, o.residual, o.prosthesis_mass - keel)
     fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
     return Stood(seen, moving, joints, person, foot, fulcrum)
-
-
-def _markers(o: ProsthesisScaleOptions, file: Path, record: Record, name: str) -> MarkerTrajectories:
-    seen = renamed_as_told(record, markers_given(file, o.axes, None), o.markers_map)
-    record.add_input(name, file, frames=len(seen), markers=len(seen.names))
-    return as_right(seen, o.side)
 
 
 def _warn_of_motion(seen: MarkerTrajectories, record: Record) -> None:

@@ -11,14 +11,14 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.motion.marker_errors import FAR, MOVING
-from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.prosthesis.foot_law import foot_with_law
 from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, require_weight
+from geocontact.analyses.prosthesis.recorded_files import right_markers
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
 from geocontact.below_knee_prosthesis.clocks import clock_offset, lowest_sphere
 from geocontact.below_knee_prosthesis.from_markers.marker_names import PELVIS
-from geocontact.below_knee_prosthesis.from_markers.sides import as_right, of_side
+from geocontact.below_knee_prosthesis.from_markers.sides import of_side
 from geocontact.below_knee_prosthesis.from_markers.standing import pelvis_frame, standing_leg
 from geocontact.below_knee_prosthesis.from_markers.walking import Walked, functional_hip, walked
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
@@ -64,10 +64,10 @@ def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
     """Everything the options name."""
     foot = foot_with_law(record, vsf_foot(), o.law)
     fulcrum = fulcrum_of(o.setting, "pinned") if o.fulcrum is None else o.fulcrum
-    standing = _markers(o, cast(Path, o.static), record, "`static`", None)
+    standing = right_markers(record, "`static`", cast(Path, o.static), o.side, o.axes, o.markers_map)
     person = Person(cast(float, o.mass), o.sex, o.residual)
     leg = standing_leg(standing, person, foot.keel, sole_numbers()["below"].value, _hip(o, standing, record))
-    seen = _markers(o, o.markers, record, "markers", o.time)
+    seen = right_markers(record, "markers", o.markers, o.side, o.axes, o.markers_map, o.time)
     found = walked(seen, leg, cutoff=None if o.cutoff == 0.0 else o.cutoff, gap_limit=o.gap_limit)
     plates = read_force_plates(cast(Path, o.plates))
     record.add_input("`plates`", cast(Path, o.plates), plates=len(plates))
@@ -79,21 +79,14 @@ def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
     return Walk(leg, found, foot, fulcrum, push, _own(o, plates, found, foot))
 
 
-def _markers(
-    o: ProsthesisSimulateOptions, file: Path, record: Record, name: str, time: tuple[float, float] | None
-) -> MarkerTrajectories:
-    seen = renamed_as_told(record, markers_given(file, o.axes, time), o.markers_map)
-    record.add_input(name, file, frames=len(seen), markers=len(seen.names))
-    return as_right(seen, o.side)
-
-
 def _hip(o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Record) -> Float[np.ndarray, " 3"] | None:
     if o.functional is None:
         record.warn("the hip's centre is that of a regression; a `functional` trial tells it better")
         return None
     places = np.nanmedian(standing.of(PELVIS), axis=0)
     frame = pelvis_frame(dict(zip(PELVIS, places, strict=True)), standing.source)
-    found = functional_hip(_markers(o, o.functional, record, "`functional`", None), frame.inv().apply(places))
+    moving = right_markers(record, "`functional`", o.functional, o.side, o.axes, o.markers_map)
+    found = functional_hip(moving, frame.inv().apply(places))
     record.say(f"hip centre from the functional trial, {1e3 * found.rms:.1f} mm off itself")
     return found.first
 
