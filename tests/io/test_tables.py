@@ -333,3 +333,17 @@ def test_a_cycle_in_per_cent_without_a_unit_is_told(tmp_path: Path, name: str, h
         assert table(tmp_path, start + rows, name).time_unit == "%"
     assert table(tmp_path, start.replace("time", "time(s)") + rows, name).time_unit == "s"
     assert table(tmp_path, start + rows.rsplit("\n", 2)[0] + "\n", name).time_unit == "s"
+
+
+@pytest.mark.parametrize("name", ["gait cycle", "cycle", "Gait Cycle", "stance phase", "gait"])
+def test_a_place_in_the_cycle_is_the_time(tmp_path: Path, name: str) -> None:
+    """As gait software and this package's own tables call it; beside a time it is a column like others."""
+    file = tmp_path / "cycle.csv"
+    file.write_text(f"{name} [%],knee [deg]\n0,1\n50,2\n100,3\n", encoding="utf-8")
+    table = read_table(file)
+    assert table.time.tolist() == [0.0, 50.0, 100.0] and table.time_unit == "%" and table.channels == ("knee",)
+    file.write_text(f"time [s],{name} [%],knee [deg]\n0,0,1\n1,50,2\n2,100,3\n", encoding="utf-8")
+    assert read_table(file).time_unit == "s" and read_table(file).channels == (name, "knee")
+    file.write_text(f"{name} [deg],knee [deg]\n0,1\n50,2\n", encoding="utf-8")
+    with pytest.raises(InputError, match="no columns named 'time'"):
+        read_table(file)

@@ -31,6 +31,9 @@ LARGEST_FILE = 256_000_000
 _TIME = re.compile(r"time\s*(?:\((?P<unit>[^()]*)\))?", re.IGNORECASE)
 """Name of the time column; recorders also write its unit in round brackets: Time(sec)."""
 
+_PLACE = re.compile(r"gait|(?:gait\s+|stance\s+)?(?:cycle|phase)", re.IGNORECASE)
+"""Name of the time column in per cent, where there is none that is called time: gait cycle [%], cycle [%]."""
+
 CYCLE = np.arange(101.0)
 """Times of a cycle in per cent, as gait software writes it; nobody records 101 frames at one a second."""
 
@@ -174,6 +177,8 @@ def _table(
 ) -> TextTable:
     """Take the time column out and check it; `angles` is None for .csv."""
     places = [i for i, name in enumerate(names) if _TIME.fullmatch(name)]
+    if not places:
+        places = [i for i, name in enumerate(names) if units[i] == "%" and _PLACE.fullmatch(name)]
     if len(places) != 1:
         what = f"{len(places) or 'no'} columns named 'time'"
         raise InputError(file, f"line {lines[0] - 1}", what, f"one is needed; columns are: {listed(names)}")
