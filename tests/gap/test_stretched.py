@@ -19,8 +19,8 @@ from tests.gap.cases import elbow_case
 
 
 def drifting(_: str, time: np.ndarray, force: np.ndarray) -> np.ndarray:
-    """A sensor that drifts by a few noise levels."""
-    return force + 0.06 * time
+    """A sensor that drifts by enough to be worth naming: more than a tenth of the squared error."""
+    return force + 0.2 * time
 
 
 def stretched(**factors: Any) -> Diagnosis:
