@@ -13,7 +13,8 @@ from tests.view.page.conftest import DESKTOP, PHONE, Open
 
 STILL = {
     *("fit", "modulus", "elbow_fit", "elbow_design", "elbow_population"),
-    *("scale", "prosthesis_scale", "gather", "gap", "confuse"),
+    *("scale", "gather", "gap", "confuse"),
+    *("prosthesis_scale", "prosthesis_calibrate", "prosthesis_compare", "prosthesis_design"),
 }
 """Pages on which nothing runs in time."""
 
