@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.mesh.faces import read_face_indices
 from geocontact.io.mesh.merge import merge_coincident
-from geocontact.io.mesh.mesh_checks import degenerate, repeated
+from geocontact.io.mesh.mesh_checks import SIZES, degenerate, repeated, require_plausible
 from geocontact.io.mesh.meshes import READERS, read_mesh
 from geocontact.io.text.units import ANGLE, LENGTH, split_header
 
@@ -490,3 +490,12 @@ def test_bad_face_indices_are_refused(tmp_path, text, where, plea):
     assert "faces.txt" in str(caught.value)
     assert where in str(caught.value)
     assert plea in str(caught.value)
+
+
+def test_a_person_with_stretched_arms_is_a_body_in_metres() -> None:
+    """2.6 m from hand to foot; 2.6 m made of inches stay refused, and 4 m of metres."""
+    box = np.array([[0.0, 0.0, 0.0], [1.84, 1.79, 0.31]])
+    require_plausible(box, "m", SIZES, "scan.obj")
+    for vertices, unit in ((box / 0.0254, "in"), (1.6 * box, "m")):
+        with pytest.raises(InputError, match="too large"):
+            require_plausible(vertices, unit, SIZES, "scan.obj")

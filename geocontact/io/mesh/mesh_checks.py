@@ -16,6 +16,8 @@ FLAT = 1e-12
 _IN_WORDS = {"m": "metres", "cm": "centimetres", "mm": "millimetres", "in": "inches"}
 SIZES = (5e-3, 2.5)
 """Smallest and largest diagonal [m] of an implant, a bone or a body."""
+STRETCHED = 3.5
+"""Largest diagonal [m] of a body in metres, a tall person with stretched arms; other units keep the narrower limit."""
 _LIKELY = (10e-3, 2.5)
 _USUAL = (10e-3, 0.7)
 _COMMON_FIRST = ("mm", "m", "cm", "in")
@@ -47,7 +49,8 @@ def require_plausible(vertices: Float[np.ndarray, "n 3"], unit: str, plausible: 
         diagonal = float(np.hypot(np.hypot(box[0], box[1]), box[2]))
     metres = diagonal * LENGTH[unit]
     shown = " x ".join(f"{side:.0f}" if 100 <= side < 1e7 else f"{side:.3g}" for side in box)
-    if plausible[0] <= metres <= plausible[1]:
+    largest = STRETCHED if plausible == SIZES and unit == "m" else plausible[1]
+    if plausible[0] <= metres <= largest:
         if plausible == SIZES:
             _warn_of_size(diagonal, unit, f"{file}: bounding box {shown} {unit}")
         return
