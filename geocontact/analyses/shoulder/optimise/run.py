@@ -20,7 +20,7 @@ from geocontact.shoulder_exoskeleton.support.best_profile import (
     front,
     uniform_profile,
 )
-from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, held_out
+from geocontact.shoulder_exoskeleton.support.held_out import HeldOutSupport, Maker, held_out
 from geocontact.shoulder_exoskeleton.support.outcome import TABLE_3, Factors, SupportOutcome, outcome
 from geocontact.shoulder_exoskeleton.support.sensing import Sensing
 from geocontact.shoulder_exoskeleton.support.simulated_support import simulated_support
@@ -55,15 +55,7 @@ def run(given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -> 
         profiles.append(NamedProfile(PAPER, {key: TABLE_3[key] for key in best.factors}))
     alone = [(person, make([case for case in cases if case.person == person])) for person in persons]
     profiles += [NamedProfile(f"{person} alone", profile.factors) for person, profile in alone]
-    judged: dict[str, HeldOutSupport] = {}
-    if len(persons) > 1:
-        try:
-            judged = held_out(given.trials, given.support, make, one_factor, draws=o.draws, seed=o.seed)
-        except KeyError as error:
-            what = "a task is of one person only: no profile that the others make has a factor for it"
-            raise InputError(o.study or "", "", what, "let every person do every task") from error
-    else:
-        record.warn("one person only: nobody can be held out, the profile is for this person")
+    judged = _held_out(given, o, record, make, one_factor)
     outcomes = {
         profile.name: {
             case.name: outcome(case, profile.factors) for case in cases if set(case.keys) <= set(profile.factors)
@@ -92,16 +84,30 @@ def run(given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record) -> 
         front=tuple(points),
     )
     _say(record, best, uniform, judged)
-    share = _say_simulated(record, led, limits)
+    left = _say_simulated(record, led, limits)
     record.results["optimise"] = plain(
         {
             "device": given.device.name,
             "taken away": best.value,
             "taken away by one factor": uniform.value,
-            "taken away, simulated": share,
+            "taken away, simulated": left,
         }
     )
     return result
+
+
+def _held_out(
+    given: WorkersAndDevice, o: ShoulderOptimiseOptions, record: Record, make: Maker, one_factor: Maker
+) -> dict[str, HeldOutSupport]:
+    """By person; empty where there is one only."""
+    if len({trial.person for trial in given.trials}) == 1:
+        record.warn("one person only: nobody can be held out, the profile is for this person")
+        return {}
+    try:
+        return held_out(given.trials, given.support, make, one_factor, draws=o.draws, seed=o.seed)
+    except KeyError as error:
+        what = "a task is of one person only: no profile that the others make has a factor for it"
+        raise InputError(o.study or "", "", what, "let every person do every task") from error
 
 
 def _simulated(
