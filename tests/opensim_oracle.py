@@ -113,13 +113,15 @@ def marker_places(file: Path, motion: Path, row: int) -> dict[str, np.ndarray]:
     return found
 
 
-def inverse_dynamics(file: Path, names: Sequence[str], q: np.ndarray, u: np.ndarray, a: np.ndarray) -> np.ndarray:
-    """Generalised forces without muscles and external loads, (s, n)."""
+def inverse_dynamics(
+    file: Path, names: Sequence[str], q: np.ndarray, u: np.ndarray, a: np.ndarray, passive: bool = False
+) -> np.ndarray:
+    """Generalised forces without external loads, (s, n), beside the forces of the model's own set or with none."""
     import opensim
 
     model, state = _model(file)
     forces = model.updForceSet()
-    for i in range(forces.getSize()):
+    for i in range(0 if passive else forces.getSize()):
         forces.get(i).setAppliesForce(state, False)
     coordinates = model.getCoordinateSet()
     place = {}
@@ -135,7 +137,7 @@ def inverse_dynamics(file: Path, names: Sequence[str], q: np.ndarray, u: np.ndar
         for i, name in enumerate(names):
             coordinates.get(name).setSpeedValue(state, float(u[k, i]))
             fast.set(place[name], float(a[k, i]))
-        model.realizeVelocity(state)
+        model.realizeDynamics(state)
         forces_found = solver.solve(state, fast)
         found[k] = [forces_found.get(place[name]) for name in names]
     return found

@@ -21,7 +21,7 @@ LARGEST_MODEL = 32_000_000
 
 _DEEPEST = 50
 _SCOPED = re.compile(rb"(</?[A-Za-z_][\w.]*)::")
-_SETS = ("BodySet", "JointSet", "ComponentSet")
+_SETS = ("BodySet", "JointSet", "ForceSet", "ComponentSet")
 
 
 def read_model(path: str | PathLike[str]) -> Element:
@@ -158,7 +158,7 @@ def socket_of(element: Element, name: str) -> str:
 
 
 def _components(model: Element) -> Iterator[tuple[str, Element]]:
-    """Frames of a model with their absolute paths: bodies, offset frames of joints, bodies, frames and the model."""
+    """Frames of a model with their absolute paths: bodies, offset frames of joints, bushings, bodies, the model."""
     pending = [("", model, 0)]
     while pending:
         owner, element, depth = pending.pop()
@@ -173,5 +173,5 @@ def _components(model: Element) -> Iterator[tuple[str, Element]]:
             elif name and child.tag in ("Body", "Ground", "PhysicalOffsetFrame"):
                 yield f"{owner}/{name}", child
                 pending.append((f"{owner}/{name}", child, depth + 1))
-            elif name and child.tag.endswith("Joint"):
+            elif name and child.tag.endswith(("Joint", "BushingForce")):
                 pending.append((f"{owner}/{name}", child, depth + 1))

@@ -43,6 +43,9 @@ class IdOptions(Options):
         given again. Without it the loads of the plates tell them, by the side in their bodies' names.
     angles
         Unit of angles where the file does not say it: deg or rad.
+    exclude
+        Passive forces of the model (coordinate limits, springs, bushings) that are left out, by name, by group of its
+        force set, or all. May be given again. Muscles and actuators never act here.
     """
 
     over_time: ClassVar[bool] = True
@@ -59,6 +62,7 @@ class IdOptions(Options):
     time: TimeSpan | None = None
     events: Texts = ()
     angles: AngleUnit | None = None
+    exclude: Texts = ()
 
     def refuse_impossible(self) -> None:
         """Plates without bodies, axes without plates."""

@@ -14,11 +14,13 @@ from geocontact.analyses.motion.skeleton import upwards
 from geocontact.analyses.run_record import Record
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody
+from geocontact.data.multibody.passive_forces import PassiveForces
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.forces_along import SMOOTH
 from geocontact.identify.signals.even_times import UNEVEN
 from geocontact.identify.signals.zero_lag import as_opensim
 from geocontact.io.opensim.coordinates import motion_of
+from geocontact.io.opensim.osim_forces import read_passive_forces
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable, read_table
 
@@ -37,6 +39,8 @@ class Loaded:
         By body, about the ground's origin, at the wanted times.
     strikes
         When feet come to the ground.
+    passive
+        Forces of the model itself.
     """
 
     model: Multibody
@@ -45,6 +49,7 @@ class Loaded:
     time: Float[np.ndarray, " t"]
     loads: dict[str, Wrench]
     strikes: Strikes
+    passive: PassiveForces
 
     @property
     def shown(self) -> Float[np.ndarray, "t c"]:
@@ -64,7 +69,8 @@ def read(o: IdOptions, record: Record) -> Loaded:
     time = table.time[shown]
     loads = loads_on_bodies(record, o, model, time, values[shown])
     strikes = strikes_typed(o.events) or strikes_on_plates(time, loads, upwards(model))
-    return Loaded(model, table.time, values, time, loads, strikes)
+    passive = read_passive_forces(o.model, model, o.exclude)
+    return Loaded(model, table.time, values, time, loads, strikes, passive)
 
 
 def _filtered(table: TextTable, values: Float[np.ndarray, "t n"], cutoff: float) -> Float[np.ndarray, "t n"]:

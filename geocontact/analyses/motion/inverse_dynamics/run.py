@@ -13,16 +13,19 @@ from geocontact.analyses.motion.inverse_dynamics.read import Loaded
 from geocontact.analyses.motion.inverse_dynamics.residuals import warn_of_residuals, words
 from geocontact.analyses.motion.inverse_dynamics.result import IdResult
 from geocontact.analyses.run_record import Record
+from geocontact.data.multibody.passive_forces import PassiveForces
 from geocontact.data.wrench import Wrench
 from geocontact.dynamics.forces_along import forces_along
 from geocontact.dynamics.tree import tree_of
+from geocontact.io.text.tables import listed
 
 
 def run(given: Loaded, o: IdOptions, record: Record) -> IdResult:
     """Forces along all coordinates, and what motion, masses and plates leave over at the ground."""
-    found = forces_along(tree_of(given.model), given.recorded, given.values, given.time, given.loads)
+    tree, passive = tree_of(given.model), given.passive
+    found = forces_along(tree, given.recorded, given.values, given.time, given.loads, passive.acting)
     forces = Forces(given.time, given.model, found, _peak(given.loads), _height(given))
-    summary = _summary(forces)
+    summary = {**_summary(forces), **_of_the_model(record, passive)}
     cycles = _cycles(forces, given)
     if cycles:
         summary["gait_cycles"] = cycles.counts
@@ -38,6 +41,17 @@ def run(given: Loaded, o: IdOptions, record: Record) -> IdResult:
         cycles=cycles,
         summary=summary,
     )
+
+
+def _of_the_model(record: Record, passive: PassiveForces) -> dict[str, object]:
+    """Names of passive forces that act and of those left out; a warning for kinds that are not read."""
+    if passive.unread:
+        names = listed(passive.unread)
+        record.warn(f"forces of the model of kinds that are not read do not act here, in OpenSim they do: {names}")
+    acting = [force.name for force in passive.acting]
+    if acting:
+        record.say(f"Passive forces of the model act beside muscles: {listed(tuple(acting))}.")
+    return {"passive_forces": acting, "passive_forces_left_out": [*passive.excluded, *passive.unread]}
 
 
 def _cycles(forces: Forces, given: Loaded) -> GaitCycles:
