@@ -4,9 +4,9 @@ Lu & O'Connor (1999), Bone position estimation from skin marker co-ordinates usi
 Newton's steps; the curvature, exact, is kept as long as they shrink fast, and damped after Levenberg and Marquardt
 where they do not lead down. As in OpenSim a coordinate that is held counts beside the mean over the markers that are
 seen in the frame: Σ w |x - observed|² / Σ w + v (q - wanted)². Coordinates that the model clamps stay within their
-limits, locked ones at their default. A marker that is not seen does not count in that frame. The search begins where
-most markers are seen and goes from there to both ends. What the markers of a frame do not tell is not stated, or
-filled where the gap is short.
+limits, locked ones at their default; those that depend on others follow them. A marker that is not seen does not count
+in that frame. The search begins where most markers are seen and goes from there to both ends. What the markers of a
+frame do not tell is not stated, or filled where the gap is short.
 """
 
 from __future__ import annotations
@@ -108,6 +108,7 @@ def inverse_kinematics(
             done += 1
             progress(done)
     values = np.where(determined.any(axis=0), _filled(seen.time, values, determined, fill), search.start)
+    values = tree.model.coupled(values)
     return Poses(seen.time, tree.names, values, tuple(m.name for m in markers), distances, steps, settled, determined)
 
 
@@ -140,7 +141,10 @@ class _Search:
         self.start = np.array([c.default for c in coordinates])
         self.low = np.array([c.limits[0] if c.clamped else -np.inf for c in coordinates])
         self.high = np.array([c.limits[1] if c.clamped else np.inf for c in coordinates])
-        self.locked = np.array([c.locked for c in coordinates])
+        self.followers = {
+            tree.names.index(c.dependent): [tree.names.index(n) for n in c.of] for c in tree.model.couplers
+        }
+        self.locked = np.array([c.locked or k in self.followers for k, c in enumerate(coordinates)])
         wanted = [tasks.coordinates.get(c.name, (0.0, None)) for c in coordinates]
         self.held = np.array([weight for weight, _ in wanted])
         self.wanted = np.array(
@@ -181,6 +185,8 @@ class _Search:
         weights = np.where(there, self.weights, 0.0)
         normal = np.einsum("m,mik,mil->kl", weights, slopes, slopes)
         found = np.asarray(self.locked | ~_open(normal + weights.sum() * np.diag(self.held), ~self.locked))
+        for k, of in self.followers.items():
+            found[k] = found[of].all()
         if there.all():
             self.whole = found
         return found

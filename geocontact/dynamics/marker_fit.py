@@ -23,19 +23,21 @@ class MarkerFit:
     Parameters
     ----------
     tree
-        Whose coordinates are sought.
+        Whose coordinates are sought; nothing changes with those that depend on others.
     markers
         Points on its bodies, m of them.
     """
 
     def __init__(self, tree: Tree, markers: tuple[Marker, ...]) -> None:
-        from casadi import SX, Function, densify, dot, hessian, jacobian, mtimes, reshape, vertcat
+        from casadi import SX, Function, densify, dot, hessian, jacobian, mtimes, reshape, substitute, vertcat
 
+        whole = tree.coupled()
         places = vertcat(*(tree.point(m.body, constant(m.location)) for m in markers))
+        places = substitute(places, tree.q, whole) if tree.model.couplers else places
         observed, weights = SX.sym("observed", 3 * len(markers)), SX.sym("weights", len(markers))
         wanted, held = SX.sym("wanted", len(tree.names)), SX.sym("held", len(tree.names))
         each = reshape(mtimes(SX.ones(3, 1), weights.T), -1, 1)
-        off, astray = places - observed, tree.q - wanted
+        off, astray = places - observed, whole - wanted
         cost = 0.5 * (dot(each * off, off) + dot(held * astray, astray))
         curvature, gradient = hessian(cost, tree.q)
         arguments = [tree.q, observed, weights, wanted, held]

@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.data.multibody.joint import JointModel, TransformAxis
 from geocontact.data.multibody.joint_function import Affine
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
-from geocontact.data.multibody.model import GROUND, Body, Multibody
+from geocontact.data.multibody.model import GROUND, Body, Multibody, coupler_stretch
 
 Factors = Mapping[str, Float[np.ndarray, " 3"]]
 """Of bodies by name, along the axes of the body's frame; a body without any keeps its size."""
@@ -55,7 +55,8 @@ def measured_factor(
 def scaled(model: Multibody, factors: Factors, mass: float | None = None) -> Multibody:
     """The model with its bodies scaled: joints, markers and mass centres move with them.
 
-    Shifts along the axes of a joint that are no coordinate by themselves scale with the parent body, as in OpenSim.
+    Shifts along the axes of a joint that are no coordinate by themselves scale with the parent body, as in OpenSim, and
+    so do coordinates that depend on others and are shifts.
     Moments of inertia are those of the same mass spread over the scaled body, exact for every factor; OpenSim takes a
     cylinder where factors differ.
 
@@ -80,7 +81,10 @@ def scaled(model: Multibody, factors: Factors, mass: float | None = None) -> Mul
     bodies = tuple(_body(body, of(body.name), heavier) for body in model.bodies)
     joints = tuple(_joint(joint, of(joint.parent), of(joint.child)) for joint in model.joints)
     markers = tuple(replace(m, location=m.location * of(m.body)) for m in model.markers)
-    return replace(model, bodies=bodies, joints=joints, markers=markers)
+    couplers = tuple(
+        replace(c, function=c.function.scaled(coupler_stretch(model, c.dependent, factors))) for c in model.couplers
+    )
+    return replace(model, bodies=bodies, joints=joints, markers=markers, couplers=couplers)
 
 
 def _body(body: Body, by: Float[np.ndarray, " 3"], heavier: float) -> Body:
@@ -94,8 +98,7 @@ def _body(body: Body, by: Float[np.ndarray, " 3"], heavier: float) -> Body:
 def _joint(joint: JointModel, parent: Float[np.ndarray, " 3"], child: Float[np.ndarray, " 3"]) -> JointModel:
     if joint.parent == GROUND:
         parent = np.ones(3)
-    turned = joint.parent_offset.rotation
-    shifts = tuple(_shift(axis, turned.apply(axis.direction), parent) for axis in joint.axes[3:])
+    shifts = tuple(_shift(joint.axes[slot], joint.stretch(slot, parent)) for slot in (3, 4, 5))
     return replace(
         joint,
         axes=(*joint.axes[:3], *shifts),
@@ -104,11 +107,11 @@ def _joint(joint: JointModel, parent: Float[np.ndarray, " 3"], child: Float[np.n
     )
 
 
-def _shift(axis: TransformAxis, direction: Float[np.ndarray, " 3"], by: Float[np.ndarray, " 3"]) -> TransformAxis:
+def _shift(axis: TransformAxis, stretch: float) -> TransformAxis:
     function = axis.function
     if isinstance(function, Affine) and np.array_equal(function.slopes, [1.0]) and function.offset == 0.0:
         return axis  # the coordinate itself: a length that is measured, not one of the body
-    return replace(axis, function=function.scaled(float(np.linalg.norm(direction * by))))
+    return replace(axis, function=function.scaled(stretch))
 
 
 def _moved(offset: RigidTransform, by: Float[np.ndarray, " 3"]) -> RigidTransform:

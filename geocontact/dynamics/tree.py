@@ -12,7 +12,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.dynamics.moving_joint import MovingJoint, moving_joint
-from geocontact.dynamics.symbols import apply_numpy, constant, entries
+from geocontact.dynamics.symbols import apply_numpy, constant, entries, value_of
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -124,6 +124,16 @@ class Tree:
         """Where each joint's coordinates are among all."""
         ends = np.cumsum([0, *(len(joint.coordinates) for joint in self.model.joints)])
         return [slice(int(start), int(stop)) for start, stop in pairwise(ends)]
+
+    def coupled(self) -> SX:
+        """Coordinates in which those that depend on others are what these make them; `q` where none does."""
+        from casadi import SX
+
+        found = SX(self.q)
+        for coupler in self.model.couplers:
+            of = [self.names.index(name) for name in coupler.of]
+            found[self.names.index(coupler.dependent)] = value_of(coupler.function, entries(found, of))
+        return found
 
     def point(self, body: str, location: SX) -> SX:
         """A point of a body, given in its frame, in the ground's [m]."""

@@ -20,7 +20,7 @@ PIN = MODELS["4 PinJoint"].replace("<Ground", f"<gravity>0 0 -9.8</gravity>{MARK
 OLD_MARKERS = """<MarkerSet><objects><Marker name="m"><body>c</body><location>1 2 3</location></Marker></objects>
 </MarkerSet>"""
 OLD = MODELS["3 PinJoint false"].replace("<BodySet>", f"{OLD_MARKERS}<BodySet>", 1)
-COUPLED = """<ConstraintSet><objects><CoordinateCouplerConstraint name="k">{}</CoordinateCouplerConstraint></objects>
+HELD = """<ConstraintSet><objects><PointConstraint name="k">{}</PointConstraint></objects>
 </ConstraintSet>"""
 
 
@@ -83,11 +83,11 @@ def test_parents_come_before_children(tmp_path: Path) -> None:
 
 
 def test_constraints_are_said(tmp_path: Path) -> None:
-    on = PIN.replace("<BodySet", COUPLED.format("") + "<BodySet", 1)
-    with pytest.warns(InputWarning, match="constraints are not heeded.*CoordinateCouplerConstraint k"):
+    on = PIN.replace("<BodySet", HELD.format("") + "<BodySet", 1)
+    with pytest.warns(InputWarning, match="constraints are not heeded.*PointConstraint k"):
         read_multibody(written(tmp_path, on))
     for flag in ("<isDisabled>true</isDisabled>", "<isEnforced>false</isEnforced>"):
-        read_multibody(written(tmp_path, PIN.replace("<BodySet", COUPLED.format(flag) + "<BodySet", 1)))
+        read_multibody(written(tmp_path, PIN.replace("<BodySet", HELD.format(flag) + "<BodySet", 1)))
 
 
 BAD = {

@@ -85,6 +85,11 @@ class JointModel:
         moved = RigidTransform.from_components(np.asarray(shift), turned[0] * turned[1] * turned[2])
         return self.parent_offset * (moved.inv() if self.reverse else moved) * self.child_offset.inv()
 
+    def stretch(self, slot: int, by: Float[np.ndarray, " 3"]) -> float:
+        """How much a shift along an axis (3, 4, 5 among `axes`) grows where the parent body does by these factors."""
+        direction = self.parent_offset.rotation.apply(self.axes[slot].direction)
+        return float(np.linalg.norm(direction * by))
+
 
 def _amount(axis: TransformAxis, q: Mapping[str, Float[np.ndarray, " t"]], frames: int) -> Float[np.ndarray, " t"]:
     named = [q[name] for name in axis.coordinates]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.multibody.joint import Coordinate, JointModel
+from geocontact.data.multibody.joint_function import JointFunction
 
 GROUND = "ground"
 
@@ -54,6 +56,25 @@ class Marker:
 
 
 @dataclass(frozen=True)
+class Coupler:
+    """A coordinate that is a function of others, as that of a patella is of the knee's.
+
+    Parameters
+    ----------
+    dependent
+        Name of the coordinate.
+    of
+        Names of those it depends on.
+    function
+        Its value [rad, m] from theirs.
+    """
+
+    dependent: str
+    of: tuple[str, ...]
+    function: JointFunction
+
+
+@dataclass(frozen=True)
 class Multibody:
     """A tree of bodies.
 
@@ -69,6 +90,8 @@ class Multibody:
         Points fixed to bodies.
     gravity
         Its acceleration in the ground's frame [m/s^2].
+    couplers
+        In an order in which each depends on independent coordinates and on those of couplers before it.
     """
 
     name: str
@@ -76,11 +99,20 @@ class Multibody:
     joints: tuple[JointModel, ...]
     markers: tuple[Marker, ...]
     gravity: Float[np.ndarray, " 3"]
+    couplers: tuple[Coupler, ...] = ()
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Generalised coordinates of all joints, in the joints' order."""
         return tuple(c for joint in self.joints for c in joint.coordinates)
+
+    def coupled(self, values: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t n"]:
+        """Rows of coordinates [rad, m] in which those that depend on others are what these make them."""
+        found = values.copy()
+        column = {c.name: k for k, c in enumerate(self.coordinates)}
+        for coupler in self.couplers:
+            found[:, column[coupler.dependent]] = coupler.function(found[:, [column[name] for name in coupler.of]])
+        return found
 
     @property
     def mass(self) -> float:
@@ -123,3 +155,12 @@ def outwards(joints: tuple[JointModel, ...]) -> tuple[tuple[JointModel, ...], tu
         reached.add(found[0].child)
         waiting.remove(found[0])
     return tuple(order), tuple(waiting)
+
+
+def coupler_stretch(model: Multibody, dependent: str, factors: Mapping[str, Float[np.ndarray, " 3"]]) -> float:
+    """How much a dependent coordinate that is a shift grows where bodies do by these factors; 1 for an angle."""
+    for joint in model.joints:
+        for slot, axis in enumerate(joint.axes):
+            if slot >= 3 and axis.coordinates == (dependent,) and joint.parent in factors:
+                return joint.stretch(slot, factors[joint.parent])
+    return 1.0

@@ -18,12 +18,19 @@ from geocontact.io.text.tables import TextTable, listed
 
 
 def motion_of(table: TextTable, model: Multibody, angles: str | None = None) -> Float[np.ndarray, "t n"]:
-    """All coordinates of a model in its order [rad, m]; those without a column at their default, with a warning."""
+    """All coordinates of a model in its order [rad, m]; those without a column at their default, with a warning.
+
+    One without a column that depends on others is what these make it.
+    """
     columns = columns_of(table, model.joints)
     found = coordinates_of(table, model.joints, columns, angles)
-    warn_of_defaults(table, model.coordinates, columns, model.name or "the model")
+    followers = {coupler.dependent for coupler in model.couplers}
+    own = [c for c in model.coordinates if c.name not in followers]
+    warn_of_defaults(table, own, columns, model.name or "the model")
     frames = len(table.time)
-    return np.column_stack([found.get(c.name, np.full(frames, c.default)) for c in model.coordinates])
+    values = np.column_stack([found.get(c.name, np.full(frames, c.default)) for c in model.coordinates])
+    follows = np.array([c.name in followers and c.name not in found for c in model.coordinates])
+    return np.where(follows, model.coupled(values), values)
 
 
 def columns_of(table: TextTable, joints: Sequence[JointModel]) -> dict[str, str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from os import PathLike, fspath
 from posixpath import basename
 from xml.etree.ElementTree import Element
@@ -10,9 +9,10 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import GROUND, Body, Marker, Multibody, outwards
 from geocontact.io.opensim.osim import joints_of
+from geocontact.io.opensim.osim_couplers import read_couplers
 from geocontact.io.opensim.osim_scapula import between
 from geocontact.io.opensim.osim_xml import (
     Frames,
@@ -24,7 +24,6 @@ from geocontact.io.opensim.osim_xml import (
     socket_of,
     text_of,
 )
-from geocontact.io.text.tables import listed
 
 _MOMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 
@@ -32,8 +31,9 @@ _MOMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 def read_multibody(path: str | PathLike[str]) -> Multibody:
     """Bodies, joints and markers of an .osim file.
 
-    Constraints are no part of a tree: a model with some that are not switched off is read with a warning that names
-    them. Muscles and other forces are left aside. InputError for loops and bodies without a joint.
+    Coordinates that a coupler makes functions of others follow them. Other constraints are no part of a tree: a model
+    with some that are not switched off is read with a warning that names them. Muscles and other forces are left aside.
+    InputError for loops and bodies without a joint.
     """
     file = fspath(path)
     model = read_model(path)
@@ -46,10 +46,10 @@ def read_multibody(path: str | PathLike[str]) -> Multibody:
     loose = {body.name for body in bodies} - {joint.child for joint in joints}
     if loose:
         raise InputError(file, f"body {min(loose)}", "has no joint", "correct the model")
-    _warn_of_constraints(file, model)
+    couplers = read_couplers(file, model, [c.name for joint in joints for c in joint.coordinates])
     markers = _markers(file, frames, model.findall("MarkerSet/objects/Marker"), {body.name for body in bodies})
     gravity = numbers_of(file, model, "gravity", 3, (0.0, -9.80665, 0.0))
-    return Multibody(model.get("name", ""), bodies, joints, markers, gravity)
+    return Multibody(model.get("name", ""), bodies, joints, markers, gravity, couplers)
 
 
 def read_marker_set(path: str | PathLike[str], osim: str | PathLike[str]) -> tuple[Marker, ...]:
@@ -106,18 +106,3 @@ def _marker(file: str, frames: Frames, element: Element) -> Marker:
         return Marker(element.get("name", ""), text_of(element, "body"), location, fixed)
     body, pose = frames.in_body(frames.resolve(f"/markerset/{element.get('name', '')}", socket))
     return Marker(element.get("name", ""), basename(body), pose.apply(location), fixed)
-
-
-def _warn_of_constraints(file: str, model: Element) -> None:
-    found = [e for e in model.findall("ConstraintSet/objects/*") if not _is_off(file, e)]
-    if found:
-        names = listed(tuple(label(e) for e in found))
-        message = f"{file}: constraints are not heeded, coordinates they couple move freely: {names}"
-        warnings.warn(InputWarning(message), stacklevel=3)
-
-
-def _is_off(file: str, element: Element) -> bool:
-    """OpenSim 3 says isDisabled, OpenSim 4 isEnforced."""
-    if element.find("isEnforced") is not None:
-        return not is_true(file, element, "isEnforced")
-    return is_true(file, element, "isDisabled")

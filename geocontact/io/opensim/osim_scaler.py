@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.multibody.model import GROUND, Multibody
+from geocontact.data.multibody.model import GROUND, Multibody, coupler_stretch
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.opensim.osim_xml import numbers_of, read_document, socket_of, text_of
 
@@ -59,6 +59,7 @@ def write_scaled_model(
     _bodies(file, model, scaled, of)
     _frames(file, model, scaled, of)
     _shifts(file, model, scaled, of)
+    _couplers(file, model, scaled, factors)
     _markers(model, scaled)
     for point in list(model.iter()):
         if point.tag.endswith("PathPoint"):
@@ -117,9 +118,17 @@ def _shifts(file: str, model: Element, scaled: Multibody, of: FactorOf) -> None:
             if joint is None or joint.parent == GROUND or axis.get("name") not in _SHIFTS:
                 continue
             slot = _SHIFTS.index(axis.get("name", ""))
-            direction = numbers_of(file, axis, "axis", 3, tuple(np.eye(3)[slot]))
-            turned = joint.parent_offset.rotation.apply(direction / np.linalg.norm(direction))
-            _multiply(file, axis, float(np.linalg.norm(turned * of(joint.parent))))
+            _multiply(file, axis, joint.stretch(3 + slot, of(joint.parent)))
+
+
+def _couplers(file: str, model: Element, scaled: Multibody, factors: Mapping[str, Vector]) -> None:
+    """Factors of the functions by which shifts depend on other coordinates."""
+    dependents = {coupler.dependent for coupler in scaled.couplers}
+    for element in model.findall("ConstraintSet/objects/CoordinateCouplerConstraint"):
+        dependent = text_of(element, "dependent_coordinate_name")
+        if dependent in dependents:
+            factor = float(numbers_of(file, element, "scale_factor", 1, (1.0,))[0])
+            _set(element, "scale_factor", [factor * coupler_stretch(scaled, dependent, factors)])
 
 
 def _multiply(file: str, axis: Element, factor: float) -> None:
@@ -193,8 +202,8 @@ def _compare(file: str, target: Path, scaled: Multibody) -> None:
         (f"marker {m.name}", one.ravel().tolist(), other.ravel().tolist())
         for m, one, other in zip(
             scaled.markers,
-            found.marker_places(places).swapaxes(0, 1),
-            scaled.marker_places(places).swapaxes(0, 1),
+            found.marker_places(found.coupled(places)).swapaxes(0, 1),
+            scaled.marker_places(scaled.coupled(places)).swapaxes(0, 1),
             strict=True,
         )
     ]
