@@ -51,6 +51,20 @@ def test_markers_are_given_in_their_body(tmp_path: Path) -> None:
     np.testing.assert_allclose(two.location, [0.1, 0.02, 0.0])
 
 
+def test_bodies_and_joints_of_the_model_itself_are_read(tmp_path: Path) -> None:
+    """OpenSim 4 lets a model hold them in `<components>`, whose paths have no set; with and without the set."""
+    whole = read_multibody(written(tmp_path, PIN))
+    start, end = PIN.index('<Body name="c">'), PIN.index("</objects></BodySet>")
+    body = PIN[start:end]
+    joint = PIN[PIN.index('<PinJoint name="j">') : PIN.index("</PinJoint>") + len("</PinJoint>")]
+    loose = PIN.replace(body, "").replace(joint, "").replace("/bodyset/c", "/c")
+    own = (body + joint).replace("/bodyset/c", "/c")
+    found = read_multibody(written(tmp_path, loose.replace("<Ground", f"<components>{own}</components><Ground")))
+    assert [b.name for b in found.bodies] == [b.name for b in whole.bodies]
+    q = np.array([[0.3], [1.1]])
+    np.testing.assert_array_equal(found.marker_places(q), whole.marker_places(q))
+
+
 def test_limits_locks_and_clamps(tmp_path: Path) -> None:
     text = PIN.replace(
         "<default_value>0.25</default_value>",

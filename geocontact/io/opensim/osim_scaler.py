@@ -15,7 +15,8 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.model import GROUND, Multibody, coupler_stretch
 from geocontact.io.opensim.osim_multibody import read_multibody
-from geocontact.io.opensim.osim_xml import numbers_of, read_document, socket_of, text_of
+from geocontact.io.opensim.osim_xml import label, numbers_of, outside_of_sets, read_document, socket_of, text_of
+from geocontact.io.text.tables import listed
 
 Vector = Float[np.ndarray, " 3"]
 FactorOf = Callable[[str], Vector]
@@ -52,6 +53,11 @@ def write_scaled_model(
     model = root if root.tag == "Model" else root.find("Model")
     if model is None:
         raise InputError(file, "", f"root element is <{root.tag[:40]}>, not an OpenSim model", "give an .osim file")
+    if loose := outside_of_sets(model):
+        names = listed(tuple(label(e) for e in loose))
+        raise InputError(
+            file, "<components>", f"holds {names}, which is not scaled there", "put it into the model's sets"
+        )
 
     def of(body: str) -> Vector:
         return np.asarray(factors.get(basename(body), np.ones(3)), float)

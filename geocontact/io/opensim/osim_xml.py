@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from os import PathLike, fspath
 from pathlib import Path
 from posixpath import join, normpath
-from xml.etree.ElementTree import Element, ParseError
+from xml.etree.ElementTree import Element, ParseError, SubElement
 
 import defusedxml.ElementTree  # type: ignore[import-untyped]
 import numpy as np
@@ -31,7 +31,32 @@ def read_model(path: str | PathLike[str]) -> Element:
     if root.tag not in ("OpenSimDocument", "Model") or model is None:
         what = f"root element is <{root.tag[:40]}>, not an OpenSim model"
         raise InputError(fspath(path), "", what, "give an .osim file")
+    _gather(model)
     return model
+
+
+def outside_of_sets(model: Element) -> list[Element]:
+    """What a model holds by itself (`<components>`) where others have a set for it."""
+    return [e for e in model.findall("components/*") if _set_of(e)]
+
+
+def _gather(model: Element) -> None:
+    """Put it into the sets, so that bodies, joints, markers, forces and constraints are found in one place."""
+    for element in outside_of_sets(model):
+        name = _set_of(element)
+        holder = model.find(name)
+        holder = SubElement(model, name) if holder is None else holder
+        objects = holder.find("objects")
+        (SubElement(holder, "objects") if objects is None else objects).append(element)
+    for inner in model.findall("components"):
+        for element in [e for e in inner if _set_of(e)]:
+            inner.remove(element)
+
+
+def _set_of(element: Element) -> str:
+    kinds = {"Body": "BodySet", "Marker": "MarkerSet"}
+    ends = {"Joint": "JointSet", "Force": "ForceSet", "Constraint": "ConstraintSet"}
+    return kinds.get(element.tag, next((name for end, name in ends.items() if element.tag.endswith(end)), ""))
 
 
 def read_document(path: str | PathLike[str], kind: str = "OpenSim document") -> Element:
