@@ -288,6 +288,7 @@ BAD = {
         '<!DOCTYPE x [<!ENTITY a "aa"><!ENTITY b "&a;&a;">]><OpenSimDocument>&b;</OpenSimDocument>',
         "readable",
     ),
+    "before 2.0": (PIN4.replace('Version="40000"', 'Version="10905"'), "version 10905, before OpenSim 2.0"),
     "other joint": (PIN4.replace('name="j"', 'name="knee_r"'), "no joint 'j'; joints are: w, knee_r"),
     "word for a number": (
         PIN4.replace("-0.5 0.6", "-0.5 abc"),

@@ -19,6 +19,9 @@ from geocontact.data.errors import InputError
 LARGEST_MODEL = 32_000_000
 """Bytes of an .osim file; full-body models are below 10 MB."""
 
+OLDEST = 20_000
+"""Version of files that are read, as they state it: OpenSim 2.0. Earlier ones write joints in other ways."""
+
 _DEEPEST = 50
 _SCOPED = re.compile(rb"(</?[A-Za-z_][\w.]*)::")
 _SETS = ("BodySet", "JointSet", "ForceSet", "ComponentSet")
@@ -31,6 +34,10 @@ def read_model(path: str | PathLike[str]) -> Element:
     if root.tag not in ("OpenSimDocument", "Model") or model is None:
         what = f"root element is <{root.tag[:40]}>, not an OpenSim model"
         raise InputError(fspath(path), "", what, "give an .osim file")
+    version = root.get("Version", "")
+    if version.isdecimal() and int(version) < OLDEST:
+        what = f"is of version {version}, before OpenSim 2.0"
+        raise InputError(fspath(path), "", what, "open and save the model with OpenSim 3.3 or later")
     _gather(model)
     return model
 
