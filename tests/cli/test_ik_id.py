@@ -638,7 +638,25 @@ def test_markers_are_put_where_they_were_seen(tmp_path: Path) -> None:
     assert off["moved"][1] > 0.01
 
 
+def test_a_body_grows_along_its_own_axes_by_pairs_and_by_numbers(tmp_path: Path) -> None:
+    """An axis of which nothing is said keeps its length; a body that grows alike has one number in the results."""
+    file, static = grown(tmp_path)
+    told = ("--scale", "femur_r:y=femur_r0/femur_r2", "--scale", "femur_r:x=1.05", "--scale", "tibia_r=0.95")
+    done(call("scale", static, "--model", file, "--out", tmp_path / "s", "--keep-markers", *told))
+    factors = json.loads((tmp_path / "s" / "scale.json").read_text())["factors"]
+    assert list(factors) == ["femur_r x", "femur_r y", "femur_r z", "tibia_r"]
+    assert list(factors.values()) == pytest.approx([1.05, 1.1, 1.0, 0.95], abs=1e-6)
+    before, after = read_multibody(file), read_multibody(tmp_path / "s" / "scaled.osim")
+    thigh = [
+        (m.location, n.location) for m, n in zip(before.markers, after.markers, strict=True) if m.body == "femur_r"
+    ]
+    for old, new in thigh:
+        np.testing.assert_allclose(new, old * [1.05, 1.1, 1.0], atol=1e-6)
+
+
 SCALE_REFUSED = {
+    "an axis twice": (("--scale", "femur_r=1.1", "--scale", "femur_r:x=1.2"), "body 'femur_r' is named twice"),
+    "no such axis": (("--scale", "femur_r:w=1.1"), "'w' is not some of the axes x, y and z"),
     "no pair": (("--scale", "femur_r=femur_r0"), "not bodies and pairs"),
     "no such body": (("--scale", "arm=femur_r0/femur_r2"), "no body 'arm'"),
     "a body twice": ((*PAIRS, *PAIRS), "body 'femur_r' is named twice"),

@@ -22,7 +22,8 @@ class ScaleOptions(Options):
         Generic OpenSim model (.osim) with markers.
     scale
         Bodies and the pairs of markers whose distances tell their size: femur_r,femur_l=R.Hip/R.Knee,L.Hip/L.Knee.
-        May be given again; bodies that are not named keep their size. The factor is the same along all axes.
+        May be given again; bodies that are not named keep their size. femur_r:xz=… is along these axes of the body,
+        and a number takes the place of the pairs: femur_r:xz=1.05.
     marker_set
         Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
     markers_map

@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.motion.marker_names import names_told, renamed
+from geocontact.analyses.motion.marker_names import renamed
 from geocontact.analyses.motion.marker_tasks import marker_tasks
 from geocontact.analyses.motion.markers import markers_given, with_marker_set
+from geocontact.analyses.motion.scale.factors import factors_told
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.analyses.run_record import Record
-from geocontact.data.errors import InputError
 from geocontact.data.multibody.marker_tasks import MarkerTasks
 from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
-from geocontact.dynamics.scaling import measured_factor
+from geocontact.dynamics.scaling import Factors
 from geocontact.io.opensim.osim_multibody import read_multibody
-from geocontact.io.text.tables import listed
 
-ABSURD = 0.5, 2.0
-"""A factor beyond these is a mistake: markers exchanged, or another unit."""
 MOVED = 0.02
 """m that a marker may move in a static trial without a word."""
 
@@ -33,7 +29,7 @@ class Standing:
 
     model: Multibody
     markers: MarkerTrajectories
-    factors: Mapping[str, float]
+    factors: Factors
     tasks: MarkerTasks
 
 
@@ -45,7 +41,7 @@ def read(o: ScaleOptions, record: Record) -> Standing:
     whole = renamed(record, markers_given(o.static, o.axes, o.time), model, o.markers_map)
     seen = _standing(record, whole)
     record.add_input("static", o.static, frames=len(whole), markers=len(seen.names))
-    factors = _factors(model, whole, o.scale)
+    factors = factors_told(model, whole, o.scale)
     return Standing(model, seen, factors, marker_tasks(record, model, seen, o.tasks))
 
 
@@ -60,28 +56,3 @@ def _standing(record: Record, seen: MarkerTrajectories) -> MarkerTrajectories:
     if far > MOVED:
         record.warn(f"{seen.source}: {name} moves {1e3 * far:.0f} mm away from its mean: is this standing still?")
     return MarkerTrajectories(seen.time[:1], positions[None], seen.names, seen.source)
-
-
-def _factors(model: Multibody, seen: MarkerTrajectories, texts: tuple[str, ...]) -> dict[str, float]:
-    rest = np.array([c.default for c in model.coordinates])
-    names = tuple(body.name for body in model.bodies)
-    found: dict[str, float] = {}
-    for text in texts:
-        bodies, equals, pairs = text.partition("=")
-        ends = [pair.partition("/") for pair in pairs.split(",")]
-        if not equals or not all(slash for _, slash, _ in ends):
-            example = "write femur_r=R.Hip/R.Knee"
-            raise InputError("", "`scale`", f"'{text}' is not bodies and pairs of markers", example)
-        try:
-            factor = measured_factor(model, rest, seen, [(a.strip(), b.strip()) for a, _, b in ends])
-        except ValueError as error:
-            raise InputError(seen.source, "`scale`", str(error), names_told(seen, model)) from error
-        if not ABSURD[0] <= factor <= ABSURD[1]:
-            what = f"'{text}' makes {bodies} {factor:.3g} times as large"
-            raise InputError(seen.source, "`scale`", what, "are markers exchanged, or is the unit another?")
-        for name in (each.strip() for each in bodies.split(",")):
-            if name not in names or name in found:
-                what = f"body '{name}' is named twice" if name in found else f"no body '{name}'"
-                raise InputError("", "`scale`", what, f"bodies are: {listed(names)}")
-            found[name] = factor
-    return found

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,11 +11,13 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.json_file import write_json
+from geocontact.analyses.motion.scale.factors import labelled
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.analyses.motion.scale.page import write_scaling_page
 from geocontact.analyses.result import Result
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
+from geocontact.dynamics.scaling import Factors
 from geocontact.io.opensim.osim_scaler import write_scaled_model
 
 
@@ -27,7 +28,7 @@ class ScaleResult(Result):
     Parameters
     ----------
     factors
-        Of the bodies that were scaled.
+        Of the bodies that were scaled, along their axes.
     model
         The scaled model.
     pose
@@ -39,7 +40,7 @@ class ScaleResult(Result):
     """
 
     options: ScaleOptions
-    factors: Mapping[str, float]
+    factors: Factors
     model: Multibody
     pose: Poses
     seen: Float[np.ndarray, "m 3"]
@@ -47,17 +48,17 @@ class ScaleResult(Result):
     summary: dict[str, Any]
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`markers`, how far each is from the scaled model; `factors` by body."""
+        """`markers`, how far each is from the scaled model; `factors` by body, or by body and axis."""
         off = {"marker": list(self.pose.markers), "distance [mm]": 1e3 * self.pose.distances[0]}
-        by = {"body": list(self.factors), "factor [-]": list(self.factors.values())}
+        told = labelled(self.factors)
+        by = {"body": list(told), "factor [-]": list(told.values())}
         return {"markers": pd.DataFrame(off), "factors": pd.DataFrame(by)}
 
     def write_files(self, folder: Path) -> None:
         """scaled.osim, scale.json, page."""
-        by = {name: factor * np.ones(3) for name, factor in self.factors.items()}
         values = np.asarray(self.pose.values)[0].tolist()
         standing = {name: v for name, v in zip(self.pose.names, values, strict=True) if np.isfinite(v)}
-        write_scaled_model(self.options.model, folder / "scaled.osim", self.model, by, standing)
+        write_scaled_model(self.options.model, folder / "scaled.osim", self.model, self.factors, standing)
         write_json(folder / "scale.json", self.summary)
         self.write_page(folder / "report.html")
 
@@ -65,4 +66,4 @@ class ScaleResult(Result):
         """The static pose with its markers, factors, distances."""
         title = f"Model scaled to {self.options.static.name}"
         both = self.seen, self.modelled
-        write_scaling_page(file, title, self.record, self.model, self.factors, self.pose, both)
+        write_scaling_page(file, title, self.record, self.model, labelled(self.factors), self.pose, both)

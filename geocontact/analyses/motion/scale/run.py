@@ -9,6 +9,7 @@ import numpy as np
 from geocontact.analyses.json_file import plain
 from geocontact.analyses.motion.marker_errors import STANDING, MarkerErrors
 from geocontact.analyses.motion.printed import printed
+from geocontact.analyses.motion.scale.factors import labelled
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.analyses.motion.scale.read import Standing
 from geocontact.analyses.motion.scale.result import ScaleResult
@@ -24,7 +25,7 @@ from geocontact.dynamics.tree import tree_of
 def run(given: Standing, o: ScaleOptions, record: Record) -> ScaleResult:
     """Sizes and mass, the static pose, and markers where they were seen in it."""
     try:
-        made = scaled(given.model, {name: by * np.ones(3) for name, by in given.factors.items()}, o.mass)
+        made = scaled(given.model, given.factors, o.mass)
     except ValueError as error:
         raise InputError(o.model, "", str(error), "correct the model") from error
     try:
@@ -67,7 +68,7 @@ def _summary(given: Standing, pose: Poses, made: Multibody) -> dict[str, object]
     units = {"rotational": "deg", "translational": "m"}
     values = printed(made.coordinates, pose.values)[0].tolist()
     return {
-        "factors": dict(given.factors),
+        "factors": labelled(given.factors),
         "mass_kg": sum(body.mass for body in made.bodies),
         "static_rms_mm": float(np.sqrt(np.nanmean(off**2))),
         "markers_mm": dict(zip(pose.markers, off.tolist(), strict=True)),
@@ -80,5 +81,5 @@ def _summary(given: Standing, pose: Poses, made: Multibody) -> dict[str, object]
 def _tell(record: Record, given: Standing, pose: Poses) -> None:
     errors = MarkerErrors.of(pose)
     errors.warn(record, STANDING)
-    sizes = ", ".join(f"{name} {by:.3f}" for name, by in given.factors.items()) or "no body"
+    sizes = ", ".join(f"{name} {by:.3f}" for name, by in labelled(given.factors).items()) or "no body"
     record.say(f"scaled: {sizes}; markers {errors.words(STANDING)}")

@@ -1,0 +1,93 @@
+"""How much each body is to grow, and along which of its axes: from pairs of markers, or told as a number."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import isfinite
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.motion.marker_names import names_told
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.marker_trajectories import MarkerTrajectories
+from geocontact.data.multibody.model import Multibody
+from geocontact.dynamics.scaling import Factors, measured_factor
+from geocontact.io.text.tables import listed
+
+AXES = "xyz"
+ABSURD = 0.5, 2.0
+"""A factor beyond these is a mistake: markers exchanged, or another unit."""
+
+
+def factors_told(model: Multibody, seen: MarkerTrajectories, texts: tuple[str, ...]) -> Factors:
+    """Factors of bodies along their axes, as `scale` is told them.
+
+    femur_r,femur_l=R.Hip/R.Knee,L.Hip/L.Knee is the mean over the pairs, pelvis=1.05 a number; femur_r:xz=... is
+    along these axes only. An axis of which nothing is said keeps its length.
+    """
+    rest = np.array([c.default for c in model.coordinates])
+    names = tuple(body.name for body in model.bodies)
+    found: dict[str, Float[np.ndarray, " 3"]] = {}
+    for text in texts:
+        bodies, equals, size = text.partition("=")
+        factor = _factor(model, rest, seen, text, size) if equals else None
+        if factor is None:
+            example = "write femur_r=R.Hip/R.Knee, femur_r:y=R.Hip/R.Knee, or femur_r=1.05"
+            raise InputError("", "`scale`", f"'{text}' is not bodies and pairs of markers", example)
+        if not ABSURD[0] <= factor <= ABSURD[1]:
+            what = f"'{text}' makes {bodies} {factor:.3g} times as large"
+            raise InputError(seen.source, "`scale`", what, "are markers exchanged, or is the unit another?")
+        for name, axes in _named(bodies):
+            if name not in names:
+                raise InputError("", "`scale`", f"no body '{name}'", f"bodies are: {listed(names)}")
+            along = found.setdefault(name, np.full(3, np.nan))
+            if np.isfinite(along[axes]).any():
+                raise InputError("", "`scale`", f"body '{name}' is named twice", "name each axis of a body once")
+            along[axes] = factor
+    return {name: np.where(np.isfinite(along), along, 1.0) for name, along in found.items()}
+
+
+def labelled(factors: Mapping[str, Float[np.ndarray, " 3"]]) -> dict[str, float]:
+    """One number for a body that grows alike along all axes, else one for each axis: `femur_r y`."""
+    found = {}
+    for name, along in factors.items():
+        if np.ptp(along) == 0.0:
+            found[name] = float(along[0])
+        else:
+            found.update({f"{name} {axis}": float(by) for axis, by in zip(AXES, along, strict=True)})
+    return found
+
+
+def _named(bodies: str) -> list[tuple[str, list[int]]]:
+    """Bodies and which of their axes."""
+    found = []
+    for each in bodies.split(","):
+        name, colon, axes = each.strip().rpartition(":")
+        if not colon:
+            name, axes = axes, AXES
+        if not axes or set(axes) - set(AXES) or len(set(axes)) < len(axes):
+            raise InputError("", "`scale`", f"'{axes}' is not some of the axes x, y and z", "write femur_r:xz=1.05")
+        found.append((name, [AXES.index(axis) for axis in axes]))
+    return found
+
+
+def _factor(
+    model: Multibody, rest: Float[np.ndarray, " n"], seen: MarkerTrajectories, text: str, size: str
+) -> float | None:
+    """The number told, or the one that pairs of markers tell; None for a text that is neither."""
+    ends = [pair.partition("/") for pair in size.split(",")]
+    if not all(slash for _, slash, _ in ends):
+        return _number(size)
+    try:
+        return measured_factor(model, rest, seen, [(a.strip(), b.strip()) for a, _, b in ends])
+    except ValueError as error:
+        raise InputError(seen.source, "`scale`", str(error), names_told(seen, model)) from error
+
+
+def _number(text: str) -> float | None:
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if isfinite(value) else None
