@@ -38,7 +38,10 @@ def mujoco_inverse_dynamics(model: Multibody, q: np.ndarray, u: np.ndarray, a: n
     return found
 
 
-def pinocchio_inverse_dynamics(model: Multibody, q: np.ndarray, u: np.ndarray, a: np.ndarray) -> np.ndarray:
+def pinocchio_inverse_dynamics(
+    model: Multibody, q: np.ndarray, u: np.ndarray, a: np.ndarray, loads: dict[str, np.ndarray] | None = None
+) -> np.ndarray:
+    """`loads` on bodies are force and moment about the ground's origin in its axes, (s, 6)."""
     import pinocchio as pin
 
     theirs = pin.Model()
@@ -59,7 +62,11 @@ def pinocchio_inverse_dynamics(model: Multibody, q: np.ndarray, u: np.ndarray, a
     data, order = theirs.createData(), _order(model)
     found = np.zeros(q.shape)
     for k in range(len(q)):
-        found[k, order] = pin.rnea(theirs, data, q[k][order], u[k][order], a[k][order])
+        pin.forwardKinematics(theirs, data, q[k][order])
+        push = [pin.Force.Zero() for _ in range(theirs.njoints)]
+        for name, wrench in (loads or {}).items():
+            push[at[name][0]] += data.oMi[at[name][0]].actInv(pin.Force(wrench[k, :3], wrench[k, 3:]))
+        found[k, order] = pin.rnea(theirs, data, q[k][order], u[k][order], a[k][order], push)
     return found
 
 
