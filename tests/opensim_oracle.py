@@ -257,3 +257,16 @@ def moco_trajectory(file: str, states: Sequence[str], controls: Sequence[str]) -
     columns = [read.getTimeMat(), *(read.getStateMat(name) for name in states)]
     columns += [read.getControlMat(name) for name in controls]
     return list(read.getStateNames()), np.column_stack(columns)
+
+
+def run_inverse_dynamics(setup: Path, out: Path) -> None:
+    """OpenSim's own tool on a set-up file, from its folder; results into another."""
+    from contextlib import chdir
+
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    with chdir(setup.parent):
+        tool = opensim.InverseDynamicsTool(setup.name)
+        tool.setResultsDir(str(out))
+        tool.run()

@@ -12,6 +12,7 @@ from io import TextIOWrapper
 from cyclopts import App, CycloptsError, MissingArgumentError
 
 from geocontact.analyses.results_folder import discard_drafts
+from geocontact.cli.opensim_setup import with_setup
 from geocontact.cli.suggestions import help_of, mistyped
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
@@ -66,8 +67,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def run(tokens: Sequence[str], debug: bool = False) -> int:
     """Exit code of one call; with `debug` a traceback precedes the line that says what went wrong."""
     try:
+        tokens = with_setup(tokens)
         _load_what_is_listed(tokens)
-        result = app(list(tokens), exit_on_error=False, print_error=False, result_action="return_value")
+        result = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
         return result if isinstance(result, int) else 0
     except MissingArgumentError as error:
         name = str(error.argument.name) if error.argument else "an argument"

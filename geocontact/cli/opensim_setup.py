@@ -1,0 +1,42 @@
+"""`--setup FILE`: OpenSim's own set-up file in place of typed inputs and options, which come before it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from geocontact.data.errors import InputError
+
+OPTION = "--setup"
+COMMANDS = "ik", "id", "scale"
+
+
+def with_setup(tokens: Sequence[str]) -> list[str]:
+    """The tokens, with what the set-up asks for in place of `--setup FILE`; options that are typed count instead."""
+    command = tokens[0] if tokens else ""
+    joined = [token for token in tokens if token.startswith(f"{OPTION}=")]
+    if command not in COMMANDS or not (OPTION in tokens or joined):
+        return list(tokens)
+    from geocontact.analyses.motion.opensim_setup import setup_of
+
+    rest = list(tokens[1:])
+    if joined:
+        rest.remove(joined[0])
+        file = joined[0].partition("=")[2]
+    else:
+        at = rest.index(OPTION)
+        if at + 1 == len(rest):
+            raise InputError("", OPTION, "is missing its file", "give OpenSim's set-up file")
+        file = rest[at + 1]
+        del rest[at : at + 2]
+    setup = setup_of(command, Path(file))
+    for what in setup.unheeded:
+        print(f"warning: {file}: {what} is not heeded", file=sys.stderr)
+    typed = {token.partition("=")[0] for token in rest}
+    told = [token for name, value in setup.options if f"--{name}" not in typed for token in _option(name, value)]
+    return [command, str(setup.recording), *told, *rest]
+
+
+def _option(name: str, value: str) -> list[str]:
+    return [f"--{name}={value}"] if value else [f"--{name}"]

@@ -1,0 +1,172 @@
+"""OpenSim's set-up files of its tools: what they ask for, as inputs and options of the same analyses here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from os import PathLike, fspath
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+import numpy as np
+
+from geocontact.data.errors import InputError
+from geocontact.io.opensim.osim_xml import is_true, label, numbers_of, read_document, text_of
+
+UNASSIGNED = ("", "unassigned")
+
+
+@dataclass(frozen=True)
+class ToolSetup:
+    """What a set-up asks for.
+
+    Parameters
+    ----------
+    recording
+        File of coordinates or markers.
+    options
+        Name and value of each, as they are typed; a name may be there several times.
+    unheeded
+        What is asked for and not done here.
+    """
+
+    recording: Path
+    options: tuple[tuple[str, str], ...]
+    unheeded: tuple[str, ...] = ()
+
+
+def read_tool_setup(path: str | PathLike[str], tool: str) -> ToolSetup:
+    """Set-up of `InverseKinematicsTool`, `InverseDynamicsTool` or `ScaleTool`; its paths are relative to its folder."""
+    file = fspath(path)
+    root = read_document(path, "OpenSim set-up")
+    element = root if root.tag == tool else root.find(tool)
+    if element is None:
+        raise InputError(file, "", f"holds no <{tool}>", f"give the set-up of OpenSim's {tool}")
+    return _TOOLS[tool](file, element)
+
+
+def _inverse_dynamics(file: str, tool: Element) -> ToolSetup:
+    options = [*_files(file, tool, {"model_file": "model", "external_loads_file": "loads"}), *_time(file, tool)]
+    cutoff = float(numbers_of(file, tool, "lowpass_cutoff_frequency_for_coordinates", 1, (-1.0,))[0])
+    options.append(("cutoff", f"{max(cutoff, 0.0):g}"))
+    options += [("exclude", word) for word in text_of(tool, "forces_to_exclude").split()]
+    unheeded = tuple(
+        name for name in ("joints_to_report_body_forces", "states_file", "speeds_file") if _told(tool, name)
+    )
+    return ToolSetup(_needed(file, tool, "coordinates_file"), tuple(options), unheeded)
+
+
+def _inverse_kinematics(file: str, tool: Element) -> ToolSetup:
+    options = [*_files(file, tool, {"model_file": "model"}), ("tasks", _tasks(file, tool)), *_time(file, tool)]
+    unheeded = tuple(name for name in ("coordinate_file",) if _told(tool, name))
+    return ToolSetup(_needed(file, tool, "marker_file"), tuple(options), unheeded)
+
+
+def _scale(file: str, tool: Element) -> ToolSetup:
+    """Marker sets, measurements and factors by hand, mass, and the static pose."""
+    maker, scaler, placer = (_part(file, tool, name) for name in ("GenericModelMaker", "ModelScaler", "MarkerPlacer"))
+    files = {"model_file": "model", "marker_set_file": "marker-set"}
+    options = _files(file, maker, files)
+    mass = float(numbers_of(file, tool, "mass", 1, (-1.0,))[0])
+    if mass > 0.0:
+        options.append(("mass", f"{mass:g}"))
+    options += [("scale", text) for text in _sizes(file, scaler)]
+    recording = _needed(file, placer, "marker_file")
+    options += [("tasks", _tasks(file, placer)), *_time(file, placer)]
+    unheeded = []
+    if _told(scaler, "marker_file") and _needed(file, scaler, "marker_file") != recording:
+        unheeded.append("a trial of its own for the sizes of bodies")
+    if text_of(scaler, "preserve_mass_distribution", "true").lower() == "false":
+        unheeded.append("masses by volume")
+    if not is_true(file, placer, "apply") and placer.find("apply") is not None:
+        options.append(("keep-markers", ""))
+    return ToolSetup(recording, tuple(options), tuple(unheeded))
+
+
+def _sizes(file: str, scaler: Element) -> list[str]:
+    """Measurements and factors by hand in the order that is asked for; the last one of an axis counts."""
+    told: dict[tuple[str, str], str] = {}
+    for kind in text_of(scaler, "scaling_order", "measurements").split():
+        for body, axes, size in (_by_hand if kind == "manualScale" else _measured)(file, scaler):
+            told.update({(body, axis): size for axis in axes})
+    alike: dict[tuple[str, str], str] = {}
+    for (body, axis), size in told.items():
+        alike[body, size] = alike.get((body, size), "") + axis
+    return [f"{body}:{axes}={size}" for (body, size), axes in alike.items()]
+
+
+def _measured(file: str, scaler: Element) -> list[tuple[str, str, str]]:
+    found = []
+    for measure in scaler.findall("MeasurementSet/objects/Measurement"):
+        if measure.find("apply") is not None and not is_true(file, measure, "apply"):
+            continue
+        pairs = [text_of(pair, "markers").split() for pair in measure.findall("MarkerPairSet/objects/MarkerPair")]
+        if not pairs or any(len(pair) != 2 for pair in pairs):
+            raise InputError(file, label(measure), "is not made of pairs of markers", "correct the set-up")
+        size = ",".join("/".join(pair) for pair in pairs)
+        bodies = measure.findall("BodyScaleSet/objects/BodyScale")
+        found += [(body.get("name", ""), "".join(text_of(body, "axes").lower().split()), size) for body in bodies]
+    return found
+
+
+def _by_hand(file: str, scaler: Element) -> list[tuple[str, str, str]]:
+    found = []
+    for scale in scaler.findall("ScaleSet/objects/Scale"):
+        if scale.find("apply") is not None and not is_true(file, scale, "apply"):
+            continue
+        factors = numbers_of(file, scale, "scales", 3)
+        found += [(text_of(scale, "segment"), axis, f"{by:.17g}") for axis, by in zip("xyz", factors, strict=True)]
+    return found
+
+
+def _part(file: str, tool: Element, name: str) -> Element:
+    element = tool.find(name)
+    if element is None:
+        raise InputError(file, label(tool), f"holds no <{name}>", "complete the set-up")
+    return element
+
+
+def _tasks(file: str, owner: Element) -> str:
+    """The set-up itself, or the file that its task set stands in."""
+    tasks = owner.find("IKTaskSet")
+    named = "" if tasks is None else tasks.get("file", "")
+    return str(Path(file).parent / named) if named else file
+
+
+def _told(owner: Element, child: str) -> str:
+    text = text_of(owner, child)
+    return "" if text.lower() in UNASSIGNED else text
+
+
+def _files(file: str, owner: Element, names: dict[str, str]) -> list[tuple[str, str]]:
+    return [(option, str(Path(file).parent / text)) for child, option in names.items() if (text := _told(owner, child))]
+
+
+def _needed(file: str, owner: Element, child: str) -> Path:
+    text = _told(owner, child)
+    if not text:
+        raise InputError(file, f"{label(owner)} <{child}>", "names no file", "complete the set-up")
+    return Path(file).parent / text
+
+
+def _time(file: str, owner: Element) -> list[tuple[str, str]]:
+    """None where the whole recording is meant: no range, or one without ends."""
+    text = text_of(owner, "time_range")
+    words = text.lower().replace("infinity", "inf").split()
+    try:
+        ends = np.array([float(word) for word in words])
+    except ValueError:
+        ends = np.array([np.nan])
+    if not words or (len(ends) == 2 and (np.isinf(ends).all() or (ends == -1.0).all())):
+        return []
+    if len(ends) != 2 or not np.isfinite(ends).all():
+        what = f"'{text[:40]}' where a first and a last time are expected"
+        raise InputError(file, f"{label(owner)} <time_range>", what, "write 0.4 1.6")
+    return [("time", f"{ends[0]:g}:{ends[1]:g}")]
+
+
+_TOOLS: dict[str, Callable[[str, Element], ToolSetup]] = {
+    "InverseDynamicsTool": _inverse_dynamics,
+    "InverseKinematicsTool": _inverse_kinematics,
+    "ScaleTool": _scale,
+}
