@@ -60,7 +60,7 @@ def stance_from_markers(
             seen.source, "", f"{what} {span[1]:.2f} s", "markers must cover the stance; one clock for both"
         )
     time = start + np.arange(int((stop - start) * RATE) + 1) / RATE
-    poses = _keel_poses(seen, leg, time, cutoff, gap_limit)
+    poses = keel_poses(seen, leg, time, cutoff, gap_limit)
     force, centre = (at_times(time, plate.time, each) for each in (plate.force, plate.centre))
     share = share_of_foot(poses, length, centre)
     return RecordedStance(time, poses, pose_rate(time, poses), fulcrum, force, share, leg.person.mass * GRAVITY, errors)
@@ -70,12 +70,13 @@ def recorded_heights(
     seen: MarkerTrajectories, leg: Leg, spheres: SphereSet, *, cutoff: float | None, gap_limit: float
 ) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
     """The markers' times [s] and the height of the lowest sphere of a sole that does not bend [m]."""
-    return seen.time, lowest_sphere(_keel_poses(seen, leg, seen.time, cutoff, gap_limit), spheres)
+    return seen.time, lowest_sphere(keel_poses(seen, leg, seen.time, cutoff, gap_limit), spheres)
 
 
-def _keel_poses(
+def keel_poses(
     seen: MarkerTrajectories, leg: Leg, time: Float[np.ndarray, " t"], cutoff: float | None, gap_limit: float
 ) -> RigidTransform:
+    """Poses of the keel's frame at some times [s], as the markers on the socket tell them; InputError where not."""
     names = BODIES["shank"]
     missing = [name for name in names if name not in seen.names]
     if missing:

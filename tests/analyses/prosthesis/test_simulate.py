@@ -75,3 +75,12 @@ def test_shipped_trial_from_markers_to_files(tmp_path: Path) -> None:
     assert len(loads) == 1
     told = np.genfromtxt(tmp_path / "out" / "ground_reaction.mot", skip_header=6, names=True)
     np.testing.assert_allclose(told["ground_right_force_vy"], found.stance.force[:, 1], rtol=1e-8, atol=1e-8)
+    text = (tmp_path / "out" / "plane" / "foot.toml").read_text()
+    again = text.replace("[constants]", '[from.t02]\ninputs = "foot.csv"\noutputs = "plate.csv"\n\n[constants]')
+    (tmp_path / "out" / "plane" / "gather.toml").write_text(again)
+    case = gc.gather(tmp_path / "out" / "plane" / "gather.toml").case
+    system, trial = gc.system_of(case), case.calibration[0]
+    up = system.simulate(trial, {each.name: each.start for each in case.parameters})[:, 1]
+    weight = 77.3 * 9.80665
+    assert np.sqrt(np.mean((up - trial.column("force_y")) ** 2)) < 0.3 * weight
+    assert float(text.split("numbers is ")[1].split(" N")[0]) < 0.03 * weight  # from the simulated one

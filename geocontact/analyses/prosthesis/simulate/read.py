@@ -16,6 +16,7 @@ from geocontact.analyses.prosthesis.plausible_plate import require_one_clock, re
 from geocontact.analyses.prosthesis.recorded_files import right_markers
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.run_record import Record
+from geocontact.below_knee_prosthesis.calibration.stance_from_markers import keel_poses
 from geocontact.below_knee_prosthesis.clocks import clock_offset, lowest_sphere
 from geocontact.below_knee_prosthesis.from_markers.marker_names import PELVIS
 from geocontact.below_knee_prosthesis.from_markers.sides import of_side
@@ -34,8 +35,18 @@ from geocontact.io.mocap.force_plates import ForcePlate, plate_named, read_force
 
 FARTHEST = 0.4
 """m; of the centre of pressure from the heel, seen from above."""
+FOOT_CUTOFF = 15.0
+"""Hz; of the markers that tell where the foot is, as in a calibration: 6 Hz smooth the touch-down away."""
 LATE = 0.02
 """s; least time before touch-down that the recording must begin."""
+
+
+@dataclass(frozen=True, eq=False)
+class SeenFoot:
+    """Poses of the keel's frame by the markers on the socket, at their times [s]."""
+
+    time: Float[np.ndarray, " t"]
+    poses: RigidTransform
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +61,8 @@ class Walk:
         Of the other leg.
     plate
         Under the prosthetic foot; None where it is not named.
+    cluster
+        The foot by the markers on its socket.
     """
 
     leg: Leg
@@ -58,6 +71,7 @@ class Walk:
     fulcrum: float
     push: Push
     plate: PlateStance | None
+    cluster: SeenFoot
 
 
 def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
@@ -76,7 +90,9 @@ def read(o: ProsthesisSimulateOptions, record: Record) -> Walk:
     require_weight(cast(Path, o.plates), "`other_plate`", other.name, other.wrench.force[:, 1], person.mass * GRAVITY)
     push = Push(other.time, of_side(np.nan_to_num(other.wrench.force), o.side))
     _require_clock(o, found.motion.time, other)
-    return Walk(leg, found, foot, fulcrum, push, _own(o, plates, found, foot))
+    own = _own(o, plates, found, foot)
+    poses = keel_poses(seen, leg, seen.time, FOOT_CUTOFF, o.gap_limit)
+    return Walk(leg, found, foot, fulcrum, push, own, SeenFoot(seen.time, poses))
 
 
 def _hip(o: ProsthesisSimulateOptions, standing: MarkerTrajectories, record: Record) -> Float[np.ndarray, " 3"] | None:

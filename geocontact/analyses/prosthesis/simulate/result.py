@@ -14,6 +14,7 @@ from geocontact.analyses.motion.figure import curves_figure
 from geocontact.analyses.prosthesis.simulate.exports import write_coordinates, write_loads, write_spheres
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.page import write_stance_page
+from geocontact.analyses.prosthesis.simulate.plane_files import write_plane
 from geocontact.analyses.prosthesis.simulate.read import Walk
 from geocontact.analyses.prosthesis.simulate.tables import curves_table, errors_table, numbers_table, stance_table
 from geocontact.analyses.result import Result
@@ -63,12 +64,13 @@ class ProsthesisSimulateResult(Result):
         return curves_figure(s.time, panels)
 
     def write_files(self, folder: Path) -> None:
-        """Tables, coordinates and external loads for OpenSim, spheres for ParaView, figure, page."""
+        """Tables, coordinates and external loads for OpenSim, spheres for ParaView, trial of a gap case, page."""
         for name, table in self.tables().items():
             write_table(table, folder, name)
         write_coordinates(folder, self.stance, self.options.side)
         write_loads(folder, self.stance, self.options.side)
         write_spheres(folder / "paraview", self.stance, self.options.side)
+        write_plane(folder / "plane", self.walk, self.stance)
         save_both(self.figure(), folder, "stance")
         self.write_page(folder / "report.html")
 

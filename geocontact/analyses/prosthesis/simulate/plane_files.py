@@ -1,0 +1,103 @@
+"""Files from which `geocontact gap gather` makes a case of the base model `foot`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.analyses.prosthesis.simulate.read import Walk
+from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, RowNumbers, in_plane, row_numbers, rows_of
+from geocontact.below_knee_prosthesis.simulate import Stance
+from geocontact.below_knee_prosthesis.stance_errors import at_times, longest_stance
+from geocontact.io.text.results import write_table
+from geocontact.io.text.written_units import CASES
+from geocontact.loads.sphere_set import SoleLaw, SphereSet
+
+AROUND = 0.05
+"""s; before and after the stance that belong to the trial."""
+STIFFEST, MOST_DAMPED = 12.0, 30.0
+"""Factors on a sphere's own numbers, up to which those of a row may be fitted."""
+HEAD = """# the foot in its plane; a rigid one with these numbers is {off:.0f} N (root mean square) off the simulated one
+format = 1
+system = "foot"
+spheres = "spheres.csv"
+calibration = ["t01"]
+evaluation = ["t02"]
+
+[from.t01]
+inputs = "foot.csv"
+outputs = "plate.csv"
+
+[constants]
+n = {n:.9g}
+delta_full = {full:.9g}
+mu_s = {static:.9g}
+mu_k = {kinetic:.9g}
+v_th = {speed:.9g}
+
+"""
+
+
+def write_plane(folder: Path, walk: Walk, found: Stance) -> None:
+    """foot.csv (x, y, pitch by markers), plate.csv where one was named, spheres.csv, foot.toml for a gather.toml."""
+    loaded = found.time, found.force[:, 1]
+    if walk.plate is not None:
+        loaded = walk.plate.time, walk.plate.force[:, 1]
+    span = longest_stance(*loaded)
+    if span is None:
+        return
+    kept = (walk.cluster.time >= span[0] - AROUND) & (walk.cluster.time <= span[1] + AROUND)
+    foot = in_plane(walk.cluster.time[kept], walk.cluster.poses[kept])
+    folder.mkdir(parents=True, exist_ok=True)
+    write_table(pose_table(foot), folder, "foot", CASES)
+    if walk.plate is not None:
+        p = walk.plate
+        force, centre = (at_times(foot.time, p.time, each) for each in (p.force, p.centre))
+        write_table(reaction_table(foot, *foot.reaction(force, centre)), folder, "plate", CASES)
+    simulated = in_plane(found.time, found.poses)
+    _, up, centre = simulated.reaction(found.force, found.centre("ground"))
+    spheres, law = found.foot.sole.spheres, found.foot.law
+    write_sole(folder, spheres, law, row_numbers(simulated, spheres, law, up, centre))
+
+
+def pose_table(foot: FootInPlane) -> pd.DataFrame:
+    """Inputs of the base model."""
+    return pd.DataFrame({"time [s]": foot.time, "x [m]": foot.x, "y [m]": foot.y, "pitch [rad]": foot.pitch})
+
+
+def reaction_table(
+    foot: FootInPlane,
+    forward: Float[np.ndarray, " t"],
+    up: Float[np.ndarray, " t"],
+    centre: Float[np.ndarray, " t"],
+) -> pd.DataFrame:
+    """What is measured beside them."""
+    return pd.DataFrame({"time [s]": foot.time, "force_x [N]": forward, "force_y [N]": up, "cop_x [m]": centre})
+
+
+def write_sole(folder: Path, spheres: SphereSet, law: SoleLaw, numbers: RowNumbers) -> None:
+    """spheres.csv with a zone for each row across the sole, and foot.toml with constants and free numbers."""
+    rows = rows_of(spheres)
+    place = {f"p{axis} [m]": spheres.centre[:, k] for k, axis in enumerate("xy")}
+    table = pd.DataFrame(place | {"radius [m]": spheres.radius, "zone": rows})
+    write_table(table, folder, "spheres", CASES)
+    text = HEAD.format(
+        off=numbers.off,
+        n=law.exponent,
+        full=law.full_depth,
+        static=float(np.mean(law.static)),
+        kinetic=float(np.mean(law.kinetic)),
+        speed=law.threshold_speed,
+    )
+    kinds = (
+        ("k", numbers.stiffness, STIFFEST * float(law.stiffness.max()), "N/m^n"),
+        ("b", numbers.damping, MOST_DAMPED * float(law.damping.max()), "N s/m"),
+    )
+    for letter, of, upper, unit in kinds:
+        for name, start in of.items():
+            within = f"start = {min(start, upper):.6g}\nlower = 0.0\nupper = {upper:.6g}"
+            text += f'[parameters.{letter}_{name}]\n{within}\nunit = "{unit}"\n\n'
+    (folder / "foot.toml").write_text(text, encoding="utf-8")

@@ -1,0 +1,68 @@
+"""The foot in its plane, its rows, and the numbers with which a rigid one is nearest."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import RigidTransform, Rotation
+
+from geocontact.below_knee_prosthesis.foot_in_plane import FootInPlane, in_plane, row_numbers, rows_of
+from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
+
+TIME = np.linspace(0.0, 0.7, 141)
+
+
+def rolled() -> FootInPlane:
+    """A foot that lands on its heel and leaves over its toes."""
+    share = TIME / TIME[-1]
+    pitch = 0.3 - 0.6 * share
+    lowest = np.where(pitch > 0.0, 0.0, 0.2 * -np.sin(pitch))
+    return FootInPlane(TIME, 0.1 * share, 0.03 - 0.008 * np.sin(np.pi * share) + lowest, pitch, np.eye(3)[0])
+
+
+def test_a_plane_holds_the_foot_and_what_presses_on_it() -> None:
+    """A foot that walks 30 degrees beside x: advance along it, and a point of the ground has its place on the foot."""
+    out, pitch = np.radians(30.0), np.array([0.2, 0.0, -0.3])
+    turn = Rotation.from_euler("y", out) * Rotation.from_euler("z", pitch[:, None])
+    along = np.array([np.cos(out), 0.0, -np.sin(out)])
+    place = np.array([0.0, 0.1, 0.2])[:, None] * along + np.array([0.0, 0.02, 0.0])
+    foot = in_plane(np.arange(3.0), RigidTransform.from_components(place, turn))
+    np.testing.assert_allclose(foot.forward, along, atol=1e-12)
+    np.testing.assert_allclose(foot.x, [0.0, 0.1, 0.2], atol=1e-12)
+    np.testing.assert_allclose(foot.pitch, pitch, atol=1e-12)
+    ground = foot.x + 0.12 / np.cos(pitch) + foot.y * np.tan(pitch)  # 0.12 along the foot, in the ground
+    force = np.array([10.0, 50.0, 5.0])[:, None] * along + np.array([0.0, 500.0, 0.0])
+    force[2, 1] = 19.0
+    ahead, up, centre = foot.reaction(force, ground[:, None] * along)
+    np.testing.assert_allclose(ahead, [10.0, 50.0, 5.0])
+    np.testing.assert_allclose(up, [500.0, 500.0, 19.0])
+    np.testing.assert_allclose(centre[:2], 0.12, atol=1e-12)
+    assert np.isnan(centre[2])
+
+
+def test_rows_are_numbered_within_their_zone() -> None:
+    rows = rows_of(vsf_foot().sole.spheres)
+    heel, mid, fore = ("heel_back", "heel_middle", "heel_front"), "midfoot", "forefoot"
+    assert list(dict.fromkeys(rows)) == [
+        *heel,
+        *(f"{mid}_{k}" for k in range(1, 5)),
+        *(f"{fore}_{k}" for k in range(1, 6)),
+    ]
+    assert all(rows.count(row) == 2 for row in rows)
+
+
+def test_numbers_of_a_rigid_foot_are_found_again() -> None:
+    """Forces of the law itself at other numbers for each row: nothing is off but the rate by differences."""
+    foot, whole = rolled(), vsf_foot()
+    spheres, law, rows = whole.sole.spheres, whole.law, rows_of(whole.sole.spheres)
+    names = list(dict.fromkeys(rows))
+    wanted = dict(zip(names, np.linspace(8e3, 30e3, len(names)), strict=True))
+    s, c = np.sin(foot.pitch)[:, None], np.cos(foot.pitch)[:, None]
+    depth = spheres.radius - foot.y[:, None] - spheres.centre[:, 0] * s - spheres.centre[:, 1] * c
+    pressing = np.array([wanted[row] for row in rows]) * np.maximum(depth, 0.0)
+    up = pressing.sum(axis=1)
+    with np.errstate(invalid="ignore"):
+        centre = (pressing * (spheres.centre[:, 0] - s * spheres.radius)).sum(axis=1) / up
+    found = row_numbers(foot, spheres, law, up, centre)
+    assert found.stiffness == pytest.approx(wanted, rel=1e-6)
+    assert max(found.damping.values()) < 1e-3 and found.off < 1e-6
