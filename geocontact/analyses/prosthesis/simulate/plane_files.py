@@ -20,7 +20,7 @@ AROUND = 0.05
 """s; before and after the stance that belong to the trial."""
 STIFFEST, MOST_DAMPED = 12.0, 30.0
 """Factors on a sphere's own numbers, up to which those of a row may be fitted."""
-HEAD = """# the foot in its plane; a rigid one with these numbers is {off:.0f} N (root mean square) off the simulated one
+HEAD = """# the foot in its plane; a rigid foot of these numbers is {off:.0f} N (rms) off the simulated one
 format = 1
 system = "foot"
 spheres = "spheres.csv"
