@@ -73,7 +73,7 @@ class Planted:
     right
         Names of the base model's candidates; none where it has none.
     held
-        Whether the sole's numbers are those found while nothing was missing.
+        Whether stiffness (base model) and all numbers of the sole are those found while nothing was missing.
     """
 
     withheld: Withheld
@@ -123,8 +123,7 @@ def driven() -> dict[str, FootPath]:
 def recorded(kind: str, paths: dict[str, FootPath]) -> Trials:
     """All trials of one case."""
     truth = Truth(vsf_foot(joints=24, finer=4), fulcrum(), PLANTED[kind].withheld)
-    first = 100 * list(PLANTED).index(kind)
-    return {name: measure(truth, path, first + k) for k, (name, path) in enumerate(paths.items())}
+    return {name: measure(truth, path, seed) for (name, path), seed in zip(paths.items(), seeds()[kind], strict=True)}
 
 
 def seen_foot(path: FootPath) -> FootInPlane:
@@ -139,7 +138,7 @@ def gathered(
     held: Trials | None = None,
     uses: tuple[tuple[str, ...], tuple[str, ...]] = (CALIBRATION, EVALUATION),
 ) -> Path:
-    """A case by `gap gather`, of files as `prosthesis simulate` writes them; `held`: numbers of those trials, fixed."""
+    """A case by `gap gather`, of files as `prosthesis simulate` writes them; `held` tells the stiffness."""
     for name, m in made.items():
         place = folder / name
         place.mkdir(parents=True, exist_ok=True)
@@ -158,11 +157,12 @@ def gathered(
 
 
 def case_of(folder: Path, calibration: tuple[str, ...], evaluation: tuple[str, ...], *, fixed: bool = False) -> Path:
-    """Gathered from t01/foot.toml and the tables of each trial; `fixed`: no number is free."""
+    """Gathered from t01/foot.toml and the tables of each trial; `fixed`: no stiffness is free."""
     template = (folder / "t01" / "foot.toml").read_text(encoding="utf-8")
     numbers = template[template.index("[constants]") :]
     if fixed:
-        numbers = numbers.replace("lower = 0.0", "lower = 0.0\nfixed = true")
+        stiffness, damping = numbers.split("[parameters.b_", maxsplit=1)
+        numbers = stiffness.replace("lower = 0.0", "lower = 0.0\nfixed = true") + "[parameters.b_" + damping
     text = 'format = 1\nsystem = "foot"\nspheres = "t01/spheres.csv"\n'
     text += f"calibration = {json.dumps(calibration)}\nevaluation = {json.dumps(evaluation)}\n"
     for name in (*calibration, *evaluation):
@@ -290,14 +290,15 @@ def main() -> None:
         )
     if not asked.only:
         file = ROOT / "benchmarks" / "results" / "prosthesis_gap.json"
-        told = {"machine": machine(), "versions": versions({"scipy", "numba"}), "withheld": sizes()}
+        told = {"machine": machine(), "versions": versions({"scipy", "numba"}), "seeds": seeds()}
+        told["withheld"] = {kind: asdict(planted.withheld) for kind, planted in PLANTED.items()}
         told |= {"left_out": left_out(asked.out / "left_out", paths), "answers": found}
         file.write_text(json.dumps(told, indent=1, default=str) + "\n", encoding="utf-8")
 
 
-def sizes() -> dict[str, dict[str, Any]]:
-    """What was withheld, by case."""
-    return {kind: asdict(planted.withheld) for kind, planted in PLANTED.items()}
+def seeds() -> dict[str, list[int]]:
+    """Of the noise of each trial, by case."""
+    return {kind: [100 * k + i for i in range(len(TRIALS))] for k, kind in enumerate(PLANTED)}
 
 
 if __name__ == "__main__":

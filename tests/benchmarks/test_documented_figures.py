@@ -70,6 +70,21 @@ def test_the_shoulder_s_planted_effects() -> None:
         assert near(before, one["full_model"]["before_N"]) and near(after, one["full_model"]["after_N"])
 
 
+def test_the_prosthetic_foot_s_planted_effects() -> None:
+    page, told = "theory/prosthesis_gap.md", results("prosthesis_gap")
+    for kind, one in told["answers"].items():
+        said, likely, _, force, centre, full, full_centre, seconds = row(page, kind)
+        assert said.startswith(one["verdict"]) and all(name.replace("_", " ") in said for name in one["named"])
+        assert near(likely, max(one["probabilities"].values())) and near(seconds, one["seconds"])
+        for cell, channel in ((force, "force_y"), (centre, "cop_x")):
+            assert cell == "-" or near(cell.split("%")[0], one["gap"][channel]["reduction"], 100.0), cell
+        for cells, name, scale in ((full, "force_N", 1.0), (full_centre, "centre_m", 1e3)):
+            for cell, when in zip(cells.split(" → "), ("before", "after"), strict=True):
+                assert near(cell, one["full_model"][when][name], scale), cells
+    for kind, off in told["left_out"].items():
+        assert all(near(cell, each) for cell, each in zip(row(page, kind), off.values(), strict=True))
+
+
 def test_the_shoulder_s_cuff() -> None:
     page, told = "theory/shoulder_exoskeleton.md", results("shoulder_cuff")
     for one in told["trial"]:
