@@ -46,16 +46,24 @@ def simple_files() -> dict[str, bytes]:
     return files
 
 
-def motion_files() -> dict[str, bytes]:
-    """The gait cycle, settled on the medium right pair, as table, motion and model; a leg with markers that swings."""
+def all_knee_files() -> dict[str, bytes]:
+    """STL files of the committed pairs."""
+    return {name: data for which in COMMITTED for name, data in knee_files(*which).items()}
+
+
+def leg_files() -> dict[str, bytes]:
+    """A leg with markers, and how it swings."""
+    return {"leg.osim": leg_model().encode("ascii"), "leg_swing.mot": leg_swing().encode("ascii")}
+
+
+def gait_files() -> dict[str, bytes]:
+    """The gait cycle, settled on the medium right pair, as table, motion and model."""
     gait = synthetic_gait(*total_knee(RESOLUTIONS["medium"]))
     texts = {
         "gait.csv": pose_table(gait),
         "gait_left.csv": pose_table(gait.mirrored()),
         "gait.mot": opensim_motion(gait),
         "knee.osim": opensim_model("tibial_insert_right_medium.stl", "femoral_component_right_medium.stl"),
-        "leg.osim": leg_model(),
-        "leg_swing.mot": leg_swing(),
     }
     return {name: text.encode("ascii") for name, text in texts.items()}
 
@@ -79,10 +87,7 @@ def overhead_files() -> dict[str, bytes]:
 
 def committed_files() -> dict[str, bytes]:
     """Every generated file that belongs to the repository."""
-    files: dict[str, bytes] = {}
-    for side, resolution in COMMITTED:
-        files |= knee_files(side, resolution)
-    return files | simple_files() | motion_files() | mat_files() | overhead_files()
+    return all_knee_files() | simple_files() | gait_files() | leg_files() | mat_files() | overhead_files()
 
 
 def differing(files: dict[str, bytes], folder: Path) -> list[str]:

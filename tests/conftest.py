@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import hypothesis
 import pytest
@@ -18,6 +19,7 @@ from jaxtyping import install_import_hook
 
 from tests.elsewhere import Elsewhere, another_process
 from tests.one_core import one_core
+from tests.scheduling import FileByFile, lasting_first
 
 ROOT = Path(__file__).resolve().parents[1]
 REAL = ROOT / "tests" / "real"
@@ -69,7 +71,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if "opensim" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.oracle)
     slow = {item.path for item in items if item.get_closest_marker("slow")}
-    items.sort(key=lambda item: item.path not in slow)
+    items.sort(key=lambda item: lasting_first(slow, item.path))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> FileByFile | None:
+    """With --dist loadscope, as the Makefile asks for; otherwise what was asked for."""
+    return FileByFile(config, log) if config.getvalue("dist") == "loadscope" else None
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -97,6 +97,7 @@ def test_a_case_starts_no_program_unasked(tmp_path: Path, verb: str, options: tu
 
 @runs
 @pytest.mark.slow
+@pytest.mark.long  # 2 500 runs of the program; tests/systems/test_command.py finds the delay in Python
 def test_a_delay_of_what_a_program_simulates_is_found(tmp_path: Path, elsewhere: Elsewhere) -> None:
     case, out = wrapped(tmp_path / "own"), tmp_path / "out"
     done(elsewhere(asked, "diagnose", case, out, "--run-simulator"))

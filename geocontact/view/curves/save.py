@@ -30,5 +30,5 @@ def save(figure: Figure, path: str | Path) -> None:
         figure.dpi = FINE
         figure.draw_without_rendering()
         figure.dpi = shown
-        figure.set_layout_engine("none")  # a second pass would move everything by a hair, and so change the file
+        figure.set_layout_engine(None)  # a second pass would move everything by a hair, and so change the file
     figure.savefig(path, format=ending[1:], metadata=UNDATED[ending])

@@ -1,0 +1,23 @@
+"""How tests are dealt out to several processes: file by file, and one by one where each lasts and shares nothing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from xdist.scheduler import LoadScopeScheduling
+
+ROOT = Path(__file__).resolve().parents[1]
+ONE_BY_ONE = ("tests/house/test_command_lines.py", "tests/notebooks/test_notebooks.py")
+"""Files whose tests last longest. Their tests come first: what lasts and comes last keeps one process busy alone."""
+
+
+class FileByFile(LoadScopeScheduling):
+    """Tests of a file go to one process, which makes its fixtures once; those of ONE_BY_ONE go to any."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        return nodeid if nodeid.partition("::")[0] in ONE_BY_ONE else super()._split_scope(nodeid)
+
+
+def lasting_first(slow: set[Path], path: Path) -> tuple[bool, bool]:
+    """What a file is sorted by: slow ones come first, and of these the ones dealt out one by one."""
+    return path not in slow, path.relative_to(ROOT).as_posix() not in ONE_BY_ONE
