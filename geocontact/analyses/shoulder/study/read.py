@@ -69,6 +69,8 @@ def _worn(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions
         gap_limit=o.gap_limit,
         upright=trial.upright,
         tool=trial.tool,
+        markers_map=o.markers_map,
+        axes=o.axes,
     )
     own = Record("shoulder simulate", {})
     found = worn_along(asked, wearer_of_lengths(own, o.study, person.lengths), own)
