@@ -17,8 +17,8 @@ class StudyOptions(Options):
     Parameters
     ----------
     study
-        Tasks, persons and trials (.toml). Trials with a level were recorded in the device: they are simulated, beside
-        `recorded` on the dominant side, and along the motion of the trial that `without` names.
+        Tasks, persons and trials (.toml). Trials with a level were recorded in the device: their arms are simulated,
+        beside `recorded` of the dominant one and `recorded_other`, and along the motion that `without` names.
     device
         lucy, lucy_new_cylinder (32 mm, with its mass), lucy_new_cylinder_massless, or a file (.toml) with numbers.
 
