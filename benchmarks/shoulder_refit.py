@@ -193,14 +193,15 @@ def main() -> None:
     parser.add_argument("out", type=Path, help="where the recordings are kept")
     parser.add_argument("--way", choices=list(DEVICES), action="append", help="free unless given")
     parser.add_argument("--short", action="store_true", help="one trial to fit to and one held out instead of two")
+    parser.add_argument("--only", choices=list(PLANTED), action="append", help="what was planted; all unless given")
     asked = parser.parse_args()
     answers = json.loads((RESULTS / "shoulder_gap.json").read_text(encoding="utf-8"))["answers"]
     file = RESULTS / "shoulder_refit.json"
     found = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
     found |= {"machine": machine(), "versions": versions({"scipy", "casadi"})}
     for way in asked.way or ["free"]:
-        found[way] = {}
-        for kind in PLANTED:
+        found.setdefault(way, {})
+        for kind in asked.only or PLANTED:
             one = found[way][kind] = judged(asked.out, way, kind, answers[kind]["named"], 1 if asked.short else 2)
             shown = ", ".join(
                 f"{name} {np.round(each['size'], 3)}: {each['exo_deg']:.2f} deg {each['force_N']:.2f} N"
@@ -208,8 +209,8 @@ def main() -> None:
                 if isinstance(each, dict) and "size" in each
             )
             before = one["before"]
+            file.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
             print(f"{way} {kind}: {before['exo_deg']:.2f} deg {before['force_N']:.2f} N -> {shown}", flush=True)
-    file.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
