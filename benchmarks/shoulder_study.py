@@ -62,7 +62,7 @@ def main() -> None:
     rows = compared(result.table("summary"), result.table("differences"))
     for row in rows:
         print(f"{row['figure']}: {row['ours']:.3g}, paper {row['paper'] or '-'}")
-    print(f"{len(result.cases)} trials, both groups: {seconds:.1f} CPU s with reading")
+    print(f"{len(result.cases)} arms in their trials, both groups: {seconds:.1f} CPU s with reading")
     told = {"machine": machine(), "versions": versions({"scipy", "casadi"}), "withheld": vars(TRUE), "seconds": seconds}
     text = json.dumps({**told, "rows": rows}, indent=1) + "\n"
     (RESULTS / "shoulder_study.json").write_text(text, encoding="utf-8")

@@ -1,9 +1,9 @@
 """The files of a synthetic study of a shoulder exoskeleton: `python -m benchmarks.shoulder_trials OUT`.
 
-Three synthetic participants, two tasks, two support levels; motion with the device and without it; logger and mat by
-the finer truth of `benchmarks.shoulder_truth`; what the mat's cells read goes through `geocontact mat`, whose resultant
-is the recorded force. OUT/study.toml is what `geocontact shoulder study` takes. A quarter of a minute of processor time
-for each of the twelve trials.
+Three synthetic participants, two tasks, two support levels; motion with the device and without it; loggers of both
+arms and the mat on the dominant one by the finer truth of `benchmarks.shoulder_truth`; what the mat's cells read goes
+through `geocontact mat`, whose resultant is the recorded force. OUT/study.toml is what `geocontact shoulder study`
+takes. Half a minute of processor time for each of the twelve trials.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ import pandas as pd
 from benchmarks.shoulder_mat import lifting_force, readings, with_noise, write_mat
 from benchmarks.shoulder_truth import NOTHING, Measured, Truth, Withheld, measure
 from geocontact.analyses.shoulder.trial_files import trial_files
-from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
 from geocontact.shoulder_exoskeleton.device import Wearer
 from geocontact.shoulder_exoskeleton.from_markers.arm_motions import arm_motions
 from geocontact.shoulder_exoskeleton.lucy import lucy
@@ -48,20 +48,28 @@ def wearer_of(person: Participant) -> Wearer:
     return Wearer(upper_arm=person.upper_arm, shoulder_width=person.shoulders)
 
 
-def dominant_arm(trial: OverheadTrial) -> ArmMotion:
-    """The arm that logger and mat are on, as a right one."""
-    found = next(arm for arm in arm_motions(trial.markers).arms if arm.side == trial.participant.dominant)
+def arm_as_right(trial: OverheadTrial, side: Side) -> ArmMotion:
+    """One arm of a trial, as a right one."""
+    found = next(arm for arm in arm_motions(trial.markers).arms if arm.side == side)
     return mirrored_arm(found)
 
 
-def measured(trial: OverheadTrial, withheld: Withheld = NOTHING) -> Measured:
-    """Logger and mat of a trial with the device."""
-    level = trial.condition.level
+def dominant_arm(trial: OverheadTrial) -> ArmMotion:
+    """The arm that holds the tool and has the mat on it, as a right one."""
+    return arm_as_right(trial, trial.participant.dominant)
+
+
+def measured(trial: OverheadTrial, withheld: Withheld = NOTHING, side: Side | None = None) -> Measured:
+    """Logger and mat of one arm, the dominant one unless told, in a trial with the device; that one alone pushes."""
+    level, dominant = trial.condition.level, trial.participant.dominant
     if level is None:
         raise ValueError(f"{trial.name}: the device was not worn")
-    pushing = np.where(trial.phase == SCREW, trial.task.push * trial.participant.push, 0.0)
+    own = side or dominant
+    push = trial.task.push * trial.participant.push if own == dominant else 0.0
+    pushing = np.where(trial.phase == SCREW, push, 0.0)
     truth = Truth(lucy(), wearer_of(trial.participant), level, withheld)
-    return measure(truth, dominant_arm(trial), crc32(trial.name.encode()), pushing)
+    seed = trial.name if own == dominant else f"{trial.name} other"
+    return measure(truth, arm_as_right(trial, own), crc32(seed.encode()), pushing)
 
 
 def write_trial(folder: Path, made: tuple[Participant, OverheadTask, Condition]) -> str:
@@ -88,9 +96,13 @@ def write_trial(folder: Path, made: tuple[Participant, OverheadTask, Condition])
     shown = np.interp(found.time, at, force)
     columns = {"time [s]": found.time, "elevation [deg]": np.degrees(found.logger), "force [N]": shown}
     pd.DataFrame(columns).round(4).to_csv(place / "recorded.csv", index=False)
+    other = measured(trial, TRUE, "left" if person.dominant == "right" else "right")
+    columns = {"time [s]": other.time, "elevation [deg]": np.degrees(other.logger)}
+    pd.DataFrame(columns).round(4).to_csv(place / "recorded_other.csv", index=False)
     lines |= {
         "level": f"{100 * condition.level:g}%",
         "recorded": f"{trial.name}/recorded.csv",
+        "recorded_other": f"{trial.name}/recorded_other.csv",
         "without": f"{person.name}{task.name}{BARE.name}",
     }
     return part(lines)

@@ -93,6 +93,12 @@ def recorded_inputs(
     return RecordedInputs(breaks, np.concatenate(parts, axis=1))
 
 
+def linear_inputs(time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t n"]) -> RecordedInputs:
+    """Inputs that are linear between samples [s]: for what sets in at once, around which a spline would swing."""
+    slopes = np.diff(values, axis=0) / np.diff(time)[:, None]
+    return RecordedInputs(time, np.stack([slopes, values[:-1]], axis=2))
+
+
 def stepped_inputs(breaks: Float[np.ndarray, " m1"], values: Float[np.ndarray, "m n"]) -> RecordedInputs:
     """Inputs that are constant between breaks [s]."""
     return RecordedInputs(breaks, np.asarray(values, float)[:, :, None])

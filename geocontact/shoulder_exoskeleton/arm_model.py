@@ -33,9 +33,9 @@ if TYPE_CHECKING:
 
 TUBE = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]])
 """Axes of the cuff in the arm link's frame, in columns: distal, medial, and the way it moves when it is raised."""
-RECORDED: dict[Cuff, int] = {"point": 10, "surface": 16}
+RECORDED: dict[Cuff, int] = {"point": 11, "surface": 16}
 """Recorded inputs after those of locked joints: place of the sphere, its velocity, gravity, the support's factor; for a
-surface also the direction of the arm's line and its rate."""
+point also the force that presses it into the cuff, for a surface the direction of the arm's line and its rate."""
 OUTPUTS: dict[str, int] = {
     "force": 3,
     "in_cuff": 3,
@@ -99,7 +99,7 @@ def arm_model(
 
 @lru_cache(maxsize=8)
 def _made(axes: tuple[tuple[float, ...], ...], locked: tuple[str, ...], machine_code: bool, cuff: Cuff) -> ArmModel:
-    from casadi import SX, Function, densify, vertcat
+    from casadi import SX, Function, densify, tanh, vertcat
 
     p, w = SX.sym("numbers", sum(SIZES.values())), SX.sym("recorded", RECORDED[cuff])
     of = {name: p[place, :] for name, place in slices().items()}
@@ -111,7 +111,8 @@ def _made(axes: tuple[tuple[float, ...], ...], locked: tuple[str, ...], machine_
     stops = [stop_force(tree.q[i], tree.u[i], of["lower"][i], of["upper"][i], k, width, damping) for i in range(3)]
     support = push * lever(tree.q[2], of["lever"][0], of["lever"][1], of["lever"][2])
     along = {joint: stops[i] - of["damping"][i] * tree.u[i] for i, joint in enumerate(JOINTS)}
-    along["elevation"] = along["elevation"] + support
+    seal = of["seal"][0] * tanh(tree.u[2] / of["seal"][1])
+    along["elevation"] = along["elevation"] + support - seal
     back = together(action_and_reaction("arm", GROUND, -held.force, w[:3, :]), {"arm": (SX(3, 1), -held.couple)})
     equations = equations_of_motion(
         tree,
@@ -122,7 +123,7 @@ def _made(axes: tuple[tuple[float, ...], ...], locked: tuple[str, ...], machine_
         inputs=[w],
         parameters=[p],
     )
-    damped = sum((of["damping"][i] * tree.u[i] ** 2 for i in range(3)), SX(0))
+    damped = sum((of["damping"][i] * tree.u[i] ** 2 for i in range(3)), seal * tree.u[2])
     power = support * tree.u[2] + sum((stops[i] * tree.u[i] for i in range(3)), SX(0)) + held.fed
     told = {
         "force": held.force,

@@ -26,7 +26,8 @@ SIZES: dict[str, int] = {
     "push": 1,
     "lag": 1,
     "lever": 3,
-    "law": 7,
+    "law": 8,
+    "seal": 2,
     "padded": 9,
 }
 """Groups of numbers, and how many each has."""
@@ -81,7 +82,8 @@ def adjusted_numbers(device: Device, wearer: Wearer, level: float) -> Float[np.n
         "push": [level * piston_area(d["bore"]) * d["supply"]],
         "lag": [d["lag"]],
         "lever": [d["lever_a"], d["lever_b"], d["lever_phase"]],
-        "law": [d[name] for name in ("k", "b", "delta_full", "v_th", "mu_s", "mu_k", "rounding")],
+        "law": [d[name] for name in ("k", "b", "delta_full", "v_th", "mu_s", "mu_k", "rounding", "strap")],
+        "seal": [d["seal_friction"], d["seal_speed"]],
         "padded": [d[name] for name in PADDED],
     }
     return np.concatenate([np.asarray(groups[name], float) for name in SIZES])

@@ -71,15 +71,17 @@ def held_at_a_point(arm: Moving, axes: SX, middle: SX, of: dict[str, SX], w: SX)
     of
         Numbers by group.
     w
-        Recorded: place and velocity of the sphere first.
+        Recorded: place and velocity of the sphere first; last the force that presses it into the cuff besides, which
+        stands for that much more depth.
     """
-    from casadi import SX, sumsqr, vertcat
+    from casadi import SX, vertcat
 
-    offset, velocity = axes.T @ (w[:3, :] - middle), axes.T @ (w[3:6, :] - speed_at(arm, w[:3, :]))
+    offset = axes.T @ (w[:3, :] - middle)
+    velocity = axes.T @ (w[3:6, :] - speed_at(arm, w[:3, :]))
     law = TubeLaw(*(of["law"][i] for i in range(SIZES["law"])))
-    found = tube_contact(_components(offset), _components(velocity), (SX(1), SX(0), SX(0)), law)
+    deeper = offset - vertcat(0.0, 0.0, w[10, :] / law.k)
+    found = tube_contact(_components(deeper), _components(velocity), (SX(1), SX(0), SX(0)), law)
     normal, friction, sliding = (vertcat(*each) for each in (found.normal, found.friction, found.sliding))
-    radial = vertcat(*found.radial)
     force = axes @ (normal + friction)
     return HeldArm(
         force=force,
@@ -87,13 +89,13 @@ def held_at_a_point(arm: Moving, axes: SX, middle: SX, of: dict[str, SX], w: SX)
         normal=normal,
         friction=friction,
         sliding=sliding,
-        place=vertcat(found.along, radial[1], radial[2]),
+        place=offset,
         pressing=found.pressing,
         centre=found.along,
         peak=SX(0),
         share=SX(0),
-        stored=0.5 * law.k * sumsqr(radial),
-        lost=-friction.T @ sliding - (normal + law.k * radial).T @ velocity,
+        stored=found.stored,
+        lost=-friction.T @ sliding - (normal - vertcat(*found.spring)).T @ velocity,
         fed=-force.T @ w[3:6, :],
     )
 

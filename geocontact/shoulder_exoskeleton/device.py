@@ -107,6 +107,9 @@ QUANTITIES: Mapping[str, DeviceQuantity] = {
     "tissue_modulus": _as_is("Pa", 10.0, 1e8, "confined modulus of the soft tissue"),
     "interference": _length("by how much the arm is wider than the empty cuff", 0.0, 0.05),
     "pad_damping": _as_is("Pa s/m", 0.0, 1e8, "damping of the padding where it is pressed on"),
+    "strap": _length("depth by which a strap pulls the arm into the cuff all around; negative: play", -0.05, 0.05),
+    "seal_friction": _as_is("N m", 0.0, 50.0, "dry friction of the cylinder's seals about the active axis"),
+    "seal_speed": _as_is("rad/s", 1e-4, 10.0, "rate of the active joint below which it is viscous"),
     "rounding": _length("over which friction's kink on the axis is rounded", 1e-7),
 }
 """All numbers of a device."""

@@ -53,6 +53,9 @@ OTHERS: tuple[tuple[str, float, Source, str], ...] = (
     ("tissue_modulus", 1e4, "invented", "relaxed muscle and skin; of the cuff as a surface"),
     ("interference", 1e-3, "invented", "a strap pulled tight; of the cuff as a surface"),
     ("pad_damping", 5e3, "invented", "of the cuff as a surface"),
+    ("strap", 0.0, "paper", "the paper's model has none, and no play"),
+    ("seal_friction", 0.0, "paper", "the paper's model has none"),
+    ("seal_speed", 0.02, "invented", "without effect where there is no friction of seals"),
     ("rounding", 5e-5, "invented", "numerical: friction is less by at most 0.05 N"),
 )
 

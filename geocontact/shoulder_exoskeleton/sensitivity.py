@@ -17,11 +17,13 @@ from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 
 SHARE, TURN, SHIFT = 0.1, np.radians(5.0), 0.01
 """Of a number; of an angle [rad] and of a length that may be 0 [m]."""
+ADDED = ("strap", "seal_friction", "seal_speed")
+"""What a device has only where its file says so."""
 IDLE: dict[Cuff, tuple[str, ...]] = {
-    "point": ("rounding", "belt_share", *(name for name in PADDED if name != "delta_full")),
-    "surface": ("rounding", "belt_share", "k", "b"),
+    "point": ("rounding", "belt_share", *ADDED, *(name for name in PADDED if name != "delta_full")),
+    "surface": ("rounding", "belt_share", "k", "b", *ADDED),
 }
-"""Numbers that no motion depends on, and one that is numerical, by how the arm is held."""
+"""Numbers that no motion depends on, one that is numerical, and what was added, by how the arm is held."""
 AXES = tuple(f"axis_{joint}_{axis}" for joint in JOINTS for axis in "xyz")
 """Directions of axes: other axes have equations of their own, which are not compiled for one simulation."""
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.dynamics.recorded_inputs import RecordedInputs, recorded_inputs, stepped_inputs
+from geocontact.dynamics.recorded_inputs import RecordedInputs, linear_inputs, recorded_inputs, stepped_inputs
 from geocontact.shoulder_exoskeleton.arm_model import ArmModel, Told, arm_model, output_slices
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers, slices
@@ -97,6 +97,7 @@ def simulate_arm(
     level: float,
     *,
     factor: Float[np.ndarray, " t"] | None = None,
+    pressed: Float[np.ndarray, " t"] | None = None,
     tolerance: float = TOLERANCE,
     steps: int | None = None,
     machine_code: bool = True,
@@ -113,6 +114,9 @@ def simulate_arm(
     factor
         Of that share at each frame (0 to 1), held until the next one; 1 unless given. The cylinder follows with its
         lag.
+    pressed
+        Force that presses the human arm into a point's cuff besides its motion, at each frame [N]: what a push on the
+        tool leaves there; linear between frames, none unless given. ValueError with a surface.
     tolerance, steps
         As those of `Stepper.simulate`.
     cuff
@@ -122,7 +126,7 @@ def simulate_arm(
     """
     model, p = arm_model(device, machine_code=machine_code, cuff=cuff), adjusted_numbers(device, wearer, level)
     mirrored = mirrored_arm(motion)
-    inputs = arm_inputs(mirrored, factor, cuff)
+    inputs = arm_inputs(mirrored, factor, cuff, pressed)
     start = at_rest(model, device, p, inputs(motion.time[0])[0])
     found = model.stepper.simulate(
         start, motion.time, inputs=inputs, parameters=p, tolerance=tolerance, first=FIRST, steps=steps
@@ -151,9 +155,15 @@ def mirrored_arm(motion: ArmMotion) -> ArmMotion:
 
 
 def arm_inputs(
-    motion: ArmMotion, factor: Float[np.ndarray, " t"] | None = None, cuff: Cuff = "point"
+    motion: ArmMotion,
+    factor: Float[np.ndarray, " t"] | None = None,
+    cuff: Cuff = "point",
+    pressed: Float[np.ndarray, " t"] | None = None,
 ) -> RecordedInputs:
-    """Place and velocity of the sphere, gravity and the support's factor over time; the arm's line for a surface."""
+    """Place and velocity of the sphere, gravity and the support's factor over time.
+
+    Then the force that presses on a point, or the arm's line for a surface.
+    """
     held = np.ones(len(motion.time)) if factor is None else np.asarray(factor, float)
     found = (
         recorded_inputs(motion.time, motion.interface, derivatives=1)
@@ -161,7 +171,10 @@ def arm_inputs(
         .beside(stepped_inputs(motion.time, held[:-1, None]))
     )
     if cuff == "point":
-        return found
+        force = np.zeros(len(motion.time)) if pressed is None else np.asarray(pressed, float)
+        return found.beside(linear_inputs(motion.time, force[:, None]))
+    if pressed is not None:
+        raise ValueError("a surface has no force that presses the arm into it besides its motion")
     line = motion.interface - motion.shoulder
     line = line / np.linalg.norm(line, axis=1, keepdims=True)
     return found.beside(recorded_inputs(motion.time, line, derivatives=1))

@@ -61,13 +61,22 @@ def test_the_shoulder_s_study() -> None:
 
 def test_the_shoulder_s_planted_effects() -> None:
     for kind, one in results("shoulder_gap")["answers"].items():
-        said, _, exo, force, full, seconds = row("theory/shoulder_exoskeleton.md", kind)
+        said, _, exo, force, seconds = row("theory/shoulder_exoskeleton.md", kind)
         assert said.startswith(one["verdict"]) and all(name.replace("_", " ") in said for name in one["named"])
         for cell, channel in ((exo, "exo"), (force, "force")):
             assert cell == "-" or near(cell.split("%")[0], one["reduction"][channel][0], 100.0), cell
-        before, after = full.split(" → ")
         assert near(seconds, one["seconds"])
-        assert near(before, one["full_model"]["before_N"]) and near(after, one["full_model"]["after_N"])
+
+
+def test_the_shoulder_s_effects_inside_the_full_model() -> None:
+    told = results("shoulder_refit")
+    for way, label in (("held", "in the plane"), ("free", "free")):
+        for kind, one in told[way].items():
+            term, _, exo, force = row("theory/shoulder_exoskeleton.md", f"{label}: {kind}")
+            after = one[term.partition(":")[0]]
+            for cell, name in ((exo, "exo_deg"), (force, "force_N")):
+                before_it, after_it = cell.split(" → ")
+                assert near(before_it, one["before"][name]) and near(after_it, after[name]), cell
 
 
 def test_the_prosthetic_foot_s_planted_effects() -> None:

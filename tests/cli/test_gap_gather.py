@@ -20,5 +20,5 @@ def test_what_cannot_be_gathered_is_one_line(tmp_path: Path) -> None:
     settings = written(tmp_path / "gather.toml", SETTINGS)
     made = call("gap", "gather", settings, "--out", tmp_path / "case")
     (line,) = made.err.splitlines()
-    assert made.code == 2 and line.startswith(f"{settings} [from.t02]: is missing; write [from.t01] with inputs = ")
+    assert made.code == 2 and line == f"{settings} [from.t02]: is missing; write it as [from.t01]: inputs, forces"
     assert not (tmp_path / "case").exists()

@@ -91,3 +91,18 @@ def test_symbols_and_numbers_agree_and_the_tube_knows_the_depth() -> None:
         depth = 0.05 - tube.proximity(offset[None]).distance[0]  # of a sphere with the tube's radius
         still = tube_contact(tuple(offset), STILL, ALONG, law)
         assert still.pressing == pytest.approx(1e3 * depth, abs=2e-6)
+
+
+@pytest.mark.parametrize("strap", [-3e-3, -6e-3, 2e-3, 1.5e-2])
+def test_a_strap_and_a_play_are_a_ring_of_springs(strap: float) -> None:
+    """Closed forms beside 4000 springs around the tube: force, what presses, and energy, whose slope is the force."""
+    law, r, h = replace(LAW, rounding=1e-9, strap=strap, b=0.0), 5e-3, 1e-6
+    found, more = (tube_contact((0.0, 0.6 * x, 0.8 * x), STILL, ALONG, law) for x in (r, r + h))
+    angle = 2.0 * np.pi * (np.arange(4000) + 0.5) / 4000
+    depth = np.maximum(r * np.cos(angle) + strap, 0.0)
+    springs = 2.0 * law.k / np.pi * depth * 2.0 * np.pi / 4000
+    assert np.linalg.norm(found.normal) == pytest.approx((springs * np.cos(angle)).sum(), rel=1e-5, abs=1e-5)
+    assert found.normal[2] == pytest.approx(-0.8 * np.linalg.norm(found.normal), abs=1e-9)
+    assert found.pressing == pytest.approx(0.25 * np.pi * springs.sum(), rel=1e-5, abs=1e-5)
+    assert found.stored == pytest.approx(0.5 * (springs * depth).sum(), rel=1e-5, abs=1e-9)
+    assert (more.stored - found.stored) / h == pytest.approx(np.linalg.norm(found.normal), rel=1e-3, abs=1e-5)

@@ -136,3 +136,21 @@ def test_the_same_movement_again_is_alike(data_dir: Path, thoracoscapular: Multi
     peaks = [np.degrees(arm_of(data_dir, thoracoscapular, name).arms[0].elevation.max()) for name in RAISED]
     assert np.ptp(peaks) < 2.0
     assert np.degrees(np.ptp(arm_of(data_dir, thoracoscapular, "SHRUG01").arms[0].elevation)) < 8.0
+
+
+def test_virtual_markers_of_a_recorded_arm_move_the_device(data_dir: Path, tmp_path: Path) -> None:
+    """By the commands `markers` and `simulate`: at 151 degrees the arm has left a cuff that was attached by guess."""
+    folder = data_dir / "rmr_shoulder"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        made = gc.virtual_markers(folder / "FLX01.mot", model=folder / "TSM_subject_CMC_noWeight.osim")
+        names = ",".join(f"{theirs}={own}" for theirs, own in TRUNK.items())
+        found = gc.shoulder.simulate(made.write(tmp_path / "m") / "markers.trc", markers_map=names, level=0.5)
+    (arm,) = found.arms
+    s, told = arm.simulation, "\n".join(found.warnings)
+    assert np.degrees(s.motion.elevation.max()) == pytest.approx(151.0, abs=1.5)
+    inside = ~s.out_of_cuff
+    assert inside.sum() > 100 and np.abs(s.supporting[inside]).max() < 60.0
+    assert np.degrees(np.abs(s.elevation - s.motion.elevation)[inside]).max() < 45.0
+    for words in ("only the right arm was recorded", "attached virtually to CLAV, C7, STRN, T8", "out of the cuff"):
+        assert words in told, words

@@ -44,7 +44,7 @@ def _ours(time: np.ndarray, arm: np.ndarray, p: np.ndarray) -> np.ndarray:
     inputs = (
         locked.beside(recorded_inputs(time, place, derivatives=1))
         .beside(stepped_inputs(time[[0, -1]], GRAVITY[None]))
-        .beside(stepped_inputs(time[[0, -1]], np.ones((1, 1))))
+        .beside(stepped_inputs(time[[0, -1]], np.array([[1.0, 0.0]])))
     )
     at = inputs.at(time)
     still = at[0].copy()

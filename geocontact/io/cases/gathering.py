@@ -42,7 +42,9 @@ def read_gathering(path: Path) -> Gathering:
     check_settings(settings, path, KNOWN_SYSTEMS)
     for name in settings.trials:
         if name not in stated:
-            raise InputError(path, f"[from.{name}]", "is missing", f"write {EXAMPLE}")
+            like = next((each for each in stated if isinstance(stated[each], dict)), None)
+            wanted = f"write {EXAMPLE}" if like is None else f"write it as [from.{like}]: {', '.join(stated[like])}"
+            raise InputError(path, f"[from.{name}]", "is missing", wanted)
     for name in stated:
         if name not in settings.trials:
             what = "neither calibration nor evaluation lists this trial"

@@ -11,7 +11,7 @@ from typing import Any
 from geocontact.data.errors import InputError
 from geocontact.io.cases.storage_trial import is_storage
 
-EXAMPLE = '[from.t01] with inputs = "t01.csv" and thigh = "results/t01_thigh"'
+EXAMPLE = '[from.t01] with inputs = "t01.csv" and outputs = "t01_measured.csv" or SITE = "results/t01_site"'
 GOES_WITH = {"plate": "plates", "belt": "plates", "areas": "forces", "threshold": "areas", "force_unit": "forces"}
 """A key that says nothing without another."""
 NUMBERS = ("belt", "threshold")

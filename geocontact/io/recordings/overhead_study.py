@@ -27,11 +27,13 @@
     tool = "P1T1S100/tool.csv"
     level = "100%"
     recorded = "P1T1S100/recorded.csv"
+    recorded_other = "P1T1S100/recorded_other.csv"
     without = "P1T1S0"
 
-Files are looked for beside the description. A trial with a `level` was recorded in the device: logger and mat, on the
-dominant side, are in `recorded`, and `without` names the same work without the device. What tells no more than these
-may be left out: `dominant_share`, lengths of the person, `name`, `upright`, `level`, `recorded`, `without`.
+Files are looked for beside the description. A trial with a `level` was recorded in the device: logger and mat of the
+dominant arm are in `recorded`, those of the other arm in `recorded_other`, and `without` names the same work without
+the device. What tells no more than these may be left out: `dominant_share`, lengths of the person, `name`, `upright`,
+`level`, `recorded`, `recorded_other`, `without`.
 """
 
 from __future__ import annotations
@@ -52,10 +54,12 @@ SEXES: tuple[Sex, ...] = ("female", "male")
 DOMINANT = ("right", "left")
 LENGTHS = ("upper_arm", "shoulder_width", "torso")
 """Of a person, to which a device is adjusted."""
+RECORDED = ("recorded", "recorded_other")
+"""Of the dominant arm, and of the other one."""
 KEYS = {
     "tasks": ("tool", "push", "dominant_share"),
     "persons": ("mass", "sex", "dominant", *LENGTHS),
-    "trials": ("person", "task", "markers", "tool", "upright", "name", "level", "recorded", "without"),
+    "trials": ("person", "task", "markers", "tool", "upright", "name", "level", *RECORDED, "without"),
 }
 
 
@@ -88,8 +92,8 @@ class StudyTrial:
         A span of upright stance [s].
     level
         Support level as it is written, "100%" or 0.5; None where the device was not worn.
-    recorded
-        Of logger and mat.
+    recorded, recorded_other
+        Of logger and mat, on the dominant side and on the other.
     without
         Name of the trial of the same work without the device.
     """
@@ -102,6 +106,7 @@ class StudyTrial:
     upright: tuple[float, float] | None
     level: str | None = None
     recorded: Path | None = None
+    recorded_other: Path | None = None
     without: str | None = None
 
 
@@ -209,7 +214,7 @@ def _trial(
     ):
         raise InputError(path, place, f"upright {upright!r} is no span", "write [first, last] in s")
     span = None if upright is None else (float(upright[0]), float(upright[1]))
-    recorded = None if "recorded" not in told else _file(path, f"{place} recorded", str(told["recorded"]))
+    own, other = (None if key not in told else _file(path, f"{place} {key}", str(told[key])) for key in RECORDED)
     return StudyTrial(
         str(told.get("name", f"{person}{task}")),
         person,
@@ -218,7 +223,8 @@ def _trial(
         _file(path, f"{place} tool", tool),
         span,
         str(told["level"]) if "level" in told else None,
-        recorded,
+        own,
+        other,
         str(told["without"]) if "without" in told else None,
     )
 

@@ -10,6 +10,9 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.shoulder.trial_files import trial_files
+from geocontact.shoulder_exoskeleton.synthetic.design import condition, participant, task
+from geocontact.shoulder_exoskeleton.synthetic.trial import synthetic_trial
 from tests.analyses.shoulder.test_simulate import simulated
 
 pytestmark = pytest.mark.slow
@@ -17,18 +20,24 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture(scope="module")
 def gathered(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Simulations at two levels, gathered as the file that they write says, with the second trial added."""
+    """Trials of two tasks at two levels, gathered as the first one's file says; the other is made by its own script."""
     home = tmp_path_factory.mktemp("plane")
-    for name, level in (("half", 0.5), ("full", 1.0)):
-        simulated(level=level, side="right").write(home / name)
-    text = (home / "half" / "plane" / "right.toml").read_text(encoding="utf-8")
-    text = text.replace('"right', '"half/plane/right').replace('"support.csv"', '"half/plane/support.csv"')
-    more = '[from.t02]\ninputs = "full/plane/right.csv"\noutputs = "full/plane/right_simulated.csv"\n'
-    text = text.replace("[trial.t01]", f"{more}\n[trial.t02]\nlevel = 1.0\n\n[trial.t01]")
-    (home / "gather.toml").write_text(text, encoding="utf-8")
+    other = synthetic_trial(participant("P1"), task("T2"), condition("S50"))
+    for name, text in trial_files(other).items():
+        (home / name).write_text(text, encoding="utf-8")
+    simulated(side="right").write(home / "first")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        gc.gather(home / "gather.toml").write(home / "case")
+        options = {"tool": home / "tool.csv", "upright": (0.0, 0.5), "level": 0.5, "side": "right"}
+        gc.shoulder.simulate(home / "markers.trc", **options).write(home / "second")
+        file = home / "first" / "plane" / "right.toml"
+        text = file.read_text(encoding="utf-8")
+        with pytest.raises(gc.InputError, match=r"OTHER/plane/right\.csv: there is no such file"):
+            gc.gather(file)
+        of_other = text.index("[trial.t02]")
+        text = text[:of_other] + text[of_other:].replace("level = 1", "level = 0.5")
+        file.write_text(text.replace("OTHER", "../../second"), encoding="utf-8")
+        gc.gather(file).write(home / "case")
     return home
 
 
@@ -44,10 +53,10 @@ def test_the_base_model_takes_the_projected_simulation(gathered: Path) -> None:
         assert np.degrees(np.sqrt(np.mean(off[:, 0] ** 2))) < 8.0
         assert np.corrcoef(model[:, 0], measured[:, 0])[0, 1] > 0.97
         assert np.sqrt(np.mean(off[:, 1] ** 2)) < 8.0
-    assert [t.covariates["level"] for t in (*case.calibration, *case.evaluation)] == [0.5, 1.0]
+    assert [t.covariates["level"] for t in (*case.calibration, *case.evaluation)] == [1.0, 0.5]
 
 
 def test_it_says_how_far_the_hinge_moves(gathered: Path) -> None:
-    text = (gathered / "half" / "plane" / "right.toml").read_text(encoding="utf-8")
+    text = (gathered / "first" / "plane" / "right.toml").read_text(encoding="utf-8")
     moved = [float(each) for each in re.findall(r"([\d.]+) mm", text.splitlines()[0])]
     assert len(moved) == 2 and 1.0 < moved[0] < 100.0

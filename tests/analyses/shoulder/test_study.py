@@ -48,6 +48,7 @@ markers = "markers.trc"
 tool = "tool.csv"
 level = "100%"
 recorded = "recorded.csv"
+recorded_other = "recorded_other.csv"
 without = "bare"
 
 [[trials]]
@@ -71,7 +72,7 @@ def studied(file: Path) -> StudyResult:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The shipped trial twice, and a recording that is the simulation shifted by `LATE` and `HIGH`."""
+    """The shipped trial twice, and recordings that are the simulation shifted by `LATE` and `HIGH`."""
     place = tmp_path_factory.mktemp("study")
     for name in ("markers.trc", "tool.csv"):
         shutil.copy(TRIAL / name, place / name)
@@ -79,10 +80,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (place / "study.toml").write_text(BOTH, encoding="utf-8")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        options = {"person": place / "P1.toml", "side": "right", "tool": place / "tool.csv"}
-        arm = gc.shoulder.simulate(place / "markers.trc", **options).arms[0].simulation
-    columns = {"time [s]": arm.motion.time, "elevation [rad]": arm.elevation + LATE, "force [N]": arm.supporting + HIGH}
+        options = {"person": place / "P1.toml", "tool": place / "tool.csv"}
+        right, left = (each.simulation for each in gc.shoulder.simulate(place / "markers.trc", **options).arms)
+    time, force = right.motion.time, right.supporting + HIGH
+    columns = {"time [s]": time, "elevation [rad]": right.elevation + LATE, "force [N]": force}
     pd.DataFrame(columns).to_csv(place / "recorded.csv", index=False)
+    columns = {"time [s]": time, "elevation [rad]": left.elevation - 2.0 * LATE}
+    pd.DataFrame(columns).to_csv(place / "recorded_other.csv", index=False)
     return place
 
 
@@ -92,26 +96,45 @@ def found(folder: Path) -> StudyResult:
 
 
 def test_errors_are_those_that_were_made(found: StudyResult) -> None:
-    errors = found.table("errors").set_index(["channel", "part"])
-    assert errors.loc[("elevation", "all"), "bias"] == pytest.approx(-2.0, abs=1e-6)
-    assert errors.loc[("force", "work"), "rmsd"] == pytest.approx(3.0, abs=1e-6)
-    assert errors.loc[(COPIED, "all"), "rmsd"] > 4.0, "the human elevation is not that of the exoskeleton"
+    errors = found.table("errors").set_index(["arm", "channel", "part"]).sort_index()
+    assert errors.loc[("right", "elevation", "all"), "bias"] == pytest.approx(-2.0, abs=1e-6)
+    assert errors.loc[("left", "elevation", "all"), "bias"] == pytest.approx(4.0, abs=1e-6)
+    assert errors.loc[("right", "force", "work"), "rmsd"] == pytest.approx(3.0, abs=1e-6)
+    assert errors.loc[("right", COPIED, "all"), "rmsd"] > 4.0, "the human elevation is not that of the exoskeleton"
     assert set(errors["trial"]) == {"supported"}, "the other one has no recording"
-    assert found.table("summary")["trials"].eq(1).all()
+    summary = found.table("summary").set_index(["channel", "part"])
+    assert summary.loc[("elevation", "all"), "arms"] == 2 and summary.loc[("force", "all"), "arms"] == 1
+    assert summary.loc[("elevation", "all"), "mae"] == pytest.approx(3.0, abs=1e-6)
 
 
 def test_same_motion_makes_no_difference_between_groups(found: StudyResult) -> None:
     rows = found.table("differences").set_index("trial")
-    assert list(rows.index) == ["supported", "mean"]
-    np.testing.assert_allclose(rows.loc["supported"].iloc[:3].astype(float), 0.0, atol=1e-12)
+    assert list(zip(rows.index, rows.pop("arm"), strict=True)) == [
+        ("supported", "right"),
+        ("supported", "left"),
+        ("mean", "both"),
+    ]
+    np.testing.assert_allclose(rows.loc["supported"].iloc[:, :3].astype(float), 0.0, atol=1e-12)
     assert rows.loc["mean", "shoulder less exoskeleton [deg]"] > 2.0
 
 
-def test_level_and_side_are_those_of_the_trial(found: StudyResult) -> None:
-    supported, other = found.cases
-    assert (supported.within.side, other.within.side) == ("right", "left")
+def test_level_and_arms_are_those_of_the_trial(found: StudyResult) -> None:
+    """Both arms, the right one first; without a recording where none was named."""
+    names = [case.name for case in found.cases]
+    assert names == [f"{trial}, {side} arm" for trial in ("supported", "unsupported") for side in ("right", "left")]
+    supported, _, other, _ = found.cases
     assert supported.within.simulation.supporting.max() > 20.0 > other.within.simulation.supporting.max()
     assert other.without is None and other.recorded is None
+
+
+def test_the_dominant_arm_is_what_was_recorded(folder: Path, tmp_path: Path) -> None:
+    """A left-handed person's `recorded` is beside the left arm."""
+    place = tmp_path / "study"
+    shutil.copytree(folder, place)
+    (place / "study.toml").write_text(BOTH.replace('dominant = "right"', 'dominant = "left"'), encoding="utf-8")
+    errors = studied(place / "study.toml").table("errors")
+    assert set(errors.loc[errors["channel"] == "force", "arm"]) == {"left"}
+    assert errors.loc[errors["channel"] == "elevation", "bias"].abs().max() > 4.1
 
 
 def test_what_is_to_be_doubted_is_told_of_each_trial(found: StudyResult) -> None:
@@ -134,7 +157,7 @@ def test_everything_is_written(found: StudyResult, tmp_path: Path) -> None:
     names = {"summary.csv", "errors.csv", "differences.csv", "passive.csv", "study.png", "report.html", "run.json"}
     assert names <= {file.name for file in out.iterdir()}
     roles = {entry["role"] for entry in found.record.inputs}
-    assert {"study", "supported markers", "supported recorded"} <= roles
+    assert {"study", "supported markers", "supported recorded, right", "supported recorded, left"} <= roles
 
 
 @pytest.mark.parametrize(
@@ -143,7 +166,7 @@ def test_everything_is_written(found: StudyResult, tmp_path: Path) -> None:
         ("[[trials]]", "[[trial]]", "`trial`: is not known here"),
         ('name = "unsupported"', 'name = "supported"', "two have the name 'supported'"),
         ('level = "0%"', 'level = "120%"', "level is 120%; give 0 to 100%"),
-        ("recorded.csv", "record.csv", "there is no file record.csv"),
+        ("recorded_other.csv", "record.csv", "there is no file record.csv"),
         ('without = "bare"', 'without = "none"', "no trial 'none'; there are bare, supported, unsupported"),
         ('level = "0%"', 'logger = "a.csv"', "'logger' is not known here"),
     ],

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from geocontact.analyses.options import Options, Spelled, Typed
+from geocontact.analyses.options import Expression, Options, Requires, Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import PLAIN, Plausible
 from geocontact.data.ranges import CUTOFF, GAP, LIMIT
@@ -57,6 +57,11 @@ class ShoulderOptimiseOptions(Options):
         Zero-lag low-pass of the markers [Hz].
     gap_limit
         Longest time for which a marker may be out of sight [s].
+    markers_map
+        Names of recorded markers as they are called here: R_UP=humerus_rup, or a file with a pair in each line; of all
+        trials.
+    axes
+        Which of the markers' axes are x, y (upwards) and z of OpenSim's, of all trials: x,z,-y where z is up.
     """
 
     study: Annotated[Path | None, Spelled(keyword=True)] = None
@@ -72,6 +77,8 @@ class ShoulderOptimiseOptions(Options):
     seed: int = 0
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2
+    markers_map: Annotated[str | None, Requires("study")] = None
+    axes: Annotated[Expression | None, Requires("study")] = None
 
     def refuse_impossible(self) -> None:
         """Shares that are none, too few draws for an interval, a share that has no effect."""

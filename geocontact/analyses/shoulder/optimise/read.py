@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.motion.markers import markers_given
+from geocontact.analyses.motion.markers import markers_given, renamed_as_told
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
@@ -69,7 +69,8 @@ def _arms(
     o: ShoulderOptimiseOptions, record: Record, study: OverheadStudy, trial: StudyTrial, lengths: Wearer
 ) -> list[ArmTrial]:
     person, task = study.persons[trial.person], study.tasks[trial.task]
-    seen = _filled(markers_given(trial.markers, None, None), o.gap_limit)
+    recorded = renamed_as_told(record, markers_given(trial.markers, o.axes, None), o.markers_map)
+    seen = _filled(recorded, o.gap_limit)
     record.add_input(f"{trial.person} {trial.task}", trial.markers, frames=len(seen))
     current = tool_current(record, trial.tool, seen.time)
     share = o.dominant_share if task.dominant_share is None else task.dominant_share

@@ -15,6 +15,7 @@ from geocontact.shoulder_exoskeleton.work_phases import PHASES
 FREE = {"k_t": ("N/m", 50.0, 2e4), "b_t": ("N s/m", 0.0, 500.0), "m": ("kg", 0.05, 5.0)}
 """Numbers that a fit may free, with unit and bounds; the others are constants."""
 HEAD = """# {side} arm in its plane; the hinge moves by {moved} (standard deviation) forwards and upwards
+# A case needs a second trial, held out: simulate it as well, then write its folder for OTHER below, and its level.
 format = 1
 system = "shoulder"
 support = "support.csv"
@@ -26,6 +27,13 @@ inputs = "{side}.csv"
 outputs = "{side}_simulated.csv"
 
 [trial.t01]
+level = {level:g}
+
+[from.t02]
+inputs = "OTHER/plane/{side}.csv"
+outputs = "OTHER/plane/{side}_simulated.csv"
+
+[trial.t02]
 level = {level:g}
 
 [constants]

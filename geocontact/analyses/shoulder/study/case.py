@@ -1,4 +1,4 @@
-"""One trial of a study: simulated along the motion recorded in the device, along that without it, and as recorded."""
+"""One arm in a trial: simulated along the motion recorded in the device and along that without it, and as recorded."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SCREWING = PHASES.index("screw-in")
 
 @dataclass(frozen=True, eq=False)
 class StudyCase:
-    """A trial.
+    """An arm in a trial.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ class StudyCase:
     without
         Along the motion recorded without it: group 2; None where there is none.
     recorded
-        Of logger and mat; None where there are none.
+        Of this arm's logger and mat; None where there are none.
     errors
         By channel and part of the trial, of `within`; the channel `COPIED` is the human elevation in place of the
         exoskeleton's.
@@ -39,6 +39,11 @@ class StudyCase:
     without: SimulatedArm | None
     recorded: Channels | None
     errors: Mapping[str, Mapping[str, Agreement]]
+
+    @property
+    def name(self) -> str:
+        """Of trial and arm."""
+        return f"{self.trial.name}, {self.within.side} arm"
 
 
 COPIED = "elevation, copied from the shoulder"

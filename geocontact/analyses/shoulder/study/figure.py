@@ -1,4 +1,4 @@
-"""Every trial of a study in two panels: elevation of the exoskeleton's arm and supporting force."""
+"""Every arm of a study in two panels: elevation of the exoskeleton's arm and supporting force."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ if TYPE_CHECKING:
 WIDE, HIGH = 3.2, 1.35
 """Of a panel [inch]."""
 MOST = 24
-"""Trials that are drawn."""
+"""Arms that are drawn."""
 LABELS = {ELEVATION: "elevation [°]", FORCE: "force [N]"}
 
 
 @in_style
 def study_figure(cases: Sequence[StudyCase]) -> Figure:
-    """A row for each trial, the first 24: what was recorded, and what was simulated along both motions."""
+    """A row for each arm in its trial, the first 24: what was recorded, and what was simulated along both motions."""
     shown = cases[:MOST]
     figure = sheet(2 * WIDE, HIGH * len(shown) + 0.6)
     rows = figure.subplots(len(shown), 2, sharex="row", squeeze=False)
     for case, row in zip(shown, rows, strict=True):
         for axes, channel in zip(row, (ELEVATION, FORCE), strict=True):
             _panel(axes, case, channel)
-        row[0].set_title(case.trial.name, loc="left", fontsize="small")
+        row[0].set_title(case.name, loc="left", fontsize="small")
     for axes in rows[-1]:
         axes.set_xlabel("time [s]")
     lines, names = rows[0, 0].get_legend_handles_labels()

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import Options
+from geocontact.analyses.options import Expression, Options
 from geocontact.data.ranges import CUTOFF, GAP
 
 
@@ -17,8 +17,8 @@ class StudyOptions(Options):
     Parameters
     ----------
     study
-        Tasks, persons and trials (.toml). Trials with a level were recorded in the device: they are simulated, beside
-        `recorded` on the dominant side, and along the motion of the trial that `without` names.
+        Tasks, persons and trials (.toml). Trials with a level were recorded in the device: their arms are simulated,
+        beside `recorded` of the dominant one and `recorded_other`, and along the motion that `without` names.
     device
         lucy, lucy_new_cylinder (32 mm, with its mass), lucy_new_cylinder_massless, or a file (.toml) with numbers.
 
@@ -28,6 +28,11 @@ class StudyOptions(Options):
         Zero-lag low-pass of the markers [Hz]; 0 leaves them as they are.
     gap_limit
         Longest time for which a marker may be out of sight [s].
+    markers_map
+        Names of recorded markers as they are called here: R_UP=humerus_rup, or a file with a pair in each line; of all
+        trials.
+    axes
+        Which of the markers' axes are x, y (upwards) and z of OpenSim's, of all trials: x,z,-y where z is up.
     """
 
     over_time: ClassVar[bool] = True
@@ -37,3 +42,5 @@ class StudyOptions(Options):
     device: str = "lucy"
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2
+    markers_map: str | None = None
+    axes: Expression | None = None

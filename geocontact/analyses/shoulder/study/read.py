@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from geocontact.analyses.run_record import Record
@@ -13,17 +14,18 @@ from geocontact.analyses.shoulder.simulate.read import Worn, worn_along
 from geocontact.analyses.shoulder.study.options import StudyOptions
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
+from geocontact.shoulder_exoskeleton.arm_motion import Side
 
 
 @dataclass(frozen=True, eq=False)
 class StudyTrialInputs:
-    """A trial in the device with what its files hold: the arm of the dominant side alone."""
+    """A trial in the device with what its files hold: the arms that were recorded, and logger and mat by their side."""
 
     trial: StudyTrial
     level: float
     within: Worn
     without: Worn | None
-    recorded: Channels | None
+    recorded: Mapping[Side, Channels]
 
 
 def read(o: StudyOptions, record: Record) -> tuple[StudyTrialInputs, ...]:
@@ -51,11 +53,20 @@ def _trial(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOption
     within = _worn(study, trial, share, o, record)
     bare = next((each for each in study.trials if each.name == trial.without), None)
     without = None if bare is None else _worn(study, bare, share, o, record)
-    recorded = None
-    if trial.recorded is not None:
-        recorded = recorded_channels(trial.recorded)
-        record.add_input(f"{trial.name} recorded", trial.recorded, samples=len(recorded.time))
+    recorded: dict[Side, Channels] = {}
+    for side, file in zip(_sides(study, trial), (trial.recorded, trial.recorded_other), strict=True):
+        if file is None:
+            continue
+        if side not in [arm.side for arm in within.arms]:
+            raise InputError(file, "", f"the {side} arm has no markers in {trial.markers.name}", "leave it out")
+        recorded[side] = recorded_channels(file)
+        record.add_input(f"{trial.name} recorded, {side}", file, samples=len(recorded[side].time))
     return StudyTrialInputs(trial, share, within, without, recorded)
+
+
+def _sides(study: OverheadStudy, trial: StudyTrial) -> tuple[Side, Side]:
+    """Of the dominant arm and of the other."""
+    return ("right", "left") if study.persons[trial.person].dominant == "right" else ("left", "right")
 
 
 def _worn(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions, record: Record) -> Worn:
@@ -64,11 +75,12 @@ def _worn(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions
         trial.markers,
         device=o.device,
         level=share,
-        side="right" if person.dominant == "right" else "left",
         cutoff=o.cutoff,
         gap_limit=o.gap_limit,
         upright=trial.upright,
         tool=trial.tool,
+        markers_map=o.markers_map,
+        axes=o.axes,
     )
     own = Record("shoulder simulate", {})
     found = worn_along(asked, wearer_of_lengths(own, o.study, person.lengths), own)

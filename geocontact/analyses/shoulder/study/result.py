@@ -35,14 +35,14 @@ PASSIVE = (
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class StudyResult(Result):
-    """Every trial of a study, simulated along both motions."""
+    """Every arm in every trial of a study, simulated along both motions."""
 
     options: StudyOptions
     cases: tuple[StudyCase, ...]
     device: Device
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`summary` over all trials, `errors` of each, `differences` of both groups, `passive` joints."""
+        """`summary` over all arms and trials, `errors` of each, `differences` of both groups, `passive` joints."""
         return {
             "summary": summary_table(self.cases),
             "errors": error_table(self.cases),
@@ -51,7 +51,7 @@ class StudyResult(Result):
         }
 
     def figure(self) -> Figure:
-        """Elevation and supporting force of each trial: recorded, and simulated along both motions."""
+        """Elevation and supporting force of each arm: recorded, and simulated along both motions."""
         return study_figure(self.cases)
 
     def write_files(self, folder: Path) -> None:
@@ -65,20 +65,20 @@ class StudyResult(Result):
         """Figure and tables."""
         tables = self.tables()
         words = {
-            "summary": "Errors over all trials",
+            "summary": "Errors over all arms",
             "differences": "Motion recorded in the device less that without it, screw-in",
             "passive": "Passive joints and slip",
-            "errors": "Errors by trial",
+            "errors": "Errors by trial and arm",
         }
         page = Page(
-            title=f"Study of {len(self.cases)} trials with {self.device.name}",
+            title=f"Study of {len({each.trial.name for each in self.cases})} trials with {self.device.name}",
             subtitle="Shoulder exoskeleton driven by human motion, beside its logger and a pressure mat",
             time=np.zeros(1),
             time_label="",
             headline=headline(self.sentences, most=2),
             reservations=self.warnings,
             sections=(
-                Picture("Every trial", CAPTION, drawing(self.figure()), wide=True),
+                Picture("Every arm in its trial", CAPTION, drawing(self.figure()), wide=True),
                 *(frame_table(title, tables[name], 3) for name, title in words.items() if len(tables[name])),
                 inputs_table(self.record.inputs),
                 options_table(self.record),

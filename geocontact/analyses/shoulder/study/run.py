@@ -19,16 +19,17 @@ from geocontact.analyses.shoulder.study.tables import difference_table, summary_
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement
 from geocontact.identify.signals.even_times import at_times, even_times
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 from geocontact.shoulder_exoskeleton.work_phases import PHASES, work_phases
 
 
 def run(trials: tuple[StudyTrialInputs, ...], o: StudyOptions, record: Record) -> StudyResult:
-    """Trial by trial; each arm is 0.03 s of work."""
+    """Trial by trial, arm by arm; each is 0.03 s of work."""
     cases = []
     with record.listener.progress("trials", len(trials)) as step:
         for each in trials:
-            cases.append(_case(each, o, record))
+            cases += [_case(each, arm, o, record) for arm in each.within.arms]
             step()
     device = trials[0].within.device
     invented = sum(number.source == "invented" for number in device.numbers.values())
@@ -38,40 +39,43 @@ def run(trials: tuple[StudyTrialInputs, ...], o: StudyOptions, record: Record) -
         if row["part"] in ("all", "work"):
             record.say(
                 f"{row['channel']}, {row['part']}: MAE {row['mae']:.3g}, RMSD {row['rmsd']:.3g} {row['unit']} "
-                f"over {row['trials']} trials"
+                f"over {row['arms']} arms in their trials"
             )
     for row in difference_table(result.cases).to_dict("records"):
         if row["trial"] == "mean":
             record.say(
-                f"screw-in, motion in the device against without it, mean size over the trials: "
+                f"screw-in, motion in the device against without it, mean size over the arms: "
                 f"exoskeleton {row['exoskeleton [deg]']:.3g} deg, shoulder {row['shoulder [deg]']:.3g} deg, "
                 f"force {row['force [N]']:.3g} N; shoulder less exoskeleton "
                 f"{row['shoulder less exoskeleton [deg]']:.3g} deg"
             )
     record.results["study"] = plain(
-        {c.trial.name: {ch: {part: vars(a) for part, a in e.items()} for ch, e in c.errors.items()} for c in cases}
+        {c.name: {ch: {part: vars(a) for part, a in e.items()} for ch, e in c.errors.items()} for c in cases}
     )
     return result
 
 
-def _case(each: StudyTrialInputs, o: StudyOptions, record: Record) -> StudyCase:
-    within = _simulated(each, each.within, o)
-    without = None if each.without is None else _simulated(each, each.without, o)
+def _case(each: StudyTrialInputs, arm: ArmMotion, o: StudyOptions, record: Record) -> StudyCase:
+    within = _simulated(each, each.within, arm, o)
+    bare = () if each.without is None else each.without.arms
+    same = next((one for one in bare if one.side == arm.side), None)
+    without = None if each.without is None or same is None else _simulated(each, each.without, same, o)
     warn_of(within.simulation, record, each.trial.name)
     if without is not None:
         warn_of(without.simulation, record, f"{each.trial.name} as {each.trial.without}")
-    errors = {} if each.recorded is None else _errors(each, within, each.recorded, record)
-    return StudyCase(each.trial, within, without, each.recorded, errors)
+    recorded = each.recorded.get(arm.side)
+    errors = {} if recorded is None else _errors(each, within, recorded, record)
+    return StudyCase(each.trial, within, without, recorded, errors)
 
 
-def _simulated(each: StudyTrialInputs, worn: Worn, o: StudyOptions) -> SimulatedArm:
-    arm = worn.arms[0]
+def _simulated(each: StudyTrialInputs, worn: Worn, arm: ArmMotion, o: StudyOptions) -> SimulatedArm:
     try:
         found = simulate_arm(arm, worn.device, worn.wearer, each.level)
         return SimulatedArm(found, work_phases(arm.elevation, worn.tool))
     except (ArithmeticError, ValueError) as error:
         remedy = "look at it alone with shoulder simulate"
-        raise InputError(o.study, f"[[trials]] {each.trial.name}", str(error), remedy) from error
+        what = f"{arm.side} arm: {error}"
+        raise InputError(o.study, f"[[trials]] {each.trial.name}", what, remedy) from error
 
 
 def _errors(
@@ -81,10 +85,11 @@ def _errors(
     time, step = even_times(s.motion.time)
     inside = (time >= recorded.time[0] - 1e-9) & (time <= recorded.time[-1] + 1e-9)
     if inside.sum() < 2:
-        what = f"runs from {recorded.time[0]:g} to {recorded.time[-1]:g} s"
-        raise InputError(each.trial.recorded or "", "", what, f"the markers from {time[0]:g} to {time[-1]:g} s")
+        what = f"was recorded from {recorded.time[0]:g} to {recorded.time[-1]:g} s"
+        remedy = f"its markers are from {time[0]:g} to {time[-1]:g} s"
+        raise InputError("", f"{each.trial.name}, {s.motion.side} arm", what, remedy)
     if not inside.all():
-        record.warn(f"{each.trial.name}: {inside.mean():.0%} of the simulated time was recorded")
+        record.warn(f"{each.trial.name}, {s.motion.side} arm: {inside.mean():.0%} of the simulated time was recorded")
     words = np.array(PHASES)[within.phase]
     _, recorded_step = even_times(recorded.time)
     models = {

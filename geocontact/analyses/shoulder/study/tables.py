@@ -1,4 +1,4 @@
-"""Tables of a study: errors by trial and over all, differences of both groups, passive joints."""
+"""Tables of a study: errors by trial and arm and over all, differences of both groups, passive joints."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def shown_in(channel: str) -> tuple[str, float]:
 
 
 def error_table(cases: Sequence[StudyCase]) -> pd.DataFrame:
-    """One row for each trial, channel and part of the trial."""
+    """One row for each trial, arm, channel and part of the trial."""
     rows = []
     for case in cases:
         t = case.trial
@@ -29,24 +29,29 @@ def error_table(cases: Sequence[StudyCase]) -> pd.DataFrame:
             unit, factor = shown_in(channel)
             for part, a in errors.items():
                 numbers = {"mae": a.mae * factor, "rmsd": a.rmsd * factor, "bias": a.bias * factor, "r2 [-]": a.r2}
-                words = {"trial": t.name, "person": t.person, "task": t.task, "level": t.level, "channel": channel}
+                words = {
+                    "trial": t.name,
+                    "arm": case.within.side,
+                    "person": t.person,
+                    "task": t.task,
+                    "level": t.level,
+                    "channel": channel,
+                }
                 rows.append({**words, "part": part, "unit": unit, **numbers, "samples": a.samples})
-    names = ["trial", "person", "task", "level", "channel", "part", "unit", "mae", "rmsd", "bias", "r2 [-]", "samples"]
-    return pd.DataFrame(rows, columns=names)
+    of = ["trial", "arm", "person", "task", "level", "channel", "part", "unit"]
+    return pd.DataFrame(rows, columns=[*of, "mae", "rmsd", "bias", "r2 [-]", "samples"])
 
 
 def summary_table(cases: Sequence[StudyCase]) -> pd.DataFrame:
-    """Means over the trials, each counting the same, with the standard deviation of the RMSD between them."""
+    """Means over all arms and trials, each counting the same, with the standard deviation of the RMSD between them."""
     errors = error_table(cases)
     rows = []
     for (channel, part), group in errors.groupby(["channel", "part"], sort=False):
         spread = float(group["rmsd"].std(ddof=1)) if len(group) > 1 else float("nan")
         means = {name: float(group[name].mean()) for name in ("mae", "rmsd", "bias")}
         unit = str(group["unit"].iloc[0])
-        rows.append(
-            {"channel": channel, "part": part, "unit": unit, **means, "sd of rmsd": spread, "trials": len(group)}
-        )
-    return pd.DataFrame(rows, columns=["channel", "part", "unit", "mae", "rmsd", "bias", "sd of rmsd", "trials"])
+        rows.append({"channel": channel, "part": part, "unit": unit, **means, "sd of rmsd": spread, "arms": len(group)})
+    return pd.DataFrame(rows, columns=["channel", "part", "unit", "mae", "rmsd", "bias", "sd of rmsd", "arms"])
 
 
 def difference_table(cases: Sequence[StudyCase]) -> pd.DataFrame:
@@ -65,10 +70,10 @@ def difference_table(cases: Sequence[StudyCase]) -> pd.DataFrame:
             one.force - two.force,
             DEG * (one.shoulder - one.exoskeleton),
         )
-        rows.append({"trial": case.trial.name, **dict(zip(DIFFERENCES, values, strict=True))})
-    table = pd.DataFrame(rows, columns=["trial", *DIFFERENCES])
+        rows.append({"trial": case.trial.name, "arm": case.within.side, **dict(zip(DIFFERENCES, values, strict=True))})
+    table = pd.DataFrame(rows, columns=["trial", "arm", *DIFFERENCES])
     if len(table):
-        table.loc[len(table)] = ["mean", *table[list(DIFFERENCES)].abs().mean()]
+        table.loc[len(table)] = ["mean", "both", *table[list(DIFFERENCES)].abs().mean()]
     return table
 
 
@@ -86,5 +91,5 @@ def passive_table(cases: Sequence[StudyCase]) -> pd.DataFrame:
                 for end in ("min", "max")
             }
             slip = {"slip [mm]": 1e3 * float(s.slip[-1]), "out of the cuff [-]": float(s.out_of_cuff.mean())}
-            rows.append({"trial": case.trial.name, "motion recorded": group, **spans, **slip})
+            rows.append({"trial": case.trial.name, "arm": case.within.side, "motion recorded": group, **spans, **slip})
     return pd.DataFrame(rows)
