@@ -8,6 +8,7 @@ exoskeleton lies where the person's does, but for the knee, which is higher by `
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -47,6 +48,7 @@ STRAP_PARAMETERS = (
     ContactParameter("strap place", "m", 0.2, 0.03, 0.05, 0.38),
 )
 """Of one strap: stiffness across the thigh, along it and in turning, and its distance from the knee."""
+WORN_PARAMETERS = (*FOOT_PARAMETERS, *STRAP_PARAMETERS)
 STRAP = tuple(each.name for each in STRAP_PARAMETERS)
 STRAP_PLANTED = searched(STRAP_PARAMETERS, [4.5e3, 2e3, 30.0, 0.22])
 """Of synthetic trials, invented."""
@@ -62,12 +64,15 @@ class Strap:
         On the person's thigh and against it on the exoskeleton's.
     normal
         Force of one strap on the person across the thigh, forwards positive [N].
+    shear
+        The same along the thigh, towards the hip positive [N].
     energy, normal_energy
         Of the springs of both, without the normal one, which a mat sees, and of that one [J].
     """
 
     loads: Wrenches
     normal: SX
+    shear: SX
     energy: SX
     normal_energy: SX
 
@@ -98,20 +103,34 @@ def with_exoskeleton(subject: Subject) -> StandingModel:
     from casadi import SX
 
     tree = tree_of(two_chains(subject))
-    feet, p = len(FOOT_PARAMETERS), SX.sym("p", len(FOOT_PARAMETERS) + len(STRAP_PARAMETERS))
-    ground, strap = ground_on_feet(tree, p[:feet, :]), thigh_strap(tree, p[feet:, :])
-    torque = SX.sym("torque", len(tree.names) - 3)
-    along = {name: torque[k] for k, name in enumerate(tree.names[3:])}
+    p, torque = SX.sym("p", len(WORN_PARAMETERS)), SX.sym("torque", len(tree.names) - 3)
+    return worn_model(tree, p, {name: torque[k] for k, name in enumerate(tree.names[3:])}, torque, WORN_PARAMETERS)
+
+
+def worn_model(
+    tree: Tree, p: SX, along: Mapping[str, SX], inputs: SX, parameters: tuple[ContactParameter, ...]
+) -> StandingModel:
+    """Both chains on the ground with a strap between them.
+
+    Parameters
+    ----------
+    p
+        What is searched of `parameters`, which begin with those of feet and strap.
+    along
+        Torques by coordinate, of the inputs and of `p`.
+    """
+    feet = len(FOOT_PARAMETERS)
+    ground, strap = ground_on_feet(tree, p[:feet, :]), thigh_strap(tree, p[feet : len(WORN_PARAMETERS), :])
     loads = together(ground, strap.loads)
-    equations = equations_of_motion(tree, loads=loads, along=along, inputs=[torque], parameters=[p])
+    equations = equations_of_motion(tree, loads=loads, along=along, inputs=[inputs], parameters=[p])
     force, moment = ground["foot"]
-    parameters = (*FOOT_PARAMETERS, *STRAP_PARAMETERS)
     return StandingModel(
         equations,
         parameters,
         force[:2, :],
         moment[2] / force[1],
         strap.normal,
+        strap.shear,
         strap.energy,
         strap.normal_energy,
     )
@@ -142,7 +161,7 @@ def thigh_strap(tree: Tree, p: SX) -> Strap:
     about = cross(device.place + other, force) + moment
     energy = 0.5 * LEGS * (tangential * off[1] ** 2 + turning * turn**2)
     loads = {"thigh": (force, about), "exo_thigh": (-force, -about)}
-    return Strap(loads, across, energy, 0.5 * LEGS * normal * off[0] ** 2)
+    return Strap(loads, across, lengthwise, energy, 0.5 * LEGS * normal * off[0] ** 2)
 
 
 def _turn_between(tree: Tree) -> tuple[SX, SX]:

@@ -53,8 +53,8 @@ def feet_on_ground(subject: Subject) -> StandingModel:
     equations = equations_of_motion(tree, loads=loads, along=along, inputs=[torque], parameters=[p])
     if equations.names != COORDINATES:
         raise ValueError(f"coordinates are {equations.names}")
-    force, moment = loads["foot"]
-    return StandingModel(equations, FOOT_PARAMETERS, force[:2, :], moment[2] / force[1], SX(0, 1), SX(0), SX(0))
+    (force, moment), none = loads["foot"], SX(0, 1)
+    return StandingModel(equations, FOOT_PARAMETERS, force[:2, :], moment[2] / force[1], none, none, SX(0), SX(0))
 
 
 def ground_on_feet(tree: Tree, p: SX) -> Wrenches:

@@ -25,8 +25,9 @@ class StandingModel:
         Their parameters are what is searched of `parameters`.
     force, centre
         Of the ground on both feet, forwards and up [N], (2, 1), and its centre of pressure, forwards [m].
-    strap
-        Normal force of the strap of one leg on the person [N]; no entry without an exoskeleton.
+    strap, shear
+        Force of the strap of one leg on the person [N], across the thigh, which a mat sees, and along it, which none
+        does; no entry without an exoskeleton.
     energy, normal_energy
         Of those components of the straps that no mat sees, and of the normal one [J].
     """
@@ -36,6 +37,7 @@ class StandingModel:
     force: SX
     centre: SX
     strap: SX
+    shear: SX
     energy: SX
     normal_energy: SX
 

@@ -6,6 +6,7 @@ sizes and the course of the angles are invented.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -140,13 +141,26 @@ def standing_up(
 
 
 def standing_trial(
-    name: str, seconds: float, model: StandingModel, p: Float[np.ndarray, " p"], guess: Course, data: Course
+    name: str,
+    seconds: float,
+    model: StandingModel,
+    p: Float[np.ndarray, " p"],
+    guess: Course,
+    data: Course,
+    driven: Sequence[int] | None = None,
 ) -> ControlledTrial:
-    """No bounds, free ends; the search starts on courses of the coordinates and the torques that they need."""
+    """No bounds, free ends; the search starts on courses of the coordinates and the torques that they need.
+
+    Parameters
+    ----------
+    driven
+        Coordinates whose torques are sought; those of all joints unless given.
+    """
     from casadi import Function
 
     e, n = model.equations, model.count
-    needed = Function("needed", [e.q, e.u, e.a, e.w, e.p], [-e.balance[3:, :]])
+    by_torque = list(range(3, n) if driven is None else driven)
+    needed = Function("needed", [e.q, e.u, e.a, e.w, e.p], [-e.balance[by_torque, :]])
 
     def guess_x(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t x"]:
         h = 1e-2
@@ -155,11 +169,11 @@ def standing_trial(
 
     def guess_u(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t u"]:
         x, many = guess_x(time), needed.map(len(time))
-        none = np.zeros((n - 3, len(time)))
+        none = np.zeros((e.w.numel(), len(time)))
         torque = many(x[:, :n].T, x[:, n : 2 * n].T, x[:, 2 * n :].T, none, np.tile(p[:, None], (1, len(time))))
         return np.hstack([np.zeros((len(time), n)), np.clip(torque.full().T, -MOST_TORQUE, MOST_TORQUE)])
 
-    wide, most = np.full(3 * n, np.inf), np.full(2 * n - 3, np.inf)
+    wide, most = np.full(3 * n, np.inf), np.full(n + len(by_torque), np.inf)
     return ControlledTrial(
         name,
         0.0,

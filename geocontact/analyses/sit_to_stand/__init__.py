@@ -9,8 +9,9 @@ from geocontact.analyses.package_of_jobs import PackageOfJobs
 
 if TYPE_CHECKING:
     from geocontact.analyses.sit_to_stand.calibrate.job import calibrate
+    from geocontact.analyses.sit_to_stand.design.job import design
     from geocontact.analyses.sit_to_stand.predict.job import predict
 
-__all__ = ["calibrate", "predict"]
+__all__ = ["calibrate", "design", "predict"]
 
 sys.modules[__name__].__class__ = PackageOfJobs

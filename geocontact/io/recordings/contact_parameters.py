@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from geocontact.data.errors import InputError
@@ -39,4 +39,19 @@ def read_contact_parameters(path: Path, units: Mapping[str, str]) -> dict[str, f
     missing = [name for name in units if name not in found]
     if missing:
         raise InputError(path, "", f"no {', '.join(missing)}", "calibrate trials with the exoskeleton")
+    return found
+
+
+def read_contact_intervals(path: Path, names: Collection[str]) -> dict[str, tuple[float, float]]:
+    """Ends of the intervals of `names` in SI, of those that have one: a held parameter has none."""
+    rows = csv.DictReader(text_of(path, LARGEST, "a table of parameters").decode("utf-8").splitlines())
+    found: dict[str, tuple[float, float]] = {}
+    for row in rows:
+        if row.get("parameter") in names:
+            try:
+                low, high = float(row["lower"]), float(row["upper"])
+            except (KeyError, TypeError, ValueError):
+                continue
+            if math.isfinite(low) and low < high:
+                found[row["parameter"]] = low, high
     return found

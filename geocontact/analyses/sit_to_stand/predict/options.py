@@ -4,17 +4,12 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Annotated, ClassVar
 
-from geocontact.analyses.options import Options
-from geocontact.data.errors import InputError
-from geocontact.data.plausible import PLAIN, Plausible
-
-NODES = Plausible("how many nodes a second has", PLAIN, (3.0, 1000.0), (10.0, 300.0))
+from geocontact.analyses.sit_to_stand.search_options import StandingSearchOptions
 
 
 @dataclass(frozen=True)
-class StandingPredictOptions(Options):
+class StandingPredictOptions(StandingSearchOptions):
     """Predict movement and strap force of trials that were not used, from ground reaction and torques.
 
     Parameters
@@ -25,33 +20,9 @@ class StandingPredictOptions(Options):
         parameters.csv of a calibration with the exoskeleton.
     against
         Study of the trials of the calibration (.toml), whose mean is the trivial predictor.
-
-    The search
-    ----------
-    nodes
-        Intervals in a second.
-    degree
-        Collocation points in an interval (Radau).
-    iterations
-        At most so many.
-    time_limit
-        CPU time after which a search ends [s].
     """
-
-    over_time: ClassVar[bool] = True
 
     study: Path
     _: KW_ONLY
     parameters: Path
     against: Path
-    nodes: Annotated[float, NODES] = 45.0
-    degree: int = 4
-    iterations: int = 300
-    time_limit: float = 300.0
-
-    def refuse_impossible(self) -> None:
-        """Numbers without a search."""
-        if not 2 <= self.degree <= 9:
-            raise InputError("", "`degree`", f"{self.degree} is not 2 to 9", "give for example 4")
-        if self.iterations < 1 or not self.time_limit > 0.0:
-            raise InputError("", "`iterations`", "nothing can be sought", "give for example 300, and a time above 0")

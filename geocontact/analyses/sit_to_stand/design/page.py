@@ -1,0 +1,90 @@
+"""The page of a choice: the chosen exoskeleton moving, forces by design, tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from geocontact.analyses.figure_files import drawing
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.design.chosen import CertifiedDesign
+from geocontact.analyses.sit_to_stand.standing_scene import FRAMES, at_parts, standing_scene
+from geocontact.standing_up.assistance.assisted_model import KNEE
+from geocontact.standing_up.chain import Subject
+from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
+from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MODEL = [
+    "The person stands up as in the trial with little jerk and torque, and does not give way to spare the strap.",
+    "The exoskeleton helps at the knee with a share of the person's torque, most at one time of the movement.",
+    "Peaks are smooth maxima over the movement: the norm of order 24. Largest values are without smoothing.",
+    "Without help the exoskeleton's weight hangs on the strap. A share lifts it, a larger one presses the other way.",
+    "The limit of the knee is a part of its smooth peak without help. Both legs are one chain, a strap is that of one.",
+    "What can be built, the width of the help and the sizes of the person's habit are invented.",
+    "Shear is the strap's force along the thigh: predicted only, for no mat sees it.",
+    "Sensitivities are derivatives of the least aim, everything that is sought following; draws hold no error of form.",
+]
+NAMES = {
+    "designs": "Designs",
+    "chosen": "What was chosen, and between which values",
+    "sensitivity": "How the least aim changes with what is held",
+    "front": "The best at further limits of the knee",
+    "draws": "With drawn parameters",
+    "certificate": "Between and beyond the collocation points",
+}
+
+
+def write_choice_page(
+    path: Path,
+    record: Record,
+    subject: Subject,
+    designs: Sequence[CertifiedDesign],
+    figure: Figure,
+    tables: Mapping[str, pd.DataFrame],
+) -> int:
+    """Write the self-contained page; returns its size in bytes."""
+    best = designs[-1]
+    sections: list[Section] = [
+        standing_scene(subject, best.trials),
+        *_curves(designs),
+        Picture("Strap and knee of the first trial", "Grey without help.", drawing(figure), wide=True),
+        *(frame_table(title, tables[name], 3) for name, title in NAMES.items() if name in tables),
+        inputs_table(record.inputs),
+        options_table(record),
+        Words("What the numbers mean", [*MODEL, NOT_A_DEVICE]),
+    ]
+    page = Page(
+        title="An exoskeleton chosen for standing up",
+        subtitle=f"{', '.join(t.recorded.name for t in best.trials)}; {subject.mass:g} kg, {subject.height:g} m",
+        time=np.linspace(0.0, 100.0, FRAMES),
+        time_label="part of the movement [%]",
+        headline=headline(record.sentences),
+        reservations=tuple(record.warnings),
+        sections=tuple(sections),
+    )
+    return write_page(page, path)
+
+
+def _curves(designs: Sequence[CertifiedDesign]) -> list[Curves]:
+    """Of the first trial."""
+    strap, knee = [], []
+    for k, one in enumerate(designs):
+        trial = one.trials[0]
+        if trial.model.strap is None or trial.model.torque is None:
+            raise ValueError("no strap or torque")
+        strap.append(Curve(one.name, at_parts(trial, trial.model.strap), stroke=k))
+        knee.append(Curve(one.name, at_parts(trial, trial.model.torque[:, KNEE]), stroke=k))
+    return [
+        Curves("Normal force of one strap, forwards", "N", strap),
+        Curves("Knee torque of both legs", "N m", knee),
+    ]

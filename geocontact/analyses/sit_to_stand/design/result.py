@@ -1,0 +1,105 @@
+"""What a choice gives: designs with certificates, sensitivities, front and draws."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from geocontact.analyses.figure_files import save_both
+from geocontact.analyses.result import Result
+from geocontact.analyses.sit_to_stand.design.chosen import CertifiedDesign, DrawnGain
+from geocontact.analyses.sit_to_stand.design.figure import design_figure
+from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
+from geocontact.analyses.sit_to_stand.design.page import write_choice_page
+from geocontact.analyses.sit_to_stand.design.read import TrialsToHelp
+from geocontact.analyses.sit_to_stand.design.tables import (
+    certificates_table,
+    chosen_table,
+    designs_table,
+    draws_table,
+    sensitivity_table,
+)
+from geocontact.analyses.sit_to_stand.solution_file import write_solution
+from geocontact.io.text.results import write_table
+from geocontact.standing_up.assistance.peaks import MEASURES
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class StandingDesignResult(Result):
+    """Exoskeletons for one person.
+
+    Parameters
+    ----------
+    designs
+        Without help, share alone, chosen, and chosen for the draws where that was asked for.
+    front
+        Best ones at further limits of the knee, the loosest first.
+    draws
+        What the gain is with drawn parameters.
+    """
+
+    options: StandingDesignOptions
+    given: TrialsToHelp
+    designs: tuple[CertifiedDesign, ...]
+    front: tuple[CertifiedDesign, ...]
+    draws: tuple[DrawnGain, ...]
+
+    @property
+    def best(self) -> CertifiedDesign:
+        """The last that was chosen."""
+        return self.designs[-1]
+
+    @property
+    def reference(self) -> CertifiedDesign:
+        """What the gain is told over: share alone, or no help where nothing else was sought."""
+        return self.designs[1] if len(self.designs) > 2 else self.designs[0]
+
+    @property
+    def gain(self) -> float:
+        """Part of the reference's aim that is saved."""
+        k = MEASURES.index(self.options.aim)
+        return 1.0 - float(self.best.movement.asked.sizes[k] / self.reference.movement.asked.sizes[k])
+
+    @property
+    def accepted(self) -> bool:
+        """Whether every search found its answer and every motion is certified."""
+        each = (*self.designs, *self.front)
+        return all(one.certified and (one.design is None or one.design.met) for one in each)
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        """`designs`, `chosen`, `sensitivity`, `certificate`; `front` and `draws` where they were asked for."""
+        every = (*self.designs, *self.front)
+        found = {
+            "designs": designs_table(self.designs),
+            "chosen": chosen_table(self.best),
+            "sensitivity": sensitivity_table(self.best, self.given.sd),
+            "certificate": certificates_table(every),
+        }
+        if self.front:
+            found["front"] = designs_table((self.designs[0], *self.front, self.best))
+        if self.draws:
+            found["draws"] = draws_table(self.draws, self.options.aim)
+        return found
+
+    def figure(self) -> Figure:
+        """Strap and knee over the movement, and the front."""
+        return design_figure(self.designs, self.front, self.options.aim)
+
+    def write_files(self, folder: Path) -> None:
+        """Tables, trajectories, figure, page."""
+        for name, rows in self.tables().items():
+            write_table(rows, folder, name)
+        for trial in self.best.trials:
+            write_solution(folder / f"solution_{trial.recorded.name}.sto", trial, self.best.movement.found.solved)
+        save_both(self.figure(), folder, "design")
+        self.write_page(folder / "report.html")
+
+    def write_page(self, file: Path) -> None:
+        """The chosen exoskeleton moving, curves of all, tables, inputs."""
+        write_choice_page(file, self.record, self.given.trials.subject, self.designs, self.figure(), self.tables())

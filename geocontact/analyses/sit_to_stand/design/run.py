@@ -1,0 +1,146 @@
+"""Exoskeletons chosen one after the other: without help, share alone, all that varies, for the draws, and the front."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.design.chosen import ALONE, BEST, ROBUST, WORN, CertifiedDesign, DrawnGain
+from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
+from geocontact.analyses.sit_to_stand.design.read import TrialsToHelp
+from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult
+from geocontact.analyses.sit_to_stand.design.words import doubt, say
+from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+from geocontact.data.errors import InputError
+from geocontact.dynamics.collocation.solve import SolverOptions
+from geocontact.standing_up.assistance.assisted_model import SHARE, assisted_model, seen_assisted
+from geocontact.standing_up.assistance.design import KNEE, HelpDesign, HelpTask, designed
+from geocontact.standing_up.assistance.movement import Movement, Movements
+from geocontact.standing_up.assistance.peaks import MEASURES
+from geocontact.standing_up.judged import judged
+from geocontact.standing_up.phase import PhaseProblem
+
+TOLERANCE = 1e-8
+Vector = Float[np.ndarray, " p"]
+
+
+def run(given: TrialsToHelp, o: StandingDesignOptions, record: Record) -> StandingDesignResult:
+    """Every design; InputError where the person does not stand up with the given parameters."""
+    with record.listener.stages("choosing") as stage:
+        search = _DesignSearch(given, o, stage)
+        worn = search.worn()
+        designs = [worn, *search.chosen(worn)]
+        front = search.front(worn, designs[-1 if not o.robust else -2])
+        draws = search.drawn(designs)
+    result = StandingDesignResult(
+        record=record, options=o, given=given, designs=tuple(designs), front=front, draws=draws
+    )
+    doubt(result)
+    say(result, search.movements.solved, search.movements.seconds)
+    return result
+
+
+class _DesignSearch:
+    """The trials' movements, and designs that are sought with them."""
+
+    def __init__(self, given: TrialsToHelp, o: StandingDesignOptions, stage: Callable[[str], None]) -> None:
+        self.given, self.o, self.stage, self.now = given, o, stage, WORN
+        self.model = assisted_model(given.trials.subject)
+        options = SolverOptions("radau", o.degree, 1, TOLERANCE, o.iterations, o.time_limit)
+        trials = given.trials
+        self.movements = Movements(self.model, trials.subject, trials.trials, options, o.nodes, self._told)
+        rng = np.random.default_rng(o.seed)
+        self.sets = np.array([given.p + given.sd * rng.normal(size=len(given.p)) for _ in range(o.draws)])
+
+    def _told(self) -> None:
+        self.stage(f"{self.now}, movement {self.movements.solved + 1}")
+
+    def worn(self) -> CertifiedDesign:
+        without = self.given.p.copy()
+        without[SHARE] = 0.0
+        try:
+            movement = self.movements.at(without)
+        except ArithmeticError as error:
+            remedy = "check that they are of this person"
+            raise InputError(self.o.parameters, "", f"nobody stands up with these: {error}", remedy) from error
+        return self._certified(WORN, float("nan"), None, movement)
+
+    def chosen(self, worn: CertifiedDesign) -> list[CertifiedDesign]:
+        """Share alone, then everything, then for the draws too."""
+        alone = self._sought(ALONE, worn, self.o.knee, ("share",), self.given.p[None])
+        if self.o.varied == ("share",):
+            return [self._renamed(alone)]
+        best = self._sought(BEST, worn, self.o.knee, self.o.varied, _start(alone))
+        if not self.o.robust:
+            return [alone, best]
+        sets = np.vstack([_start(best), self.sets])
+        return [alone, best, self._sought(ROBUST, worn, self.o.knee, self.o.varied, sets)]
+
+    def front(self, worn: CertifiedDesign, best: CertifiedDesign) -> tuple[CertifiedDesign, ...]:
+        """From no more than without help on down to the limit that was asked for."""
+        limits = np.linspace(1.0, self.o.knee, self.o.front + 1)[:-1]
+        found: list[CertifiedDesign] = []
+        start = best
+        for limit in limits[::-1]:
+            start = self._sought(f"knee at {limit:.3g}", worn, float(limit), self.o.varied, _start(start))
+            found.append(start)
+        return tuple(found[::-1])
+
+    def drawn(self, designs: list[CertifiedDesign]) -> tuple[DrawnGain, ...]:
+        """Draws by the exoskeleton before the last and by the last; those without a movement are left out."""
+        reference, last = designs[-2], designs[-1]
+        if self.o.robust:
+            reference, last = designs[1], designs[-1]
+        index, found = HelpTask(self.o.varied, self.o.aim, 1.0).index, []
+        aim = MEASURES.index(self.o.aim)
+        for k, row in enumerate(self.sets):
+            self.now = f"draw {k + 1}"
+            with suppress(ArithmeticError):
+                values = []
+                for one in (reference, last):
+                    p = row.copy()
+                    p[SHARE:] = one.movement.found.p[SHARE:]
+                    if one is last:
+                        p[index] = last.movement.found.p[index]
+                    values.append(self.movements.at(p, slopes=False).asked.sizes)
+                found.append(DrawnGain(float(values[0][aim]), float(values[1][aim]), float(values[1][KNEE])))
+        return tuple(found)
+
+    def _sought(
+        self, name: str, worn: CertifiedDesign, limit: float, vary: tuple[str, ...], sets: Float[np.ndarray, "s p"]
+    ) -> CertifiedDesign:
+        self.now = name
+        knee = limit * float(worn.movement.asked.sizes[KNEE])
+        try:
+            found = designed(self.movements, sets, HelpTask(vary, self.o.aim, knee))
+        except ArithmeticError as error:
+            remedy = "vary less, or give more `nodes`"
+            raise InputError("", f"`vary`, {name}", f"a movement is not found: {error}", remedy) from error
+        return self._certified(name, limit, found, found.movements[0])
+
+    def _renamed(self, one: CertifiedDesign) -> CertifiedDesign:
+        return CertifiedDesign(BEST, one.limit, one.design, one.movement, one.trials)
+
+    def _certified(self, name: str, limit: float, found: HelpDesign | None, movement: Movement) -> CertifiedDesign:
+        self.stage(f"{name}, certificate")
+        standing, n = self.model.standing, self.model.standing.count
+        phase = PhaseProblem(movement.problem, {}, standing.parameters, ())
+        seen = judged(standing.equations, self.model.controlled, standing.turning, phase, movement.found)
+        trials = tuple(
+            TrialResult(
+                recorded=trial,
+                model=seen_assisted(self.model, motion, movement.found.p, trial.time, trial.name),
+                acceleration=motion.state(trial.time)[:, 2 * n : 3 * n],
+                judged=each,
+            )
+            for trial, motion, each in zip(self.given.trials.trials, movement.found.motions, seen, strict=True)
+        )
+        return CertifiedDesign(name, limit, found, movement, trials)
+
+
+def _start(one: CertifiedDesign) -> Float[np.ndarray, "s p"]:
+    return one.movement.found.p[None]

@@ -1,0 +1,59 @@
+"""What is said and warned of a choice."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geocontact.analyses.page_words import counted
+from geocontact.analyses.sit_to_stand.design.chosen import gain_interval
+from geocontact.analyses.sit_to_stand.design.result import StandingDesignResult
+from geocontact.analyses.sit_to_stand.design.tables import in_units
+from geocontact.standing_up.assistance.peaks import MEASURES, UNITS
+
+AIMS = {"strap": "peak force of the strap", "energy": "mean energy of the strap"}
+
+
+def doubt(r: StandingDesignResult) -> None:
+    """Searches without an answer, movements without a certificate, numbers at the end of what can be built."""
+    record = r.record
+    for one in (*r.designs, *r.front):
+        if one.design is not None and not one.design.met:
+            record.warn(f"{one.name}: {one.design.ending}; the knee's limit may be out of reach of what varies")
+        for trial in one.trials:
+            seen = trial.judged.certificate
+            if seen is not None and not seen.converged:
+                failed = "; ".join(seen.failed)
+                record.warn(f"{trial.recorded.name} {one.name} is not certified: {failed}; give more `nodes`")
+    best = r.best.design
+    if best is not None and best.on_end.any():
+        names = ", ".join(name for name, end in zip(best.task.vary, best.on_end, strict=True) if end)
+        record.warn(f"at the end of what can be built, so that the value says where that is: {names}")
+    if len(r.draws) < r.options.draws:
+        record.warn(f"{r.options.draws - len(r.draws)} of {r.options.draws} draws have no movement and are left out")
+
+
+def say(r: StandingDesignResult, solved: int, seconds: float) -> None:
+    """The aim by each design, what was chosen, the gain, and what it cost to find."""
+    record, aim, unit = r.record, MEASURES.index(r.options.aim), UNITS[r.options.aim]
+    each = [f"{one.name} {one.movement.asked.sizes[aim]:.3g} {unit}" for one in r.designs]
+    record.say(f"{AIMS[r.options.aim]}, smooth: {', '.join(each)}; knee at most {r.options.knee:.0%} of without help")
+    numbers = ", ".join(f"{name} {value:.3g} {of}".strip() for name, value, of in in_units(r.best))
+    record.say(f"{r.best.name}: {numbers}")
+    gain, (low, high) = r.gain, gain_interval(r.draws)
+    also = f", {low:.0%} to {high:.0%} over {counted(len(r.draws), 'draw')}" if np.isfinite(low) else ""
+    record.say(f"gain over {r.reference.name}: {gain:.0%}{also}; shear of the strap is predicted, no mat sees it")
+    seen = [trial for one in (*r.designs, *r.front) for trial in one.trials]
+    passed = sum(t.judged.certificate is not None and t.judged.certificate.converged for t in seen)
+    record.say(
+        f"{passed} of {counted(len(seen), 'motion')} certified; {counted(solved, 'movement')} in {seconds:.0f} s"
+    )
+    record.results["design"] = {
+        "aim": r.options.aim,
+        "values": {one.name: dict(zip(MEASURES, one.movement.asked.sizes.tolist(), strict=True)) for one in r.designs},
+        "chosen": {name: value for name, value, _ in in_units(r.best)},
+        "price": None if r.best.design is None else r.best.design.price,
+        "gain": gain,
+        "gain_interval": None if not np.isfinite(low) else [low, high],
+        "movements": solved,
+        "cpu_seconds": round(seconds, 3),
+    }

@@ -1,0 +1,53 @@
+"""Options of every search for motions that stand up."""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from typing import Annotated, ClassVar
+
+from geocontact.analyses.options import Options
+from geocontact.data.errors import InputError
+from geocontact.data.plausible import PLAIN, Plausible
+
+NODES = Plausible("how many nodes a second has", PLAIN, (3.0, 1000.0), (10.0, 300.0))
+DEGREES = (2, 9)
+
+
+@dataclass(frozen=True)
+class StandingSearchOptions(Options):
+    """How motions are discretised and sought.
+
+    Parameters
+    ----------
+    The search
+    ----------
+    nodes
+        Intervals in a second.
+    degree
+        Collocation points in an interval (Radau).
+    iterations
+        At most so many.
+    time_limit
+        CPU time after which a search ends [s].
+    """
+
+    over_time: ClassVar[bool] = True
+
+    _: KW_ONLY
+    nodes: Annotated[float, NODES] = 45.0
+    degree: int = 4
+    iterations: int = 300
+    time_limit: float = 300.0
+
+    def refuse_impossible(self) -> None:
+        """Numbers without a search."""
+        within("degree", self.degree, *DEGREES, 4)
+        within("iterations", self.iterations, 1, 100_000, 300)
+        if not self.time_limit > 0.0:
+            raise InputError("", "`time_limit`", f"{self.time_limit:g} s is no time", "give for example 300")
+
+
+def within(name: str, value: float, low: float, high: float, example: float) -> None:
+    """InputError where an option is not between two numbers."""
+    if not low <= value <= high:
+        raise InputError("", f"`{name}`", f"{value} is not {low} to {high}", f"give for example {example}")

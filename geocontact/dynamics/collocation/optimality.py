@@ -1,0 +1,56 @@
+"""The optimality system of a solved problem: second derivatives of its Lagrangian beside those of its constraints."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.dynamics.collocation.blocks import sparse_program
+from geocontact.dynamics.collocation.problem import ControlProblem
+from geocontact.dynamics.collocation.solve import CollocationResult
+from geocontact.dynamics.collocation.transcription import Transcription, scales_from
+
+
+@dataclass(frozen=True, eq=False)
+class OptimalitySystem:
+    """Of all variables, scaled as the transcription scales them.
+
+    Parameters
+    ----------
+    on
+        Where each variable stands.
+    hessian, slope
+        Of the Lagrangian, and the constraints' first derivatives; sparse, by columns.
+    """
+
+    on: Transcription
+    hessian: Any
+    slope: Any
+
+    def solved(self, moves: Bool[np.ndarray, " z"], right: Float[np.ndarray, "k r"]) -> Float[np.ndarray, "k r"]:
+        """Answer of [[L_zz, g_zᵀ], [g_z, 0]] of the variables that move. ValueError where it is singular."""
+        from scipy.sparse import bmat
+        from scipy.sparse.linalg import splu
+
+        slope = self.slope[:, moves]
+        matrix = bmat([[self.hessian[moves][:, moves], slope.T], [slope, None]], format="csc")
+        try:
+            return np.asarray(splu(matrix).solve(right))
+        except RuntimeError as error:
+            raise ValueError("the parameters are not told: the optimality system is singular") from error
+
+
+def optimality_system(problem: ControlProblem, found: CollocationResult) -> OptimalitySystem:
+    """At a solution, whose multipliers are used."""
+    on = Transcription(problem, found.motions[0].scheme, found.meshes, scales_from(problem))
+    program = sparse_program(on.blocks(), on.size)
+    durations = [float(m.breaks[-1] - m.breaks[0]) for m in found.motions]
+    z = on.packed(found.p, durations, [m.state for m in found.motions], [m.control for m in found.motions])
+    upper = program.hessian(z, [], 1.0, found.multipliers[1]).sparse()
+    slope = program.jacobian(z, [])[1].sparse().tocsc()
+    hessian = (upper + upper.T).tocsc()
+    hessian.setdiag(upper.diagonal())
+    return OptimalitySystem(on, hessian, slope)

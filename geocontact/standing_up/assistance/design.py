@@ -1,0 +1,182 @@
+"""The strap, its place and the help that ask least of the strap while they take enough off the knee.
+
+Sought are numbers d of the exoskeleton, each between what can be built; the person's movement follows them (`habit`),
+so that the derivative of what is asked is that of the whole solution, by the optimality system of the movement. The
+search is sequential quadratic programming (Kraft (1988), DFVLR-FB 88-28) on these exact slopes.
+
+At the best d the slope of the aim is held by that of the limit and by what can be built:
+J_d + λ c_d = 0 along every d that is on no bound. By the envelope theorem the least aim changes with any number y that
+is not sought as J_y + λ c_y, and with the limit as -λ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS
+from geocontact.standing_up.assistance.movement import Movement, Movements
+from geocontact.standing_up.assistance.peaks import MEASURES, ORDER
+from geocontact.standing_up.assistance.room import ROOM
+
+Vector = Float[np.ndarray, " _"]
+NAMES = tuple(each.name for each in ASSISTED_PARAMETERS)
+STRAP, KNEE = MEASURES.index("strap"), MEASURES.index("knee")
+TOLERANCE = 1e-7
+FIRST = 0.15
+"""Of the room: the longest first step."""
+NEAR = 1e-3
+"""Of the room: a number that near to an end of it is on that end."""
+MET = 1e-3
+"""Of the limit: so much more is let pass."""
+
+
+@dataclass(frozen=True)
+class HelpTask:
+    """What is sought, and under which limit.
+
+    Parameters
+    ----------
+    vary
+        Names of `ROOM`.
+    aim
+        One of `MEASURES`: strap or energy.
+    knee
+        Smooth peak of the person's knee torque, both legs, at most [N m].
+    """
+
+    vary: tuple[str, ...]
+    aim: str
+    knee: float
+
+    @property
+    def index(self) -> list[int]:
+        """Of the parameters."""
+        return [NAMES.index(ROOM[name][0]) for name in self.vary]
+
+    @property
+    def ends(self) -> tuple[Vector, Vector]:
+        """What is searched at both ends of the room."""
+        chosen = [(ASSISTED_PARAMETERS[k], *ROOM[name][1:]) for k, name in zip(self.index, self.vary, strict=True)]
+        low = np.array([each.searched(least) for each, least, _ in chosen])
+        return low, np.array([each.searched(most) for each, _, most in chosen])
+
+
+@dataclass(frozen=True, eq=False)
+class HelpDesign:
+    """The best that was found.
+
+    Parameters
+    ----------
+    p
+        What is searched of all parameters, one row for each set that was to be met.
+    movements
+        One for each of them.
+    met
+        Whether the search ended within the limit.
+    ending
+        In words.
+    price
+        λ: how much less the aim would be for 1 N m more at the knee.
+    on_end
+        Of what is sought: whether it is on an end of its room.
+    slopes
+        Of the least aim by what is searched of every parameter that is held [aim's unit].
+    """
+
+    task: HelpTask
+    p: Float[np.ndarray, "s p"]
+    movements: tuple[Movement, ...]
+    met: bool
+    ending: str
+    price: float
+    on_end: Bool[np.ndarray, " d"]
+    slopes: Vector
+
+    @property
+    def value(self) -> float:
+        """Of the aim, the worst of the sets."""
+        return max(float(each.asked.sizes[MEASURES.index(self.task.aim)]) for each in self.movements)
+
+
+def designed(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTask, iterations: int = 60) -> HelpDesign:
+    """For all sets of parameters at once: aim and knee are the smooth worst of them.
+
+    Parameters
+    ----------
+    sets
+        What is searched of all parameters; the search starts at the first one's.
+
+    ArithmeticError where no movement is found.
+    """
+    from scipy.optimize import minimize
+
+    low, high = task.ends
+    room, aim = high - low, MEASURES.index(task.aim)
+    known: dict[bytes, tuple[Movement, ...]] = {}
+
+    def at(part: Vector) -> tuple[Movement, ...]:
+        key = part.tobytes()
+        if key not in known:
+            rows = with_design(sets, task, low + room * part)
+            known[key] = tuple(movements.at(row) for row in rows)
+        return known[key]
+
+    def worst(part: Vector, measure: int) -> tuple[float, Vector]:
+        return _worst(at(part), measure)
+
+    start = np.clip((sets[0, task.index] - low) / room, 0.0, 1.0)
+    # the first step goes down the slope: not further than FIRST
+    unit = max(float(np.abs(worst(start, aim)[1][task.index] * room).max()), 1e-9) / FIRST
+    limit: Any = {
+        "type": "ineq",
+        "fun": lambda d: 1.0 - worst(d, KNEE)[0] / task.knee,
+        "jac": lambda d: -worst(d, KNEE)[1][task.index] * room / task.knee,
+    }
+    answer: Any = minimize(  # type: ignore[call-overload]
+        lambda d: worst(d, aim)[0] / unit,
+        start,
+        jac=lambda d: worst(d, aim)[1][task.index] * room / unit,
+        bounds=[(0.0, 1.0)] * len(room),
+        constraints=limit,
+        method="SLSQP",
+        options={"maxiter": iterations, "ftol": TOLERANCE},
+    )
+    best = np.clip(np.asarray(answer.x), 0.0, 1.0)
+    at_end = (best <= NEAR) | (best >= 1.0 - NEAR)
+    (_, of_aim), (knee, of_knee) = worst(best, aim), worst(best, KNEE)
+    inside = np.array(task.index)[~at_end]
+    price = _price(of_aim[inside], of_knee[inside]) if knee >= task.knee * (1.0 - MET) else 0.0
+    met = bool(knee <= task.knee * (1.0 + MET))
+    ending = "found" if answer.success and met else f"not found: {str(answer.message).lower()}"
+    rows = with_design(sets, task, low + room * best)
+    return HelpDesign(
+        task, rows, at(best), met and bool(answer.success), ending, price, at_end, of_aim + price * of_knee
+    )
+
+
+def with_design(sets: Float[np.ndarray, "s p"], task: HelpTask, searched: Vector) -> Float[np.ndarray, "s p"]:
+    """The sets with what is sought in place of their own."""
+    rows = sets.copy()
+    rows[:, task.index] = searched
+    return rows
+
+
+def _price(of_aim: Vector, of_knee: Vector) -> float:
+    """λ of J_d + λ c_d = 0 by least squares; 0 where nothing is free to move."""
+    length = float(of_knee @ of_knee)
+    return max(0.0, -float(of_aim @ of_knee) / length) if length > 0.0 else 0.0
+
+
+def _worst(each: Sequence[Movement], measure: int) -> tuple[float, Vector]:
+    """Smooth maximum over the sets, and its slope."""
+    values = np.array([one.asked.sizes[measure] for one in each])
+    most = float(values.max())
+    norm = most * float(np.sum((values / most) ** ORDER)) ** (1.0 / ORDER)
+    pull = (values / norm) ** (ORDER - 1)
+    slope: Vector = pull @ np.stack([one.asked.slopes[measure] for one in each])
+    return norm, slope

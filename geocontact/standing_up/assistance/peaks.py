@@ -1,0 +1,98 @@
+"""What a movement asks of strap and knee: peaks as smooth maxima, energy, and their derivatives by the parameters.
+
+The smooth maximum of |F| over the collocation points is the norm of order `ORDER` with the points' parts of the time as
+weights, (Σ wᵢ |Fᵢ|^r)^(1/r): below the largest by what the peak lasts, 7 % where it lasts a fifth of the movement.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.dynamics.collocation.problem import ControlProblem
+from geocontact.dynamics.collocation.response import MotionResponse, responses
+from geocontact.dynamics.collocation.solve import CollocationResult
+from geocontact.standing_up.assistance.assisted_model import KNEE, AssistedModel
+
+ORDER = 24
+MEASURES = ("strap", "knee", "energy", "shear")
+"""Smooth peak of one strap's normal force [N], of the person's knee torque of both legs [N m], mean energy of the
+straps' springs [J], smooth peak of one strap's force along the thigh [N]."""
+UNITS = {"strap": "N", "knee": "N m", "energy": "J", "shear": "N"}
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """Of one movement, in the order of `MEASURES`.
+
+    Parameters
+    ----------
+    sizes
+        Smooth peaks and energy.
+    slopes
+        Derivatives by what is searched of each parameter.
+    largest
+        Over the points, without smoothing; of the energy too.
+    """
+
+    sizes: Float[np.ndarray, " k"]
+    slopes: Float[np.ndarray, "k p"]
+    largest: Float[np.ndarray, " k"]
+
+
+def asked(model: AssistedModel, problem: ControlProblem, found: CollocationResult, *, slopes: bool = True) -> Asked:
+    """Of all trials of a solved `habit` together; derivatives are not numbers where they are not wanted."""
+    parts = [_over_points(model, problem, found, k) for k in range(len(found.motions))]
+    weights = np.concatenate([each.weights for each in parts]) / len(parts)
+    values = np.concatenate([each.values for each in parts], axis=1)
+    size = np.abs(values).max(axis=1)
+    scaled = np.abs(values) / size[:, None]
+    peaks = size * (scaled**ORDER @ weights) ** (1.0 / ORDER)
+    energy = MEASURES.index("energy")
+    peaks[energy] = values[energy] @ weights
+    by = np.full((len(MEASURES), len(found.p)), np.nan)
+    if slopes:
+        along = responses(problem, found)
+        changes = np.concatenate([each.followed(one) for each, one in zip(parts, along, strict=True)], axis=2)
+        # of the norm by one value: w |F|^(r-1) sign(F) / norm^(r-1)
+        pull = weights * np.sign(values) * (np.abs(values) / peaks[:, None]) ** (ORDER - 1)
+        pull[energy] = weights
+        by = np.einsum("kt,kpt->kp", pull, changes)
+    return Asked(peaks, by, size)
+
+
+@dataclass(frozen=True, eq=False)
+class _OverPoints:
+    """Of one trial at its collocation points, and derivatives there by states, controls and parameters."""
+
+    values: Float[np.ndarray, "k t"]
+    weights: Float[np.ndarray, " t"]
+    by_state: Float[np.ndarray, "k t x"]
+    by_control: Float[np.ndarray, "k t u"]
+    by_parameter: Float[np.ndarray, "k t p"]
+
+    def followed(self, along: MotionResponse) -> Float[np.ndarray, "k p t"]:
+        """Derivatives by the parameters, the movement following."""
+        count = along.states.shape[0]
+        x = along.states[:, :, 1:].reshape(count, -1, along.states.shape[3])
+        u = along.controls.reshape(count, -1, along.controls.shape[3])
+        by_motion = np.einsum("ktx,ptx->kpt", self.by_state, x) + np.einsum("ktu,ptu->kpt", self.by_control, u)
+        return np.asarray(by_motion + self.by_parameter.transpose(0, 2, 1))
+
+
+def _over_points(model: AssistedModel, problem: ControlProblem, found: CollocationResult, k: int) -> _OverPoints:
+    from casadi import Function, densify, jacobian, vertcat
+
+    system, standing, motion = problem.system, model.standing, found.motions[k]
+    energy = standing.energy + standing.normal_energy
+    seen = vertcat(standing.strap, system.u[standing.count + KNEE], energy, standing.shear)
+    symbols = [system.x, system.u, system.p]
+    outputs = [seen, *(densify(jacobian(seen, each)) for each in symbols)]
+    x, u = (each.reshape(-1, each.shape[-1]) for each in (motion.states[:, 1:], motion.controls))
+    at = Function("at", symbols, outputs).map(len(x))(x.T, u.T, np.tile(found.p[:, None], (1, len(x))))
+    values, *by = (each.full() for each in at)
+    lengths = np.diff(motion.breaks) / np.ptp(motion.breaks)
+    weights = (lengths[:, None] * motion.scheme.weights).ravel()
+    return _OverPoints(values, weights, *(each.reshape(len(values), len(x), -1) for each in by))

@@ -1,0 +1,59 @@
+"""A choice by the analysis: what is refused at once, and the shipped trial from files to files."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+import geocontact as gc
+from tests.cli.calls import MESHES
+
+ALONE, HELD_OUT = (MESHES / f"standing_up{kind}" / "study.toml" for kind in ("", "_held_out"))
+TRUTH = HELD_OUT.parent / "truth.csv"
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"vary": "colour"}, "'colour' cannot be chosen"),
+        ({"vary": "place"}, "share is not among them"),
+        ({"knee": 1.5}, "at most 1"),
+        ({"robust": True}, "there are no draws"),
+        ({"draws": 2}, "has no intervals to draw from"),
+        ({"degree": 1}, "2 to 9"),
+    ],
+)
+def test_options_that_cannot_be_are_refused(given: dict[str, object], words: str) -> None:
+    with pytest.raises(gc.InputError, match=words):
+        gc.sit_to_stand.design(HELD_OUT, parameters=TRUTH, **given)
+
+
+def test_a_person_without_an_exoskeleton_is_refused() -> None:
+    with pytest.raises(gc.InputError, match="is not of a person with an exoskeleton"):
+        gc.sit_to_stand.design(ALONE, parameters=TRUTH)
+
+
+@pytest.mark.slow
+def test_shipped_trial_from_files_to_files(tmp_path: Path) -> None:
+    """A farther place spares the strap at the same knee; draws tell what the gain depends on."""
+    table = pd.read_csv(TRUTH)
+    sd = table["value"].abs() * 0.02
+    file = tmp_path / "parameters.csv"
+    table.assign(lower=table["value"] - 2.0 * sd, upper=table["value"] + 2.0 * sd).to_csv(file, index=False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        found = gc.sit_to_stand.design(
+            HELD_OUT, parameters=file, vary="share,place", nodes=8, front=1, draws=2, iterations=60
+        )
+    assert found.accepted, found.warnings
+    rows = found.table("designs").set_index("design")
+    assert list(rows.index) == ["without help", "share alone", "chosen"]
+    assert rows.loc["chosen", "strap [N]"] < 0.9 * rows.loc["share alone", "strap [N]"]
+    assert rows.loc["chosen", "knee of without help [-]"] == pytest.approx(0.8, rel=1e-3)
+    assert (found.table("draws")["gain [-]"] > 0.2).all() and len(found.table("front")) == 3
+    names = {each.name for each in found.write(tmp_path / "design").iterdir()}
+    wanted = {"designs", "chosen", "sensitivity", "certificate", "front", "draws"}
+    assert {f"{name}.csv" for name in wanted} | {"solution_P1.sto", "report.html", "design.png"} <= names

@@ -1,0 +1,62 @@
+"""Movements with help: derivatives of what they ask, and of the least of it, against problems that are solved again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.dynamics.collocation.solve import SolverOptions
+from geocontact.standing_up.assistance.assisted_model import SHARE, assisted_model
+from geocontact.standing_up.assistance.design import KNEE, NAMES, STRAP, HelpTask, designed
+from geocontact.standing_up.assistance.movement import Movements
+from geocontact.standing_up.exoskeleton import STRAP_PLANTED
+from geocontact.standing_up.feet import EVERY_PLANTED
+from tests.cli.calls import MESHES
+
+P = np.r_[EVERY_PLANTED, STRAP_PLANTED, 0.3, 0.25]
+WITHIN = 0.01
+"""Of a derivative."""
+
+
+@pytest.fixture(scope="module")
+def movements() -> Movements:
+    given = standing_trials(Path(MESHES) / "standing_up_held_out" / "study.toml", "study", Record("x", {}))
+    options = SolverOptions("radau", 3, 1, 1e-9)
+    return Movements(assisted_model(given.subject), given.subject, given.trials, options, 8.0)
+
+
+@pytest.mark.slow
+def test_slopes_of_a_movement_are_those_of_movements_solved_again(movements: Movements) -> None:
+    """Peaks, energy and shear by a length of the feet, a stiffness, and the help."""
+    slopes = movements.at(P).asked.slopes
+    for name, step in (("toe", 1e-4), ("strap turning", 1e-3), ("share", 1e-3)):
+        k, sides = NAMES.index(name), []
+        for sign in (1.0, -1.0):
+            p = P.copy()
+            p[k] += sign * step
+            sides.append(movements.at(p, slopes=False).asked.sizes)
+        np.testing.assert_allclose(slopes[:, k], (sides[0] - sides[1]) / (2.0 * step), rtol=WITHIN)
+
+
+@pytest.mark.slow
+def test_least_force_changes_as_the_optimality_system_says(movements: Movements) -> None:
+    """By the limit of the knee, and by a number that is held, everything sought again."""
+    without = P.copy()
+    without[SHARE] = 0.0
+    knee = 0.8 * float(movements.at(without).asked.sizes[KNEE])
+    best = designed(movements, P[None], HelpTask(("share", "timing"), "strap", knee))
+    assert best.met and best.price > 0.0 and not best.on_end.any()
+    limits = [designed(movements, best.p, HelpTask(("share", "timing"), "strap", knee + by)) for by in (0.2, -0.2)]
+    assert (limits[1].value - limits[0].value) / 0.4 == pytest.approx(best.price, rel=WITHIN)
+    held = NAMES.index("toe")
+    sides = []
+    for by in (5e-4, -5e-4):
+        p = best.p.copy()
+        p[:, held] += by
+        sides.append(designed(movements, p, best.task).value)
+    assert (sides[0] - sides[1]) / 1e-3 == pytest.approx(best.slopes[held], rel=WITHIN)
+    assert best.movements[0].asked.sizes[STRAP] == pytest.approx(best.value)
