@@ -31,6 +31,7 @@ KINDS = {
     "markers": "markers",
     "standing": "standing_calibrate",
     "standing_predict": "standing_predict",
+    "standing_compare": "standing_compare",
     "standing_design": "standing_design",
     "prosthesis_simulate": "prosthesis_simulate",
     "prosthesis_calibrate": "prosthesis_calibrate",

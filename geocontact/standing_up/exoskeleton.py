@@ -8,7 +8,7 @@ exoskeleton lies where the person's does, but for the knee, which is higher by `
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -77,6 +77,10 @@ class Strap:
     normal_energy: SX
 
 
+StrapLaw = Callable[[Tree, "SX"], Strap]
+"""Of what is searched of `STRAP_PARAMETERS`."""
+
+
 def two_chains(subject: Subject) -> Multibody:
     """The person's chain, with foot plates, and the exoskeleton's on the same feet."""
     alone = leg_chain(subject)
@@ -98,17 +102,25 @@ def _heavier(body: Body, more: float) -> Body:
     return Body(body.name, body.mass + more, body.centre, body.inertia)
 
 
-def with_exoskeleton(subject: Subject) -> StandingModel:
-    """Nine coordinates: the person's six, then the exoskeleton's; torques of both."""
+def with_exoskeleton(subject: Subject, strap: StrapLaw | None = None) -> StandingModel:
+    """Nine coordinates: the person's six, then the exoskeleton's; torques of both. The strap is `thigh_strap` unless
+    given.
+    """
     from casadi import SX
 
     tree = tree_of(two_chains(subject))
     p, torque = SX.sym("p", len(WORN_PARAMETERS)), SX.sym("torque", len(tree.names) - 3)
-    return worn_model(tree, p, {name: torque[k] for k, name in enumerate(tree.names[3:])}, torque, WORN_PARAMETERS)
+    along = {name: torque[k] for k, name in enumerate(tree.names[3:])}
+    return worn_model(tree, p, along, torque, WORN_PARAMETERS, strap)
 
 
 def worn_model(
-    tree: Tree, p: SX, along: Mapping[str, SX], inputs: SX, parameters: tuple[ContactParameter, ...]
+    tree: Tree,
+    p: SX,
+    along: Mapping[str, SX],
+    inputs: SX,
+    parameters: tuple[ContactParameter, ...],
+    law: StrapLaw | None = None,
 ) -> StandingModel:
     """Both chains on the ground with a strap between them.
 
@@ -118,9 +130,11 @@ def worn_model(
         What is searched of `parameters`, which begin with those of feet and strap.
     along
         Torques by coordinate, of the inputs and of `p`.
+    law
+        Of the strap; `thigh_strap` unless given.
     """
     feet = len(FOOT_PARAMETERS)
-    ground, strap = ground_on_feet(tree, p[:feet, :]), thigh_strap(tree, p[feet : len(WORN_PARAMETERS), :])
+    ground, strap = ground_on_feet(tree, p[:feet, :]), (law or thigh_strap)(tree, p[feet : len(WORN_PARAMETERS), :])
     loads = together(ground, strap.loads)
     equations = equations_of_motion(tree, loads=loads, along=along, inputs=[inputs], parameters=[p])
     force, moment = ground["foot"]

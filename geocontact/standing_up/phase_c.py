@@ -8,7 +8,7 @@ what a sample is off. The search starts on a rise of least jerk between the two,
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Float
@@ -74,30 +74,3 @@ def _given(model: StandingModel, noise: StandingNoise, course: Course, at: float
     room = WITHIN * np.r_[model.per_coordinate(noise.length, noise.angle), np.full(n, noise.rate)]
     wide = np.full(n, np.inf)
     return np.r_[np.r_[q, u] - room, -wide], np.r_[np.r_[q, u] + room, wide]
-
-
-@dataclass(frozen=True, eq=False)
-class MeanTrial:
-    """What knows nothing of the trial but how long it is: the mean of others over parts of the movement.
-
-    Parameters
-    ----------
-    q, strap
-        At the trial's times [rad, m], [N].
-    """
-
-    q: Float[np.ndarray, "t n"]
-    strap: Float[np.ndarray, " t"]
-
-
-def mean_trial(others: Sequence[StandingTrial], time: Float[np.ndarray, " t"]) -> MeanTrial:
-    """Of trials that have a strap. ValueError where one has none."""
-    part = (time - time[0]) / np.ptp(time)
-    q, strap = [], []
-    for other in others:
-        if other.strap is None:
-            raise ValueError(f"{other.name} has no strap")
-        own = (other.time - other.time[0]) / np.ptp(other.time)
-        q.append(np.column_stack([np.interp(part, own, column) for column in other.q.T]))
-        strap.append(np.interp(part, own, other.strap))
-    return MeanTrial(np.mean(q, axis=0), np.mean(strap, axis=0))

@@ -33,6 +33,7 @@ JOBS: tuple[Job, ...] = (
     gc.shoulder.study,
     gc.shoulder.optimise,
     gc.sit_to_stand.calibrate,
+    gc.sit_to_stand.compare,
     gc.sit_to_stand.design,
     gc.sit_to_stand.predict,
     gc.diagnose,

@@ -32,7 +32,7 @@ def errors_table(trials: Sequence[TrialResult], noise: StandingNoise, tracks: Se
             "noise": each.factor * each.noise,
         }
         for trial in trials
-        for each in channels(trial, noise)
+        for each in channels(trial.recorded, trial.model, noise)
         if each.channel in tracks
     ]
     return pd.DataFrame(rows, columns=["trial", "quantity", "unit", "rmsd", "noise"])
@@ -54,7 +54,7 @@ def certificate_rows(phase: str, names: Sequence[str], motions: Sequence[JudgedM
 def trial_table(trial: TrialResult, noise: StandingNoise, tracks: Sequence[str]) -> pd.DataFrame:
     """Over time: channels as recorded and by the model, torques of both legs, residual."""
     columns = {"time [s]": trial.recorded.time}
-    for each in channels(trial, noise):
+    for each in channels(trial.recorded, trial.model, noise):
         if each.channel == "rates":
             continue
         columns[f"{each.name} [{each.unit}]"] = each.factor * each.model

@@ -67,9 +67,9 @@ class StandingChannel:
     noise: float
 
 
-def channels(trial: TrialResult, noise: StandingNoise) -> list[StandingChannel]:
-    """Of a trial, in the order of tables; what was not recorded is not a number there."""
-    seen, model, found = trial.recorded, trial.model, []
+def channels(seen: StandingTrial, model: StandingTrial, noise: StandingNoise) -> list[StandingChannel]:
+    """Of a trial as recorded and by a model, in the order of tables; what was not recorded is not a number there."""
+    found = []
     names = (*COORDINATES, *(EXO_JOINTS if model.q.shape[1] > len(COORDINATES) else ()))
     for k, name in enumerate(names):
         turns = k > 1

@@ -11,12 +11,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Float
 
 from geocontact.dynamics.collocation.optimality import optimality_system
 from geocontact.dynamics.collocation.problem import ControlProblem
 from geocontact.dynamics.collocation.solve import CollocationResult
-from geocontact.dynamics.collocation.transcription import Transcription
 
 
 def inverse_reduced_hessian(
@@ -36,21 +35,19 @@ def inverse_reduced_hessian(
     """
     system = optimality_system(problem, found)
     on = system.on
-    moves = _moves(on, np.zeros(on.np, bool) if held is None else np.array(held, bool))
-    free = np.flatnonzero(moves[: on.np])
-    right = np.zeros((int(moves.sum()) + system.slope.shape[0], len(free)))
-    right[np.arange(len(free)), np.arange(len(free))] = 1.0
-    columns = system.solved(moves, right)[: len(free)]
+    low, high = on.bounds()
+    moves = low < high
+    free = np.flatnonzero(moves[: on.np] & ~(np.zeros(on.np, bool) if held is None else np.array(held, bool)))
+    moves[: on.np] = False
+    # parameters stand in every row: left in the matrix they fill its factors
+    right = np.vstack([system.hessian[moves][:, free].toarray(), system.slope[:, free].toarray()])
+    reduced = system.hessian[free][:, free].toarray() - right.T @ system.solved(moves, right)
     inverse = np.zeros((on.np, on.np))
-    inverse[np.ix_(free, free)] = 0.5 * (columns + columns.T) * np.outer(on.scales.p[free], on.scales.p[free])
+    try:
+        columns = np.linalg.inv(0.5 * (reduced + reduced.T))
+    except np.linalg.LinAlgError as error:
+        raise ValueError("the parameters are not told: the cost has no minimum there") from error
+    inverse[np.ix_(free, free)] = columns * np.outer(on.scales.p[free], on.scales.p[free])
     if not np.isfinite(inverse).all() or (np.diag(inverse)[free] <= 0.0).any():
         raise ValueError("the parameters are not told: the cost has no minimum there")
     return inverse
-
-
-def _moves(on: Transcription, held: Bool[np.ndarray, " p"]) -> Bool[np.ndarray, " z"]:
-    """Variables that are not fixed."""
-    low, high = on.bounds()
-    moves: Bool[np.ndarray, " z"] = low < high
-    moves[: on.np] &= ~held
-    return moves

@@ -16,7 +16,7 @@ from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.tree import tree_of
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.contact_parameter import ContactParameter
-from geocontact.standing_up.exoskeleton import WORN_PARAMETERS, two_chains, worn_model
+from geocontact.standing_up.exoskeleton import WORN_PARAMETERS, StrapLaw, two_chains, worn_model
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingTrial, seen_in
 
@@ -61,15 +61,15 @@ class AssistedModel:
         return range(1, 1 + len(TORQUES))
 
 
-def assisted_model(subject: Subject) -> AssistedModel:
-    """Of a person who wears the exoskeleton."""
+def assisted_model(subject: Subject, strap: StrapLaw | None = None) -> AssistedModel:
+    """Of a person who wears the exoskeleton, with the strap that is calibrated unless another is given."""
     from casadi import SX, exp, vertcat
 
     p, part, torque = SX.sym("p", len(ASSISTED_PARAMETERS)), SX.sym("part"), SX.sym("torque", len(TORQUES))
     helped = p[SHARE] * exp(-0.5 * ((part - p[TIMING]) / WIDTH) ** 2) * torque[KNEE]
     along = {name: torque[k] for k, name in enumerate(("ankle", "knee", "hip", "exo_hip"))} | {"exo_knee": helped}
     tree = tree_of(two_chains(subject))
-    return AssistedModel(worn_model(tree, p, along, vertcat(part, torque), ASSISTED_PARAMETERS), helped)
+    return AssistedModel(worn_model(tree, p, along, vertcat(part, torque), ASSISTED_PARAMETERS, strap), helped)
 
 
 def seen_assisted(

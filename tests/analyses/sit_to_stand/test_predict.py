@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.standing_up.phase_c import mean_trial
 from geocontact.standing_up.trials import StandingTrial
+from geocontact.standing_up.trivial_trials import mean_trial
 from tests.cli.calls import MESHES
 
 WORN, ALONE, HELD_OUT = (MESHES / f"standing_up{kind}" / "study.toml" for kind in ("_exoskeleton", "", "_held_out"))
@@ -57,6 +57,7 @@ def test_mean_of_trials_is_over_parts_of_the_movement() -> None:
 
     mean = mean_trial([line(1.0, 1.0), line(3.0, 3.0)], np.linspace(5.0, 7.0, 11))
     np.testing.assert_allclose(mean.q[:, 0], 2.0 * np.linspace(0.0, 1.0, 11), atol=1e-12)
+    assert mean.strap is not None and mean.torque is None
     np.testing.assert_allclose(mean.strap, 2.0 * np.linspace(0.0, 1.0, 11), atol=1e-12)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
-from geocontact.standing_up.phase_c import MeanTrial
+from geocontact.standing_up.trials import StandingTrial
 from geocontact.view.curves.style import DOUBLE, GREY, LINES, PALETTE, in_style, panels
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ HEIGHT = 0.06
 
 
 @in_style
-def strap_figure(predictions: Sequence[tuple[str, TrialResult]], means: Mapping[str, MeanTrial]) -> Figure:
+def strap_figure(predictions: Sequence[tuple[str, TrialResult]], means: Mapping[str, StandingTrial]) -> Figure:
     """Grey as recorded, coloured the predictors, dotted the mean of other trials; a panel for each trial."""
     names = list(means)
     figure, axes = panels(1, len(names), DOUBLE, HEIGHT)
@@ -29,7 +29,8 @@ def strap_figure(predictions: Sequence[tuple[str, TrialResult]], means: Mapping[
         for k, (who, trial) in enumerate(own):
             if trial.model.strap is not None:
                 ax.plot(seen.time, trial.model.strap, color=PALETTE[k], ls=LINES[k], lw=1.2, label=who)
-        ax.plot(seen.time, means[name].strap, color="black", ls=":", lw=1.0, label="mean of the calibration")
+        if (mean := means[name].strap) is not None:
+            ax.plot(seen.time, mean, color="black", ls=":", lw=1.0, label="mean of the calibration")
         ax.set_title(name)
         ax.set_xlabel("time since seat-off [s]")
         ax.set_ylabel("normal force of one strap [N]")

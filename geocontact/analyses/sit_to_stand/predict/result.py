@@ -22,7 +22,7 @@ from geocontact.analyses.sit_to_stand.trial_result import DEGREE, TrialResult
 from geocontact.io.text.results import write_table
 from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
-from geocontact.standing_up.phase_c import MeanTrial
+from geocontact.standing_up.trials import StandingTrial
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -68,7 +68,7 @@ class StandingPredictResult(Result):
     options: StandingPredictOptions
     given: HeldOutTrials
     predictions: tuple[PredictedTrial, ...]
-    means: Mapping[str, MeanTrial]
+    means: Mapping[str, StandingTrial]
 
     @property
     def best(self) -> tuple[TrialResult, ...]:
@@ -99,7 +99,7 @@ class StandingPredictResult(Result):
             for k, name in enumerate((*COORDINATES, *EXO_JOINTS))
             if k > 1
         ]
-        if seen.strap is not None:
+        if seen.strap is not None and mean.strap is not None:
             columns.append(("strap", "N", 1.0, mean.strap - seen.strap, noise.strap))
         return [
             {

@@ -16,9 +16,10 @@ from geocontact.dynamics.collocation.solve import SolverOptions, solve
 from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.exoskeleton import with_exoskeleton
 from geocontact.standing_up.judged import judged
-from geocontact.standing_up.phase_c import TRACKS_C, mean_trial, phase_c
+from geocontact.standing_up.phase_c import TRACKS_C, phase_c
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingTrial, seen_in
+from geocontact.standing_up.trivial_trials import mean_trial
 
 TOLERANCE = 1e-7
 GIVEN: dict[str, tuple[str, ...]] = {
@@ -31,14 +32,20 @@ GIVEN: dict[str, tuple[str, ...]] = {
 
 def run(given: HeldOutTrials, o: StandingPredictOptions, record: Record) -> StandingPredictResult:
     """Every trial by every predictor."""
-    model = with_exoskeleton(given.trials.subject)
-    predictions = []
+    predictions = predicted(given, o, record)
+    means = {trial.name: mean_trial(given.known.trials, trial.time) for trial in given.trials.trials}
+    result = StandingPredictResult(record=record, options=o, given=given, predictions=predictions, means=means)
+    _say(result)
+    return result
+
+
+def predicted(given: HeldOutTrials, o: StandingPredictOptions, record: Record) -> tuple[PredictedTrial, ...]:
+    """Trials outer, predictors inner; searches without an answer and motions without a certificate are warned of."""
+    model, predictions = with_exoskeleton(given.trials.subject), []
     with record.listener.stages("predicting") as stage:
         for trial in given.trials.trials:
             for name, tracks in GIVEN.items():
                 predictions.append(_predicted(model, given, trial, (name, tracks), o, stage))
-    means = {trial.name: mean_trial(given.known.trials, trial.time) for trial in given.trials.trials}
-    result = StandingPredictResult(record=record, options=o, given=given, predictions=tuple(predictions), means=means)
     for one in predictions:
         place = f"{one.trial.recorded.name} {one.name}"
         if not one.solved:
@@ -46,8 +53,7 @@ def run(given: HeldOutTrials, o: StandingPredictOptions, record: Record) -> Stan
         elif one.trial.judged.certificate is not None and not one.trial.judged.certificate.converged:
             failed = "; ".join(one.trial.judged.certificate.failed)
             record.warn(f"{place} is not certified: {failed}; give more `nodes`")
-    _say(result)
-    return result
+    return tuple(predictions)
 
 
 def _predicted(

@@ -1,0 +1,71 @@
+"""Every channel of every trial by every predictor: mean absolute error, root mean square, R²."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pandas as pd
+
+from geocontact.analyses.page_words import counted
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.compare.options import StandingCompareOptions
+from geocontact.analyses.sit_to_stand.compare.result import StandingCompareResult
+from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
+from geocontact.analyses.sit_to_stand.predict.result import ALL, MEAN
+from geocontact.analyses.sit_to_stand.predict.run import GIVEN, predicted
+from geocontact.analyses.sit_to_stand.trial_result import channels
+from geocontact.identify.signals.agreement import agreement
+from geocontact.standing_up.trials import StandingTrial
+from geocontact.standing_up.trivial_trials import mean_trial, nearest_trial
+
+NEAREST = "nearest of the calibration"
+
+
+def run(given: HeldOutTrials, o: StandingCompareOptions, record: Record) -> StandingCompareResult:
+    """Predictions of phase C with all or parts of what is given, and two predictors without a model."""
+    predictions = predicted(given, o, record)
+    rows: list[dict[str, object]] = []
+    trivial: dict[str, dict[str, StandingTrial]] = {}
+    for trial in given.trials.trials:
+        near = nearest_trial(given.known.trials, trial)
+        others = {MEAN: mean_trial(given.known.trials, trial.time), NEAREST: mean_trial([near], trial.time)}
+        trivial[trial.name] = others
+        record.say(f"{trial.name}: nearest by its first and last posture is {near.name}")
+        models = {one.name: one.trial.model for one in predictions if one.trial.recorded.name == trial.name}
+        for predictor, model in (models | others).items():
+            rows += _rows(trial, model, predictor, given)
+    result = StandingCompareResult(
+        record=record, options=o, given=given, predictions=predictions, trivial=trivial, errors=pd.DataFrame(rows)
+    )
+    _say(result)
+    return result
+
+
+def _rows(
+    trial: StandingTrial, model: StandingTrial, predictor: str, given: HeldOutTrials
+) -> Iterator[dict[str, object]]:
+    step = 1.0 / trial.rate
+    for each in channels(trial, model, given.trials.noise):
+        if each.channel != "rates":
+            a = agreement(each.model, each.recorded, step, 0.0)
+            off = {name: each.factor * getattr(a, name) for name in ("mae", "rmsd", "bias")}
+            told = {"trial": trial.name, "predictor": predictor, "quantity": each.name, "unit": each.unit}
+            known = each.channel in GIVEN.get(predictor, ())
+            yield {**told, "given": "yes" if known else "no", **off, "r2 [-]": a.r2, "noise": each.factor * each.noise}
+
+
+def _say(r: StandingCompareResult) -> None:
+    record, errors = r.record, r.errors
+    for quantity in ("strap", "knee"):
+        own = errors[errors["quantity"] == quantity]
+        each = own.groupby("predictor", sort=False)["rmsd"].max()
+        unit = str(own["unit"].iloc[0]).replace("deg", "°")
+        words = ", ".join(f"{name} {value:.3g} {unit}" for name, value in each.items())
+        record.say(f"{quantity}, largest RMSD of {counted(len(r.given.trials.trials), 'trial')}: {words}")
+        record.results[quantity] = {str(name): float(value) for name, value in each.items()}
+    best = errors[errors["predictor"] == ALL].set_index(["trial", "quantity"])["rmsd"]
+    others = errors[errors["predictor"].isin([MEAN, NEAREST])].groupby(["trial", "quantity"])["rmsd"].min()
+    free = errors[(errors["predictor"] == ALL) & (errors["given"] == "no")].set_index(["trial", "quantity"]).index
+    better = int((best[free] < others[free]).sum())
+    record.say(f"of {len(free)} channels that are not given, {better} are nearer than by either trivial predictor")
+    record.results["better than both"] = [better, len(free)]

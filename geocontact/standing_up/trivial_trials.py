@@ -1,0 +1,47 @@
+"""Predictors without a model: what other trials did over the parts of their movement, all of them or the nearest."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.standing_up.trials import StandingTrial
+
+PLACES = 2
+"""Coordinates before the angles."""
+
+
+def mean_trial(others: Sequence[StandingTrial], time: Float[np.ndarray, " t"]) -> StandingTrial:
+    """Mean of others over parts of the movement, which knows nothing of the trial but how long it is.
+
+    Torques and strap are None where one of them has none.
+    """
+    part = (time - time[0]) / np.ptp(time)
+
+    def mean(of: Callable[[StandingTrial], Float[np.ndarray, "t ..."] | None]) -> Float[np.ndarray, "t ..."] | None:
+        found = []
+        for other in others:
+            values = of(other)
+            if values is None:
+                return None
+            own = (other.time - other.time[0]) / np.ptp(other.time)
+            columns = [np.interp(part, own, column) for column in values.reshape(len(own), -1).T]
+            found.append(np.stack(columns, axis=1).reshape(len(part), *values.shape[1:]))
+        return np.asarray(np.mean(found, axis=0))
+
+    q, u, force, centre = (mean(of) for of in (lambda t: t.q, lambda t: t.u, lambda t: t.force, lambda t: t.centre))
+    if q is None or u is None or force is None or centre is None:
+        raise ValueError("a trial has no coordinates")
+    torque, strap = mean(lambda t: t.torque), mean(lambda t: t.strap)
+    return StandingTrial(time, q, u, force, centre, "mean of others", torque, strap)
+
+
+def nearest_trial(others: Sequence[StandingTrial], trial: StandingTrial) -> StandingTrial:
+    """The one of others whose first and last angles are nearest, which are given of the trial too."""
+
+    def away(other: StandingTrial) -> float:
+        return float(np.sum((other.q[[0, -1]] - trial.q[[0, -1]])[:, PLACES:] ** 2))
+
+    return min(others, key=away)
