@@ -270,3 +270,16 @@ def run_inverse_dynamics(setup: Path, out: Path) -> None:
         tool = opensim.InverseDynamicsTool(setup.name)
         tool.setResultsDir(str(out))
         tool.run()
+
+
+def accelerations(file: Path, names: Sequence[str], q: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Of the coordinates of a model that moves by its own forces, no actuator at work, (s, n)."""
+    model, state = _model(file)
+    found = np.zeros(q.shape)
+    for k, (values, rates) in enumerate(zip(q, u, strict=True)):
+        _set(model, state, names, values)
+        for name, rate in zip(names, rates, strict=True):
+            model.updCoordinateSet().get(name).setSpeedValue(state, float(rate))
+        model.realizeAcceleration(state)
+        found[k] = [model.getCoordinateSet().get(name).getAccelerationValue(state) for name in names]
+    return found

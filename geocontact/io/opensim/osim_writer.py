@@ -37,6 +37,7 @@ def write_osim(
     *,
     springs: Mapping[str, tuple[float, float]] | None = None,
     balls: Sequence[ContactBall] = (),
+    forces: Sequence[Element] = (),
     note: str = "",
 ) -> None:
     """Write the model; ValueError for a joint with a function that is not a coordinate itself, or a name with a blank.
@@ -46,7 +47,9 @@ def write_osim(
     springs
         Stiffness and damping about zero along coordinates by name [N m/rad and N m s/rad, N/m and N s/m].
     balls
-        Written as geometry, with the floor y = 0, without a force law: OpenSim has others than this package.
+        Written as geometry, with the floor y = 0; a force law is among `forces` or there is none.
+    forces
+        Further ones, as `osim_contact_forces` makes them.
     note
         What the file says of itself.
     """
@@ -62,16 +65,17 @@ def write_osim(
     SubElement(top, "length_units").text = "meters"
     SubElement(top, "force_units").text = "N"
     SubElement(top, "Ground", {"name": GROUND})
-    _numbers(top, "gravity", model.gravity)
+    add_numbers(top, "gravity", model.gravity)
     bodies = _set(top, "BodySet", "bodyset")
     for body in model.bodies:
         bodies.append(_body(body))
     joints = _set(top, "JointSet", "jointset")
     for joint in model.joints:
         joints.append(_joint(joint))
-    forces = _set(top, "ForceSet", "forceset")
+    acting = _set(top, "ForceSet", "forceset")
     for name, (stiffness, damping) in (springs or {}).items():
-        forces.append(_spring(name, stiffness, damping))
+        acting.append(_spring(name, stiffness, damping))
+    acting.extend(forces)
     markers = _set(top, "MarkerSet", "markerset")
     for marker in model.markers:
         markers.append(_marker(marker))
@@ -90,10 +94,10 @@ def _set(model: Element, tag: str, name: str) -> Element:
 
 def _body(body: Body) -> Element:
     element = Element("Body", {"name": body.name})
-    _numbers(element, "mass", [body.mass])
-    _numbers(element, "mass_center", body.centre)
+    add_numbers(element, "mass", [body.mass])
+    add_numbers(element, "mass_center", body.centre)
     i = body.inertia
-    _numbers(element, "inertia", [i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2]])
+    add_numbers(element, "inertia", [i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[0, 2], i[1, 2]])
     return element
 
 
@@ -109,7 +113,7 @@ def _joint(joint: JointModel) -> Element:
             held.append(_coordinate(coordinate))
     frames = SubElement(element, "frames")
     for body, pose in ends:
-        frames.append(_frame(f"{body}_offset", body, pose))
+        frames.append(offset_frame(f"{body}_offset", body, pose))
     if joint.coordinates:
         transform = SubElement(element, "SpatialTransform")
         directions = _directions(joint)
@@ -120,19 +124,20 @@ def _joint(joint: JointModel) -> Element:
 
 def _coordinate(coordinate: Coordinate) -> Element:
     element = Element("Coordinate", {"name": coordinate.name})
-    _numbers(element, "default_value", [coordinate.default])
+    add_numbers(element, "default_value", [coordinate.default])
     if np.isfinite(coordinate.limits).all():
-        _numbers(element, "range", coordinate.limits)
+        add_numbers(element, "range", coordinate.limits)
     SubElement(element, "clamped").text = "true" if coordinate.clamped else "false"
     SubElement(element, "locked").text = "true" if coordinate.locked else "false"
     return element
 
 
-def _frame(name: str, body: str, pose: RigidTransform) -> Element:
+def offset_frame(name: str, body: str, pose: RigidTransform) -> Element:
+    """A frame that is fixed to a body."""
     element = Element("PhysicalOffsetFrame", {"name": name})
-    SubElement(element, "socket_parent").text = _path(body)
-    _numbers(element, "translation", pose.translation)
-    _numbers(element, "orientation", pose.rotation.as_euler("XYZ"))
+    SubElement(element, "socket_parent").text = frame_path(body)
+    add_numbers(element, "translation", pose.translation)
+    add_numbers(element, "orientation", pose.rotation.as_euler("XYZ"))
     return element
 
 
@@ -152,31 +157,31 @@ def _directions(joint: JointModel) -> list[Vector]:
 def _axis(joint: JointModel, slot: str, axis: TransformAxis, direction: Vector) -> Element:
     element = Element("TransformAxis", {"name": slot})
     SubElement(element, "coordinates").text = " ".join(axis.coordinates)
-    _numbers(element, "axis", direction)
+    add_numbers(element, "axis", direction)
     function = axis.function
     if not isinstance(function, Affine) or len(function.slopes) != len(axis.coordinates) or len(function.slopes) > 1:
         raise ValueError(f"joint {joint.name}: {slot} is not a line of one coordinate")
     if axis.coordinates:
         line = SubElement(element, "LinearFunction", {"name": "function"})
-        _numbers(line, "coefficients", [*function.slopes, function.offset])
+        add_numbers(line, "coefficients", [*function.slopes, function.offset])
     else:
-        _numbers(SubElement(element, "Constant", {"name": "function"}), "value", [function.offset])
+        add_numbers(SubElement(element, "Constant", {"name": "function"}), "value", [function.offset])
     return element
 
 
 def _spring(name: str, stiffness: float, damping: float) -> Element:
     element = Element("SpringGeneralizedForce", {"name": f"{name}_spring"})
     SubElement(element, "coordinate").text = name
-    _numbers(element, "stiffness", [stiffness])
-    _numbers(element, "rest_length", [0.0])
-    _numbers(element, "viscosity", [damping])
+    add_numbers(element, "stiffness", [stiffness])
+    add_numbers(element, "rest_length", [0.0])
+    add_numbers(element, "viscosity", [damping])
     return element
 
 
 def _marker(marker: Marker) -> Element:
     element = Element("Marker", {"name": marker.name})
-    SubElement(element, "socket_parent_frame").text = _path(marker.body)
-    _numbers(element, "location", marker.location)
+    SubElement(element, "socket_parent_frame").text = frame_path(marker.body)
+    add_numbers(element, "location", marker.location)
     SubElement(element, "fixed").text = "true" if marker.fixed else "false"
     return element
 
@@ -185,23 +190,25 @@ def _floor() -> Element:
     """A half-space fills x > 0 of its own frame: turned so that it lies below y = 0."""
     element = Element("ContactHalfSpace", {"name": "floor"})
     SubElement(element, "socket_frame").text = "/ground"
-    _numbers(element, "location", np.zeros(3))
-    _numbers(element, "orientation", [0.0, 0.0, -0.5 * np.pi])
+    add_numbers(element, "location", np.zeros(3))
+    add_numbers(element, "orientation", [0.0, 0.0, -0.5 * np.pi])
     return element
 
 
 def _ball(ball: ContactBall) -> Element:
     element = Element("ContactSphere", {"name": ball.name})
-    SubElement(element, "socket_frame").text = _path(ball.body)
-    _numbers(element, "location", ball.centre)
-    _numbers(element, "orientation", np.zeros(3))
-    _numbers(element, "radius", [ball.radius])
+    SubElement(element, "socket_frame").text = frame_path(ball.body)
+    add_numbers(element, "location", ball.centre)
+    add_numbers(element, "orientation", np.zeros(3))
+    add_numbers(element, "radius", [ball.radius])
     return element
 
 
-def _path(body: str) -> str:
+def frame_path(body: str) -> str:
+    """Of a body's own frame in the model."""
     return "/ground" if body == GROUND else f"/bodyset/{body}"
 
 
-def _numbers(element: Element, child: str, values: Float[np.ndarray, " k"] | Sequence[float]) -> None:
+def add_numbers(element: Element, child: str, values: Float[np.ndarray, " k"] | Sequence[float]) -> None:
+    """A child with numbers in it."""
     SubElement(element, child).text = " ".join(f"{float(value):.17g}" for value in values)

@@ -143,7 +143,7 @@ def test_one_shipped_trial_from_files_to_files(tmp_path: Path) -> None:
     assert errors.loc["force_y", "rmsd"] < 10.0 and errors.loc["centre", "rmsd"] < 1.2
     out = found.write(tmp_path / "cal")
     names = {"parameters.csv", "errors.csv", "certificate.csv", "correlation.csv", "trial_T1.csv", "solution_T1.sto"}
-    assert names | {"report.html", "run.json", "standing_up.png"} <= {each.name for each in out.iterdir()}
+    assert names | {"report.html", "model.osim", "run.json", "standing_up.png"} <= {each.name for each in out.iterdir()}
     rows = pd.read_csv(out / "trial_T1.csv")
     assert rows["residual [N]"].max() < 5.0 and rows["residual [N m]"].max() < 1.0
     head, body = (out / "solution_T1.sto").read_text().split("endheader\n")

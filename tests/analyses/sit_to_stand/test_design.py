@@ -56,4 +56,4 @@ def test_shipped_trial_from_files_to_files(tmp_path: Path) -> None:
     assert (found.table("draws")["gain [-]"] > 0.2).all() and len(found.table("front")) == 3
     names = {each.name for each in found.write(tmp_path / "design").iterdir()}
     wanted = {"designs", "chosen", "sensitivity", "certificate", "front", "draws"}
-    assert {f"{name}.csv" for name in wanted} | {"solution_P1.sto", "report.html", "design.png"} <= names
+    assert {f"{name}.csv" for name in wanted} | {"solution_P1.sto", "model.osim", "report.html", "design.png"} <= names

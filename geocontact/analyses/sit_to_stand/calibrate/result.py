@@ -17,6 +17,7 @@ from geocontact.analyses.sit_to_stand.calibrate.tables import (
     correlation_table,
     parameters_table,
 )
+from geocontact.analyses.sit_to_stand.model_file import write_standing_model
 from geocontact.analyses.sit_to_stand.solution_file import write_solution
 from geocontact.analyses.sit_to_stand.standing_figure import standing_figure
 from geocontact.analyses.sit_to_stand.standing_tables import errors_table, trial_table
@@ -80,11 +81,13 @@ class StandingCalibrateResult(Result):
         return standing_figure(self.trials)
 
     def write_files(self, folder: Path) -> None:
-        """Tables, trajectories, figure, page."""
+        """Tables, trajectories, model, figure, page."""
         for name, rows in self.tables().items():
             write_table(rows, folder, name)
         for trial in self.trials:
             write_solution(folder / f"solution_{trial.recorded.name}.sto", trial, self.found.solved)
+        values = {n.name: n.value for n in self.phases[-1].numbers.numbers}
+        write_standing_model(folder / "model.osim", self.given.subject, values, worn=self.given.exoskeleton)
         save_both(self.figure(), folder, "standing_up")
         self.write_page(folder / "report.html")
 

@@ -1,0 +1,48 @@
+"""The chains with their contacts as an OpenSim model that solution_NAME.sto belongs to.
+
+OpenSim lets the ground's force act at another height within the spheres' depth: of a foot that slides the moment of
+friction differs by a few newton millimetres for each newton.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from geocontact.io.opensim.osim_contact_forces import bushing_force_between, smooth_sphere_force, torque_along
+from geocontact.io.opensim.osim_writer import ContactBall, write_osim
+from geocontact.standing_up.chain import Subject, leg_chain
+from geocontact.standing_up.exoskeleton import DAMPING, LEGS, SHIFT, TURNING_DAMPING, two_chains
+from geocontact.standing_up.feet import FRICTION
+
+NOTE = "Both legs are one planar chain: masses, torques, contacts and the bushing are those of both."
+
+
+def write_standing_model(file: Path, subject: Subject, values: Mapping[str, float], *, worn: bool) -> None:
+    """Spheres under the foot, the strap as a bushing where an exoskeleton is worn, torques of all joints.
+
+    Parameters
+    ----------
+    values
+        Of the parameters of feet and strap, in SI.
+    """
+    chain = two_chains(subject) if worn else leg_chain(subject)
+    height, factor = values["radius"] - values["bottom"], values["friction"]
+    friction = [float(each) for each in (FRICTION.v_t, FRICTION.mu_s * factor, FRICTION.mu_d * factor, FRICTION.mu_v)]
+    balls = [
+        ContactBall(name, "foot", np.array([values[name], height, 0.0]), values["radius"]) for name in ("heel", "toe")
+    ]
+    forces = [smooth_sphere_force(each.name, values["stiffness"], values["dissipation"], friction) for each in balls]
+    if worn:
+        place = values["strap place"]
+        along = np.array([values["strap normal"], values["strap tangential"], 0.0])
+        turning = np.array([0.0, 0.0, values["strap turning"]])
+        ends = [("thigh", np.array([0.0, place, 0.0])), ("exo_thigh", np.array([0.0, place - SHIFT, 0.0]))]
+        damped = np.array([0.0, 0.0, TURNING_DAMPING]), np.array([DAMPING, DAMPING, 0.0])
+        stiff, damping = (LEGS * turning, LEGS * along), (LEGS * damped[0], LEGS * damped[1])
+        forces.append(bushing_force_between("strap", ends, stiff, damping))
+    forces += [torque_along(each.name) for each in chain.coordinates[3:]]
+    write_osim(file, replace(chain, name="sit_to_stand"), balls=balls, forces=forces, note=NOTE)
