@@ -1,0 +1,62 @@
+"""The page of a comparison: chains that stand up as predicted, curves beside the recording, errors by predictor."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from geocontact.analyses.figure_files import drawing
+from geocontact.analyses.options_table import options_table
+from geocontact.analyses.page_words import NOT_A_DEVICE, headline
+from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.standing_scene import FRAMES, standing_curves, standing_scene
+from geocontact.analyses.sit_to_stand.trial_result import TrialResult
+from geocontact.standing_up.chain import Subject
+from geocontact.view.page.content import Page, Picture, Section, Words
+from geocontact.view.page.tables import frame_table, inputs_table
+from geocontact.view.page.write import write_page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MEANT = [
+    "Given yes: that predictor is told the channel, so that its error there is no prediction.",
+    "All given: ground reaction, centre of pressure and torques; the others are told less.",
+    "Mean and nearest of the calibration know how long the trial is; the nearest is so by first and last posture.",
+    "R² is about the mean of what was recorded: below 0 that mean is the better model.",
+]
+
+
+def write_compared_page(
+    path: Path,
+    record: Record,
+    subject: Subject,
+    trials: Sequence[TrialResult],
+    figure: Figure,
+    tables: Mapping[str, pd.DataFrame],
+) -> int:
+    """Write the self-contained page; returns its size in bytes."""
+    sections: list[Section] = [
+        standing_scene(subject, trials),
+        Picture("Angles and strap of the first trial", "Grey as recorded.", drawing(figure), wide=True),
+        *standing_curves(trials),
+        frame_table("Errors by trial, predictor and channel", tables["comparison"], 3),
+        frame_table("Between and beyond the collocation points", tables["certificate"], 3),
+        inputs_table(record.inputs),
+        options_table(record),
+        Words("What the numbers mean", [*MEANT, NOT_A_DEVICE]),
+    ]
+    page = Page(
+        title="Standing up, predicted and recorded",
+        subtitle=f"{', '.join(t.recorded.name for t in trials)}; contacts calibrated on other trials",
+        time=np.linspace(0.0, 100.0, FRAMES),
+        time_label="part of the movement [%]",
+        headline=headline(record.sentences),
+        reservations=tuple(record.warnings),
+        sections=tuple(sections),
+    )
+    return write_page(page, path)
