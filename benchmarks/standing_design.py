@@ -132,7 +132,7 @@ def slopes(options: argparse.Namespace) -> dict[str, Any]:
     from geocontact.analyses.run_record import Record
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.solve import SolverOptions
-    from geocontact.standing_up.assistance.assisted_model import SHARE, assisted_model
+    from geocontact.standing_up.assistance.assisted_model import ASSISTED_PARAMETERS, SHARE, assisted_model
     from geocontact.standing_up.assistance.design import KNEE, HelpTask, designed
     from geocontact.standing_up.assistance.design import NAMES as PARAMETERS
     from geocontact.standing_up.assistance.movement import Movements
@@ -162,7 +162,7 @@ def slopes(options: argparse.Namespace) -> dict[str, Any]:
     for k, name in enumerate(PARAMETERS):
         if k in best.task.index or name == "dissipation":
             continue
-        step, ends = 5e-4 if abs(p[k]) < 0.5 else 1e-2, []
+        step, ends = 1e-2 if ASSISTED_PARAMETERS[k].logarithm else 5e-4, []
         for sign in (1.0, -1.0):
             beside = best.p.copy()
             beside[:, k] += sign * step
