@@ -8,7 +8,8 @@ is named, or called unknown, takes at least a stated share of some channel's squ
 on a few samples or on one trial. Of two effects each must do all that beside the other alone.
 
 The share is that of an error cleared of what the base parameters differ by in each trial: nobody can predict that, and
-what they can take of an effect they have taken when the base model was refitted, so that clearing leaves the effect.
+what they can take of an effect they have taken when the base model was refitted, so that clearing leaves the effect. No base
+parameter is refitted beside something without a name: its share is that of the error as it is.
 """
 
 from __future__ import annotations
@@ -200,8 +201,7 @@ class HeldOutRules:
         both = [(weight(b), weight(m)) for weight, b, m in pairs]
         whole = amplitude([b for b, _ in both], [m for _, m in both])
         after = [b - m for b, m in zip(before[count:], change, strict=True)]
-        share = taken_away(self._cleared(before[count:]), self._cleared(after))
-        return whole is not None and whole.better and share >= WORTH_NAMING
+        return whole is not None and whole.better and taken_away(before[count:], after) >= WORTH_NAMING
 
 
 def with_one(problem: Problem, pair: Contender, one: Candidate) -> Contender:
