@@ -8,8 +8,8 @@ is named, or called unknown, takes at least a stated share of some channel's squ
 on a few samples or on one trial. Of two effects each must do all that beside the other alone.
 
 The share is that of an error cleared of what the base parameters differ by in each trial: nobody can predict that, and
-what they can take of an effect they have taken when the base model was refitted, so that clearing leaves the effect. No base
-parameter is refitted beside something without a name: its share is that of the error as it is.
+what they can take of an effect they have taken when the base model was refitted, so that clearing leaves the effect.
+No base parameter is refitted beside something without a name: its share is that of the error as it is.
 """
 
 from __future__ import annotations
