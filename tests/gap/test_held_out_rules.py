@@ -9,7 +9,7 @@ import pytest
 
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.preparation import problem_of
-from geocontact.gap.case.problem import evaluated, floor_of
+from geocontact.gap.case.problem import evaluated
 from geocontact.gap.case.refit import refit
 from geocontact.gap.selection.held_out_error import TrialWeight, amplitude, taken_away
 from geocontact.gap.selection.held_out_rules import FEW, TOO_LITTLE, WORTH_NAMING, HeldOutRules, trimmed, with_one
@@ -155,17 +155,6 @@ def test_the_share_is_that_of_an_error_without_what_base_parameters_differ_by(ru
     rules.fitted[one.label] = [b - s for b, s in zip(both, stiffness, strict=True)]
     assert taken_away(both, rules.fitted[one.label]) > 0.5, "of the error as it is"
     assert replace(rules, base=varied, before=both)._of_share(one) == TOO_LITTLE, "a trial's own stiffness is no effect"
-
-
-@pytest.mark.slow
-def test_a_floor_is_never_above_the_error_itself(rules: HeldOutRules) -> None:
-    problem = rules.problem
-    believed = replace(rules.base.noise, levels=problem.beliefs.middle, varies=100.0 * problem.usual)
-    count = len(problem.calibration.trials)
-    missed = np.sqrt(np.mean(np.concatenate(problem.plain.residuals[:count]) ** 2, axis=0))
-    assert floor_of(problem, believed, problem.plain) == pytest.approx(missed)
-    quiet = replace(believed, varies=0.0 * problem.usual)
-    assert floor_of(problem, quiet, problem.plain) <= missed
 
 
 @pytest.mark.slow
