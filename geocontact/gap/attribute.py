@@ -131,12 +131,11 @@ def _attributed(
     at("whether held-out trials are predicted better")
     rules = HeldOutRules.of(clean, base.judged)
     gaining = [c for c in contenders if c.nats > base.nats]
-    alone = [c for c in gaining if len(c.candidates) == 1]
+    alone = [c for c in contenders if len(c.candidates) == 1]
     objections = {c.label: why for c in gaining if (why := rules.objection(c, alone))}
     objections |= rules.outdone([c for c in gaining if c.label not in objections])
-    free = [c for c in contenders if c.label not in objections]
     variants = Counter(one.name for one in entered)
-    held = ranking(base, free, shares, variants)
+    held = ranking(base, contenders, shares, variants, objections)
     odd = tuple(each for each in residual_anomalies(clean, held.leader.judged) if each.nats > ODD)
     recorder = tuple(each for each in recorder_remarks(clean, held.leader.judged) if each.nats > ODD)
     strange = float(sum(each.nats for each in odd))
@@ -144,7 +143,7 @@ def _attributed(
     at("what is left over")
     rest = surrogate(clean, best.judged)
     left = _believed(rules, best, rest) if best is base or rules.adds(rest, best) else 0.0
-    possible = ranking(base, [c for c in gaining if not rules.ruled_out(c)], shares, variants)
+    possible = ranking(base, gaining, shares, variants, {c.label for c in gaining if rules.ruled_out(c)})
     little = {label for label, why in objections.items() if why == TOO_LITTLE}
     unnamed, known = _believed(rules, base, remaining["none"]), most_of(possible, little)
     said = with_refused(answer(held, unnamed, strange, left + strange, known), possible)

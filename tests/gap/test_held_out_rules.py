@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import evaluated
-from geocontact.gap.selection.held_out_rules import (
-    FEW,
-    WORTH_NAMING,
-    HeldOutRules,
-    TrialWeight,
-    amplitude,
-    taken_away,
-    trimmed,
-)
-from geocontact.gap.selection.model_comparison import Contender
+from geocontact.gap.case.refit import refit
+from geocontact.gap.selection.held_out_error import TrialWeight, amplitude, taken_away
+from geocontact.gap.selection.held_out_rules import FEW, TOO_LITTLE, WORTH_NAMING, HeldOutRules, trimmed, with_one
+from geocontact.gap.selection.model_comparison import Contender, base_contender, finished
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import elbow_case, judged_as
 
@@ -138,16 +134,46 @@ def test_an_error_that_grows_by_chance_keeps_from_being_named_but_rules_nothing_
 
 @pytest.mark.slow
 def test_who_takes_less_than_its_share_of_the_error_away_is_not_named(rules: HeldOutRules) -> None:
-    first, second = contenders(rules)
-    pair = Contender((*first.candidates, *second.candidates), rules.base)
+    first, _ = contenders(rules)
     enough, too_little = np.sqrt(1.0 - 1.1 * WORTH_NAMING), np.sqrt(1.0 - 0.9 * WORTH_NAMING)
     for scale, refused in ((too_little, True), (enough, False)):
         rules.fitted[first.label] = [scale * part for part in rules.before]
-        assert bool(rules._of_share(first, [first, second])) is refused
-    rules.fitted[second.label] = rules.before
-    for scale, refused in ((too_little, True), (enough, False)):
-        rules.fitted[pair.label] = [enough * scale * part for part in rules.before]
-        assert bool(rules._of_share(pair, [first, second])) is refused, "a second effect, of what the first leaves"
+        assert bool(rules._of_share(first)) is refused
+
+
+@pytest.mark.slow
+def test_the_share_is_that_of_an_error_without_what_base_parameters_differ_by(rules: HeldOutRules) -> None:
+    one, problem, count = contenders(rules)[0], rules.problem, len(rules.problem.calibration.trials)
+    varied = replace(rules.base, noise=replace(rules.base.noise, varies=problem.usual))
+    stiffness = [jacobian[..., 0] * 2.0 * problem.usual[0] for jacobian in rules.base.model.jacobian[count:]]
+    noise = [0.3 * problem.floor * RNG.standard_normal(part.shape) for part in stiffness]
+    fast = [0.3 * problem.floor * np.sin(np.arange(len(part)))[:, None] for part in stiffness]
+    both = [sum(parts) for parts in zip(stiffness, noise, fast, strict=True)]
+    rules.fitted[one.label] = [b - m for b, m in zip(both, fast, strict=True)]
+    assert taken_away(both, rules.fitted[one.label]) < WORTH_NAMING, "of the error as it is"
+    assert replace(rules, base=varied, before=both)._of_share(one) == ""
+    rules.fitted[one.label] = [b - s for b, s in zip(both, stiffness, strict=True)]
+    assert taken_away(both, rules.fitted[one.label]) > 0.5, "of the error as it is"
+    assert replace(rules, base=varied, before=both)._of_share(one) == TOO_LITTLE, "a trial's own stiffness is no effect"
+
+
+@pytest.mark.slow
+def test_each_of_two_effects_must_earn_its_place_beside_the_other_alone() -> None:
+    """A damper is there and a drift is not: what the two gain together is the damper's."""
+    case = elbow_case("damping", {"damping.b": 6.0, "damping.exponent": 1.0}, duration=6.0)
+    problem = problem_of(case, system_of(case))
+    base = base_contender(problem)
+    offered = {one.label: one for one in candidates(problem.system)}
+    two = (offered["damping"], offered["sensor_drift.force"])
+    system = two[1].apply(two[0].apply(problem.system))
+    start = {**problem.plain.values, **two[0].starts[0], **two[1].starts[0]}
+    fitted = refit(system, problem.calibration, problem.fitting(base.judged.noise, problem.plain), [start])
+    pair = finished(problem, two, fitted, base.judged.noise)
+    rules = HeldOutRules.of(problem, base.judged)
+    damper, drift = (with_one(problem, pair, one) for one in two)
+    assert rules.over_base(pair) == "" and rules.objection(damper, ()) == ""
+    assert rules.objection(pair, (damper, drift)).startswith("beside damping alone, trials left out are not surely")
+    assert rules.objection(pair, (drift,)).startswith("beside damping alone"), "also where it was not judged alone"
 
 
 def test_the_share_that_is_gone_is_that_of_the_channel_that_gains_most():

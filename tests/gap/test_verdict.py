@@ -246,3 +246,9 @@ def test_who_has_no_evidence_is_not_weighed() -> None:
 def test_what_is_no_number_is_no_verdict(given: dict[str, float]) -> None:
     with pytest.raises(FloatingPointError, match="what is left unexplained is not a number"):
         said(contender(50.0, "damping"), **given)
+
+
+def test_a_pair_must_add_to_the_best_single_though_that_may_not_be_named() -> None:
+    base, alone, both = contender(0.0), contender(60.0, "damping"), contender(55.0, "damping", "sensor_drift.force")
+    found = ranking(base, [alone, both], shares(alone, both), {one.name: 1 for one in OFFERED.values()}, {alone.label})
+    assert found.living == (), "two effects that gain less than one of them does"

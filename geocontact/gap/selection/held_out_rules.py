@@ -1,17 +1,15 @@
 """Rules on held-out trials that no evidence overrides.
 
-An effect is named only if it predicts trials that are left out better, and worsens no channel of the held-out ones.
-With b the residual of the base model and m what the effect changes of its prediction, the squared error falls by
+An effect is named only if it predicts trials that are left out better, and worsens no channel of the held-out ones:
+where the amplitude of what it changes, as those trials have it, is above one half (`held_out_error`); 1 where the
+change is what is missing. Whether it is there is asked of residuals that are whitened by noise and by what trials
+differ by, which tell most; whether it does harm of residuals in units of the floor, inputs as they were measured. What
+is named, or called unknown, takes at least a stated share of some channel's squared error away; and no verdict hangs
+on a few samples or on one trial. Of two effects each must do all that beside the other alone.
 
-    sum b² - sum (b - m)² = (2 a - 1) sum m²,   a = sum b m / sum m²,
-
-so it falls where the amplitude a of the change, as those trials have it, is above one half; 1 where the change is what
-is missing. Whether it is there is asked of residuals that are whitened by noise and by what trials differ by, which
-tell most; whether it does harm of residuals in units of the floor, inputs as they were measured. The standard error is
-from blocks of the trials, whatever the noise within and between neighbouring blocks is (Newey & West 1987,
-Econometrica 55:703), no less than that of independent samples: few blocks that hold the change tell little, however
-many samples they have. What is named, or called unknown, takes at least a stated share of some channel's squared error
-away, a second effect of what the first leaves; and no verdict hangs on a few samples or on one trial.
+The share is that of an error cleared of what the base parameters differ by in each trial: nobody can predict that, and
+what they can take of an effect they have taken when the base model was refitted, so that clearing leaves the effect.
+No base parameter is refitted beside something without a name: its share is that of the error as it is.
 """
 
 from __future__ import annotations
@@ -20,113 +18,24 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float
 
+from geocontact.chain.candidate import Candidate
 from geocontact.gap.case.measured_fit import measured_fit
-from geocontact.gap.case.plain_fit import Plain
 from geocontact.gap.case.problem import Noise, Problem
+from geocontact.gap.case.refit import free, refit
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.selection.calibration_share import changes
 from geocontact.gap.selection.evidence import Judged, prior_spread
-from geocontact.gap.selection.model_comparison import Contender
+from geocontact.gap.selection.held_out_error import Amplitude, TrialWeight, amplitude, taken_away
+from geocontact.gap.selection.model_comparison import Contender, finished
 from geocontact.gap.selection.surrogate import Surrogate
 
-BLOCKS = 16  # per trial
-SURE = 0.975  # one-sided
-HALF = 0.5  # amplitude below which a change makes the error larger
-NOTHING = 1e-12  # of the squared residual, below which a prediction is not changed
-HARM = 0.02  # of a channel's squared error, that it may surely grow by; the sum over the channels may not grow at all
 WORTH_NAMING = 0.1  # of a channel's squared error, that must go: a twentieth of the error, less than anybody would see
 FEW = 0.02  # of the samples, that no verdict may hang on
 ENOUGH = 6.0  # nats that the others must gain
 LEFT_OVER = 0.2  # of what a named effect changes, or of an error, in squares, that may be left over
 TOO_LITTLE = f"in no channel it takes {WORTH_NAMING:.0%} of the squared error away"
-
-
-@dataclass(frozen=True)
-class Amplitude:
-    """How much of a change the held-out trials have: 1 all of it, 0 nothing.
-
-    Parameters
-    ----------
-    value, low, high
-        With its interval of 95 %.
-    grown
-        What the change adds to the squared error, as a share of it; negative where the error falls.
-    """
-
-    value: float
-    low: float
-    high: float
-    grown: float
-
-    @property
-    def better(self) -> bool:
-        """Whether the error surely falls."""
-        return self.low > HALF
-
-    @property
-    def words(self) -> str:
-        """With its interval."""
-        return f"amplitude there {self.value:.2f} [{self.low:.2f}, {self.high:.2f}], 1 where the change is right"
-
-    @property
-    def worse(self) -> bool:
-        """Whether the error surely grows, by more than what makes no difference."""
-        return self.high < HALF and self.grown > HARM
-
-
-def block_edges(count: int) -> Int[np.ndarray, " b"]:
-    """Where the blocks of a trial of so many rows begin; a short trial has fewer."""
-    return np.unique(np.linspace(0, count, BLOCKS + 1).astype(int)[:-1])
-
-
-def amplitude(
-    before: Sequence[Float[np.ndarray, "_ c"]], change: Sequence[Float[np.ndarray, "_ c"]]
-) -> Amplitude | None:
-    """Of a change of a prediction in trials with the residuals `before`, both weighed; None where there is none."""
-    from scipy.stats import t
-
-    works, powers, squares = [], [], 0.0
-    for own, moved in zip(before, change, strict=True):
-        edges = block_edges(len(own))
-        works.append(np.add.reduceat((own * moved).sum(axis=1), edges))
-        powers.append(np.add.reduceat((moved**2).sum(axis=1), edges))
-        squares += float((own**2).sum())
-    power, work = float(np.sum(powers)), float(np.sum(works))
-    if not NOTHING * squares < power < np.inf:
-        return None
-    value = work / power
-    off = [w - value * p for w, p in zip(works, powers, strict=True)]
-    pairs = zip(before, change, strict=True)
-    alone = sum(float(((moved * (own - value * moved)).sum(axis=1) ** 2).sum()) for own, moved in pairs)
-    spread = max(sum(float(each @ each) + float(each[1:] @ each[:-1]) for each in off), alone)
-    count = power**2 / float(np.sum(np.square(powers)))
-    freedom = max(count - 1.0, 0.5)
-    error = float(np.sqrt(spread * (count / freedom))) / power
-    reach = float(t.ppf(SURE, freedom)) * error
-    return Amplitude(value, value - reach, value + reach, (power - 2.0 * work) / max(squares, 1e-300))
-
-
-@dataclass(frozen=True)
-class TrialWeight:
-    """What a residual of one trial weighs: (I + B Q Bᵀ)^(-1/2) D⁻¹, D the floor, B Q Bᵀ what trials differ by."""
-
-    present: Bool[np.ndarray, "t c"]
-    whitening: Whitening
-
-    @classmethod
-    def of(
-        cls, present: Bool[np.ndarray, "t c"], floor: Float[np.ndarray, " c"], varied: Float[np.ndarray, "t c q"]
-    ) -> TrialWeight:
-        """From derivatives with respect to what varies, times its standard deviation."""
-        return cls(present, Whitening.of(Plain(present, floor), varied))
-
-    def __call__(self, values: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t c"]:
-        """Weighed; 0 where nothing was measured."""
-        out = np.zeros(values.shape)
-        out[self.present] = self.whitening(values[..., None])[:, 0]
-        return out
 
 
 @dataclass(frozen=True)
@@ -172,7 +81,7 @@ class HeldOutRules:
         """
         if any(each.somewhere is not None for each in one.candidates):
             return ""
-        return self._of_change(one.judged) or self.harm(one) or self._of_share(one, alone) or self._of_few(one.judged)
+        return self.over_base(one) or self._beside(one, alone)
 
     def outdone(self, free: Sequence[Contender]) -> dict[str, str]:
         """Objections to models that another with as many effects outdoes, by label.
@@ -203,6 +112,22 @@ class HeldOutRules:
         whole = changes(self.problem, replace(one, judged=self.base), one)[count:]
         own, more = (sum(float(((p / floor) ** 2).sum()) for p in parts) for parts in (whole, found.predicted[count:]))
         return more > LEFT_OVER * own
+
+    def over_base(self, one: Contender) -> str:
+        """Why a model may not be named in place of the base; "" where nothing speaks against it."""
+        return self._of_change(one.judged) or self.harm(one) or self._of_share(one) or self._of_few(one.judged)
+
+    def _beside(self, one: Contender, alone: Sequence[Contender]) -> str:
+        """Why one of two effects may not be named beside the other: the same rules, that one alone for a base."""
+        if len(one.candidates) == 1:
+            return ""
+        for other in one.candidates:
+            first = next((each for each in alone if each.candidates == (other,)), None)
+            first = first or with_one(self.problem, one, other)
+            why = replace(self, base=first.judged, before=self._after(first)).over_base(one)
+            if why:
+                return f"beside {first.label} alone, {why}"
+        return ""
 
     def _of_change(self, one: Judged) -> str:
         before, rest = (left_out_residuals(self.problem, each, one.noise) for each in (self.base, one))
@@ -242,15 +167,18 @@ class HeldOutRules:
         columns = [slice(None), *(slice(c, c + 1) for c in range(len(self.problem.floor)))]
         return [amplitude([b[:, own] for b in old], [m[:, own] for m in new]) for own in columns]
 
-    def _of_share(self, one: Contender, alone: Sequence[Contender]) -> str:
-        """Of two effects either must take its share of what the other leaves."""
-        after = self._after(one)
-        if taken_away(self.before, after) < WORTH_NAMING:
-            return TOO_LITTLE
-        labels = [each.label for each in one.candidates]
-        parts = [each for each in alone if len(labels) > 1 and each.label in labels]
-        less = [each.label for each in parts if taken_away(self._after(each), after) < WORTH_NAMING]
-        return f"beside {less[0]}, {TOO_LITTLE}" if less else ""
+    def _of_share(self, one: Contender) -> str:
+        before, after = self._cleared(self.before), self._cleared(self._after(one))
+        return TOO_LITTLE if taken_away(before, after) < WORTH_NAMING else ""
+
+    def _cleared(self, parts: Sequence[Float[np.ndarray, "_ c"]]) -> list[Float[np.ndarray, "_ c"]]:
+        """Residuals on held-out trials without what the base parameters differ by in each trial."""
+        problem, one = self.problem, self.base
+        count, fitted = len(problem.calibration.trials), problem.fitted
+        own = [jacobian[..., :fitted] * one.noise.varies[:fitted] for jacobian in one.model.jacobian[count:]]
+        present = problem.recorded.present[count:]
+        weights = [TrialWeight.of(there, problem.floor, varied) for there, varied in zip(present, own, strict=True)]
+        return [weight.cleared(part) for weight, part in zip(weights, parts, strict=True)]
 
     def _of_few(self, one: Judged) -> str:
         without, with_it = (_innovations(self.problem, each, one.noise) for each in (self.base, one))
@@ -274,6 +202,14 @@ class HeldOutRules:
         whole = amplitude([b for b, _ in both], [m for _, m in both])
         after = [b - m for b, m in zip(before[count:], change, strict=True)]
         return whole is not None and whole.better and taken_away(before[count:], after) >= WORTH_NAMING
+
+
+def with_one(problem: Problem, pair: Contender, one: Candidate) -> Contender:
+    """The model with one of the effects of a pair alone, refitted, with noise of its own."""
+    system, noise, model = one.apply(problem.system), pair.judged.noise, pair.judged.model
+    start = {p.name: model.values[p.name] for p in free(system)}
+    alone = refit(system, problem.calibration, problem.fitting(noise, model), [start])
+    return finished(problem, (one,), alone, noise)
 
 
 def whitened_samples(
@@ -303,12 +239,6 @@ def left_out_residuals(problem: Problem, one: Judged, noise: Noise) -> list[Floa
         others = np.eye(len(spread)) + sum(grams) - gram
         found.append(residual - jacobian @ (spread * np.linalg.solve(others, sum(pulls) - pull)))
     return found
-
-
-def taken_away(before: Sequence[Float[np.ndarray, "_ c"]], after: Sequence[Float[np.ndarray, "_ c"]]) -> float:
-    """The largest share of a channel's squared error that is gone, below 0 where all grow; 0 where nothing is there."""
-    old, new = (np.sum([(part**2).sum(axis=0) for part in parts], axis=0) for parts in (before, after))
-    return float(np.max(1.0 - new[old > 0.0] / old[old > 0.0], initial=-np.inf)) if (old > 0.0).any() else 0.0
 
 
 def trimmed(gains: Float[np.ndarray, " n"]) -> float:

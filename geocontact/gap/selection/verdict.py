@@ -80,9 +80,13 @@ class Ranking:
 
 
 def ranking(
-    base: Contender, contenders: Sequence[Contender], shares: Mapping[str, float], variants: Mapping[str, int]
+    base: Contender,
+    contenders: Sequence[Contender],
+    shares: Mapping[str, float],
+    variants: Mapping[str, int],
+    refused: Collection[str] = (),
 ) -> Ranking:
-    """What the contenders gain; a pair is weighed where it adds enough to the best single.
+    """What the contenders gain; a pair is weighed where it adds enough to the best single, weighed or not.
 
     Who has no evidence that is a number is not weighed.
 
@@ -92,6 +96,8 @@ def ranking(
         The base model.
     contenders
         Models with one candidate or two.
+    refused
+        Labels of those that are not weighed.
     shares
         Calibration trials' part of what each changes, by label.
     variants
@@ -106,7 +112,7 @@ def ranking(
     best_single = max((over_base[c.label] for c in single), default=0.0)
     needed = SURE + PAIR * max(best_single, 0.0)
     pairs = [c for c in contenders if len(c.candidates) == 2 and over_base[c.label] - best_single > needed]
-    living = (*single, *pairs)
+    living = tuple(c for c in (*single, *pairs) if c.label not in refused)
     gains = {c.label: over_base[c.label] - (needed if len(c.candidates) == 2 else 0.0) for c in living}
     return Ranking(base, living, gains)
 
