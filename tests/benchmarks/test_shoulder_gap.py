@@ -48,6 +48,7 @@ def test_an_arm_in_the_plane_keeps_its_elevation_and_leaves_the_passive_joints()
     assert np.degrees(np.abs(s.angles[:, :2])).max() < 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("effect", "size"), [("push force", (8.0,)), ("play", (5.0,)), ("strap", (12.0,)), ("dry seals", (0.7, 0.03))]
 )

@@ -44,8 +44,9 @@ def elsewhere(folder: Path, noise: float) -> dict[str, Path]:
     return {option: folder / name for option, name in names.items()}
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # open3d's own imports warn
-@pytest.mark.parametrize("way", ["landmarks", pytest.param("shape", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("way", ["landmarks", "shape"])
 def test_results_are_in_the_frame_of_the_body_that_the_scan_is_registered_to(tmp_path: Path, way: str) -> None:
     shape = way == "shape"
     by_shape = {"body": BODY, "icp": True} if shape else {}

@@ -118,6 +118,7 @@ def study(folder: Path, persons: int = 2) -> Path:
     return file
 
 
+@pytest.mark.slow
 def test_a_study_from_files_is_that_of_the_arrays(synthetic: ShoulderOptimiseResult, tmp_path: Path) -> None:
     """P1 pushes as the task says: markers to 0.01 mm through files give the profile of the synthetic arrays."""
     found = gc.shoulder.optimise(study(tmp_path), draws=DRAWS)
@@ -182,6 +183,7 @@ def test_one_person_is_not_held_out(tmp_path: Path) -> None:
     assert not (tmp_path / "out" / "held_out.csv").exists()
 
 
+@pytest.mark.slow
 def test_gaps_are_filled_up_to_a_limit(tmp_path: Path) -> None:
     """A wrist out of sight for 50 ms changes little, one for 0.4 s is refused."""
     file = study(tmp_path, 1)

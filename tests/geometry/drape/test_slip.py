@@ -37,6 +37,7 @@ def test_on_a_plane_it_is_the_rigid_fit_in_the_plane():
     assert found.matrix == pytest.approx(expected, rel=1e-9, abs=1e-18)
 
 
+@pytest.mark.slow
 def test_a_mat_shifted_around_a_tube_is_turned_about_its_axis():
     """Corners that contradict each other along it. By d around it the mat turns by d / R, along it not at all."""
     radius = 0.06
