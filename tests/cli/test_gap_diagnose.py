@@ -18,6 +18,7 @@ import pytest
 from geocontact.analyses.json_file import plain
 from tests.cli.calls import Call, call, done, inventory, process
 from tests.cli.gap_cases import damped_elbow, in_degrees_and_kilonewtons, known, reordered, spoilt
+from tests.systems.examples import ELBOW_VALUES
 from tests.unchecked import unchecked
 
 TABLES = {"diagnosis.json", "run.json", "gap_map.csv", "ranking.csv", "held_out.csv", "trials.csv"}
@@ -195,3 +196,18 @@ def test_json_holds_pythons_own_numbers() -> None:
     made = plain(given)
     assert made == {"a": 1.5, "b": [None, None, None], "c": True, "d": [3, None, "x"]}
     assert type(made["a"]) is float and type(made["d"][0]) is int and made["c"] is True
+
+
+@pytest.mark.slow
+def test_base_parameters_may_all_be_known(tmp_path: Path) -> None:
+    """Nothing is left to refit: the effect is found beside them."""
+    case = damped_elbow(tmp_path / "elbow_7", samples=80)
+    text = (case / "case.toml").read_text()
+    for name, start in (("k", "280.0"), ("x", "0.03"), ("y", "0.04")):
+        known = f"[parameters.{name}]\nfixed = true\nstart = {ELBOW_VALUES[name]}"
+        text = text.replace(f"[parameters.{name}]\nstart = {start}", known)
+    (case / "case.toml").write_text(text)
+    done(call("gap", "diagnose", case, "--out", tmp_path / "out"))
+    assert text.count("fixed = true") == 3
+    found = answer_in(tmp_path / "out")
+    assert (found["verdict"], found["effects"]) == ("explained", ["damping"])

@@ -24,7 +24,7 @@ class Plain:
 
     def __call__(self, values: Float[np.ndarray, "t c p"]) -> Float[np.ndarray, "n p"]:
         """Rows of measured samples, divided by the floor."""
-        return np.asarray((values / self.floor[:, None]).reshape(-1, values.shape[-1])[self.present.ravel()])
+        return np.asarray((values / self.floor[:, None])[self.present])
 
 
 def plain_fit(

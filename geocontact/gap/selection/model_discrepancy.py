@@ -32,7 +32,8 @@ def discrepancy_basis(
     """
     everything = [*problem.calibration.trials, *problem.evaluation.trials]
     floor, base = problem.floor, problem.fitted
-    jacobian = np.concatenate([(j[..., :base] / floor[:, None]).reshape(-1, base) for j in model.jacobian])
+    slopes = [j[..., :base] / floor[:, None] for j in model.jacobian]
+    jacobian = np.concatenate([each.reshape(len(each) * len(floor), base) for each in slopes])
     monomials = _monomials(problem)
     made: list[list[np.ndarray]] = [[] for _ in everything]
     system = problem.system

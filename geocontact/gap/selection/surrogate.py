@@ -161,6 +161,10 @@ def chosen(
     `known` are the derivatives of the fitted parameters times their prior spread; what they explain counts for nothing.
     `rows` is how many of the rows are of calibration trials.
     """
+    none = FittedWeights(np.zeros(0), np.zeros(known.shape[1]))
+    nothing = Choice([], none, none, 0.0, 0.0, price)
+    if not columns.shape[1]:
+        return nothing
     basis, _ = np.linalg.qr(np.concatenate([known, RIDGE * np.eye(known.shape[1])]))
     basis = basis[: len(known)]
     left, free = residual - basis @ (basis.T @ residual), columns - basis @ (basis.T @ columns)
@@ -182,8 +186,7 @@ def chosen(
         shared = free.T @ direction
         power, along = np.maximum(power - shared**2, 0.0), along - shared * (direction @ left)
     if not taken:
-        none = FittedWeights(np.zeros(0), np.zeros(known.shape[1]))
-        return Choice([], none, none, 0.0, 0.0, price)
+        return nothing
     design = free[:, taken]
     gain = log_evidence(left, design, spread) + 0.5 * float(left @ left)
     part = log_evidence(left[:rows], design[:rows], spread) + 0.5 * float(left[:rows] @ left[:rows])
