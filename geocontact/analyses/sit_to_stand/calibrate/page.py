@@ -5,18 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
-from geocontact.analyses.sit_to_stand.standing_scene import FRAMES, standing_curves, standing_scene
+from geocontact.analyses.sit_to_stand.standing_page import write_motion_page
+from geocontact.analyses.sit_to_stand.standing_scene import standing_curves, standing_scene
 from geocontact.analyses.sit_to_stand.standing_trials import StandingUpTrials
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
-from geocontact.view.page.content import Page, Section, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.content import Section
+from geocontact.view.page.tables import frame_table
 
 MODEL = [
     "Both legs are one planar chain: masses, torques and the ground's force are those of both, a strap is that of one.",
@@ -47,22 +44,12 @@ def write_standing_page(
         frame_table("Between and beyond the collocation points", tables["certificate"], 3),
         frame_table("Root mean square differences and the noise that was told", tables["errors"], 3),
         frame_table("Correlation of the estimates", tables["correlation"], 2),
-        inputs_table(record.inputs),
-        options_table(record),
-        Words("What the numbers mean", [*MODEL, NOT_A_DEVICE]),
     ]
     residual = max(float(trial.judged.force.max()) for trial in trials)
-    page = Page(
-        title="Contacts calibrated on standing up",
-        subtitle=f"{', '.join(t.recorded.name for t in trials)}; {given.subject.mass:g} kg, {given.subject.height:g} m",
-        time=np.linspace(0.0, 100.0, FRAMES),
-        time_label="part of the movement [%]",
-        headline=headline(record.sentences),
-        facts=[
-            ("Residual between the points up to", f"{residual:.2g} N"),
-            ("Ground reaction up to", f"{max(float(t.model.force[:, 1].max()) for t in trials):.0f} N"),
-        ],
-        reservations=tuple(record.warnings),
-        sections=tuple(sections),
-    )
-    return write_page(page, path)
+    names = ", ".join(t.recorded.name for t in trials)
+    titles = "Contacts calibrated on standing up", f"{names}; {given.subject.mass:g} kg, {given.subject.height:g} m"
+    facts = [
+        ("Residual between the points up to", f"{residual:.2g} N"),
+        ("Ground reaction up to", f"{max(float(t.model.force[:, 1].max()) for t in trials):.0f} N"),
+    ]
+    return write_motion_page(path, record, titles, sections, MODEL, facts)

@@ -6,20 +6,17 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
 import pandas as pd
 
 from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.design.chosen import CertifiedDesign
-from geocontact.analyses.sit_to_stand.standing_scene import FRAMES, at_parts, standing_scene
+from geocontact.analyses.sit_to_stand.standing_page import write_motion_page
+from geocontact.analyses.sit_to_stand.standing_scene import at_parts, standing_scene
 from geocontact.standing_up.assistance.assisted_model import KNEE
 from geocontact.standing_up.chain import Subject
-from geocontact.view.page.content import Curve, Curves, Page, Picture, Section, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.content import Curve, Curves, Picture, Section
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -59,20 +56,12 @@ def write_choice_page(
         *_curves(designs),
         Picture("Strap and knee of the first trial", "Grey without help.", drawing(figure), wide=True),
         *(frame_table(title, tables[name], 3) for name, title in NAMES.items() if name in tables),
-        inputs_table(record.inputs),
-        options_table(record),
-        Words("What the numbers mean", [*MODEL, NOT_A_DEVICE]),
     ]
-    page = Page(
-        title="An exoskeleton chosen for standing up",
-        subtitle=f"{', '.join(t.recorded.name for t in best.trials)}; {subject.mass:g} kg, {subject.height:g} m",
-        time=np.linspace(0.0, 100.0, FRAMES),
-        time_label="part of the movement [%]",
-        headline=headline(record.sentences),
-        reservations=tuple(record.warnings),
-        sections=tuple(sections),
+    titles = (
+        "An exoskeleton chosen for standing up",
+        f"{', '.join(t.recorded.name for t in best.trials)}; {subject.mass:g} kg, {subject.height:g} m",
     )
-    return write_page(page, path)
+    return write_motion_page(path, record, titles, sections, MODEL)
 
 
 def _curves(designs: Sequence[CertifiedDesign]) -> list[Curves]:

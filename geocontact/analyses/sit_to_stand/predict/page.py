@@ -6,19 +6,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
 import pandas as pd
 
 from geocontact.analyses.figure_files import drawing
-from geocontact.analyses.options_table import options_table
-from geocontact.analyses.page_words import NOT_A_DEVICE, headline
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.predict.read import HeldOutTrials
-from geocontact.analyses.sit_to_stand.standing_scene import FRAMES, standing_curves, standing_scene
+from geocontact.analyses.sit_to_stand.standing_page import write_motion_page
+from geocontact.analyses.sit_to_stand.standing_scene import standing_curves, standing_scene
 from geocontact.analyses.sit_to_stand.trial_result import TrialResult
-from geocontact.view.page.content import Page, Picture, Section, Words
-from geocontact.view.page.tables import frame_table, inputs_table
-from geocontact.view.page.write import write_page
+from geocontact.view.page.content import Picture, Section
+from geocontact.view.page.tables import frame_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,17 +44,9 @@ def write_prediction_page(
         Picture("The strap by each predictor", "Grey as recorded.", drawing(figure)),
         frame_table("Root mean square differences", tables["errors"], 3),
         frame_table("Between and beyond the collocation points", tables["certificate"], 3),
-        inputs_table(record.inputs),
-        options_table(record),
-        Words("What the numbers mean", [*MODEL, NOT_A_DEVICE]),
     ]
-    page = Page(
-        title="Standing up, predicted",
-        subtitle=f"{', '.join(t.recorded.name for t in trials)}; contacts calibrated on other trials",
-        time=np.linspace(0.0, 100.0, FRAMES),
-        time_label="part of the movement [%]",
-        headline=headline(record.sentences),
-        reservations=tuple(record.warnings),
-        sections=tuple(sections),
+    titles = (
+        "Standing up, predicted",
+        f"{', '.join(t.recorded.name for t in trials)}; contacts calibrated on other trials",
     )
-    return write_page(page, path)
+    return write_motion_page(path, record, titles, sections, MODEL)
