@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import nullcontext
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -17,12 +18,14 @@ import hypothesis
 import pytest
 from jaxtyping import install_import_hook
 
+from tests.drawing import undrawn
 from tests.elsewhere import Elsewhere, another_process
 from tests.one_core import one_core
 from tests.scheduling import FileByFile, lasting_first
 
 ROOT = Path(__file__).resolve().parents[1]
 REAL = ROOT / "tests" / "real"
+ROOMS_OF_CALLS = {ROOT / "tests" / "analyses", ROOT / "tests" / "cli"}
 PER_CENT = "ignore:.*taken as per cent of a cycle:geocontact.data.errors.InputWarning"
 """Right of DM's fluoroscopy, whose time has no unit."""
 COMPILED = "geocontact.geometry.kernels"  # numba reads these functions' own source; nothing may be wrapped around them
@@ -56,6 +59,14 @@ def unhurried() -> Iterator[None]:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(show, "SILENCE", 3600.0)
+        yield
+
+
+@pytest.fixture(autouse=True)
+def hurried(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Commands and analyses do not draw their figures but in tests marked `drawn`."""
+    calls = ROOMS_OF_CALLS & set(request.path.parents)
+    with undrawn() if calls and not request.node.get_closest_marker("drawn") else nullcontext():
         yield
 
 

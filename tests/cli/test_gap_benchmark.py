@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -15,7 +13,7 @@ import pytest
 from geocontact.analyses.gap.benchmark.case import Task
 from geocontact.gap_benchmark.drawing import drawn, lots
 from geocontact.io.cases.gap_case import read_gap_case
-from tests.cli.calls import ROOT, Call, call, done, process
+from tests.cli.calls import Call, call, done, process
 
 FILES = {"benchmark.json", "benchmark.md", "cases.csv", "reliability.png", "reliability.svg", "run.json"}
 SEED = 20
@@ -134,11 +132,3 @@ def test_options_that_mean_nothing_are_refused(tmp_path: Path, options: tuple, c
     result = call("gap", "benchmark", "--out", tmp_path / "out", *options)
     assert result.code == 2 and complaint in result.err and len(result.complaints) == 1
     assert not list(tmp_path.iterdir())
-
-
-def test_help_imports_nothing_heavy() -> None:
-    program = "import sys; from geocontact.cli.main import run; run(['gap', 'benchmark', '--help']);"
-    program += "sys.stderr.write(' '.join({name.partition('.')[0] for name in sys.modules}))"
-    child = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, encoding="utf-8")
-    assert "--kinds" in child.stdout
-    assert not {"numba", "matplotlib", "pandas", "scipy"} & set(child.stderr.split())

@@ -32,6 +32,7 @@ def test_the_same_inputs_give_the_same_files(tmp_path: Path) -> None:
     assert told[1] == {**told[0], "out": str(tmp_path / "again")}
 
 
+@pytest.mark.drawn
 def test_an_input_that_has_changed_is_named_and_so_is_what_differs(tmp_path: Path) -> None:
     out = first(tmp_path).folder
     motion = poses(tmp_path, (0, 20, 0), (0, 22, 0))

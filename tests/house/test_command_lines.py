@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,7 @@ from geocontact.cli.suggestions import commands
 from geocontact.dynamics.compiled import cache_folder
 from tests.house.first_screens import ROOT, missing
 from tests.house.shell_blocks import DOCUMENTS, calls_of, files_of, name_of, shell_blocks
+from tests.house.warm_command import warm_command
 
 NOT_RUN = {
     ("README.md", 0): "make installs the package and runs these tests",
@@ -105,10 +107,17 @@ def test_what_is_not_run_is_little_and_there() -> None:
     assert len(NOT_RUN) <= 4 and all(not blocks[each].shown for each in NOT_RUN)
 
 
+@pytest.fixture(scope="session")
+def command(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Shell words that start the command line of this checkout."""
+    with warm_command(tmp_path_factory.mktemp("commands")) as words:
+        yield words
+
+
 @pytest.mark.slow
-@pytest.mark.skipif(shutil.which("bash") is None, reason="the pages speak to a shell")
+@pytest.mark.skipif(not (shutil.which("bash") and hasattr(os, "fork")), reason="the pages speak to a shell of Unix")
 @pytest.mark.parametrize("page", [pytest.param(page, marks=lasting(page)) for page in WITH_BLOCKS], ids=name_of)
-def test_every_block_prints_what_the_page_shows(tmp_path: Path, page: Path) -> None:
+def test_every_block_prints_what_the_page_shows(tmp_path: Path, page: Path, command: str) -> None:
     """In the order of the page, in one folder: a later block may read what an earlier one wrote."""
     name = name_of(page)
     (tmp_path / "meshes").symlink_to(ROOT / "meshes")
@@ -117,7 +126,7 @@ def test_every_block_prints_what_the_page_shows(tmp_path: Path, page: Path) -> N
     for file, content in files_of(page).items():
         (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / file).write_text(content, encoding="utf-8")
-    environment = shell(tmp_path)
+    environment = shell(tmp_path, command)
     if name in MADE:
         subprocess.run([sys.executable, "-c", MADE[name]], cwd=tmp_path, check=True)
     for block in shell_blocks(page):
@@ -128,15 +137,15 @@ def test_every_block_prints_what_the_page_shows(tmp_path: Path, page: Path) -> N
             assert missing(block.shown, done.stdout) == [], done.stdout
 
 
-def shell(folder: Path) -> dict[str, str]:
+def shell(folder: Path, command: str) -> dict[str, str]:
     """Environment in which `geocontact` and `python` are those of this checkout, and no browser opens.
 
     The folder is home, but what this machine has compiled already is taken from where it lies.
     """
     (folder / "bin").mkdir()
-    for command, program in (("python", ""), ("geocontact", f' "{ROOT}/cli.py"')):
-        file = folder / "bin" / command
-        file.write_text(f'#!/bin/sh\nexec "{sys.executable}"{program} "$@"\n', encoding="utf-8")
+    for name, words in (("python", f'"{sys.executable}"'), ("geocontact", command)):
+        file = folder / "bin" / name
+        file.write_text(f'#!/bin/sh\nexec {words} "$@"\n', encoding="utf-8")
         file.chmod(0o755)
     path = f"{folder / 'bin'}{os.pathsep}{os.environ['PATH']}"
     own = {"HOME": str(folder), "SHELL": "/bin/bash", "BROWSER": "true", "GEOCONTACT_CACHE": str(cache_folder())}

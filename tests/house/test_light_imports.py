@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from cyclopts import App
 
 ROOT = Path(__file__).resolve().parents[2]
 HEAVY = {"casadi", "ezc3d", "matplotlib", "open3d", "opensim", "pyvista", "trimesh", "vtk"}
@@ -33,24 +32,26 @@ def test_help_is_light(arguments: list[str]) -> None:
     assert not loaded_by(f"from geocontact.cli.main import run; run({arguments})") & (HEAVY | NUMERIC)
 
 
-def commands() -> list[list[str]]:
-    """Words of every command, those of groups included."""
-    from geocontact.cli.elbow.group import elbow
-    from geocontact.cli.gap.group import gap
-    from geocontact.cli.main import app
+EVERY_HELP = f"""
+import sys
+from geocontact.cli.main import app, run
+from geocontact.cli.suggestions import commands
 
-    def names(of: App) -> list[str]:
-        return [name for name in of if not name.startswith("-")]
+def told(of, words):
+    for name in commands(of):
+        run([*words, name, "--help"])
+        heavy = sorted({{each.partition(".")[0] for each in sys.modules}} & {HEAVY | NUMERIC})
+        assert not heavy, (words, name, heavy)
+        told(of[name], [*words, name])
 
-    groups = {"elbow": elbow, "gap": gap}
-    single = [[name] for name in names(app) if name not in groups]
-    return [*single, *([group, name] for group, of in groups.items() for name in names(of))]
+told(app, [])
+"""
+"""Help of one command after the other: the first that loads something heavy is named."""
 
 
-@pytest.mark.parametrize("words", commands(), ids=" ".join)
-def test_help_of_every_command_is_light(words: list[str]) -> None:
+def test_help_of_every_command_is_light() -> None:
     """Options are declared without what computes."""
-    assert not loaded_by(f"from geocontact.cli.main import run; run({[*words, '--help']})") & (HEAVY | NUMERIC)
+    loaded_by(EVERY_HELP)
 
 
 def imported_at_the_top(file: Path) -> set[str]:

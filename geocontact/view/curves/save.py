@@ -25,10 +25,10 @@ def save(figure: Figure, path: str | Path) -> None:
     ending = Path(path).suffix.lower()
     if ending not in UNDATED:
         raise ValueError(f"{Path(path).name}: figures are written as {', '.join(UNDATED)}; end the name in one of them")
-    if figure.get_layout_engine() is not None:
+    if (engine := figure.get_layout_engine()) is not None:
         shown = figure.dpi
         figure.dpi = FINE
-        figure.draw_without_rendering()
+        engine.execute(figure)
         figure.dpi = shown
         figure.set_layout_engine(None)  # a second pass would move everything by a hair, and so change the file
     figure.savefig(path, format=ending[1:], metadata=UNDATED[ending])
