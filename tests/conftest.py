@@ -19,7 +19,7 @@ import pytest
 from jaxtyping import install_import_hook
 
 from tests.drawing import undrawn
-from tests.elsewhere import Elsewhere, another_process
+from tests.elsewhere import Elsewhere, another_process, here
 from tests.one_core import one_core
 from tests.scheduling import FileByFile, lasting_first
 
@@ -28,6 +28,7 @@ REAL = ROOT / "tests" / "real"
 ROOMS_OF_CALLS = {ROOT / "tests" / "analyses", ROOT / "tests" / "cli"}
 PER_CENT = "ignore:.*taken as per cent of a cycle:geocontact.data.errors.InputWarning"
 """Right of DM's fluoroscopy, whose time has no unit."""
+UNCHECKED = bool(os.environ.get("GEOCONTACT_UNCHECKED"))
 COMPILED = "geocontact.geometry.kernels"  # numba reads these functions' own source; nothing may be wrapped around them
 
 one_core()
@@ -48,7 +49,7 @@ def checked_modules() -> Iterator[str]:
             yield module
 
 
-if not os.environ.get("GEOCONTACT_UNCHECKED"):
+if not UNCHECKED:
     install_import_hook(list(checked_modules()), "beartype.beartype")
 
 
@@ -113,8 +114,8 @@ def reason(report: pytest.TestReport) -> str:
 
 @pytest.fixture(scope="session")
 def elsewhere() -> Iterator[Elsewhere]:
-    """Calls a function of a module in another process and gives its result; for whole diagnoses and identifications."""
-    with another_process() as call:
+    """Calls a function without checks of shapes and gives its result; for whole diagnoses and identifications."""
+    with nullcontext(here) if UNCHECKED else another_process() as call:
         yield call
 
 

@@ -1,8 +1,9 @@
-"""Calls of a module's functions in a process of its own, where shapes are not checked at every call."""
+"""Calls of functions where shapes are not checked at every call: in a process of its own, if they are checked here."""
 
 from __future__ import annotations
 
 import multiprocessing
+import warnings
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
@@ -23,3 +24,10 @@ def another_process() -> Iterator[Elsewhere]:
             return pool.submit(function, *arguments, **options).result()
 
         yield call
+
+
+def here(function: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
+    """What a call gives in this process, warnings aside, as it would elsewhere."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return function(*arguments, **options)
