@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StandingModel:
-    """Coordinates are the foot's place (two) and turns; inputs are the torques of the joints, all turns but the first.
+    """Coordinates are the foot's place (two) and turns; inputs are the torques of the joints, turns after the first.
 
     Parameters
     ----------
@@ -48,8 +48,8 @@ class StandingModel:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Coordinates that a torque drives."""
-        return self.equations.names[3:]
+        """Coordinates that a torque drives: as many as there are inputs."""
+        return self.equations.names[3 : 3 + self.equations.w.numel()]
 
     @property
     def turning(self) -> tuple[bool, ...]:

@@ -110,18 +110,20 @@ def standing_up(
 ) -> tuple[ControlProblem, CollocationResult]:
     """The motion with planted parameters closest to `rising`, with little jerk and torque; an exoskeleton along.
 
-    `assistance` is what the exoskeleton's torques are to be of the person's.
+    `assistance` is what the exoskeleton's torques are to be of the person's. Coordinates after both chains', such as a
+    toe joint's, have no torque and are to stay at 0.
     """
     from casadi import SX, sumsqr
 
     n, e = model.count, model.equations
+    torques = len(model.joints)
     wanted, jerk = SX.sym("wanted", n), SX.sym("jerk", n)
     off = (e.q - wanted) / model.per_coordinate(0.01, np.radians(2.0))
     extra = e.w[3:, :] - assistance * e.w[:3, :] if n > N else SX(0)
     cost = sumsqr(off) + 1e-5 * sumsqr(jerk) + 1e-6 * sumsqr(e.w) + UNPOWERED * sumsqr(extra)
     system = jerk_controlled(
         e,
-        controlled=range(n - 3),
+        controlled=range(torques),
         control_names=model.joints,
         data=wanted,
         jerk=jerk,
@@ -132,10 +134,12 @@ def standing_up(
 
     def course(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t n"]:
         q = alone(time)
-        return np.hstack([q, q[:, 3 : model.count - 3]])
+        return np.hstack([q, q[:, 3 : 3 + torques - 3], np.zeros((len(q), n - 3 - torques))])
 
-    trial = standing_trial("synthetic", seconds, model, planted, course, course)
-    problem = ControlProblem(system, (trial,), (planted, planted), planted, *problem_scales(subject, n))
+    trial = standing_trial("synthetic", seconds, model, planted, course, course, range(3, 3 + torques))
+    of_balance, of_states, of_controls = problem_scales(subject, n)
+    scales = of_balance, of_states, of_controls[: n + torques]
+    problem = ControlProblem(system, (trial,), (planted, planted), planted, *scales)
     coarse = solve(problem, SolverOptions("legendre", 4, COARSE, 1e-7))
     return problem, solve(problem, SolverOptions("legendre", 4, intervals, 1e-7), warm=coarse)
 

@@ -22,8 +22,10 @@ SEATED = 5.0
 """Force on the chair from which on one sits [N], the study's."""
 FEWEST = 20
 """Samples of a trial."""
-NORMAL = "normal"
-"""Column of a strap's file."""
+NORMAL, FORWARDS = "normal", "fx"
+"""Columns of a strap's force: in a file of its own, and in the wrench.csv of a mat, whose scan has x forwards."""
+CELL = "r0c0"
+"""First cell in a mat's own recording."""
 BESIDE = 0.5
 """Farther from the ankle than that [m] a centre of pressure is not under the foot."""
 
@@ -41,7 +43,7 @@ def channels_of(
         ("force", files.plates, "plates"),
         ("centre", files.plates, "plates"),
         ("torque", files.torques, "torques"),
-        ("strap", files.strap, "strap"),
+        ("strap", files.strap or None, "strap"),
     ):
         if channel in tracks and file is None:
             what = f"{channel} is tracked, and this trial has none"
@@ -68,9 +70,19 @@ def channels_of(
     if "torque" in tracks and files.torques is not None:
         names = [c.name for c in chain.coordinates[3:]]
         torque = _columns(files.torques, names, record, f"{files.name} torques", time)
-    if "strap" in tracks and files.strap is not None:
-        strap = _columns(files.strap, [NORMAL], record, f"{files.name} strap", time)[:, 0]
+    if "strap" in tracks and files.strap:
+        strap = np.sum([strap_force(file, record, f"{files.name} strap", time) for file in files.strap], axis=0)
     return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap)
+
+
+def strap_force(file: Path, record: Record, role: str, time: Times) -> Times:
+    """Normal force on the person, forwards positive [N]; InputError for pressures of cells that lie on no body."""
+    names = read_table(file).channels
+    if CELL in names:
+        what = "is a mat's own recording: pressures of cells, and the mat is not registered to a body"
+        remedy = "run geocontact mat with a scan of the thigh and landmarks, and give its wrench.csv"
+        raise InputError(file, "", what, remedy)
+    return _columns(file, [FORWARDS if FORWARDS in names else NORMAL], record, role, time)[:, 0]
 
 
 def seat_off(file: Path, chair: ForcePlate) -> float:

@@ -22,7 +22,8 @@ Files are looked for beside the description. `noise` are standard deviations of 
 in m/s, of the foot's place. `feet` and `chair` are plates in `plates`. `free` and `tracks`, lists of names, may stand
 beside mass and height, `start` and `end` [s] in a trial instead of `chair`. With `exoskeleton = true` a trial also has
 `torques` of all joints of both legs (.sto, [N m]) and `strap`, the normal force of the mat of one leg on the person,
-forwards positive (.csv, `time [s], normal [N]`).
+forwards positive (.csv, `time [s], normal [N]`), or the wrench.csv of a mat on a scan of the thigh, x forwards. A list
+of files, such as mats in front and behind, has the sum of their forces.
 """
 
 from __future__ import annotations
@@ -46,8 +47,8 @@ BODY = Plausible("the mass of a person", KG, (20.0, 300.0))
 TALL = Plausible("the height of a person", m, (0.8, 2.5))
 NOISE = {"length": "m", "angle": "rad", "rate": "rad/s", "force": "N", "centre": "m", "torque": "N m", "strap": "N"}
 KEYS = ("mass", "height", "exoskeleton", "noise", "free", "tracks", "trials")
-FILES = ("coordinates", "rates", "plates", "torques", "strap")
-TRIAL = ("name", *FILES, "feet", "chair", "start", "end")
+FILES = ("coordinates", "rates", "plates", "torques")
+TRIAL = ("name", *FILES, "strap", "feet", "chair", "start", "end")
 
 
 @dataclass(frozen=True)
@@ -56,8 +57,10 @@ class StandingTrialFiles:
 
     Parameters
     ----------
-    coordinates, rates, plates, torques, strap
+    coordinates, rates, plates, torques
         Files; all but the first may be missing.
+    strap
+        Files whose forces add; none where the strap's force was not recorded.
     feet, chair
         Plates by name or number.
     start, end
@@ -69,7 +72,7 @@ class StandingTrialFiles:
     rates: Path | None
     plates: Path | None
     torques: Path | None
-    strap: Path | None
+    strap: tuple[Path, ...]
     feet: str | None
     chair: str | None
     start: float | None
@@ -169,7 +172,8 @@ def _trial(path: Path, number: int, told: Any) -> StandingTrialFiles:
     name = str(told.get("name", f"T{number}"))
     if not NAME.fullmatch(name):
         raise InputError(path, place, f"name {name!r} cannot be that of a file", "write letters, digits, - and _")
-    rates, forces, torques, strap = files
+    rates, forces, torques = files
+    strap = _files(path, f"{place} strap", told.get("strap"))
     return StandingTrialFiles(name, coordinates, rates, forces, torques, strap, feet, chair, start, end)
 
 
@@ -178,6 +182,12 @@ def _time(path: Path, place: str, told: Mapping[str, Any], key: str) -> float | 
     if value is not None and (isinstance(value, bool) or not isinstance(value, (int, float))):
         raise InputError(path, place, f"{key} {value!r} is no time", "write it in s")
     return None if value is None else float(value)
+
+
+def _files(study: Path, place: str, named: Any) -> tuple[Path, ...]:
+    """One or several."""
+    each = named if isinstance(named, list) else [named]
+    return tuple(file for one in each if (file := _file(study, place, one)) is not None)
 
 
 def _file(study: Path, place: str, named: Any) -> Path | None:

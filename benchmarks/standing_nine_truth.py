@@ -1,0 +1,164 @@
+"""Nine trials of standing up in a finer simulation: a toe joint, three spheres, padded straps on soft tissue.
+
+Nothing of it is measured; all numbers are invented. The foot ends at the ball, where the toes turn on a spring, and
+three spheres of different stiffness press under heel, ball and toes, which two spheres of one foot cannot imitate. The
+straps are those of `benchmarks.standing_truth`. Three trials are passive, in six the exoskeleton helps by different
+shares. Speeds and postures differ as those of one person do.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import RigidTransform
+
+from benchmarks.standing_truth import PLANTED, padded_strap
+from geocontact.data.multibody.joint_kinds import revolute
+from geocontact.data.multibody.model import Body, Multibody
+from geocontact.dynamics.body_contact import together
+from geocontact.dynamics.collocation.motion import CollocatedMotion
+from geocontact.dynamics.equations import equations_of_motion
+from geocontact.dynamics.smooth_sphere_contact import OpenSimSphereLaw, smooth_sphere_wrench
+from geocontact.dynamics.tree import Tree, tree_of
+from geocontact.geometry.shapes import HalfSpace
+from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.exoskeleton import WORN_PARAMETERS, two_chains
+from geocontact.standing_up.feet import FOOT_PARAMETERS, FRICTION
+from geocontact.standing_up.judged import JudgedMotion, judged
+from geocontact.standing_up.phase import PhaseProblem
+from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.synthetic_study import RATE, SEATED, SECONDS
+from geocontact.standing_up.trials import seen_in, standing_up
+
+BALL, BOTTOM = 0.125, 0.089
+"""Of the toe joint ahead of the ankle, and of the sole below it [m]."""
+SPHERES = (
+    ("foot", -0.045, 0.030, 5.5e6),
+    ("foot", BALL - 0.005, 0.025, 4.0e6),
+    ("toes", 0.040, 0.015, 2.5e6),
+)
+"""Body, place along it [m], radius [m], modulus [Pa]."""
+DISSIPATION = 1.0
+TOES = 0.6
+"""Mass of the toes of both feet [kg], taken from the feet."""
+TOE_SPRING, TOE_DAMPER = 40.0, 0.8
+"""Of both feet [N m/rad, N m s/rad]."""
+HELPED = (
+    ("P1", 1.40, (20.0, 72.0, 48.0), 0.25),
+    ("P2", 1.55, (23.0, 70.0, 42.0), 0.15),
+    ("P3", 1.30, (19.0, 74.0, 50.0), 0.30),
+    ("P4", 1.65, (24.0, 69.0, 38.0), 0.20),
+    ("P5", 1.45, (21.0, 71.0, 45.0), 0.35),
+    ("P6", 1.60, (22.0, 73.0, 40.0), 0.10),
+)
+"""Assisted trials: duration [s], leans of shank, thigh and trunk at seat-off [deg], share of the person's torque."""
+INTERVALS = 32
+"""Of each motion, of degree 4."""
+CHANNELS = ("time", "q", "u", "force", "centre", "torque", "strap")
+
+
+@dataclass(frozen=True, eq=False)
+class FinerTrial:
+    """One motion of the finer simulation.
+
+    Parameters
+    ----------
+    judged
+        Certificate, and what is left of the balance between its points.
+    """
+
+    name: str
+    assistance: float
+    motion: CollocatedMotion
+    judged: JudgedMotion
+
+
+def chain_with_toes(subject: Subject) -> Multibody:
+    """Both chains, with toes behind the exoskeleton's hinges so that the coordinates before keep their order."""
+    chain = two_chains(subject)
+    bodies = [replace(body, mass=body.mass - TOES) if body.name == "foot" else body for body in chain.bodies]
+    bodies.append(Body("toes", TOES, np.array([0.03, -0.07, 0.0]), 1.5e-3 * np.eye(3)))
+    joint = revolute(
+        "toe_joint", "foot", "toes", np.array([0.0, 0.0, 1.0]), RigidTransform.from_translation([BALL, 0.0, 0.0])
+    )
+    return replace(chain, bodies=tuple(bodies), joints=(*chain.joints, joint))
+
+
+def finer_model(subject: Subject) -> StandingModel:
+    """Ten coordinates, torques of the six hinges that have one; only the strap's part of the parameters acts."""
+    from casadi import SX
+
+    tree = tree_of(chain_with_toes(subject))
+    p, torque = SX.sym("p", len(WORN_PARAMETERS)), SX.sym("torque", 6)
+    at = tree.names.index("toe_joint")
+    along = {name: torque[k] for k, name in enumerate(tree.names[3:9])}
+    along["toe_joint"] = -TOE_SPRING * tree.q[at] - TOE_DAMPER * tree.u[at]
+    ground, strap = under_three_spheres(tree), padded_strap(tree, p[len(FOOT_PARAMETERS) :, :])
+    loads = together(ground, strap.loads)
+    e = equations_of_motion(tree, loads=loads, along=along, inputs=[torque], parameters=[p])
+    force, moment = (sum(wrench[k] for wrench in ground.values()) for k in range(2))
+    return StandingModel(
+        e,
+        WORN_PARAMETERS,
+        force[:2, :],
+        moment[2] / force[1],
+        strap.normal,
+        strap.shear,
+        strap.energy,
+        strap.normal_energy,
+    )
+
+
+def under_three_spheres(tree: Tree) -> Any:
+    """Force and moment on foot and toes."""
+    from casadi import vertcat
+
+    ground = HalfSpace(normal=(0.0, 1.0, 0.0))
+    loads = []
+    for body, place, radius, modulus in SPHERES:
+        law = OpenSimSphereLaw(modulus, DISSIPATION, radius, FRICTION)
+        centre = vertcat(place, radius - BOTTOM, 0.0)
+        loads.append({body: smooth_sphere_wrench(tree.bodies[body], centre, law, ground)})
+    return together(*loads)
+
+
+def finer_trials(
+    model: StandingModel, subject: Subject, intervals: int = INTERVALS, names: tuple[str, ...] = ()
+) -> list[FinerTrial]:
+    """All nine, or those named. ArithmeticError where a motion is not found."""
+    passive = [(f"T{k + 1}", SECONDS[k], tuple(np.degrees(SEATED[k])), 0.0) for k in range(3)]
+    found = []
+    for name, seconds, seated, assistance in (*passive, *HELPED):
+        if names and name not in names:
+            continue
+        problem, one = standing_up(
+            model,
+            subject,
+            seconds=seconds,
+            seated=np.radians(seated),
+            planted=PLANTED,
+            assistance=assistance,
+            intervals=intervals,
+        )
+        if not one.solved:
+            raise ArithmeticError(f"{name}: {one.ending}")
+        (seen,) = judged(model.equations, range(6), model.turning, PhaseProblem(problem, {}, (), ()), one)
+        found.append(FinerTrial(name, assistance, one.motions[0], seen))
+    return found
+
+
+def write_truth(file: Path, subject: Subject, intervals: int = INTERVALS) -> None:
+    """Everything that a perfect recording of the nine would hold, 100 samples a second, in SI."""
+    model, saved = finer_model(subject), {}
+    for one in finer_trials(model, subject, intervals):
+        time = np.linspace(0.0, one.motion.breaks[-1], round(RATE * float(one.motion.breaks[-1])) + 1)
+        seen = seen_in(model, one.motion, PLANTED, time, one.name)
+        told = one.judged.certificate
+        saved |= {f"{one.name} {name}": getattr(seen, name) for name in CHANNELS}
+        saved[f"{one.name} residual"] = np.array([one.judged.force.max(), one.judged.moment.max()])
+        saved[f"{one.name} certified"] = np.array(told is not None and told.converged)
+        print(one.name, saved[f"{one.name} residual"], saved[f"{one.name} certified"], flush=True)
+    np.savez(file, **saved)

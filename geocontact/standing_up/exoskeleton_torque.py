@@ -1,0 +1,144 @@
+"""What the exoskeleton's motors need to move it alone, and what is left of their torque for the person.
+
+The exoskeleton moves by itself with its foot plate on the ground. What its motors give is linear in the dynamic
+parameters: of each body mass m, first moments m c_x and m c_y, inertia about its joint, and of each hinge viscous and
+Coulomb friction (Khalil & Dombre (2002), Modeling, identification and control of robots, ch. 12). Not all of them act
+on the motors, and no motion tells the ones that do not; least squares with the shortest answer gives the right torques
+all the same. Friction is told by itself, for no mass does what it does.
+
+In a trial the torque at a hinge is that of its motor less friction. That of the person is what inverse dynamics of
+both, rigidly coupled, asks for less that of the exoskeleton.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.data.multibody.model import GROUND
+from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
+
+if TYPE_CHECKING:
+    from casadi import Function
+
+FRICTIONS = ("viscous", "Coulomb")
+OF_A_BODY = ("mass", "first moment along x", "first moment along y", "inertia")
+TURNS = float(np.radians(1.0))
+"""Rate at which Coulomb friction is at three quarters of its size [rad/s]: tanh instead of a step."""
+UNTOLD = 1e-9
+"""Singular value, of the largest, below which a motion tells nothing of a combination."""
+
+Table = Float[np.ndarray, "t 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class ExoskeletonDynamics:
+    """Dynamic parameters that an unloaded motion tells.
+
+    Parameters
+    ----------
+    names, values, deviations
+        In SI; standard deviations are those of what the motion tells, by the residual of the fit.
+    rank
+        Combinations that are told.
+    residual
+        Root mean square of what the fit leaves of the motors' torques [N m].
+    """
+
+    subject: Subject
+    names: tuple[str, ...]
+    values: Float[np.ndarray, " p"]
+    deviations: Float[np.ndarray, " p"]
+    rank: int
+    residual: float
+
+    def friction(self, u: Table) -> Table:
+        """Of each hinge, against its rate [N m]."""
+        at = len(self.names) - len(FRICTIONS) * len(EXO_JOINTS)
+        viscous, coulomb = self.values[at:].reshape(len(EXO_JOINTS), len(FRICTIONS)).T
+        return np.asarray(viscous * u + coulomb * _sign(u))
+
+    def unloaded(self, q: Table, u: Table, a: Table) -> Table:
+        """What the motors give where nothing but the exoskeleton moves [N m]."""
+        return np.asarray(regressor(self.subject, q, u, a) @ self.values)
+
+    def torque(self, motors: Table, u: Table) -> Table:
+        """Of the exoskeleton at its hinges in a trial [N m]."""
+        return np.asarray(motors - self.friction(u))
+
+
+def identified(subject: Subject, q: Table, u: Table, a: Table, motors: Table) -> ExoskeletonDynamics:
+    """By linear least squares from an unloaded motion; the subject says how long the exoskeleton's parts are."""
+    matrix = regressor(subject, q, u, a).reshape(-1, len(_names()))
+    size = np.linalg.norm(matrix, axis=0)
+    scaled = matrix / np.where(size > 0.0, size, 1.0)
+    left, sharp, right = np.linalg.svd(scaled, full_matrices=False)
+    told = sharp > UNTOLD * sharp[0]
+    back = right[told].T / sharp[told]
+    values = back @ (left[:, told].T @ motors.ravel())
+    off = motors.ravel() - scaled @ values
+    variance = float(off @ off) / (len(off) - int(told.sum()))
+    unit = np.where(size > 0.0, size, 1.0)
+    deviations = np.sqrt(variance * np.sum(back**2, axis=1)) / unit
+    residual = float(np.sqrt(np.mean(off**2)))
+    return ExoskeletonDynamics(subject, _names(), values / unit, deviations, int(told.sum()), residual)
+
+
+def human_torque(together: Table, exoskeleton: Table) -> Table:
+    """Of the person at ankle, knee and hip: inverse dynamics of both, rigidly coupled, less the exoskeleton's [N m]."""
+    return np.asarray(together - exoskeleton)
+
+
+def regressor(subject: Subject, q: Table, u: Table, a: Table) -> Float[np.ndarray, "t 3 p"]:
+    """Derivatives of the motors' torques by the parameters, in the order of `ExoskeletonDynamics.names`."""
+    many = _of_bodies(subject).map(len(q))(q.T, u.T, a.T).full()
+    bodies = many.reshape(len(EXO_JOINTS), len(q), -1).swapaxes(0, 1)
+    friction = np.zeros((len(q), len(EXO_JOINTS), len(EXO_JOINTS), len(FRICTIONS)))
+    for k in range(len(EXO_JOINTS)):
+        friction[:, k, k] = np.stack([u[:, k], _sign(u[:, k])], axis=-1)
+    return np.concatenate([bodies, friction.reshape(len(q), len(EXO_JOINTS), -1)], axis=2)
+
+
+def _sign(u: Float[np.ndarray, ...]) -> Float[np.ndarray, ...]:
+    return np.asarray(np.tanh(u / TURNS))
+
+
+def _names() -> tuple[str, ...]:
+    bodies = [joint.child for joint in two_chains(Subject()).joints if joint.name in EXO_JOINTS]
+    of_bodies = [f"{body} {what}" for body in bodies for what in OF_A_BODY]
+    return (*of_bodies, *(f"{joint} {what} friction" for joint in EXO_JOINTS for what in FRICTIONS))
+
+
+@cache
+def _of_bodies(subject: Subject) -> Function:
+    """(q, u, a) of the exoskeleton's hinges to the derivatives of the torques by the bodies' parameters, (3, 12)."""
+    from dataclasses import replace
+
+    from casadi import SX, Function, densify, jacobian, substitute, vertcat
+
+    from geocontact.dynamics.inverse_dynamics import generalised_forces
+    from geocontact.dynamics.tree import tree_of
+
+    chain = two_chains(subject)
+    joints = tuple(
+        replace(joint, parent=GROUND) if joint.parent == "foot" else joint
+        for joint in chain.joints
+        if joint.name in EXO_JOINTS
+    )
+    names = [joint.child for joint in joints]
+    alone = replace(chain, bodies=tuple(body for body in chain.bodies if body.name in names), joints=joints)
+    p = SX.sym("p", len(OF_A_BODY), len(names))
+    masses = {name: p[0, k] for k, name in enumerate(names)}
+    centres = {name: vertcat(p[1, k], p[2, k], 0.0) / p[0, k] for k, name in enumerate(names)}
+    about = {name: p[3, k] - (p[1, k] ** 2 + p[2, k] ** 2) / p[0, k] for k, name in enumerate(names)}
+    inertias = {name: about[name] * SX.eye(3) for name in names}
+    tree = tree_of(alone, masses=masses, centres=centres, inertias=inertias)
+    flat = p.reshape((p.numel(), 1))
+    # linear in the parameters, so that the point at which it is differentiated does not matter
+    by = substitute(jacobian(generalised_forces(tree), flat), flat, SX.ones(flat.shape))
+    return Function("by", [tree.q, tree.u, tree.a], [densify(by)])
