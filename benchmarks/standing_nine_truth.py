@@ -162,3 +162,21 @@ def write_truth(file: Path, subject: Subject, intervals: int = INTERVALS) -> Non
         saved[f"{one.name} certified"] = np.array(told is not None and told.converged)
         print(one.name, saved[f"{one.name} residual"], saved[f"{one.name} certified"], flush=True)
     np.savez(file, **saved)
+
+
+def unloaded_motors(subject: Subject) -> tuple[np.ndarray, ...]:
+    """Angles, rates, accelerations of the exoskeleton alone, and what its motors give then, 100 samples a second."""
+    from casadi import Function
+
+    from benchmarks.standing_session import friction
+    from geocontact.dynamics.inverse_dynamics import generalised_forces
+
+    time = np.arange(0.0, 30.0, 1.0 / RATE)[:, None]
+    rate = 2.0 * np.pi * np.array([[0.13, 0.21, 0.31], [0.47, 0.61, 0.37]])[:, None, :]
+    size = np.array([[0.25, 0.5, 0.4], [0.06, 0.10, 0.12]])[:, None, :]
+    q = (size * np.sin(rate * time)).sum(axis=0) + np.array([-0.2, 0.8, -0.6])
+    u, a = (size * rate * np.cos(rate * time)).sum(axis=0), (-size * rate**2 * np.sin(rate * time)).sum(axis=0)
+    tree = tree_of(two_chains(subject))
+    whole = [np.hstack([np.zeros((len(q), 6)), each]) for each in (q, u, a)]
+    forces = Function("forces", [tree.q, tree.u, tree.a], [generalised_forces(tree)]).map(len(q))
+    return q, u, a, forces(*(each.T for each in whole)).full().T[:, 6:] + friction(u)
