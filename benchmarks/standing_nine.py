@@ -198,7 +198,12 @@ def write_studies(out: Path, spans: Mapping[str, tuple[float, float]]) -> None:
     head = ['mass = { value = 70, unit = "kg" }', 'height = { value = 1.75, unit = "m" }', "exoskeleton = true"]
     head += ['tracks = ["coordinates", "force", "centre", "torque", "strap"]', "", "[noise]"]
     head += [f'{key} = {{ value = {value}, unit = "{unit}" }}' for key, (value, unit) in TOLD.items()]
-    files = ['coordinates = "coordinates.sto"', 'plates = "plates.mot"', 'feet = "feet_force"', 'torques = "torques.sto"']
+    files = [
+        'coordinates = "coordinates.sto"',
+        'plates = "plates.mot"',
+        'feet = "feet_force"',
+        'torques = "torques.sto"',
+    ]
     files += ['strap = ["front/wrench.csv", "behind/wrench.csv"]']
     for study, names in (("calibration", PASSIVE), ("prediction", HELD_OUT)):
         lines = list(head)

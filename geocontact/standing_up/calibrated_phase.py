@@ -12,6 +12,7 @@ from geocontact.standing_up.contact_numbers import ContactNumbers, contact_numbe
 from geocontact.standing_up.cost_shares import cost_shares
 from geocontact.standing_up.judged import JudgedMotion, judged
 from geocontact.standing_up.phase import PhaseProblem
+from geocontact.standing_up.profile import Profile, profiles
 from geocontact.standing_up.resample import Build, Solve, resampled
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
@@ -37,6 +38,8 @@ class PhaseSearch:
         Calibrations of trials that the answer makes; 0 or 1 for none.
     level
         Probability of the intervals.
+    profiles
+        Points to either side of each parameter at which the others are sought again; 0 for none.
     """
 
     options: SolverOptions
@@ -45,6 +48,7 @@ class PhaseSearch:
     resamples: int = 0
     seed: int = 0
     level: float = 0.95
+    profiles: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +71,8 @@ class CalibratedPhase:
         Objective of each start, and whether it was solved; the first is the search's own.
     doubt
         Why there are no intervals; empty where there are.
+    profiles
+        Of the parameters as found, before any correction.
     """
 
     name: str
@@ -78,6 +84,7 @@ class CalibratedPhase:
     shares: dict[str, float]
     ends: tuple[tuple[float, bool], ...]
     doubt: str = ""
+    profiles: tuple[Profile, ...] = ()
 
     @property
     def certified(self) -> bool:
@@ -105,6 +112,7 @@ def calibrated_phase(
     ended = tuple((run[1].objective, run[1].solved) for run in runs)
     phase, found = min([run for run in runs if run[1].solved] or runs, key=lambda run: run[1].objective)
     numbers, doubt = unsettled_numbers(phase, found), ""
+    curves: tuple[Profile, ...] = ()
     if found.solved:
         again = None
         if search.resamples > 1:
@@ -113,6 +121,8 @@ def calibrated_phase(
             numbers = contact_numbers(phase, found, search.level, again)
         except ValueError as error:
             doubt = str(error)
+        if search.profiles:
+            curves = profiles(phase, found, numbers, search.profiles, solved)
         if again is not None:
             p = np.clip(found.p - again.bias, *phase.control.p)
             held = replace(phase, control=replace(phase.control, p=(p, p), guess_p=p))
@@ -120,7 +130,8 @@ def calibrated_phase(
             phase = held
     controlled = range(len(model.joints))
     motions = judged(model.equations, controlled, model.turning, phase, found, certify=found.solved)
-    return CalibratedPhase(name, model, phase, found, numbers, motions, cost_shares(phase, found), ended, doubt)
+    shares = cost_shares(phase, found)
+    return CalibratedPhase(name, model, phase, found, numbers, motions, shares, ended, doubt, curves)
 
 
 def _runs(

@@ -23,6 +23,7 @@ from geocontact.dynamics.equations import equations_of_motion
 from geocontact.dynamics.inverse_dynamics import Wrenches
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.standing_up.chain import SHANK, THIGH, Subject, leg_chain
+from geocontact.standing_up.chair import COMPONENTS, chair_on_person
 from geocontact.standing_up.contact_parameter import ContactParameter, searched
 from geocontact.standing_up.feet import FOOT_PARAMETERS, ground_on_feet
 from geocontact.standing_up.standing_model import StandingModel
@@ -102,16 +103,17 @@ def _heavier(body: Body, more: float) -> Body:
     return Body(body.name, body.mass + more, body.centre, body.inertia)
 
 
-def with_exoskeleton(subject: Subject, strap: StrapLaw | None = None) -> StandingModel:
+def with_exoskeleton(subject: Subject, strap: StrapLaw | None = None, *, seated: bool = False) -> StandingModel:
     """Nine coordinates: the person's six, then the exoskeleton's; torques of both. The strap is `thigh_strap` unless
-    given.
+    given; `seated` with the force of a chair among the inputs.
     """
     from casadi import SX
 
     tree = tree_of(two_chains(subject))
     p, torque = SX.sym("p", len(WORN_PARAMETERS)), SX.sym("torque", len(tree.names) - 3)
     along = {name: torque[k] for k, name in enumerate(tree.names[3:])}
-    return worn_model(tree, p, along, torque, WORN_PARAMETERS, strap)
+    chair = SX.sym("chair", COMPONENTS) if seated else None
+    return worn_model(tree, p, along, torque, WORN_PARAMETERS, strap, chair)
 
 
 def worn_model(
@@ -121,6 +123,7 @@ def worn_model(
     inputs: SX,
     parameters: tuple[ContactParameter, ...],
     law: StrapLaw | None = None,
+    chair: SX | None = None,
 ) -> StandingModel:
     """Both chains on the ground with a strap between them.
 
@@ -132,11 +135,14 @@ def worn_model(
         Torques by coordinate, of the inputs and of `p`.
     law
         Of the strap; `thigh_strap` unless given.
+    chair
+        Force and moment of a chair, given over time behind the other inputs.
     """
     feet = len(FOOT_PARAMETERS)
     ground, strap = ground_on_feet(tree, p[:feet, :]), (law or thigh_strap)(tree, p[feet : len(WORN_PARAMETERS), :])
-    loads = together(ground, strap.loads)
-    equations = equations_of_motion(tree, loads=loads, along=along, inputs=[inputs], parameters=[p])
+    sat_on = [] if chair is None else [chair]
+    loads = together(ground, strap.loads, *(chair_on_person(each) for each in sat_on))
+    equations = equations_of_motion(tree, loads=loads, along=along, inputs=[inputs, *sat_on], parameters=[p])
     force, moment = ground["foot"]
     return StandingModel(
         equations,
@@ -147,6 +153,7 @@ def worn_model(
         strap.shear,
         strap.energy,
         strap.normal_energy,
+        0 if chair is None else COMPONENTS,
     )
 
 

@@ -11,6 +11,7 @@ from geocontact.dynamics.smooth_sphere_contact import OpenSimSphereLaw, Stribeck
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.standing_up.chain import COORDINATES, JOINTS, Subject, leg_chain
+from geocontact.standing_up.chair import COMPONENTS, chair_on_person
 from geocontact.standing_up.contact_parameter import ContactParameter, searched
 from geocontact.standing_up.standing_model import StandingModel
 
@@ -38,8 +39,8 @@ SOUGHT = tuple(each.name for each in FOOT_PARAMETERS if each.name != "dissipatio
 of a rate: freed, it follows the noise and comes out 3 to 6 standard deviations too high."""
 
 
-def feet_on_ground(subject: Subject) -> StandingModel:
-    """The chain with a heel and a toe sphere, by OpenSim's law.
+def feet_on_ground(subject: Subject, *, seated: bool = False) -> StandingModel:
+    """The chain with a heel and a toe sphere, by OpenSim's law; `seated` with the force of a chair among the inputs.
 
     With the printed one the search for a motion came to no end. Its friction starts as the cube of the speed, so that a
     foot which stands slips freely; whether that is the cause was not tried by itself.
@@ -48,13 +49,16 @@ def feet_on_ground(subject: Subject) -> StandingModel:
 
     tree = tree_of(leg_chain(subject))
     p, torque = SX.sym("p", len(FOOT_PARAMETERS)), SX.sym("torque", len(JOINTS))
-    loads = ground_on_feet(tree, p)
+    chair = SX.sym("chair", COMPONENTS if seated else 0)
+    ground = ground_on_feet(tree, p)
+    loads = together(ground, chair_on_person(chair)) if seated else ground
     along = {name: torque[k] for k, name in enumerate(JOINTS)}
-    equations = equations_of_motion(tree, loads=loads, along=along, inputs=[torque], parameters=[p])
+    equations = equations_of_motion(tree, loads=loads, along=along, inputs=[torque, chair], parameters=[p])
     if equations.names != COORDINATES:
         raise ValueError(f"coordinates are {equations.names}")
-    (force, moment), none = loads["foot"], SX(0, 1)
-    return StandingModel(equations, FOOT_PARAMETERS, force[:2, :], moment[2] / force[1], none, none, SX(0), SX(0))
+    (force, moment), none = ground["foot"], SX(0, 1)
+    seen = force[:2, :], moment[2] / force[1]
+    return StandingModel(equations, FOOT_PARAMETERS, *seen, none, none, SX(0), SX(0), chair.numel())
 
 
 def ground_on_feet(tree: Tree, p: SX) -> Wrenches:

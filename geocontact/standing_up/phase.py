@@ -95,7 +95,7 @@ def standing_phase(
         "rates": (e.u, np.full(n, noise.rate)),
         "force": (model.force, np.full(2, noise.force)),
         "centre": (model.centre, np.array([noise.centre])),
-        "torque": (e.w, np.full(n - 3, noise.torque)),
+        "torque": (model.torques, np.full(n - 3, noise.torque)),
         "strap": (model.strap, np.full(model.strap.numel(), noise.strap)),
     }
     width = {name: len(channels[name][1]) for name in tracks}
@@ -144,7 +144,7 @@ def belief(p: SX, parameters: Sequence[ContactParameter], free: Sequence[str]) -
 
 
 def _data(trial: StandingTrial, tracks: Sequence[str]) -> Course:
-    """Channels, and what one sample counts, from the trial's own first time on."""
+    """Chair's force where there is one, channels, what one sample counts; from the trial's own first time on."""
     channels = {
         "coordinates": trial.q,
         "rates": trial.u,
@@ -156,7 +156,8 @@ def _data(trial: StandingTrial, tracks: Sequence[str]) -> Course:
     columns = [each for name in tracks if (each := channels[name]) is not None]
     if len(columns) < len(tracks):
         raise ValueError(f"{trial.name} lacks a channel of {', '.join(tracks)}")
-    course = CubicSpline(trial.time - trial.time[0], np.column_stack(columns))
+    chair = [] if trial.chair is None else [trial.chair]
+    course = CubicSpline(trial.time - trial.time[0], np.column_stack([*chair, *columns]))
     share = trial.rate / RATE
     return lambda time: np.column_stack([course(time), np.full(len(time), share)])
 

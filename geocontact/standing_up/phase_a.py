@@ -41,7 +41,7 @@ def phase_a(
     """
     from casadi import sumsqr
 
-    small = {"torques": LITTLE_TORQUE * sumsqr(model.equations.w)}
+    small = {"torques": LITTLE_TORQUE * sumsqr(model.torques)}
     held = usual(model.parameters)
     held[len(FOOT_PARAMETERS) : len(FOOT_PARAMETERS) + SPRINGS] = SLACK
     return standing_phase(model, subject, trials, noise, free=free, tracks=tracks, small=small, held=held, start=start)

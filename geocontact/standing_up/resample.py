@@ -10,7 +10,7 @@ what comes out, less the answer, is taken off (parametric bootstrap; Efron & Tib
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -67,7 +67,10 @@ def resampled(
     rows: list[Float[np.ndarray, " p"]] = []
     for k in range(2 * count):
         again = [
-            recorded(model, motion, found.p, trial.rate, noise, 1000 * seed + 100 * k + j, trial.name)
+            replace(
+                recorded(model, motion, found.p, trial.rate, noise, 1000 * seed + 100 * k + j, trial.name),
+                chair=trial.chair,
+            )
             for j, (trial, motion) in enumerate(zip(trials, found.motions, strict=True))
         ]
         end = solve(build(again, found.p), found)

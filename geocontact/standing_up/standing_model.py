@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StandingModel:
-    """Coordinates are the foot's place (two) and turns; inputs are the torques of the joints, turns after the first.
+    """Coordinates are the foot's place (two) and turns; inputs are the torques of the joints, turns after the first,
+    and where somebody sits the force of the chair.
 
     Parameters
     ----------
@@ -30,6 +31,8 @@ class StandingModel:
         does; no entry without an exoskeleton.
     energy, normal_energy
         Of those components of the straps that no mat sees, and of the normal one [J].
+    given
+        How many of the inputs, the last ones, are given over time.
     """
 
     equations: Equations
@@ -40,6 +43,7 @@ class StandingModel:
     shear: SX
     energy: SX
     normal_energy: SX
+    given: int = 0
 
     @property
     def count(self) -> int:
@@ -48,8 +52,13 @@ class StandingModel:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Coordinates that a torque drives: as many as there are inputs."""
-        return self.equations.names[3 : 3 + self.equations.w.numel()]
+        """Coordinates that a torque drives: as many as there are inputs that are not given."""
+        return self.equations.names[3 : 3 + self.equations.w.numel() - self.given]
+
+    @property
+    def torques(self) -> SX:
+        """Of these joints [N m]."""
+        return self.equations.w[: len(self.joints), :]
 
     @property
     def turning(self) -> tuple[bool, ...]:

@@ -52,6 +52,9 @@ class StandingTrial:
         Of the joints of both legs [N m]; None where it is not recorded.
     strap
         Normal force of one leg's strap on the person [N]; None where it is not recorded.
+    chair
+        Force of the chair on the person, forwards and up [N], and its moment about the ground's origin [N m]; None in a
+        trial from seat-off on.
     """
 
     time: Float[np.ndarray, " t"]
@@ -62,6 +65,7 @@ class StandingTrial:
     name: str = "trial"
     torque: Float[np.ndarray, "t j"] | None = None
     strap: Float[np.ndarray, " t"] | None = None
+    chair: Float[np.ndarray, "t 3"] | None = None
 
     @property
     def rate(self) -> float:
@@ -107,11 +111,12 @@ def standing_up(
     planted: Float[np.ndarray, " p"] = PLANTED,
     assistance: float = 0.0,
     intervals: int = 50,
+    chair: Course | None = None,
 ) -> tuple[ControlProblem, CollocationResult]:
     """The motion with planted parameters closest to `rising`, with little jerk and torque; an exoskeleton along.
 
     `assistance` is what the exoskeleton's torques are to be of the person's. Coordinates after both chains', such as a
-    toe joint's, have no torque and are to stay at 0.
+    toe joint's, have no torque and are to stay at 0. `chair` is the force of one over time, for a model that has it.
     """
     from casadi import SX, sumsqr
 
@@ -119,8 +124,9 @@ def standing_up(
     torques = len(model.joints)
     wanted, jerk = SX.sym("wanted", n), SX.sym("jerk", n)
     off = (e.q - wanted) / model.per_coordinate(0.01, np.radians(2.0))
-    extra = e.w[3:, :] - assistance * e.w[:3, :] if n > N else SX(0)
-    cost = sumsqr(off) + 1e-5 * sumsqr(jerk) + 1e-6 * sumsqr(e.w) + UNPOWERED * sumsqr(extra)
+    torque = model.torques
+    extra = torque[3:, :] - assistance * torque[:3, :] if n > N else SX(0)
+    cost = sumsqr(off) + 1e-5 * sumsqr(jerk) + 1e-6 * sumsqr(torque) + UNPOWERED * sumsqr(extra)
     system = jerk_controlled(
         e,
         controlled=range(torques),
@@ -136,7 +142,10 @@ def standing_up(
         q = alone(time)
         return np.hstack([q, q[:, 3 : 3 + torques - 3], np.zeros((len(q), n - 3 - torques))])
 
-    trial = standing_trial("synthetic", seconds, model, planted, course, course, range(3, 3 + torques))
+    def given(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t w"]:
+        return course(time) if chair is None else np.hstack([chair(time), course(time)])
+
+    trial = standing_trial("synthetic", seconds, model, planted, course, given, range(3, 3 + torques))
     of_balance, of_states, of_controls = problem_scales(subject, n)
     scales = of_balance, of_states, of_controls[: n + torques]
     problem = ControlProblem(system, (trial,), (planted, planted), planted, *scales)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
+
+import numpy as np
 
 from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.trial_channels import channels_of
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.standing_study import read_standing_study
+from geocontact.standing_up.chair import COMPONENTS
 from geocontact.standing_up.chain import Subject, leg_chain
 from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT
@@ -36,6 +40,11 @@ class StandingUpTrials:
     free: tuple[str, ...]
     tracks: tuple[str, ...]
 
+    @property
+    def seated(self) -> bool:
+        """Whether a trial begins on the chair."""
+        return any(trial.chair is not None for trial in self.trials)
+
 
 def standing_trials(file: Path, role: str, record: Record) -> StandingUpTrials:
     """Everything in the study."""
@@ -50,8 +59,18 @@ def standing_trials(file: Path, role: str, record: Record) -> StandingUpTrials:
     if study.exoskeleton and "strap" not in tracks:
         raise InputError(file, "tracks", "strap is not among them", "add it, or leave out exoskeleton = true")
     chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
-    trials = tuple(channels_of(each, chain, tracks, file, record) for each in study.trials)
+    trials = with_chairs([channels_of(each, chain, tracks, file, record) for each in study.trials])
     return StandingUpTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks)
+
+
+def with_chairs(trials: Sequence[StandingTrial]) -> tuple[StandingTrial, ...]:
+    """Where one begins on the chair, the others have one that carries nothing."""
+    if all(trial.chair is None for trial in trials):
+        return tuple(trials)
+    return tuple(
+        trial if trial.chair is not None else replace(trial, chair=np.zeros((len(trial.time), COMPONENTS)))
+        for trial in trials
+    )
 
 
 def _known(

@@ -49,14 +49,16 @@ def channels_of(
             what = f"{channel} is tracked, and this trial has none"
             raise InputError(study, place, what, f"name its file as {key}, or leave {channel} out of tracks")
     time, q = _motion(files.coordinates, chain, record, f"{files.name} coordinates")
-    off, feet = time >= time[0], None
+    off, feet, chair = time >= time[0], None, None
     if files.plates is not None:
         plates = read_force_plates(files.plates)
         record.add_input(f"{files.name} plates", files.plates, plates=len(plates))
         feet = plate_named(plates, files.feet, files.plates, f"{place} feet")
         _require_one_clock(files.plates, feet, time)
         if files.chair is not None:
-            off = time >= seat_off(files.plates, plate_named(plates, files.chair, files.plates, f"{place} chair"))
+            chair = plate_named(plates, files.chair, files.plates, f"{place} chair")
+            left = time >= seat_off(files.plates, chair)
+            off = off if files.sitting else left
     used = off & _within(files, time)
     if used.sum() < FEWEST:
         what = f"{int(used.sum())} samples are left of it"
@@ -72,7 +74,14 @@ def channels_of(
         torque = _columns(files.torques, names, record, f"{files.name} torques", time)
     if "strap" in tracks and files.strap:
         strap = np.sum([strap_force(file, record, f"{files.name} strap", time) for file in files.strap], axis=0)
-    return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap)
+    sat_on = chair_load(chair, time) if files.sitting and chair is not None else None
+    return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on)
+
+
+def chair_load(chair: ForcePlate, time: Times) -> Table:
+    """Force forwards and up [N] and moment about the ground's origin [N m] on the person, (t, 3)."""
+    wrench = chair.at(np.clip(time, *chair.time[[0, -1]]))
+    return np.nan_to_num(np.column_stack([wrench.force[:, :2], wrench.moment[:, 2]]))
 
 
 def strap_force(file: Path, record: Record, role: str, time: Times) -> Times:

@@ -20,7 +20,8 @@
 
 Files are looked for beside the description. `noise` are standard deviations of one sample; `rate` is that of turns and,
 in m/s, of the foot's place. `feet` and `chair` are plates in `plates`. `free` and `tracks`, lists of names, may stand
-beside mass and height, `start` and `end` [s] in a trial instead of `chair`. With `exoskeleton = true` a trial also has
+beside mass and height, `start` and `end` [s] in a trial instead of `chair`; with `sitting = true` a trial begins while
+the person still sits, and the chair's force is a load on the model. With `exoskeleton = true` a trial also has
 `torques` of all joints of both legs (.sto, [N m]) and `strap`, the normal force of the mat of one leg on the person,
 forwards positive (.csv, `time [s], normal [N]`), or the wrench.csv of a mat on a scan of the thigh, x forwards. A list
 of files, such as mats in front and behind, has the sum of their forces.
@@ -48,7 +49,7 @@ TALL = Plausible("the height of a person", m, (0.8, 2.5))
 NOISE = {"length": "m", "angle": "rad", "rate": "rad/s", "force": "N", "centre": "m", "torque": "N m", "strap": "N"}
 KEYS = ("mass", "height", "exoskeleton", "noise", "free", "tracks", "trials")
 FILES = ("coordinates", "rates", "plates", "torques")
-TRIAL = ("name", *FILES, "strap", "feet", "chair", "start", "end")
+TRIAL = ("name", *FILES, "strap", "feet", "chair", "sitting", "start", "end")
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,8 @@ class StandingTrialFiles:
         Files whose forces add; none where the strap's force was not recorded.
     feet, chair
         Plates by name or number.
+    sitting
+        Whether the trial begins before seat-off, with the chair's force as a load.
     start, end
         Of what is used [s].
     """
@@ -75,6 +78,7 @@ class StandingTrialFiles:
     strap: tuple[Path, ...]
     feet: str | None
     chair: str | None
+    sitting: bool
     start: float | None
     end: float | None
 
@@ -168,13 +172,18 @@ def _trial(path: Path, number: int, told: Any) -> StandingTrialFiles:
     if coordinates is None:
         raise InputError(path, place, "no coordinates", "name the file of angles and the foot's place")
     feet, chair = (None if told.get(key) is None else str(told[key]) for key in ("feet", "chair"))
+    sitting = told.get("sitting", False)
+    if not isinstance(sitting, bool):
+        raise InputError(path, place, f"sitting {sitting!r} is neither true nor false", "write sitting = true")
+    if sitting and (chair is None or files[1] is None):
+        raise InputError(path, place, "sitting without the force of a chair", "name plates, and chair among them")
     start, end = (_time(path, place, told, key) for key in ("start", "end"))
     name = str(told.get("name", f"T{number}"))
     if not NAME.fullmatch(name):
         raise InputError(path, place, f"name {name!r} cannot be that of a file", "write letters, digits, - and _")
     rates, forces, torques = files
     strap = _files(path, f"{place} strap", told.get("strap"))
-    return StandingTrialFiles(name, coordinates, rates, forces, torques, strap, feet, chair, start, end)
+    return StandingTrialFiles(name, coordinates, rates, forces, torques, strap, feet, chair, sitting, start, end)
 
 
 def _time(path: Path, place: str, told: Mapping[str, Any], key: str) -> float | None:

@@ -10,7 +10,7 @@ from geocontact.analyses.options import Fraction, Spelled
 from geocontact.analyses.sit_to_stand.search_options import NODES, StandingSearchOptions, within
 from geocontact.data.errors import InputError
 
-MOST_STARTS = 1000
+MOST_STARTS, MOST_POINTS = 1000, 20
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,8 @@ class StandingCalibrateOptions(StandingSearchOptions):
         Of starts and resamples.
     level
         Probability of the intervals.
+    profiles
+        Points to either side of each parameter, up to three standard deviations away, at which all else is sought again.
     """
 
     study: Path
@@ -42,11 +44,13 @@ class StandingCalibrateOptions(StandingSearchOptions):
     resamples: int = 6
     seed: int = 0
     level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
+    profiles: int = 0
 
     def refuse_impossible(self) -> None:
         """Numbers without a search, a probability that is none."""
         super().refuse_impossible()
         within("starts", self.starts, 0, MOST_STARTS, 20)
         within("resamples", self.resamples, 0, MOST_STARTS, 6)
+        within("profiles", self.profiles, 0, MOST_POINTS, 3)
         if not 0.0 < self.level < 1.0:
             raise InputError("", "`level`", f"{self.level:g} is not between 0 and 1", "give for example 0.95")

@@ -16,6 +16,7 @@ from geocontact.analyses.sit_to_stand.calibrate.tables import (
     certificate_table,
     correlation_table,
     parameters_table,
+    profile_table,
 )
 from geocontact.analyses.sit_to_stand.model_file import write_standing_model
 from geocontact.analyses.sit_to_stand.solution_file import write_solution
@@ -65,7 +66,7 @@ class StandingCalibrateResult(Result):
         return errors_table(self.trials, self.given.noise, self.given.tracks)
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`parameters`, `errors`, `certificate`, `correlation`, and `trial_NAME` for each trial."""
+        """`parameters`, `errors`, `certificate`, `correlation`, `profiles` if asked for, `trial_NAME` for each trial."""
         noise, tracks = self.given.noise, self.given.tracks
         own = {f"trial_{trial.recorded.name}": trial_table(trial, noise, tracks) for trial in self.trials}
         return {
@@ -73,6 +74,7 @@ class StandingCalibrateResult(Result):
             "errors": self.errors,
             "certificate": certificate_table(self.phases),
             "correlation": correlation_table(self.phases),
+            **({"profiles": profile_table(self.phases)} if self.options.profiles else {}),
             **own,
         }
 

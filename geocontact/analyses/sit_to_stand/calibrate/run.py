@@ -54,8 +54,9 @@ def _phases(
 ) -> tuple[CalibratedPhase, ...]:
     """A, and with an exoskeleton B on what A found; only A where its search has no answer."""
     options = SolverOptions("radau", o.degree, 1, TOLERANCE, o.iterations, o.time_limit)
-    search = PhaseSearch(options, o.nodes, o.starts, o.resamples, o.seed, o.level)
-    model = with_exoskeleton(given.subject) if given.exoskeleton else feet_on_ground(given.subject)
+    search = PhaseSearch(options, o.nodes, o.starts, o.resamples, o.seed, o.level, o.profiles)
+    made = with_exoskeleton if given.exoskeleton else feet_on_ground
+    model = made(given.subject, seated=given.seated)
     in_a = tuple(name for name in TRACKS if name in given.tracks)
 
     def told(phase: str) -> Callable[[int, float, float], None]:

@@ -44,6 +44,9 @@ def read(o: StandingDesignOptions, record: Record) -> TrialsToHelp:
     if not trials.exoskeleton:
         what, remedy = "is not of a person with an exoskeleton", "write exoskeleton = true, and torques and strap"
         raise InputError(o.study, "", what, remedy)
+    if trials.seated:
+        remedy = "leave sitting out: a movement that is kept begins at seat-off"
+        raise InputError(o.study, "sitting", "has no effect on a design", remedy)
     values = read_contact_parameters(o.parameters, {each.name: each.unit for each in WORN_PARAMETERS})
     ends = read_contact_intervals(o.parameters, values)
     record.add_input("`parameters`", o.parameters, parameters=len(values))

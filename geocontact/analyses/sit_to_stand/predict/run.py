@@ -41,7 +41,7 @@ def run(given: HeldOutTrials, o: StandingPredictOptions, record: Record) -> Stan
 
 def predicted(given: HeldOutTrials, o: StandingPredictOptions, record: Record) -> tuple[PredictedTrial, ...]:
     """Trials outer, predictors inner; searches without an answer and motions without a certificate are warned of."""
-    model, predictions = with_exoskeleton(given.trials.subject), []
+    model, predictions = with_exoskeleton(given.trials.subject, seated=given.trials.seated), []
     with record.listener.stages("predicting") as stage:
         for trial in given.trials.trials:
             for name, tracks in GIVEN.items():
