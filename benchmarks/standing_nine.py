@@ -33,7 +33,7 @@ def main() -> None:
     """Make what is not there yet, run, compare, write the JSON."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.standing_nine", description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
-    parser.add_argument("--nodes", type=float, default=30.0)
+    parser.add_argument("--nodes", type=float, default=40.0)
     options = parser.parse_args()
     pin()
     import geocontact as gc

@@ -29,8 +29,8 @@ class Profile:
     ----------
     distance
         From the best, in standard deviations of Laplace's interval; 0 is among them.
-    values
-        Of the parameter, in `unit`.
+    places
+        Values of the parameter, in `unit`.
     rise
         Of minus twice the logarithm of the posterior; not a number where the search had no answer. Laplace's would be
         the square of the distance.
@@ -39,7 +39,7 @@ class Profile:
     name: str
     unit: str
     distance: Float[np.ndarray, " k"]
-    values: Float[np.ndarray, " k"]
+    places: Float[np.ndarray, " k"]
     rise: Float[np.ndarray, " k"]
 
 

@@ -30,6 +30,6 @@ def test_profiles_rise_as_the_curvature_says() -> None:
     assert (toe.name, toe.unit) == ("toe", "m")
     np.testing.assert_allclose(toe.distance, [-FARTHEST, 0.0, FARTHEST])
     sd = next(each.after for each in numbers.numbers if each.name == "toe")
-    np.testing.assert_allclose(np.diff(toe.values), FARTHEST * sd, rtol=1e-6)
+    np.testing.assert_allclose(np.diff(toe.places), FARTHEST * sd, rtol=1e-6)
     assert toe.rise[1] == 0.0
     np.testing.assert_allclose(toe.rise[[0, 2]], FARTHEST**2, rtol=0.25)

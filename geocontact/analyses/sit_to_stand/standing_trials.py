@@ -12,8 +12,8 @@ from geocontact.analyses.run_record import Record
 from geocontact.analyses.sit_to_stand.trial_channels import channels_of
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.standing_study import read_standing_study
-from geocontact.standing_up.chair import COMPONENTS
 from geocontact.standing_up.chain import Subject, leg_chain
+from geocontact.standing_up.chair import COMPONENTS
 from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.feet import FOOT_PARAMETERS, SOUGHT
 from geocontact.standing_up.phase_a import TRACKS

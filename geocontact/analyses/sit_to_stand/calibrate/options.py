@@ -33,7 +33,7 @@ class StandingCalibrateOptions(StandingSearchOptions):
     level
         Probability of the intervals.
     profiles
-        Points to either side of each parameter, up to three standard deviations away, at which all else is sought again.
+        Points to either side of each parameter, up to three standard deviations off, at which all else is sought again.
     """
 
     study: Path

@@ -66,7 +66,7 @@ class StandingCalibrateResult(Result):
         return errors_table(self.trials, self.given.noise, self.given.tracks)
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`parameters`, `errors`, `certificate`, `correlation`, `profiles` if asked for, `trial_NAME` for each trial."""
+        """`parameters`, `errors`, `certificate`, `correlation`, `trial_NAME`; `profiles` where they are asked for."""
         noise, tracks = self.given.noise, self.given.tracks
         own = {f"trial_{trial.recorded.name}": trial_table(trial, noise, tracks) for trial in self.trials}
         return {

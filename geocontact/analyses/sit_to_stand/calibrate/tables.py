@@ -58,7 +58,7 @@ def profile_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
                 "parameter": each.name,
                 "unit": each.unit,
                 "distance in sd [-]": each.distance,
-                "value": each.values,
+                "value": each.places,
                 "rise [-]": each.rise,
             }
         )
