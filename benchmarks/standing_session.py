@@ -160,7 +160,7 @@ def write_session(folder: Path, session: Session, subject: Subject, seed: int) -
     write_storage(folder / "motors.sto", time, EXO_JOINTS, motors, title="motors", degrees=False)
     for name, (mat, theta) in MATS.items():
         (folder / name).mkdir()
-        _write_mat(folder / name, session, mat, theta, seed)
+        write_mat_of(folder / name, session, mat, theta, seed)
 
 
 def friction(rates: np.ndarray) -> np.ndarray:
@@ -179,7 +179,7 @@ def pressed(strap: np.ndarray, theta: float) -> np.ndarray:
     return np.asarray(0.5 * (np.hypot(strap, 2.0 * PRELOAD) + ahead * strap))
 
 
-def _write_mat(folder: Path, session: Session, mat: Mat, theta: float, seed: int) -> None:
+def write_mat_of(folder: Path, session: Session, mat: Mat, theta: float, seed: int) -> None:
     """mat.csv, layout.toml and landmarks.csv: a soft pad whose pressure is scaled to the force forwards."""
     one = Footprint(np.ones(1), np.array([[theta, MIDDLE]]), 55.0, 42.0, SOFT)
     points, weights = mat.cell_points()

@@ -71,6 +71,7 @@ def standing_phase(
     held: Float[np.ndarray, " p"] | None = None,
     start: Float[np.ndarray, " p"] | None = None,
     guess: Sequence[Course] | None = None,
+    jerk_sizes: tuple[float, float] = (FOOT_JERK, JOINT_JERK),
 ) -> PhaseProblem:
     """The problem of all trials at once.
 
@@ -86,6 +87,8 @@ def standing_phase(
         Where the search of the parameters starts, unless at `first_fit`.
     guess
         Coordinates where the search of each motion starts, from its own start on; the recorded ones unless given.
+    jerk_sizes
+        Of the foot and of the joints [m/s^3, rad/s^3].
     """
     from casadi import SX, sumsqr
 
@@ -105,7 +108,7 @@ def standing_phase(
         symbol, size = channels[name]
         terms[name] = seen[-1] * sumsqr((symbol - seen[at : at + width[name], :]) / size)
         at += width[name]
-    sizes = np.r_[np.full(3, FOOT_JERK), np.full(n - 3, JOINT_JERK)]
+    sizes = np.r_[np.full(3, jerk_sizes[0]), np.full(n - 3, jerk_sizes[1])]
     terms |= {**small, "jerk": sumsqr(jerk / sizes)}
     system = jerk_controlled(
         e,

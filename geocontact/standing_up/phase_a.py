@@ -14,7 +14,7 @@ from jaxtyping import Float
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.contact_parameter import usual
 from geocontact.standing_up.feet import FOOT_PARAMETERS, LAW
-from geocontact.standing_up.phase import PhaseProblem, standing_phase
+from geocontact.standing_up.phase import FOOT_JERK, JOINT_JERK, PhaseProblem, standing_phase
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
@@ -34,6 +34,7 @@ def phase_a(
     free: Sequence[str] = LAW,
     tracks: Sequence[str] = TRACKS,
     start: Float[np.ndarray, " p"] | None = None,
+    jerk_sizes: tuple[float, float] = (FOOT_JERK, JOINT_JERK),
 ) -> PhaseProblem:
     """The problem whose solution has the parameters; see `standing_phase`.
 
@@ -44,4 +45,15 @@ def phase_a(
     small = {"torques": LITTLE_TORQUE * sumsqr(model.torques)}
     held = usual(model.parameters)
     held[len(FOOT_PARAMETERS) : len(FOOT_PARAMETERS) + SPRINGS] = SLACK
-    return standing_phase(model, subject, trials, noise, free=free, tracks=tracks, small=small, held=held, start=start)
+    return standing_phase(
+        model,
+        subject,
+        trials,
+        noise,
+        free=free,
+        tracks=tracks,
+        small=small,
+        held=held,
+        start=start,
+        jerk_sizes=jerk_sizes,
+    )
