@@ -12,7 +12,7 @@ from geocontact.standing_up.contact_numbers import ContactNumbers, contact_numbe
 from geocontact.standing_up.cost_shares import cost_shares
 from geocontact.standing_up.judged import JudgedMotion, judged
 from geocontact.standing_up.phase import PhaseProblem
-from geocontact.standing_up.profile import Profile, profiles
+from geocontact.standing_up.profile import PhaseProfile, profiles
 from geocontact.standing_up.resample import Build, Solve, resampled
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
@@ -84,7 +84,7 @@ class CalibratedPhase:
     shares: dict[str, float]
     ends: tuple[tuple[float, bool], ...]
     doubt: str = ""
-    profiles: tuple[Profile, ...] = ()
+    profiles: tuple[PhaseProfile, ...] = ()
 
     @property
     def certified(self) -> bool:
@@ -112,7 +112,7 @@ def calibrated_phase(
     ended = tuple((run[1].objective, run[1].solved) for run in runs)
     phase, found = min([run for run in runs if run[1].solved] or runs, key=lambda run: run[1].objective)
     numbers, doubt = unsettled_numbers(phase, found), ""
-    curves: tuple[Profile, ...] = ()
+    curves: tuple[PhaseProfile, ...] = ()
     if found.solved:
         again = None
         if search.resamples > 1:

@@ -22,7 +22,7 @@ FARTHEST = 3.0
 
 
 @dataclass(frozen=True, eq=False)
-class Profile:
+class PhaseProfile:
     """One parameter.
 
     Parameters
@@ -49,7 +49,7 @@ def profiles(
     numbers: ContactNumbers,
     points: int,
     solve: Callable[[PhaseProblem, CollocationResult], CollocationResult],
-) -> tuple[Profile, ...]:
+) -> tuple[PhaseProfile, ...]:
     """Of all parameters that have an interval, so many points to either side, each search from the one before.
 
     Parameters
@@ -76,7 +76,7 @@ def profiles(
                 values[distance] = at
         order = np.array(sorted(rise))
         made.append(
-            Profile(
+            PhaseProfile(
                 each.name,
                 each.unit,
                 order,

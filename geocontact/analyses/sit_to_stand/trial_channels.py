@@ -73,7 +73,8 @@ def channels_of(
         names = [c.name for c in chain.coordinates[3:]]
         torque = _columns(files.torques, names, record, f"{files.name} torques", time)
     if "strap" in tracks and files.strap:
-        strap = np.sum([strap_force(file, record, f"{files.name} strap", time) for file in files.strap], axis=0)
+        forces = [strap_force(file, record, f"{files.name} strap", time) for file in files.strap]
+        strap = np.asarray(np.sum(forces, axis=0))
     sat_on = chair_load(chair, time) if files.sitting and chair is not None else None
     return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on)
 
@@ -81,7 +82,7 @@ def channels_of(
 def chair_load(chair: ForcePlate, time: Times) -> Table:
     """Force forwards and up [N] and moment about the ground's origin [N m] on the person, (t, 3)."""
     wrench = chair.at(np.clip(time, *chair.time[[0, -1]]))
-    return np.nan_to_num(np.column_stack([wrench.force[:, :2], wrench.moment[:, 2]]))
+    return np.asarray(np.nan_to_num(np.column_stack([wrench.force[:, :2], wrench.moment[:, 2]])))
 
 
 def strap_force(file: Path, record: Record, role: str, time: Times) -> Times:
