@@ -52,7 +52,7 @@ def main() -> None:
     """Measure, print, write the JSON."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.standing_real", description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--nodes", type=float, default=50.0)
+    parser.add_argument("--nodes", type=float, default=40.0)
     options = parser.parse_args()
     pin()
     from benchmarks.machine import machine, versions
@@ -70,7 +70,7 @@ def steps(options: argparse.Namespace) -> dict[str, Any]:
 
     trials, subject = recorded_steps(options.data)
     model = standing_leg(subject)
-    search = PhaseSearch(SolverOptions("radau", 4, 1, 1e-6, 200, 150.0), options.nodes)
+    search = PhaseSearch(SolverOptions("radau", 4, 1, 1e-6, 150, 60.0), options.nodes)
     report: dict[str, Any] = {"mass [kg]": subject.mass, "height [m]": subject.height}
     start = None
     for kind, names, free in (("calibrated", CALIBRATION, SOUGHT), ("held out", HELD_OUT, ())):

@@ -467,3 +467,17 @@ def test_what_is_attainable() -> None:
         assert row("reference/gap_benchmark.md", first) == [f"{s[key]['ranked_first']}/{s[key]['of']}" for s in shares]
     left = [one["own"] / one["base"] for one in told["rows"]]
     assert round(100.0 * float(np.median(left))) == 4 and round(100.0 * float(np.quantile(left, 0.9))) == 13
+
+
+def test_the_nine_trials_of_standing_up() -> None:
+    told, page = results("standing_nine"), "theory/sit_to_stand.md"
+    kinds = (("C1", "all given", "C1, all given"), ("C1", "without ground reaction", "without ground reaction"),
+             ("C2", "all given", "C2, all given"), ("C1", "mean of the calibration", "mean of the calibration"))  # fmt: skip
+    for phase, predictor, label in kinds:
+        ours = [one for one in told[phase]["rows"] if one["predictor"] == predictor]
+        (cells,) = [row[1:] for row in rows(page) if row[0] == label and len(row) == 7]
+        for cell, one in zip(cells, ours, strict=True):
+            strap, angle = cell.replace("°", "").replace(" N", "").split(", ")
+            assert near(strap, one["strap [N]"]) and near(angle, max(one["angles [deg]"][:3])), (label, cell)
+            assert one.get("certified", True)
+    assert max(told["pipelines"]["largest residual of the truth [N, N m]"]) < 1.0

@@ -1,15 +1,10 @@
-"""The force of a chair as a load on the trunk: it carries weight, its place counts, and a trial begins on it."""
+"""The force of a chair as a load on the trunk: it carries weight, its place counts, and phase A finds the feet."""
 
 from __future__ import annotations
-
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-import geocontact as gc
-from geocontact.analyses.run_record import Record
-from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.dynamics.collocation.solve import SolverOptions, solve
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED, with_exoskeleton
@@ -17,7 +12,6 @@ from geocontact.standing_up.feet import PLANTED, feet_on_ground
 from geocontact.standing_up.judged import judged
 from geocontact.standing_up.phase_a import phase_a
 from geocontact.standing_up.trials import StandingNoise, recorded, standing_up
-from tests.cli.calls import MESHES
 
 SUBJECT = Subject()
 
@@ -45,23 +39,6 @@ def test_a_chair_carries_weight_where_it_stands(worn: bool) -> None:
     # about the ankle: the force's moment there; the trunk turns with all joints below it
     assert by[3] == pytest.approx((x - q[0]) * force[1] + q[1] * force[0], abs=1e-9)
     assert by[2] == pytest.approx(by[3], abs=1e-9) and np.abs(by[6:]).max(initial=0.0) == pytest.approx(0.0, abs=1e-12)
-
-
-def test_a_trial_may_begin_on_the_chair(tmp_path: Path) -> None:
-    """The shipped study with its first trial from sitting on: 300 N at first, none at the end, nor in the others."""
-    for each in (MESHES / "standing_up").iterdir():
-        text = each.read_text().replace('chair = "chair_force"', 'chair = "chair_force"\nsitting = true', 1)
-        (tmp_path / each.name).write_text(text)
-    trials = standing_trials(tmp_path / "study.toml", "study", Record("sit-to-stand calibrate", {}))
-    first, second, _ = trials.trials
-    assert trials.seated and first.chair is not None and second.chair is not None
-    np.testing.assert_allclose(first.chair[0], [0.0, 300.0, -0.3 * 300.0], atol=1e-6)
-    assert not first.chair[-1].any() and not second.chair.any()
-    assert first.time[-1] - second.time[-1] > 0.3 + 1.5 - 1.3 - 0.02
-    text = (tmp_path / "study.toml").read_text()
-    (tmp_path / "study.toml").write_text(text.replace('chair = "chair_force"\nsitting', "sitting", 1))
-    with pytest.raises(gc.InputError, match="sitting without the force of a chair"):
-        gc.sit_to_stand.calibrate(tmp_path / "study.toml")
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""The force of a strap from mats on the thigh: several add, and a mat on no body is refused."""
+"""Forces on the person out of a trial's files: mats on the thigh add, one on no body is refused, a chair counts."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.run_record import Record
+from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.analyses.sit_to_stand.trial_channels import strap_force
 from geocontact.io.recordings.standing_study import read_standing_study
 from tests.cli.calls import MESHES
@@ -43,3 +44,20 @@ def test_forces_of_mats_in_front_and_behind_add(tmp_path: Path) -> None:
     record = Record("sit-to-stand calibrate", {})
     total = np.sum([strap_force(file, record, "strap", at) for file in files], axis=0)
     np.testing.assert_allclose(total, 2.0 * at, atol=1e-12)
+
+
+def test_a_trial_may_begin_on_the_chair(tmp_path: Path) -> None:
+    """The shipped study with its first trial from sitting on: 300 N at first, none at the end, nor in the others."""
+    for each in (MESHES / "standing_up").iterdir():
+        text = each.read_text().replace('chair = "chair_force"', 'chair = "chair_force"\nsitting = true', 1)
+        (tmp_path / each.name).write_text(text)
+    trials = standing_trials(tmp_path / "study.toml", "study", Record("sit-to-stand calibrate", {}))
+    first, second, _ = trials.trials
+    assert trials.seated and first.chair is not None and second.chair is not None
+    np.testing.assert_allclose(first.chair[0], [0.0, 300.0, -0.3 * 300.0], atol=1e-6)
+    assert not first.chair[-1].any() and not second.chair.any()
+    assert first.time[-1] - second.time[-1] > 0.3 + 1.5 - 1.3 - 0.02
+    text = (tmp_path / "study.toml").read_text()
+    (tmp_path / "study.toml").write_text(text.replace('chair = "chair_force"\nsitting', "sitting", 1))
+    with pytest.raises(gc.InputError, match="sitting without the force of a chair"):
+        gc.sit_to_stand.calibrate(tmp_path / "study.toml")
