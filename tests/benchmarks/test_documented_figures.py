@@ -471,8 +471,12 @@ def test_what_is_attainable() -> None:
 
 def test_the_nine_trials_of_standing_up() -> None:
     told, page = results("standing_nine"), "theory/sit_to_stand.md"
-    kinds = (("C1", "all given", "C1, all given"), ("C1", "without ground reaction", "without ground reaction"),
-             ("C2", "all given", "C2, all given"), ("C1", "mean of the calibration", "mean of the calibration"))  # fmt: skip
+    kinds = (
+        ("C1", "all given", "C1, all given"),
+        ("C1", "without ground reaction", "without ground reaction"),
+        ("C2", "all given", "C2, all given"),
+        ("C1", "mean of the calibration", "mean of the calibration"),
+    )
     for phase, predictor, label in kinds:
         ours = [one for one in told[phase]["rows"] if one["predictor"] == predictor]
         (cells,) = [row[1:] for row in rows(page) if row[0] == label and len(row) == 7]
