@@ -52,7 +52,7 @@ def main() -> None:
     """Measure, print, write the JSON."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.standing_real", description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--nodes", type=float, default=40.0)
+    parser.add_argument("--nodes", type=float, default=60.0)
     options = parser.parse_args()
     pin()
     from benchmarks.machine import machine, versions
@@ -66,6 +66,7 @@ def steps(options: argparse.Namespace) -> dict[str, Any]:
     """Calibrated on two steps, held on the third."""
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
+    from geocontact.standing_up.phase import standing_phase
     from geocontact.standing_up.phase_a import phase_a
 
     trials, subject = recorded_steps(options.data)
@@ -77,10 +78,11 @@ def steps(options: argparse.Namespace) -> dict[str, Any]:
         began, own = time.process_time(), [trials[name] for name in names]
 
         def build(these: Any, begin: Any, free: Any = free, at: Any = start) -> Any:
-            return phase_a(
-                model, subject, these, NOISE, free=free, tracks=("coordinates", "force", "centre"),
-                start=at if begin is None else begin, jerk_sizes=JERK,
-            )  # fmt: skip
+            tracks = ("coordinates", "force", "centre")
+            if not free:
+                of = {"free": (), "tracks": tracks, "small": {}, "held": at, "start": at, "jerk_sizes": JERK}
+                return standing_phase(model, subject, these, NOISE, **of)
+            return phase_a(model, subject, these, NOISE, free=free, tracks=tracks, start=begin, jerk_sizes=JERK)
 
         one = calibrated_phase("A", model, own, NOISE, build, search)
         start = one.found.p
@@ -197,7 +199,9 @@ def _step(
     rest = np.column_stack([balance[:, :2], about]) - load
     inside = inside & (turn > -MOST_TURN)
     centre = load[inside, 2] / load[inside, 1]
-    return StandingTrial(time[inside], q[inside], u[inside], load[inside, :2], centre, name, chair=rest[inside])
+    return StandingTrial(
+        time[inside] - time[inside][0], q[inside], u[inside], load[inside, :2], centre, name, chair=rest[inside]
+    )
 
 
 if __name__ == "__main__":
