@@ -9,8 +9,6 @@ import pytest
 
 from benchmarks.standing_real import steps
 
-pytestmark = pytest.mark.real
-
 
 @pytest.mark.slow
 def test_feet_of_a_recorded_walk(data_dir: Path) -> None:
