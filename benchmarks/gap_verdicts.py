@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import subprocess
 import sys
 import tempfile
 import time
@@ -20,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.machine import machine
+from benchmarks.machine import commit, machine
 from geocontact.gap_benchmark.drawing import ABROAD, HOME, SYSTEMS, Lot, lots
 
 HERE = Path(__file__).resolve().parent
@@ -112,12 +111,6 @@ def figures_of(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     said = {name: row["answer"] for name, row in zip(names, rows, strict=True)}
     every = figures(score(labels, said))
     return {name: every[name] for name in (*TOLD, "seconds")}
-
-
-def commit() -> str:
-    """What is checked out."""
-    asked = ["git", "rev-parse", "--short", "HEAD"]
-    return subprocess.run(asked, capture_output=True, text=True, cwd=HERE, check=True).stdout.strip()
 
 
 def report(o: argparse.Namespace, what: str, rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:

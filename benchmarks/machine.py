@@ -4,9 +4,29 @@ from __future__ import annotations
 
 import datetime as dt
 import importlib.metadata
+import json
 import os
 import platform
+import subprocess
+from collections.abc import Set as AbstractSet
 from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).resolve().parent
+
+
+def commit() -> str:
+    """What is checked out."""
+    asked = ["git", "rev-parse", "--short", "HEAD"]
+    return subprocess.run(asked, capture_output=True, text=True, cwd=HERE, check=True).stdout.strip()
+
+
+def write_results(name: str, asked: dict[str, Any], figures: Any, packages: AbstractSet[str] = frozenset()) -> Path:
+    """benchmarks/results/NAME.json: figures with commit, machine, versions, and what was asked for, seeds among it."""
+    told = {"commit": commit(), "asked": asked, "machine": machine(), "versions": versions(set(packages))}
+    file = HERE / "results" / f"{name}.json"
+    file.write_text(json.dumps({**told, "figures": figures}, indent=1, default=str) + "\n", encoding="utf-8")
+    return file
 
 
 def machine() -> dict[str, str]:

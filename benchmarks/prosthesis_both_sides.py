@@ -13,9 +13,11 @@ from __future__ import annotations
 
 import argparse
 import time
+from typing import Any
 
 import numpy as np
 
+from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.equations_of_both import FREE, equations_of_both, passive
 from geocontact.below_knee_prosthesis.both_sides.walk import (
@@ -49,8 +51,9 @@ LOST = 90.0
 """deg; beyond it nothing is told."""
 
 
-def sizes(truth: Amputee) -> None:
+def sizes(truth: Amputee) -> dict[str, dict[str, float]]:
     """Operations of accelerations and of a step."""
+    told = {}
     names = coordinate_names(truth)
     given = [name for name in names if name not in FREE and name not in passive(names)]
     driven = [name for name in names if name not in passive(names)]
@@ -60,14 +63,22 @@ def sizes(truth: Amputee) -> None:
         step = rosenbrock_step(equations)
         spent = time.process_time() - before
         count = equations.accelerations().n_instructions()
+        told[label] = {
+            "coordinates": len(equations.names),
+            "accelerations": count,
+            "step": step.n_instructions(),
+            "built_s": spent,
+        }
         print(
             f"{label}: {len(equations.names)} coordinates found, {count} operations of accelerations, "
             f"{step.n_instructions()} of a step, built in {spent:.1f} s"
         )
+    return told
 
 
-def again(truth: Amputee, given: GivenWalk, every: float, tolerance: float, spheres: bool) -> None:
-    """Print how far the walk by forces is from that by angles."""
+def again(truth: Amputee, given: GivenWalk, every: float, tolerance: float, spheres: bool) -> list[dict[str, Any]]:
+    """How far the walk by forces is from that by angles, printed."""
+    told = []
     weight = truth.mass * GRAVITY
     before = time.process_time()
     walk = walk_by_angles(truth, given, np.arange(-0.08, 0.76, every), intact_on_spheres=spheres, tolerance=tolerance)
@@ -100,30 +111,39 @@ def again(truth: Amputee, given: GivenWalk, every: float, tolerance: float, sphe
             f"  {label}: {other.steps} steps, {1e6 * spent / other.steps:.0f} us CPU each, growth {rate:.0f}/s, "
             f"within 0.5 deg and 2 % BW for {held:.2f} s of {since[-1]:.2f} s"
         )
+        row: dict[str, Any] = {"spheres": spheres, "every": every, "tolerance": tolerance, "span": label}
+        row |= {"steps": other.steps, "us_per_step": 1e6 * spent / other.steps, "growth": float(rate)}
+        row |= {"held_s": float(held), "of_s": float(since[-1])}
         for when in np.arange(EVERY, since[-1] + 1e-9, EVERY):
             k = min(int(np.searchsorted(since, when)), len(since) - 1)
             if turn[k] > LOST:
                 break
             print(f"    {since[k]:.2f} s {turn[k]:12.3g} deg {shift[k]:10.3g} mm {100.0 * force[k]:10.3g} % BW")
+            row |= {"at_s": float(since[k]), "turn_deg": float(turn[k]), "shift_mm": float(shift[k])}
+            row |= {"force_bw": float(force[k])}
+        told.append(row)
+    return told
 
 
 def main() -> None:
-    """Print figures."""
+    """Print figures; benchmarks/results/prosthesis_both_sides.json."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--person", type=int, default=0)
     parser.add_argument("--setting", default="medium")
     asked = parser.parse_args()
     truth = true_amputee(PARTICIPANTS[asked.person], vsf_foot(), fulcrum_of(asked.setting, "pinned"))
-    sizes(truth)
+    figures: dict[str, Any] = {"sizes": sizes(truth), "again": []}
     before = time.perf_counter()
     driven_stepper(truth)
-    print(f"step by forces compiled or found in {time.perf_counter() - before:.0f} s")
+    figures["compiled_s"] = time.perf_counter() - before
+    print(f"step by forces compiled or found in {figures['compiled_s']:.0f} s")
     lasting = STANCE[asked.setting]
     walks = {False: amputee_walk(truth, lasting)[0], True: amputee_walk_on_spheres(truth, lasting)}
     for spheres, given in walks.items():
         print("the intact foot on spheres" if spheres else "the load of the intact foot given", flush=True)
         for every, tolerance in RUNS:
-            again(truth, given, every, tolerance, spheres)
+            figures["again"] += again(truth, given, every, tolerance, spheres)
+    write_results("prosthesis_both_sides", vars(asked), figures, {"casadi"})
 
 
 if __name__ == "__main__":

@@ -11,10 +11,12 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
+from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import SoleResiduals
@@ -110,27 +112,30 @@ def numbers_table(found: SoleCalibration) -> None:
         )
 
 
-def transfer_table(trials: Mapping[str, Recorded], foot: VariableStiffnessFoot) -> dict[str, StanceErrors]:
-    """Print the errors of each trial on a foot, with what needs no model beside."""
+def transfer_table(trials: Mapping[str, Recorded], foot: VariableStiffnessFoot) -> dict[str, Any]:
+    """Errors of each trial on a foot, with what needs no model beside; printed."""
     found = {}
     for name, one in trials.items():
         try:
             found[name] = judged(one, foot)
         except ArithmeticError as error:
             print(f"  {name}: {error}")
+    rows: dict[str, Any] = {}
     for curve in CURVES:
         print(f"  {curve}: R² and RMSE; of the mean of the others; of another setting")
         for name, each in found.items():
             r2, off = each.table[curve]
             (mean_r2, mean_off), (strange_r2, strange_off) = trivial(found, name, curve)
+            own = {"r2": r2, "rmse": off, "mean_r2": mean_r2, "mean_rmse": mean_off}
+            rows.setdefault(name, {})[curve] = own | {"another_r2": strange_r2, "another_rmse": strange_off}
             plain = f"{mean_r2:7.3f} {mean_off:6.3f}   {strange_r2:7.3f} {strange_off:6.3f}"
             print(f"    {name:10s} {r2:7.3f} {off:6.3f}   {plain}")
     late = [each.stance[0] - each.stance[1] for each in found.values()]
     print(f"  stance longer by {np.mean(late):+.3f} s (SD {np.std(late):.3f})")
-    return found
+    return {"trials": rows, "longer_s": float(np.mean(late)), "longer_sd_s": float(np.std(late))}
 
 
-def participant(person: Walker, samples: int, trials: int) -> None:
+def participant(person: Walker, samples: int, trials: int) -> dict[str, Any]:
     """All of one person."""
     foot = vsf_foot()
     taken = {
@@ -145,31 +150,35 @@ def participant(person: Walker, samples: int, trials: int) -> None:
     print(
         f"  cost {one.cost:.1f}, of the usual numbers {one.costs[0]:.1f} after linear turns; solved {one.solved} times"
     )
+    told: dict[str, Any] = {"seconds": took, "wall_s": lasted, "cost": one.cost, "solved": one.solved}
     if samples:
         before = time.process_time()
         lowest = best_of_random(SoleResiduals.of([taken["medium_1"].stance], foot), samples)
+        told["random"] = {"samples": samples, "cost": lowest, "seconds": time.process_time() - before}
         print(f"  best of {samples} random samples {lowest:.1f}, {time.process_time() - before:.1f} s of processor")
     numbers_table(one)
     print("usual numbers, not calibrated")
-    transfer_table(taken, foot)
+    told["usual"] = transfer_table(taken, foot)
     print("calibrated on medium_1 alone")
-    transfer_table(taken, one.foot)
+    told["medium_1"] = transfer_table(taken, one.foot)
+    told["numbers"] = [asdict(each) for each in one.knowledge.numbers]
     several = calibrate([taken[f"{setting}_1"].stance for setting in SETTINGS], foot)
     print("calibrated on one trial of each setting")
     numbers_table(several)
-    transfer_table(taken, several.foot)
+    told["one of each setting"] = transfer_table(taken, several.foot)
+    return told
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Participants by name, all unless named."""
+    """Participants by name, all unless named; benchmarks/results/prosthesis_calibration.json."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("persons", nargs="*")
     parser.add_argument("--samples", type=int, default=0)
     parser.add_argument("--trials", type=int, default=TRIALS)
     told = parser.parse_args(arguments)
-    for person in PARTICIPANTS:
-        if not told.persons or person.name in told.persons:
-            participant(person, told.samples, told.trials)
+    persons = [each for each in PARTICIPANTS if not told.persons or each.name in told.persons]
+    figures = {each.name: participant(each, told.samples, told.trials) for each in persons}
+    write_results("prosthesis_calibration", vars(told), figures)
 
 
 if __name__ == "__main__":

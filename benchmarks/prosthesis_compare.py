@@ -13,6 +13,7 @@ import warnings
 from pathlib import Path
 
 import geocontact as gc
+from benchmarks.machine import write_results
 from geocontact.analyses.prosthesis.trial_files import trial_files
 from geocontact.below_knee_prosthesis.synthetic.persons import PARTICIPANTS, Walker
 from geocontact.below_knee_prosthesis.synthetic.trial import synthetic_trial
@@ -72,7 +73,7 @@ def written(folder: Path, person: Walker, machine_code: bool) -> str:
 
 
 def main() -> None:
-    """Print what `compare` says, its means by setting and the study's."""
+    """Print what `compare` says, its means by setting and the study's; benchmarks/results/prosthesis_compare.json."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path)
     parser.add_argument("persons", nargs="*")
@@ -87,7 +88,10 @@ def main() -> None:
     found = gc.prosthesis.compare(study, machine_code=not told.plain)
     print(f"{time.perf_counter() - before:.0f} s")
     print("\n".join((*found.sentences, *found.warnings)))
-    for row in found.table("summary").to_dict("records"):
+    rows = found.table("summary").to_dict("records")
+    figures = {"sentences": found.sentences, "warnings": found.warnings, "summary": rows}
+    write_results("prosthesis_compare", {"persons": [each.name for each in persons]}, figures, {"casadi"})
+    for row in rows:
         beside = STUDY.get((row["setting"], row["quantity"]))
         study_words = "" if beside is None else f"   study {beside[0]:.2f} {beside[1]:.2f}"
         plain = f"{row['mean of the others rmse']:.4f} {row['another rmse']:.4f}"

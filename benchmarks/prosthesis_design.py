@@ -14,10 +14,12 @@ import argparse
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from benchmarks.machine import write_results
 from geocontact.analyses.workers import each
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.design.carried_load import REACH, CarriedLoad, with_angles_kept, with_torque_kept
@@ -179,23 +181,28 @@ def _words(one: Planted) -> str:
     return ", ".join(rows)
 
 
-def told(found: list[Planted]) -> None:
-    """Print how often the planted fulcrum is found, and how wide the intervals are."""
+def told(found: list[Planted]) -> dict[str, Any]:
+    """How often the planted fulcrum is found, and how wide the intervals are; printed."""
+    figures: dict[str, Any] = {}
     for known in SD:
         own = [one for one in found if one.known == known]
         if not own:
             continue
-        print(f"{known}: {len(own)} persons, {np.median([one.seconds for one in own]):.1f} CPU s each (median)")
+        seconds = float(np.median([one.seconds for one in own]))
+        figures[known] = {"persons": len(own), "seconds": seconds, "aims": {}}
+        print(f"{known}: {len(own)} persons, {seconds:.1f} CPU s each (median)")
         for aim in AIMS:
             spoken = [one for one in own if one.choices[aim].told]
             hit = sum(one.found(aim) for one in spoken)
             width = np.median([1e3 * (one.choices[aim].upper - one.choices[aim].lower) for one in spoken] or [np.nan])
+            figures[known]["aims"][aim] = {"told": len(spoken), "within": hit, "width_mm": float(width)}
             words = f"told {len(spoken)}, of them within {hit}"
             print(f"  {aim:14s} {words:28s} interval {width:5.1f} mm (median), cannot tell {len(own) - len(spoken)}")
+    return figures
 
 
 def main() -> None:
-    """Print the tables."""
+    """Print the tables; benchmarks/results/prosthesis_design.json. The number of a person is its seed."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--persons", type=int, default=50)
     parser.add_argument("--blind", type=int, default=10)
@@ -215,7 +222,7 @@ def main() -> None:
             continue
         found.append(became)
         print(f"person {task[0]}, {task[1]}: planted {1e3 * became.fulcrum:.0f} mm, {_words(became)}", flush=True)
-    told(found)
+    write_results("prosthesis_design", vars(asked), told(found))
 
 
 if __name__ == "__main__":

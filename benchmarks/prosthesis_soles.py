@@ -15,10 +15,11 @@ from __future__ import annotations
 
 import argparse
 import time
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
+from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import VariableStiffnessFoot, vsf_foot
@@ -125,20 +126,24 @@ def static_share(
 
 
 def main() -> None:
-    """Print both tables."""
+    """Print both tables; benchmarks/results/prosthesis_soles.json."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--person", type=int, default=0)
     parser.add_argument("--setting", default="medium", choices=list(SETTINGS))
     parser.add_argument("--machine-code", action="store_true")
     asked = parser.parse_args()
+    standing, soles = {}, []
     print("standing for 10 s: load missing [% BW], slid [mm], steps", flush=True)
     for setting in SETTINGS:
         off, slid, steps = static_share(asked.person, setting, machine_code=asked.machine_code)
+        standing[setting] = {"missing": off, "slid": slid, "steps": steps}
         print(f"  {setting:8}{100.0 * off:10.4f}{1e3 * slid:8.2f}{steps:7d}", flush=True)
     print("spheres  centre [% foot]  resultant [% BW]  landing [% BW]  rise in 2 ms [BW]  steps  CPU s", flush=True)
     for one in outcomes(asked.person, asked.setting, counts=tuple(SOLES), machine_code=asked.machine_code):
+        soles.append(asdict(one))
         row = f"{one.spheres:7d}{100.0 * one.centre:17.2f}{100.0 * one.resultant:18.2f}{100.0 * one.first:16.2f}"
         print(f"{row}{one.rise:19.3f}{one.steps:7d}{one.seconds:7.1f}", flush=True)
+    write_results("prosthesis_soles", vars(asked), {"standing": standing, "soles": soles}, {"casadi"})
 
 
 if __name__ == "__main__":

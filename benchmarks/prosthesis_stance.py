@@ -13,10 +13,11 @@ from __future__ import annotations
 
 import argparse
 import time
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
+from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of
 from geocontact.below_knee_prosthesis.keel.vsf_foot import vsf_foot
@@ -76,19 +77,22 @@ def timings(
 
 
 def main() -> None:
-    """Print a table."""
+    """Print a table; benchmarks/results/prosthesis_stance.json, with --plain prosthesis_stance_plain.json."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--settings", nargs="+", default=["low", "medium", "high"])
     parser.add_argument("--persons", nargs="+", type=int, default=[0, 1])
     parser.add_argument("--plain", action="store_true", help="without machine code")
     asked = parser.parse_args()
+    figures = []
     print(f"{'person':8}{'setting':9}{'tolerance':>10}{'steps':>7}{'CPU/real':>10}{'rms [BW]':>10}{'max [BW]':>10}")
     for person in asked.persons:
         for setting in asked.settings:
             for one in timings(person, setting, machine_code=not asked.plain):
                 name = PARTICIPANTS[person].name
+                figures.append({"person": name, "setting": setting, **asdict(one)})
                 row = f"{name:8}{setting:9}{one.tolerance:10.0e}{one.steps:7d}{one.per_second:10.3f}"
                 print(f"{row}{one.rms:10.5f}{one.most:10.5f}", flush=True)
+    write_results(f"prosthesis_stance{'_plain' * asked.plain}", vars(asked), figures, {"casadi"})
 
 
 if __name__ == "__main__":
